@@ -1,0 +1,1 @@
+//! The shared library inside every FMU: FMI C ABIs over `bolted-joint-dynamics`.

@@ -1,0 +1,4 @@
+//! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
+#![forbid(unsafe_code)]
+
+pub mod frf;

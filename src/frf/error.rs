@@ -1,0 +1,181 @@
+//! What can be wrong with frequency response functions and the files that hold them.
+
+use num_complex::Complex64;
+use thiserror::Error;
+
+use super::Dof;
+
+/// How many pairs an error message lists before it only counts.
+const LISTED_PAIRS: usize = 12;
+
+/// Why functions, sets of functions or their files cannot be used.
+///
+/// Lines of a function count from 1. A pair is (response, reference).
+#[derive(Debug, Error)]
+pub enum FrfError {
+    /// A function has more or fewer values than frequencies.
+    #[error(
+        "function {response} / {reference}: found {values} values for {frequencies} frequencies, \
+         expected one value for each"
+    )]
+    LengthsDiffer {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Number of frequencies.
+        frequencies: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A function without lines, or without lines other than 0 Hz where that line cannot be converted.
+    #[error(
+        "function {response} / {reference}: found no usable line, expected at least one \
+         (a line at 0 Hz of a mobility or accelerance is not usable)"
+    )]
+    NoLines {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+    },
+    /// A frequency that is negative or not finite.
+    #[error(
+        "function {response} / {reference}, line {line}: found frequency {found_hz} Hz, \
+         expected a finite number that is not negative"
+    )]
+    FrequencyNotAllowed {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the function.
+        line: usize,
+        /// The frequency, Hz.
+        found_hz: f64,
+    },
+    /// A frequency that is not above the one before it.
+    #[error(
+        "function {response} / {reference}, line {line}: found frequency {found_hz} Hz after {previous_hz} Hz, \
+         expected strictly increasing frequencies; sort the lines and remove repeated ones"
+    )]
+    FrequencyNotIncreasing {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the function.
+        line: usize,
+        /// The frequency before, Hz.
+        previous_hz: f64,
+        /// The frequency, Hz.
+        found_hz: f64,
+    },
+    /// A value that is infinite or not a number.
+    #[error(
+        "function {response} / {reference}, line {line} ({frequency_hz} Hz): found value {found}, \
+         expected a finite number; remove the line from the measurement"
+    )]
+    ValueNotFinite {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the function.
+        line: usize,
+        /// Frequency of the line, Hz.
+        frequency_hz: f64,
+        /// The value.
+        found: Complex64,
+    },
+    /// A set without functions.
+    #[error("found no frequency response function, expected at least one")]
+    NoFunctions,
+    /// Two functions of one set are given at different frequencies.
+    #[error(
+        "functions {} and {} have different frequencies: line {line} is at {first_hz} Hz in the first and {second_hz} Hz \
+         in the second; expected one axis for all, so export them with the same analyser settings",
+        pair(first),
+        pair(second)
+    )]
+    DifferingFrequencyAxes {
+        /// The first function of the set.
+        first: (Dof, Dof),
+        /// The function that differs.
+        second: (Dof, Dof),
+        /// The first line that differs.
+        line: usize,
+        /// Frequency of that line in the first function, Hz.
+        first_hz: f64,
+        /// Frequency of that line in the second function, Hz.
+        second_hz: f64,
+    },
+    /// Two functions of one set have the same frequencies, but one goes on where the other ends.
+    #[error(
+        "functions {} and {} have different frequencies: the first has {first_lines} lines and the second {second_lines}; \
+         expected one axis for all, so export them with the same analyser settings",
+        pair(first),
+        pair(second)
+    )]
+    DifferingLineCounts {
+        /// The first function of the set.
+        first: (Dof, Dof),
+        /// The function that differs.
+        second: (Dof, Dof),
+        /// Lines of the first function.
+        first_lines: usize,
+        /// Lines of the second function.
+        second_lines: usize,
+    },
+    /// The same pair twice in one set.
+    #[error(
+        "found two functions from {reference} to {response}, expected one; \
+         remove the one that is not wanted, or average them first"
+    )]
+    DuplicatePair {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+    },
+    /// A pair that was not measured, nor its transpose.
+    #[error(
+        "no function with response {response} and reference {reference}, nor the reverse; \
+         there are (response / reference) {}",
+        list(present)
+    )]
+    MissingPair {
+        /// The wanted response.
+        response: Dof,
+        /// The wanted reference.
+        reference: Dof,
+        /// Every pair that is there, sorted.
+        present: Vec<(Dof, Dof)>,
+    },
+    /// No line lies in a frequency band.
+    #[error(
+        "found no line from {from_hz} to {to_hz} Hz, expected a band with lines; the functions go from {first_hz} to {last_hz} Hz"
+    )]
+    EmptyBand {
+        /// Lower end of the band, Hz.
+        from_hz: f64,
+        /// Upper end of the band, Hz.
+        to_hz: f64,
+        /// First frequency of the functions, Hz.
+        first_hz: f64,
+        /// Last frequency of the functions, Hz.
+        last_hz: f64,
+    },
+}
+
+fn pair(&(response, reference): &(Dof, Dof)) -> String {
+    format!("{response} / {reference}")
+}
+
+fn list(pairs: &[(Dof, Dof)]) -> String {
+    let shown: Vec<String> = pairs.iter().take(LISTED_PAIRS).map(pair).collect();
+    match pairs.len().saturating_sub(LISTED_PAIRS) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}

@@ -1,0 +1,121 @@
+//! What a measured function is the ratio of, and how to get receptance from it.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+
+/// A motion per load: the three forms in which frequency response functions are measured.
+///
+/// Motion is m or rad and its rates, load is N or N·m. Serde uses the lower-case names, `"receptance"` and so on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantity {
+    /// Displacement per force, m/N.
+    Receptance,
+    /// Velocity per force, m/(s·N).
+    Mobility,
+    /// Acceleration per force, m/(s²·N).
+    Accelerance,
+}
+
+impl Quantity {
+    /// The quantity with so many time derivatives of displacement above the load: 0, 1 or 2.
+    pub(super) fn from_time_derivatives(derivatives: i32) -> Option<Self> {
+        match derivatives {
+            0 => Some(Self::Receptance),
+            1 => Some(Self::Mobility),
+            2 => Some(Self::Accelerance),
+            _ => None,
+        }
+    }
+
+    /// What a complex value of receptance at `frequency_hz` (Hz) is multiplied by to give this quantity.
+    fn per_receptance(self, frequency_hz: f64) -> Complex64 {
+        let omega = TAU * frequency_hz;
+        match self {
+            Self::Receptance => Complex64::new(1.0, 0.0),
+            // Y = jω H
+            Self::Mobility => Complex64::new(0.0, omega),
+            // A = −ω² H
+            Self::Accelerance => Complex64::new(-omega * omega, 0.0),
+        }
+    }
+
+    /// Receptance (m/N, rad/N, m/(N·m) or rad/(N·m)) from a `value` of this quantity at `frequency_hz` (Hz).
+    ///
+    /// `None` at 0 Hz for mobility and accelerance, which say nothing about static compliance.
+    #[must_use]
+    pub fn to_receptance(self, value: Complex64, frequency_hz: f64) -> Option<Complex64> {
+        match self {
+            Self::Receptance => Some(value),
+            _ if frequency_hz == 0.0 => None,
+            // H = Y/(jω),  H = −A/ω²
+            _ => Some(value / self.per_receptance(frequency_hz)),
+        }
+    }
+
+    /// This quantity from a `receptance` at `frequency_hz` (Hz), for plots and comparisons.
+    #[must_use]
+    pub fn from_receptance(self, receptance: Complex64, frequency_hz: f64) -> Complex64 {
+        receptance * self.per_receptance(frequency_hz)
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Receptance => "receptance",
+            Self::Mobility => "mobility",
+            Self::Accelerance => "accelerance",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A viscously damped oscillator gives all three forms in closed form.
+    #[test]
+    fn an_oscillator_has_the_same_receptance_from_each_quantity() {
+        let (mass, stiffness, damping) = (1.3, 4.0e5, 21.0);
+        for frequency_hz in [0.5, 88.0, 900.0] {
+            let omega = TAU * frequency_hz;
+            let s = Complex64::new(0.0, omega);
+            let impedance_sum = s * s * mass + s * damping + stiffness;
+            let receptance = 1.0 / impedance_sum;
+            for (quantity, value) in [
+                (Quantity::Receptance, receptance),
+                (Quantity::Mobility, s / impedance_sum),
+                (Quantity::Accelerance, s * s / impedance_sum),
+            ] {
+                let found = quantity.to_receptance(value, frequency_hz).unwrap();
+                assert!((found - receptance).norm() <= 4e-16 * receptance.norm());
+                let back = quantity.from_receptance(receptance, frequency_hz);
+                assert!((back - value).norm() <= 4e-16 * value.norm());
+            }
+        }
+    }
+
+    #[test]
+    fn only_receptance_says_anything_at_zero_frequency() {
+        let value = Complex64::new(2.0, 0.0);
+        assert_eq!(Quantity::Receptance.to_receptance(value, 0.0), Some(value));
+        assert_eq!(Quantity::Mobility.to_receptance(value, 0.0), None);
+        assert_eq!(Quantity::Accelerance.to_receptance(value, 0.0), None);
+    }
+
+    #[test]
+    fn serde_and_display_use_the_same_name() {
+        for quantity in [
+            Quantity::Receptance,
+            Quantity::Mobility,
+            Quantity::Accelerance,
+        ] {
+            let json = serde_json::to_string(&quantity).unwrap();
+            assert_eq!(json, format!("\"{quantity}\""));
+        }
+    }
+}

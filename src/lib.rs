@@ -2,3 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod frf;
+pub mod structure;
+mod text_file;
+
+pub use text_file::TextFileError;

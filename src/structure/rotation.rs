@@ -14,15 +14,14 @@ pub struct CentralDifference {
 }
 
 impl CentralDifference {
-    /// Receptance (2×2: y, θ) at the middle point from the translational receptance (3×3) at the three points.
+    /// T (2×3) with (w₂, θ₂) = T (w₁, w₂, w₃).
+    ///
+    /// Receptances at the middle point are T H Tᵀ (Tol 3.54), those between it and other points T H.
     #[must_use]
-    pub fn at_middle(&self, measured: &ComplexMatrix) -> ComplexMatrix {
-        // T = 1/(2s) [0 2s 0; −1 0 1],  H_est = T H_meas Tᵀ   (Tol 3.53, 3.54)
-        let slope = Complex64::from(0.5 / self.spacing_m);
-        let (zero, one) = (Complex64::from(0.0), Complex64::from(1.0));
-        let transformation =
-            ComplexMatrix::from_row_slice(2, 3, &[zero, one, zero, -slope, zero, slope]);
-        &transformation * measured * transformation.transpose()
+    pub fn transformation(&self) -> ComplexMatrix {
+        // T = 1/(2s) [0 2s 0; −1 0 1]   (Tol 3.53)
+        let slope = 0.5 / self.spacing_m;
+        ComplexMatrix::from_row_slice(2, 3, &[0.0, 1.0, 0.0, -slope, 0.0, slope].map(Complex64::from))
     }
 }
 
@@ -37,7 +36,8 @@ mod tests {
         let field = |x: f64| 3.0 + 2.0 * x + 5.0 * x * x;
         let w = [field(-s), field(0.0), field(s)];
         let measured = ComplexMatrix::from_fn(3, 3, |p, q| Complex64::from(w[p] * w[q]));
-        let found = CentralDifference { spacing_m: s }.at_middle(&measured);
+        let transformation = CentralDifference { spacing_m: s }.transformation();
+        let found = &transformation * measured * transformation.transpose();
         for (place, expected) in [((0, 0), 9.0), ((0, 1), 6.0), ((1, 0), 6.0), ((1, 1), 4.0)] {
             assert!((found[place].re - expected).abs() < 1e-10);
         }

@@ -1,9 +1,12 @@
 //! What can be wrong with frequency response functions and the files that hold them.
 
+use std::io;
+use std::path::PathBuf;
+
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::Dof;
+use super::{Dof, UffProblem};
 
 /// How many pairs an error message lists before it only counts.
 const LISTED_PAIRS: usize = 12;
@@ -165,6 +168,41 @@ pub enum FrfError {
         first_hz: f64,
         /// Last frequency of the functions, Hz.
         last_hz: f64,
+    },
+    /// A file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A file cannot be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A universal file is not usable.
+    #[error("{}, line {line}: {problem}", path.display())]
+    Uff {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong there.
+        #[source]
+        problem: UffProblem,
+    },
+    /// The functions of a file do not make a set.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: Box<FrfError>,
     },
 }
 

@@ -5,9 +5,14 @@ mod error;
 mod function;
 mod quantity;
 mod set;
+mod uff;
 
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;
 pub use function::Frf;
 pub use quantity::Quantity;
 pub use set::{FrfSet, Receptance};
+pub use uff::{
+    SkippedFunction, UffOptions, UffProblem, UffReading, UnitFactorError, UnitSystem, read_uff58,
+    read_uff58_from, write_uff58, write_uff58_to,
+};

@@ -1,0 +1,362 @@
+//! What the numbers of a function mean: data types, labels and units put together, and refused where they disagree.
+
+use super::header::{Axis, Header, InRecord};
+use super::unit_label::Unit;
+use super::units::{UnitSystem, agree};
+use super::{UffOptions, UffProblem};
+use crate::frf::{Direction, Quantity};
+
+/// The quantity of a function, and what its values are multiplied by to be SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Meaning {
+    pub(super) quantity: Quantity,
+    pub(super) to_si: f64,
+    /// Whether the units are stated (or given by the caller) rather than taken for SI.
+    pub(super) units_stated: bool,
+}
+
+/// A specific data type, as far as it matters here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// Displacement, velocity or acceleration: 0, 1 or 2 time derivatives.
+    Motion(i32),
+    Load,
+    Unstated,
+    Other,
+}
+
+fn kind(data_type: i64) -> Kind {
+    match data_type {
+        8 => Kind::Motion(0),
+        11 => Kind::Motion(1),
+        12 => Kind::Motion(2),
+        9 | 13 => Kind::Load,
+        0 | 1 => Kind::Unstated,
+        _ => Kind::Other,
+    }
+}
+
+fn data_type_name(data_type: i64) -> String {
+    let name = match data_type {
+        0 => "unknown",
+        1 => "general",
+        2 => "stress",
+        3 => "strain",
+        5 => "temperature",
+        6 => "heat flux",
+        8 => "displacement",
+        9 => "reaction force",
+        11 => "velocity",
+        12 => "acceleration",
+        13 => "excitation force",
+        15 => "pressure",
+        16 => "mass",
+        17 => "time",
+        18 => "frequency",
+        19 => "rotational speed",
+        20 => "order",
+        _ => "no known quantity",
+    };
+    format!("{name} (data type {data_type})")
+}
+
+fn inverse_name(derivatives: i32) -> &'static str {
+    match derivatives {
+        0 => "dynamic stiffness",
+        1 => "impedance",
+        _ => "apparent mass",
+    }
+}
+
+/// A statement of the file, for messages.
+struct Statement {
+    record: usize,
+    text: String,
+    quantity: Quantity,
+}
+
+/// Decides what a function's values are.
+///
+/// # Errors
+/// The record (8 to 10) at fault, and what is wrong.
+pub(super) fn decide(
+    header: &Header,
+    dataset_164: Option<UnitSystem>,
+    options: &UffOptions,
+) -> Result<Meaning, InRecord> {
+    check_abscissa(&header.abscissa)?;
+    let labels = UnitLabels::read(header)?;
+    let quantity = decide_quantity(header, &labels, options)?;
+    let (to_si, units_stated) = decide_scale(header, &labels, dataset_164, options)?;
+    Ok(Meaning {
+        quantity,
+        to_si,
+        units_stated,
+    })
+}
+
+fn check_abscissa(axis: &Axis) -> Result<(), InRecord> {
+    let other_unit = [
+        "rad/s", "rad/sec", "1/min", "rpm", "cpm", "khz", "s", "sec", "ms",
+    ]
+    .contains(&axis.units_label.to_lowercase().as_str());
+    let found = match axis.data_type {
+        0 | 1 | 18 if other_unit => format!("unit \"{}\"", axis.units_label),
+        0 | 1 | 18 => return Ok(()),
+        other => data_type_name(other),
+    };
+    Err((8, UffProblem::AbscissaNotFrequency { found }))
+}
+
+/// The unit labels of records 9 and 10, as far as they can be read.
+struct UnitLabels {
+    /// Unit of the whole ratio, in record 9.
+    ratio: Option<Unit>,
+    /// Unit of the numerator alone, in record 9.
+    numerator: Option<Unit>,
+    /// Unit of the denominator, in record 10.
+    denominator: Option<Unit>,
+}
+
+impl UnitLabels {
+    fn read(header: &Header) -> Result<Self, InRecord> {
+        let label = &header.numerator.units_label;
+        let ordinate = Unit::from_label(label).filter(|unit| (-2..=2).contains(&unit.time));
+        if let Some(unit) = ordinate
+            .filter(|unit| unit.force == 1 && kind(header.numerator.data_type) != Kind::Load)
+        {
+            // F/x has the time dimension of the motion with its sign turned.
+            let found = inverse_name(unit.time);
+            let stated_by = format!("the unit \"{label}\" in record 9");
+            return Err((9, UffProblem::Inverse { found, stated_by }));
+        }
+        let motion = ordinate.filter(|unit| unit.time <= 0);
+        Ok(Self {
+            ratio: motion.filter(|unit| unit.force == -1),
+            numerator: motion.filter(|unit| unit.force == 0),
+            denominator: Unit::from_label(&header.denominator.units_label)
+                .filter(|unit| unit.force == 1 && unit.time == 0),
+        })
+    }
+}
+
+fn decide_quantity(
+    header: &Header,
+    labels: &UnitLabels,
+    options: &UffOptions,
+) -> Result<Quantity, InRecord> {
+    let (numerator, denominator) = (header.numerator.data_type, header.denominator.data_type);
+    let by_type = match (kind(numerator), kind(denominator)) {
+        // An unstated denominator of a frequency response function is its load.
+        (Kind::Motion(derivatives), Kind::Load | Kind::Unstated) => {
+            Quantity::from_time_derivatives(derivatives)
+        }
+        (Kind::Unstated, Kind::Load | Kind::Unstated) => None,
+        (Kind::Load, Kind::Motion(derivatives)) => {
+            let found = inverse_name(derivatives);
+            let stated_by = format!(
+                "{} per {}",
+                data_type_name(numerator),
+                data_type_name(denominator)
+            );
+            return Err((9, UffProblem::Inverse { found, stated_by }));
+        }
+        _ => {
+            return Err((
+                9,
+                UffProblem::NotMotionPerLoad {
+                    numerator: data_type_name(numerator),
+                    denominator: data_type_name(denominator),
+                },
+            ));
+        }
+    };
+    let by_type = by_type.map(|quantity| Statement {
+        record: 9,
+        text: format!("{} in record 9", data_type_name(numerator)),
+        quantity,
+    });
+    let by_unit = labels
+        .ratio
+        .or(labels.numerator)
+        .filter(|unit| unit.force == -1 || unit.length != 0 || unit.time != 0)
+        .and_then(|unit| Quantity::from_time_derivatives(-unit.time))
+        .map(|quantity| Statement {
+            record: 9,
+            text: format!("the unit \"{}\" in record 9", header.numerator.units_label),
+            quantity,
+        });
+    let by_label = quantity_of_axis_label(&header.numerator.label)?;
+    if let Some(quantity) = options.quantity {
+        return Ok(quantity);
+    }
+    let mut statements = [by_type, by_unit, by_label].into_iter().flatten();
+    let first = statements.next().ok_or((9, UffProblem::UnknownQuantity))?;
+    match statements.find(|statement| statement.quantity != first.quantity) {
+        None => Ok(first.quantity),
+        Some(second) => Err((
+            second.record,
+            UffProblem::ContradictingQuantities {
+                first_statement: first.text,
+                first: first.quantity,
+                second_statement: second.text,
+                second: second.quantity,
+            },
+        )),
+    }
+}
+
+/// What the label of the ordinate says in words, if it says one thing.
+fn quantity_of_axis_label(label: &str) -> Result<Option<Statement>, InRecord> {
+    let lower = label.to_lowercase();
+    let inverse = [
+        "dynamic stiffness",
+        "impedance",
+        "apparent mass",
+        "dynamic mass",
+    ];
+    if inverse.iter().any(|word| lower.contains(word)) {
+        let found = match inverse.iter().position(|word| lower.contains(word)) {
+            Some(0) => inverse_name(0),
+            Some(1) => inverse_name(1),
+            _ => inverse_name(2),
+        };
+        let stated_by = format!("the label \"{label}\" in record 9");
+        return Err((9, UffProblem::Inverse { found, stated_by }));
+    }
+    let means = [
+        (
+            Quantity::Receptance,
+            ["receptance", "compliance", "displacement"].as_slice(),
+        ),
+        (Quantity::Mobility, &["mobility", "velocity"]),
+        (
+            Quantity::Accelerance,
+            &["accelerance", "inertance", "acceleration"],
+        ),
+    ];
+    let mut named = means
+        .iter()
+        .filter(|(_, words)| words.iter().any(|word| lower.contains(word)))
+        .map(|(quantity, _)| *quantity);
+    Ok(match (named.next(), named.next()) {
+        (Some(quantity), None) => Some(Statement {
+            record: 9,
+            text: format!("the label \"{label}\" in record 9"),
+            quantity,
+        }),
+        _ => None,
+    })
+}
+
+/// Length and force exponents of one axis: from its direction, or from its record where there is no direction.
+fn exponents(
+    axis: &Axis,
+    direction: Direction,
+    translation: (i32, i32),
+    rotation: (i32, i32),
+) -> (i32, i32) {
+    let stated = (axis.length_exponent, axis.force_exponent);
+    match direction {
+        Direction::Scalar if stated != (0, 0) => stated,
+        _ if direction.is_rotation() => rotation,
+        _ => translation,
+    }
+}
+
+/// The factor to SI, and whether it was stated at all.
+fn decide_scale(
+    header: &Header,
+    labels: &UnitLabels,
+    dataset_164: Option<UnitSystem>,
+    options: &UffOptions,
+) -> Result<(f64, bool), InRecord> {
+    // Motion is a length or an angle; the load is a force or a moment (Addendum A of the standard).
+    let motion = exponents(
+        &header.numerator,
+        header.response.direction(),
+        (1, 0),
+        (0, 0),
+    );
+    let load = exponents(
+        &header.denominator,
+        header.reference.direction(),
+        (0, 1),
+        (1, 1),
+    );
+    let factors =
+        |units: UnitSystem| (units.to_si(motion.0, motion.1), units.to_si(load.0, load.1));
+    if let Some(units) = options.units {
+        let (numerator, denominator) = factors(units);
+        return Ok((numerator / denominator, true));
+    }
+    check_dimensions(header, labels, motion, load)?;
+    let numerator_name = format!("the unit \"{}\" in record 9", header.numerator.units_label);
+    let denominator_name = format!(
+        "the unit \"{}\" in record 10",
+        header.denominator.units_label
+    );
+    if let Some(units) = dataset_164 {
+        let (numerator, denominator) = factors(units);
+        let compared = [
+            (labels.ratio, numerator / denominator, numerator_name, 9),
+            (
+                labels.numerator,
+                numerator,
+                format!("the unit \"{}\" in record 9", header.numerator.units_label),
+                9,
+            ),
+            (labels.denominator, denominator, denominator_name, 10),
+        ];
+        for (label, factor, name, record) in compared {
+            if let Some(unit) = label.filter(|unit| !agree(unit.to_si, factor)) {
+                return Err((
+                    record,
+                    UffProblem::ContradictingUnits {
+                        first_statement: "data set 164".to_owned(),
+                        first_factor: factor,
+                        second_statement: name,
+                        second_factor: unit.to_si,
+                    },
+                ));
+            }
+        }
+        return Ok((numerator / denominator, true));
+    }
+    Ok(match (labels.ratio, labels.numerator, labels.denominator) {
+        (Some(ratio), ..) => (ratio.to_si, true),
+        (None, None, None) => (1.0, false),
+        (None, numerator, denominator) => {
+            let factor = |unit: Option<Unit>| unit.map_or(1.0, |unit| unit.to_si);
+            (factor(numerator) / factor(denominator), true)
+        }
+    })
+}
+
+/// Checks that labelled units have the length dimension that the two directions give the ratio.
+fn check_dimensions(
+    header: &Header,
+    labels: &UnitLabels,
+    motion: (i32, i32),
+    load: (i32, i32),
+) -> Result<(), InRecord> {
+    let expected = [
+        (labels.ratio, motion.0 - load.0, &header.numerator, 9),
+        (labels.numerator, motion.0, &header.numerator, 9),
+        (labels.denominator, load.0, &header.denominator, 10),
+    ];
+    match expected
+        .into_iter()
+        .find(|(unit, length, ..)| unit.is_some_and(|unit| unit.length != *length))
+    {
+        None => Ok(()),
+        Some((_, _, axis, record)) => Err((
+            record,
+            UffProblem::UnitNotOfDirections {
+                statement: format!("the unit \"{}\" in record {record}", axis.units_label),
+                response: header.response,
+                reference: header.reference,
+            },
+        )),
+    }
+}

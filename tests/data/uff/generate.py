@@ -1,0 +1,64 @@
+"""Writes the universal files of this folder with pyuff 2.5.8: `python generate.py`.
+
+Every function is the accelerance of one damped oscillator (m = 2 kg, c = 8 N s/m, k = 8e4 N/m) times a factor that tells
+the pairs apart, so that a test can compute what must be read.
+"""
+
+import os
+
+import numpy as np
+import pyuff
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EVEN = 5.0 + 2.5 * np.arange(13)
+UNEVEN = np.array([5.0, 12.5, 20.0, 30.0, 31.5, 31.83, 32.0, 33.0, 50.0, 120.0])
+
+
+def accelerance(frequency):
+    s = 2j * np.pi * frequency
+    return s**2 / (2.0 * s**2 + 8.0 * s + 8e4)
+
+
+def function(frequency, values, even, response, reference, func_type=4, numerator=12, denominator=13):
+    # pyuff names record 9 "ordinate" and record 10 "orddenom".
+    return {
+        "type": 58, "binary": 0, "func_type": func_type, "rsp_node": response[0], "rsp_dir": response[1],
+        "ref_node": reference[0], "ref_dir": reference[1], "data": values, "x": frequency,
+        "id1": "one oscillator", "abscissa_spacing": int(even), "abscissa_spec_data_type": 18,
+        "ordinate_spec_data_type": numerator, "orddenom_spec_data_type": denominator,
+        "abscissa_min": frequency[0], "abscissa_inc": 2.5 if even else 0.0,
+    }
+
+
+def units(code, description, length, force):
+    return {"type": 164, "units_code": code, "units_description": description, "temp_mode": 1, "length": length,
+            "force": force, "temp": 1.0, "temp_offset": 0.0}
+
+
+def write(name, sets, force_double=True):
+    path = os.path.join(HERE, name)
+    if os.path.exists(path):
+        os.remove(path)
+    pyuff.UFF(path).write_sets(sets, mode="add", force_double=force_double)
+
+
+def main():
+    a = accelerance(EVEN)
+    b = accelerance(UNEVEN)
+    write("even_double.uff", [units(1, "SI", 1.0, 1.0), function(EVEN, a, True, (11, 2), (2, 2)),
+                              function(EVEN, 0.5 * a, True, (12, -2), (2, 2))])
+    write("uneven_double.uff", [units(1, "SI", 1.0, 1.0), function(UNEVEN, b, False, (11, 2), (2, 2))])
+    write("uneven_single.uff", [function(UNEVEN, b, False, (11, 2), (2, 2))], force_double=False)
+    # Millimetres and newtons; translation and rotation; a coherence among them.
+    ones = np.ones(len(EVEN))
+    write("millimetres.uff", [
+        units(9, "mm, N", 1e3, 1.0),
+        function(EVEN, 1e3 * a, True, (11, 2), (2, 2)),
+        function(EVEN, ones, True, (11, 2), (2, 2), func_type=6, numerator=0, denominator=0),
+        function(EVEN, 2.0 * a, True, (11, 6), (2, 2)),
+        function(EVEN, 3e-3 * a, True, (11, 6), (2, 6)),
+    ], force_double=False)
+
+
+if __name__ == "__main__":
+    main()

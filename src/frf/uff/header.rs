@@ -398,9 +398,10 @@ mod tests {
     #[test]
     fn names_with_blanks_are_read_by_column_and_loose_columns_by_blanks() {
         let mut records = records();
-        records[5] =
-            "    4         1    1         0 left plate        11  -2                     2   6"
-                .to_owned();
+        let (name, none) = ("left plate", "");
+        records[5] = format!(
+            "    4         1    1         0 {name:<10}        11  -2 {none:<10}         2   6"
+        );
         assert_eq!(
             Header::from_records(&records)
                 .unwrap()

@@ -360,3 +360,282 @@ fn check_dimensions(
         )),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::header::Layout;
+    use super::*;
+
+    fn axis(data_type: i64, label: &str, units_label: &str) -> Axis {
+        Axis {
+            data_type,
+            length_exponent: 0,
+            force_exponent: 0,
+            label: label.to_owned(),
+            units_label: units_label.to_owned(),
+        }
+    }
+
+    fn header(numerator: Axis, denominator: Axis) -> Header {
+        Header {
+            response: "1:Y".parse().unwrap(),
+            reference: "2:Y".parse().unwrap(),
+            layout: Layout {
+                complex: true,
+                double: true,
+                even: Some((0.0, 1.0)),
+                lines: 1,
+            },
+            abscissa: axis(18, "Frequency", "Hz"),
+            numerator,
+            denominator,
+        }
+    }
+
+    const NO_OPTIONS: UffOptions = UffOptions {
+        quantity: None,
+        units: None,
+    };
+
+    fn decided(
+        numerator: Axis,
+        denominator: Axis,
+        units: Option<UnitSystem>,
+    ) -> Result<Meaning, UffProblem> {
+        decide(&header(numerator, denominator), units, &NO_OPTIONS).map_err(|(_, problem)| problem)
+    }
+
+    fn force() -> Axis {
+        axis(13, "", "")
+    }
+
+    #[test]
+    fn data_types_decide_the_quantity() {
+        for (data_type, quantity) in [
+            (8, Quantity::Receptance),
+            (11, Quantity::Mobility),
+            (12, Quantity::Accelerance),
+        ] {
+            for denominator in [9, 13, 0] {
+                let meaning =
+                    decided(axis(data_type, "", ""), axis(denominator, "", ""), None).unwrap();
+                assert_eq!(
+                    meaning,
+                    Meaning {
+                        quantity,
+                        to_si: 1.0,
+                        units_stated: false
+                    }
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn labels_decide_where_types_are_unknown() {
+        for (label, unit, quantity) in [
+            ("Inertance", "", Quantity::Accelerance),
+            ("", "(m/s)/N", Quantity::Mobility),
+            ("Dynamic compliance", "m/N", Quantity::Receptance),
+            ("FRF", "1/kg", Quantity::Accelerance),
+            ("", "g", Quantity::Accelerance),
+        ] {
+            let meaning = decided(axis(0, label, unit), axis(0, "", ""), None).unwrap();
+            assert_eq!(meaning.quantity, quantity, "{label} {unit}");
+        }
+        for (label, unit) in [
+            ("", ""),
+            ("FRF", "V/V"),
+            ("velocity/displacement", ""),
+            ("", "1"),
+        ] {
+            let problem = decided(axis(0, label, unit), force(), None).unwrap_err();
+            assert!(
+                matches!(problem, UffProblem::UnknownQuantity),
+                "{label} {unit}"
+            );
+        }
+    }
+
+    #[test]
+    fn statements_that_disagree_are_refused_with_both_and_the_override_settles_it() {
+        for (data_type, label, unit, first, second) in [
+            (
+                12,
+                "Receptance",
+                "",
+                Quantity::Accelerance,
+                Quantity::Receptance,
+            ),
+            (12, "", "m/N", Quantity::Accelerance, Quantity::Receptance),
+            (
+                0,
+                "Receptance",
+                "(m/s)/N",
+                Quantity::Mobility,
+                Quantity::Receptance,
+            ),
+            (
+                8,
+                "Displacement",
+                "m/s^2",
+                Quantity::Receptance,
+                Quantity::Accelerance,
+            ),
+        ] {
+            let header = header(axis(data_type, label, unit), force());
+            let (record, problem) = decide(&header, None, &NO_OPTIONS).unwrap_err();
+            let found = match problem {
+                UffProblem::ContradictingQuantities { first, second, .. } => (first, second),
+                other => panic!("{other}"),
+            };
+            assert_eq!((record, found), (9, (first, second)));
+            let stated = UffOptions {
+                quantity: Some(Quantity::Mobility),
+                units: None,
+            };
+            assert_eq!(
+                decide(&header, None, &stated).unwrap().quantity,
+                Quantity::Mobility
+            );
+        }
+    }
+
+    #[test]
+    fn loads_per_motion_and_other_ratios_are_refused_by_name() {
+        for (numerator, denominator, name) in [
+            (axis(13, "", ""), axis(8, "", ""), "dynamic stiffness"),
+            (axis(9, "", ""), axis(11, "", ""), "impedance"),
+            (axis(13, "", ""), axis(12, "", ""), "apparent mass"),
+            (
+                axis(0, "Apparent Mass", ""),
+                axis(0, "", ""),
+                "apparent mass",
+            ),
+            (axis(0, "", "N/m"), axis(0, "", ""), "dynamic stiffness"),
+            (axis(0, "", "N/(m/s)"), axis(0, "", ""), "impedance"),
+            (axis(0, "", "N s^2/m"), axis(0, "", ""), "apparent mass"),
+        ] {
+            let problem = decided(numerator, denominator, None).unwrap_err();
+            assert!(
+                matches!(&problem, UffProblem::Inverse { found, .. } if *found == name),
+                "{problem}"
+            );
+        }
+        for (numerator, denominator) in [(12, 12), (13, 13), (3, 13), (12, 15), (99, 13)] {
+            let problem =
+                decided(axis(numerator, "", ""), axis(denominator, "", ""), None).unwrap_err();
+            assert!(
+                matches!(problem, UffProblem::NotMotionPerLoad { .. }),
+                "{problem}"
+            );
+        }
+    }
+
+    #[test]
+    fn units_come_from_labels_or_from_the_file_and_must_agree() {
+        let millimetres = UnitSystem::new(1e3, 1.0).unwrap();
+        let scale = |unit: &str, load: &str, units| {
+            decided(axis(12, "", unit), axis(13, "", load), units)
+                .map(|meaning| (meaning.to_si, meaning.units_stated))
+        };
+        assert_eq!(scale("", "", Some(millimetres)).unwrap(), (1e-3, true));
+        assert_eq!(
+            scale("mm/s^2", "N", Some(millimetres)).unwrap(),
+            (1e-3, true)
+        );
+        assert_eq!(
+            scale("mm/s^2/N", "", Some(millimetres)).unwrap(),
+            (1e-3, true)
+        );
+        assert_eq!(scale("g", "", None).unwrap(), (9.806_65, true));
+        assert_eq!(scale("g/kN", "", None).unwrap(), (9.806_65e-3, true));
+        assert_eq!(scale("", "kN", None).unwrap(), (1e-3, true));
+        assert_eq!(scale("V", "", None).unwrap(), (1.0, false));
+        for (unit, load) in [("g", ""), ("m/s^2/N", ""), ("", "kN")] {
+            let problem = scale(unit, load, Some(millimetres)).unwrap_err();
+            assert!(
+                matches!(problem, UffProblem::ContradictingUnits { .. }),
+                "{problem}"
+            );
+        }
+        let stated = UffOptions {
+            quantity: None,
+            units: Some(UnitSystem::SI),
+        };
+        let meaning = decide(
+            &header(axis(12, "", "g"), force()),
+            Some(millimetres),
+            &stated,
+        )
+        .unwrap();
+        assert_eq!((meaning.to_si, meaning.units_stated), (1.0, true));
+    }
+
+    #[test]
+    fn rotations_and_moments_have_their_own_exponents() {
+        let scale = |response: &str, reference: &str, unit: &str| {
+            let mut header = header(axis(8, "", unit), force());
+            header.response = response.parse().unwrap();
+            header.reference = reference.parse().unwrap();
+            decide(
+                &header,
+                Some(UnitSystem::new(1e3, 1e3).unwrap()),
+                &NO_OPTIONS,
+            )
+            .map(|meaning| meaning.to_si)
+            .map_err(|(_, problem)| problem)
+        };
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
+        // mm/mN = m/N; rad/mN = 1e3 rad/N; mm/(mN·mm) = 1e3 m/(N·m); rad/(mN·mm) = 1e6 rad/(N·m)
+        assert!(close(scale("1:Y", "2:Y", "").unwrap(), 1.0));
+        assert!(close(scale("1:RZ", "2:Y", "").unwrap(), 1e3));
+        assert!(close(scale("1:Y", "2:RZ", "").unwrap(), 1e3));
+        assert!(close(scale("1:RZ", "2:RZ", "").unwrap(), 1e6));
+        assert!(close(scale("1:RZ", "2:Y", "rad/mN").unwrap(), 1e3));
+        let problem = scale("1:RZ", "2:Y", "mm/mN").unwrap_err();
+        assert!(
+            matches!(problem, UffProblem::UnitNotOfDirections { .. }),
+            "{problem}"
+        );
+    }
+
+    #[test]
+    fn scalar_points_use_the_exponents_of_their_records() {
+        let mut scalar = header(axis(8, "", ""), force());
+        scalar.response = "1:0".parse().unwrap();
+        scalar.reference = "2:0".parse().unwrap();
+        let units = UnitSystem::new(1e3, 1.0).ok();
+        let to_si = |header: &Header| decide(header, units, &NO_OPTIONS).unwrap().to_si;
+        assert_eq!(to_si(&scalar), 1e-3);
+        scalar.denominator.length_exponent = 1;
+        scalar.denominator.force_exponent = 1;
+        assert_eq!(to_si(&scalar), 1.0);
+    }
+
+    #[test]
+    fn only_frequency_in_hertz_is_an_abscissa() {
+        let with_abscissa = |abscissa| {
+            let mut header = header(axis(12, "", ""), force());
+            header.abscissa = abscissa;
+            decide(&header, None, &NO_OPTIONS)
+                .map_err(|(record, problem)| (record, problem.to_string()))
+        };
+        for good in [
+            axis(18, "", ""),
+            axis(0, "", "Hz"),
+            axis(1, "Frequency", "hertz"),
+        ] {
+            assert!(with_abscissa(good).is_ok());
+        }
+        for (bad, named) in [
+            (axis(17, "", ""), "time"),
+            (axis(19, "", "Hz"), "rotational speed"),
+            (axis(18, "", "rad/s"), "rad/s"),
+        ] {
+            let (record, message) = with_abscissa(bad).unwrap_err();
+            assert_eq!(record, 8);
+            assert!(message.contains(named), "{message}");
+        }
+    }
+}

@@ -40,8 +40,8 @@ pub(super) fn read<R: BufRead>(
         }
         // Some writers fill the last line with zeros.
         let (wanted, filling) = found.split_at(found.len().min(expected - numbers.len()));
-        let is_last_line = !wanted.is_empty();
-        if !filling.is_empty() && !(is_last_line && filling.iter().all(|number| *number == 0.0)) {
+        let is_filling = !wanted.is_empty() && filling.iter().all(|number| *number == 0.0);
+        if !(filling.is_empty() || is_filling) {
             return Err(lines.problem(UffProblem::TooManyNumbers { expected, begun_at }));
         }
         numbers.extend_from_slice(wanted);

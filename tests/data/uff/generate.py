@@ -26,7 +26,7 @@ def function(frequency, values, even, response, reference, func_type=4, numerato
         "ref_node": reference[0], "ref_dir": reference[1], "data": values, "x": frequency,
         "id1": "one oscillator", "abscissa_spacing": int(even), "abscissa_spec_data_type": 18,
         "ordinate_spec_data_type": numerator, "orddenom_spec_data_type": denominator,
-        "abscissa_min": frequency[0], "abscissa_inc": 2.5 if even else 0.0,
+        "ord_data_type": 5, "abscissa_min": frequency[0], "abscissa_inc": 2.5 if even else 0.0,
     }
 
 

@@ -1,10 +1,10 @@
 //! What the numbers of a function mean: data types, labels and units put together, and refused where they disagree.
 
 use super::header::{Axis, Header, InRecord};
-use super::unit_label::Unit;
-use super::units::{UnitSystem, agree};
+use super::scale::{UnitLabels, decide_scale};
+use super::units::UnitSystem;
 use super::{UffOptions, UffProblem};
-use crate::frf::{Direction, Quantity};
+use crate::frf::Quantity;
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +36,11 @@ fn kind(data_type: i64) -> Kind {
     }
 }
 
+/// Whether a specific data type is a force or a moment.
+pub(super) fn is_load(data_type: i64) -> bool {
+    kind(data_type) == Kind::Load
+}
+
 fn data_type_name(data_type: i64) -> String {
     let name = match data_type {
         0 => "unknown",
@@ -60,7 +65,7 @@ fn data_type_name(data_type: i64) -> String {
     format!("{name} (data type {data_type})")
 }
 
-fn inverse_name(derivatives: i32) -> &'static str {
+pub(super) fn inverse_name(derivatives: i32) -> &'static str {
     match derivatives {
         0 => "dynamic stiffness",
         1 => "impedance",
@@ -106,38 +111,6 @@ fn check_abscissa(axis: &Axis) -> Result<(), InRecord> {
         other => data_type_name(other),
     };
     Err((8, UffProblem::AbscissaNotFrequency { found }))
-}
-
-/// The unit labels of records 9 and 10, as far as they can be read.
-struct UnitLabels {
-    /// Unit of the whole ratio, in record 9.
-    ratio: Option<Unit>,
-    /// Unit of the numerator alone, in record 9.
-    numerator: Option<Unit>,
-    /// Unit of the denominator, in record 10.
-    denominator: Option<Unit>,
-}
-
-impl UnitLabels {
-    fn read(header: &Header) -> Result<Self, InRecord> {
-        let label = &header.numerator.units_label;
-        let ordinate = Unit::from_label(label).filter(|unit| (-2..=2).contains(&unit.time));
-        if let Some(unit) = ordinate
-            .filter(|unit| unit.force == 1 && kind(header.numerator.data_type) != Kind::Load)
-        {
-            // F/x has the time dimension of the motion with its sign turned.
-            let found = inverse_name(unit.time);
-            let stated_by = format!("the unit \"{label}\" in record 9");
-            return Err((9, UffProblem::Inverse { found, stated_by }));
-        }
-        let motion = ordinate.filter(|unit| unit.time <= 0);
-        Ok(Self {
-            ratio: motion.filter(|unit| unit.force == -1),
-            numerator: motion.filter(|unit| unit.force == 0),
-            denominator: Unit::from_label(&header.denominator.units_label)
-                .filter(|unit| unit.force == 1 && unit.time == 0),
-        })
-    }
 }
 
 fn decide_quantity(
@@ -249,124 +222,13 @@ fn quantity_of_axis_label(label: &str) -> Result<Option<Statement>, InRecord> {
     })
 }
 
-/// Length and force exponents of one axis: from its direction, or from its record where there is no direction.
-fn exponents(
-    axis: &Axis,
-    direction: Direction,
-    translation: (i32, i32),
-    rotation: (i32, i32),
-) -> (i32, i32) {
-    let stated = (axis.length_exponent, axis.force_exponent);
-    match direction {
-        Direction::Scalar if stated != (0, 0) => stated,
-        _ if direction.is_rotation() => rotation,
-        _ => translation,
-    }
-}
-
-/// The factor to SI, and whether it was stated at all.
-fn decide_scale(
-    header: &Header,
-    labels: &UnitLabels,
-    dataset_164: Option<UnitSystem>,
-    options: &UffOptions,
-) -> Result<(f64, bool), InRecord> {
-    // Motion is a length or an angle; the load is a force or a moment (Addendum A of the standard).
-    let motion = exponents(
-        &header.numerator,
-        header.response.direction(),
-        (1, 0),
-        (0, 0),
-    );
-    let load = exponents(
-        &header.denominator,
-        header.reference.direction(),
-        (0, 1),
-        (1, 1),
-    );
-    let factors =
-        |units: UnitSystem| (units.to_si(motion.0, motion.1), units.to_si(load.0, load.1));
-    if let Some(units) = options.units {
-        let (numerator, denominator) = factors(units);
-        return Ok((numerator / denominator, true));
-    }
-    check_dimensions(header, labels, motion, load)?;
-    let numerator_name = format!("the unit \"{}\" in record 9", header.numerator.units_label);
-    let denominator_name = format!(
-        "the unit \"{}\" in record 10",
-        header.denominator.units_label
-    );
-    if let Some(units) = dataset_164 {
-        let (numerator, denominator) = factors(units);
-        let compared = [
-            (labels.ratio, numerator / denominator, numerator_name, 9),
-            (
-                labels.numerator,
-                numerator,
-                format!("the unit \"{}\" in record 9", header.numerator.units_label),
-                9,
-            ),
-            (labels.denominator, denominator, denominator_name, 10),
-        ];
-        for (label, factor, name, record) in compared {
-            if let Some(unit) = label.filter(|unit| !agree(unit.to_si, factor)) {
-                return Err((
-                    record,
-                    UffProblem::ContradictingUnits {
-                        first_statement: "data set 164".to_owned(),
-                        first_factor: factor,
-                        second_statement: name,
-                        second_factor: unit.to_si,
-                    },
-                ));
-            }
-        }
-        return Ok((numerator / denominator, true));
-    }
-    Ok(match (labels.ratio, labels.numerator, labels.denominator) {
-        (Some(ratio), ..) => (ratio.to_si, true),
-        (None, None, None) => (1.0, false),
-        (None, numerator, denominator) => {
-            let factor = |unit: Option<Unit>| unit.map_or(1.0, |unit| unit.to_si);
-            (factor(numerator) / factor(denominator), true)
-        }
-    })
-}
-
-/// Checks that labelled units have the length dimension that the two directions give the ratio.
-fn check_dimensions(
-    header: &Header,
-    labels: &UnitLabels,
-    motion: (i32, i32),
-    load: (i32, i32),
-) -> Result<(), InRecord> {
-    let expected = [
-        (labels.ratio, motion.0 - load.0, &header.numerator, 9),
-        (labels.numerator, motion.0, &header.numerator, 9),
-        (labels.denominator, load.0, &header.denominator, 10),
-    ];
-    match expected
-        .into_iter()
-        .find(|(unit, length, ..)| unit.is_some_and(|unit| unit.length != *length))
-    {
-        None => Ok(()),
-        Some((_, _, axis, record)) => Err((
-            record,
-            UffProblem::UnitNotOfDirections {
-                statement: format!("the unit \"{}\" in record {record}", axis.units_label),
-                response: header.response,
-                reference: header.reference,
-            },
-        )),
-    }
-}
-
+/// Headers for the tests of what they mean.
 #[cfg(test)]
-mod tests {
+pub(super) mod examples {
     use super::super::header::Layout;
     use super::*;
 
-    fn axis(data_type: i64, label: &str, units_label: &str) -> Axis {
+    pub(in crate::frf::uff) fn axis(data_type: i64, label: &str, units_label: &str) -> Axis {
         Axis {
             data_type,
             length_exponent: 0,
@@ -376,7 +238,7 @@ mod tests {
         }
     }
 
-    fn header(numerator: Axis, denominator: Axis) -> Header {
+    pub(in crate::frf::uff) fn header(numerator: Axis, denominator: Axis) -> Header {
         Header {
             response: "1:Y".parse().unwrap(),
             reference: "2:Y".parse().unwrap(),
@@ -392,12 +254,12 @@ mod tests {
         }
     }
 
-    const NO_OPTIONS: UffOptions = UffOptions {
+    pub(in crate::frf::uff) const NO_OPTIONS: UffOptions = UffOptions {
         quantity: None,
         units: None,
     };
 
-    fn decided(
+    pub(in crate::frf::uff) fn decided(
         numerator: Axis,
         denominator: Axis,
         units: Option<UnitSystem>,
@@ -405,9 +267,15 @@ mod tests {
         decide(&header(numerator, denominator), units, &NO_OPTIONS).map_err(|(_, problem)| problem)
     }
 
-    fn force() -> Axis {
+    pub(in crate::frf::uff) fn force() -> Axis {
         axis(13, "", "")
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::examples::{NO_OPTIONS, axis, decided, force, header};
+    use super::*;
 
     #[test]
     fn data_types_decide_the_quantity() {
@@ -530,87 +398,6 @@ mod tests {
                 "{problem}"
             );
         }
-    }
-
-    #[test]
-    fn units_come_from_labels_or_from_the_file_and_must_agree() {
-        let millimetres = UnitSystem::new(1e3, 1.0).unwrap();
-        let scale = |unit: &str, load: &str, units| {
-            decided(axis(12, "", unit), axis(13, "", load), units)
-                .map(|meaning| (meaning.to_si, meaning.units_stated))
-        };
-        assert_eq!(scale("", "", Some(millimetres)).unwrap(), (1e-3, true));
-        assert_eq!(
-            scale("mm/s^2", "N", Some(millimetres)).unwrap(),
-            (1e-3, true)
-        );
-        assert_eq!(
-            scale("mm/s^2/N", "", Some(millimetres)).unwrap(),
-            (1e-3, true)
-        );
-        assert_eq!(scale("g", "", None).unwrap(), (9.806_65, true));
-        assert_eq!(scale("g/kN", "", None).unwrap(), (9.806_65e-3, true));
-        assert_eq!(scale("", "kN", None).unwrap(), (1e-3, true));
-        assert_eq!(scale("V", "", None).unwrap(), (1.0, false));
-        for (unit, load) in [("g", ""), ("m/s^2/N", ""), ("", "kN")] {
-            let problem = scale(unit, load, Some(millimetres)).unwrap_err();
-            assert!(
-                matches!(problem, UffProblem::ContradictingUnits { .. }),
-                "{problem}"
-            );
-        }
-        let stated = UffOptions {
-            quantity: None,
-            units: Some(UnitSystem::SI),
-        };
-        let meaning = decide(
-            &header(axis(12, "", "g"), force()),
-            Some(millimetres),
-            &stated,
-        )
-        .unwrap();
-        assert_eq!((meaning.to_si, meaning.units_stated), (1.0, true));
-    }
-
-    #[test]
-    fn rotations_and_moments_have_their_own_exponents() {
-        let scale = |response: &str, reference: &str, unit: &str| {
-            let mut header = header(axis(8, "", unit), force());
-            header.response = response.parse().unwrap();
-            header.reference = reference.parse().unwrap();
-            decide(
-                &header,
-                Some(UnitSystem::new(1e3, 1e3).unwrap()),
-                &NO_OPTIONS,
-            )
-            .map(|meaning| meaning.to_si)
-            .map_err(|(_, problem)| problem)
-        };
-        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
-        // mm/mN = m/N; rad/mN = 1e3 rad/N; mm/(mN·mm) = 1e3 m/(N·m); rad/(mN·mm) = 1e6 rad/(N·m)
-        assert!(close(scale("1:Y", "2:Y", "").unwrap(), 1.0));
-        assert!(close(scale("1:RZ", "2:Y", "").unwrap(), 1e3));
-        assert!(close(scale("1:Y", "2:RZ", "").unwrap(), 1e3));
-        assert!(close(scale("1:RZ", "2:RZ", "").unwrap(), 1e6));
-        assert!(close(scale("1:RZ", "2:Y", "rad/mN").unwrap(), 1e3));
-        let problem = scale("1:RZ", "2:Y", "mm/mN").unwrap_err();
-        assert!(
-            matches!(problem, UffProblem::UnitNotOfDirections { .. }),
-            "{problem}"
-        );
-    }
-
-    #[test]
-    fn scalar_points_use_the_exponents_of_their_records() {
-        let mut scalar = header(axis(8, "", ""), force());
-        scalar.response = "1:0".parse().unwrap();
-        scalar.reference = "2:0".parse().unwrap();
-        let units = UnitSystem::new(1e3, 1.0).ok();
-        let to_si = |header: &Header| decide(header, units, &NO_OPTIONS).unwrap().to_si;
-        assert_eq!(to_si(&scalar), 1e-3);
-        scalar.denominator.length_exponent = 1;
-        scalar.denominator.force_exponent = 1;
-        assert_eq!(to_si(&scalar), 1.0);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod meaning;
 mod numbers;
 mod problem;
 mod read;
+mod scale;
 mod unit_label;
 mod units;
 mod values;

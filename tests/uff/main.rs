@@ -1,0 +1,52 @@
+//! Universal files: read from other programs, refused where broken, and written so that they come back unchanged.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+mod broken;
+mod foreign;
+mod written;
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use bolted_joint::frf::{
+    Dof, FrfError, UffOptions, UffProblem, UffReading, read_uff58, read_uff58_from,
+};
+use num_complex::Complex64;
+
+fn dof(text: &str) -> Dof {
+    text.parse().unwrap()
+}
+
+fn read(path: &Path) -> UffReading {
+    read_uff58(path, &UffOptions::default()).unwrap()
+}
+
+fn read_text(text: impl AsRef<[u8]>) -> Result<UffReading, FrfError> {
+    read_uff58_from(text.as_ref(), "memory.uff", &UffOptions::default())
+}
+
+/// The line and the problem of a text that is not usable.
+fn problem_of(text: impl AsRef<[u8]>) -> (usize, UffProblem) {
+    match read_text(text).unwrap_err() {
+        FrfError::Uff {
+            line,
+            problem,
+            path,
+        } => {
+            assert_eq!(path, Path::new("memory.uff"));
+            (line, problem)
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Receptance of the oscillator behind the files of this test, m/N.
+fn oscillator(frequency_hz: f64) -> Complex64 {
+    let s = Complex64::new(0.0, TAU * frequency_hz);
+    // H = 1/(m s² + c s + k)
+    1.0 / (2.0 * s * s + 8.0 * s + 8e4)
+}

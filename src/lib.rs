@@ -2,3 +2,6 @@
 #![forbid(unsafe_code)]
 
 pub mod frf;
+pub mod joint;
+
+pub(crate) mod whole_file;

@@ -1,15 +1,23 @@
 //! Equations of a bolted joint and their time integration.
 //!
 //! This crate is what runs inside every exported FMU: no dependencies, no I/O, no allocation in a step.
-#![no_std]
+//! All quantities are in SI units; the const generic `D` is the number of DOFs a side: 1 (translation y)
+//! or 2 (translation y, rotation θ).
 #![forbid(unsafe_code)]
 
-#[cfg(test)]
-extern crate std;
-
+mod definiteness;
+mod eigenvalues;
+mod escape;
+mod integrator;
 mod joint;
 mod lap;
+mod rk4;
+mod spectrum;
 mod vector;
 
+pub use definiteness::is_positive_semidefinite;
+pub use integrator::LapIntegrator;
 pub use joint::{JointLaw, Motion};
-pub use lap::{Body, Lap, LapLoads, LapState};
+pub use lap::{Body, Defect, Lap, LapLoads, LapState};
+pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
+pub use spectrum::{Eigenvalue, Spectrum};

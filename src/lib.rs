@@ -2,7 +2,9 @@
 #![forbid(unsafe_code)]
 
 pub mod frf;
+pub mod joint;
 pub mod structure;
 mod text_file;
+pub(crate) mod whole_file;
 
 pub use text_file::TextFileError;

@@ -1,0 +1,213 @@
+//! Builds the FMU library that the executable embeds, for the target platform.
+//!
+//! The library's two crates have no dependencies, so the compiler is called directly: no second Cargo, no second
+//! workspace, and the same flags whatever the profile, so that the bytes depend on the sources and the compiler alone.
+
+use std::{
+    env,
+    ffi::OsString,
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, ExitCode},
+};
+
+use bolted_joint_interface::Interfaces;
+
+fn main() -> ExitCode {
+    match build() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn build() -> Result<(), String> {
+    let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
+    let out = PathBuf::from(variable("OUT_DIR")?);
+    for watched in [
+        "build.rs",
+        "modelDescription",
+        "crates/dynamics/src",
+        "crates/fmu/src",
+    ] {
+        println!("cargo:rerun-if-changed={}", root.join(watched).display());
+    }
+
+    let interfaces = Interfaces::read(&root.join("modelDescription"))
+        .map_err(|error| format!("modelDescription: {error}"))?;
+    let tables = out.join("interface.rs");
+    fs::write(&tables, interfaces.to_rust())
+        .map_err(|error| format!("{}: {error}", tables.display()))?;
+
+    let platform = Platform::of_target()?;
+    let library = out.join(format!(
+        "{}.{}",
+        interfaces.lap.model_identifier, platform.extension
+    ));
+    let compiler = Compiler::new(&root, &out, &platform)?;
+    let dynamics = compiler.dynamics()?;
+    compiler.fmu(&dynamics, &library)?;
+
+    println!("cargo:rustc-env=BOLTED_JOINT_LIBRARY={}", library.display());
+    println!("cargo:rustc-env=BOLTED_JOINT_PLATFORM={}", platform.folder);
+    Ok(())
+}
+
+/// Target platform as FMI 3.0 names it (section 2.5.1.4.1).
+struct Platform {
+    /// Folder below `binaries`.
+    folder: String,
+    /// Extension of a shared library.
+    extension: &'static str,
+    /// Flags that this platform's linker needs.
+    flags: Vec<String>,
+}
+
+impl Platform {
+    fn of_target() -> Result<Self, String> {
+        let architecture = match variable("CARGO_CFG_TARGET_ARCH")?.as_str() {
+            "x86_64" => "x86_64",
+            "x86" => "x86",
+            "aarch64" => "aarch64",
+            "arm" => "aarch32",
+            "riscv64" => "riscv64",
+            "riscv32" => "riscv32",
+            "powerpc64" => "ppc64",
+            "powerpc" => "ppc32",
+            other => return Err(format!("FMI 3.0 has no name for the architecture {other}")),
+        };
+        let environment = env::var("CARGO_CFG_TARGET_ENV").unwrap_or_default();
+        let (system, extension, flags): (_, _, &[&str]) = match (
+            variable("CARGO_CFG_TARGET_OS")?.as_str(),
+            environment.as_str(),
+        ) {
+            // a shared library needs the dynamic C library
+            ("linux", "musl") => ("linux", "so", &["-Ctarget-feature=-crt-static"]),
+            ("linux", _) => ("linux", "so", &["-Clink-arg=-Wl,--build-id=none"]),
+            // the default install name is the path on the building machine
+            ("macos", _) => (
+                "darwin",
+                "dylib",
+                &["-Clink-arg=-Wl,-install_name,@rpath/bolted_joint.dylib"],
+            ),
+            // no Visual C++ runtime on the user's machine, no time stamp in the file
+            ("windows", "msvc") => (
+                "windows",
+                "dll",
+                &[
+                    "-Ctarget-feature=+crt-static",
+                    "-Clink-arg=/Brepro",
+                    "-Clink-arg=/DEBUG:NONE",
+                ],
+            ),
+            ("windows", _) => ("windows", "dll", &["-Clink-arg=-Wl,--no-insert-timestamp"]),
+            (other, _) => {
+                return Err(format!(
+                    "FMI 3.0 has no name for the operating system {other}"
+                ));
+            }
+        };
+        Ok(Self {
+            folder: format!("{architecture}-{system}"),
+            extension,
+            flags: flags.iter().map(|&flag| flag.to_owned()).collect(),
+        })
+    }
+}
+
+/// The compiler, with the flags that both crates share.
+struct Compiler<'a> {
+    root: &'a Path,
+    out: &'a Path,
+    platform: &'a Platform,
+    program: String,
+    target: String,
+    linker: Option<OsString>,
+}
+
+impl<'a> Compiler<'a> {
+    fn new(root: &'a Path, out: &'a Path, platform: &'a Platform) -> Result<Self, String> {
+        println!("cargo:rerun-if-env-changed=RUSTC_LINKER");
+        Ok(Self {
+            root,
+            out,
+            platform,
+            program: variable("RUSTC")?,
+            target: variable("TARGET")?,
+            linker: env::var_os("RUSTC_LINKER"),
+        })
+    }
+
+    fn dynamics(&self) -> Result<PathBuf, String> {
+        let rlib = self.out.join("libbolted_joint_dynamics.rlib");
+        let mut command = self.command("crates/dynamics/src/lib.rs", &rlib);
+        command.args(["--crate-name=bolted_joint_dynamics", "--crate-type=rlib"]);
+        // code for the optimiser that sees the whole library
+        command.arg("-Cembed-bitcode=yes");
+        run(command)?;
+        Ok(rlib)
+    }
+
+    fn fmu(&self, dynamics: &Path, library: &Path) -> Result<(), String> {
+        let mut command = self.command("crates/fmu/src/lib.rs", library);
+        command.args(["--crate-name=bolted_joint", "--crate-type=cdylib"]);
+        command.args(["-Clto=fat", "-Cstrip=symbols"]);
+        command
+            .arg("--extern")
+            .arg(with_value("bolted_joint_dynamics=", dynamics));
+        command.args(&self.platform.flags);
+        if let Some(linker) = &self.linker {
+            command.arg(with_value("-Clinker=", Path::new(linker)));
+        }
+        run(command)
+    }
+
+    fn command(&self, source: &str, output: &Path) -> Command {
+        let mut command = Command::new(&self.program);
+        // relative to the root, so that no path of this machine is compiled in
+        command
+            .current_dir(self.root)
+            .arg(source)
+            .arg("-o")
+            .arg(output);
+        command.arg(format!("--target={}", self.target));
+        command.args([
+            "--edition=2024",
+            "-Copt-level=3",
+            "-Ccodegen-units=1",
+            "-Cpanic=unwind",
+        ]);
+        command.args(["-Cdebuginfo=0", "-Cdebug-assertions=no", "--cap-lints=warn"]);
+        command.arg(format!("-Cmetadata={}", env!("CARGO_PKG_VERSION")));
+        command.arg(format!("--remap-path-prefix={}=", self.out.display()));
+        command.arg(format!("--remap-path-prefix={}=", self.root.display()));
+        command.env("OUT_DIR", self.out);
+        command
+    }
+}
+
+fn run(mut command: Command) -> Result<(), String> {
+    let output = command
+        .output()
+        .map_err(|error| format!("{command:?} cannot be run: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let messages = String::from_utf8_lossy(&output.stderr);
+    Err(format!(
+        "the FMU library does not build with {command:?}:\n{messages}"
+    ))
+}
+
+fn with_value(option: &str, value: &Path) -> OsString {
+    let mut argument = OsString::from(option);
+    argument.push(value);
+    argument
+}
+
+fn variable(name: &str) -> Result<String, String> {
+    env::var(name)
+        .map_err(|error| format!("environment variable {name}: {error}; build with Cargo"))
+}

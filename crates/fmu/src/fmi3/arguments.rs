@@ -1,0 +1,99 @@
+//! Checked conversion of C arguments.
+
+use std::{ffi::CStr, mem::MaybeUninit, slice};
+
+use crate::{fmi3::Text, refusal::Refusal};
+
+/// The array that a pointer and a length stand for.
+///
+/// # Safety
+///
+/// If `pointer` is not null it points to `length` values that nobody changes for as long as the slice is used.
+#[inline]
+pub(super) unsafe fn array<'a, T>(
+    pointer: *const T,
+    length: usize,
+    argument: &'static str,
+) -> Result<&'a [T], Refusal> {
+    if length == 0 {
+        return Ok(&[]);
+    }
+    check(pointer, length, argument)?;
+    // SAFETY: not null, aligned, not larger than memory; the rest is the caller's promise
+    Ok(unsafe { slice::from_raw_parts(pointer, length) })
+}
+
+/// The array to write to that a pointer and a length stand for.
+///
+/// # Safety
+///
+/// If `pointer` is not null it points to writable memory for `length` values that nobody else uses meanwhile.
+#[inline]
+pub(super) unsafe fn array_mut<'a, T>(
+    pointer: *mut T,
+    length: usize,
+    argument: &'static str,
+) -> Result<&'a mut [MaybeUninit<T>], Refusal> {
+    if length == 0 {
+        return Ok(&mut []);
+    }
+    check(pointer, length, argument)?;
+    // SAFETY: not null, aligned, not larger than memory; the rest is the caller's promise
+    Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), length) })
+}
+
+/// The single value to write to.
+///
+/// # Safety
+///
+/// As for [`array_mut`].
+#[inline]
+pub(super) unsafe fn output<'a, T>(
+    pointer: *mut T,
+    argument: &'static str,
+) -> Result<&'a mut MaybeUninit<T>, Refusal> {
+    check(pointer, 1, argument)?;
+    // SAFETY: not null and aligned; the rest is the caller's promise
+    Ok(unsafe { &mut *pointer.cast() })
+}
+
+/// A string, or `None` for a null pointer.
+///
+/// # Safety
+///
+/// If `text` is not null it points to a terminated string that nobody changes for as long as it is used.
+pub(super) unsafe fn optional_text<'a>(
+    text: Text,
+    argument: &'static str,
+) -> Result<Option<&'a str>, Refusal> {
+    if text.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's promise
+    let text = unsafe { CStr::from_ptr(text) };
+    text.to_str()
+        .map(Some)
+        .map_err(|_| Refusal::NotUtf8 { argument })
+}
+
+/// A string.
+///
+/// # Safety
+///
+/// As for [`optional_text`].
+pub(super) unsafe fn text<'a>(text: Text, argument: &'static str) -> Result<&'a str, Refusal> {
+    // SAFETY: the caller's promise
+    unsafe { optional_text(text, argument) }?.ok_or(Refusal::NullPointer { argument })
+}
+
+#[inline]
+fn check<T>(pointer: *const T, length: usize, argument: &'static str) -> Result<(), Refusal> {
+    if pointer.is_null() {
+        return Err(Refusal::NullPointer { argument });
+    }
+    let bytes = length.checked_mul(size_of::<T>());
+    if !pointer.is_aligned() || bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
+        return Err(Refusal::BadArray { argument });
+    }
+    Ok(())
+}

@@ -1,0 +1,266 @@
+//! The complete state of an instance, and its form in bytes.
+//!
+//! All integers and floats are little endian:
+//!
+//! | bytes | content |
+//! |---|---|
+//! | 8 | `bjstate` and a zero |
+//! | 4 | version of this layout |
+//! | 4 + n | length of the instantiation token, and the token |
+//! | 1 | kind: 0 element, 1 lap |
+//! | 1 | degrees of freedom |
+//! | 1 | state of the state machine |
+//! | 1 + 8 | whether there is a stop time, and the stop time |
+//! | 4 + 8 n | number of value references, and the values |
+//! | 8 | FNV-1a hash of all bytes before |
+
+use std::{fmt, sync::Arc};
+
+use crate::{
+    interface::{Dofs, Kind, REFERENCE_COUNT, Values, Variables},
+    mode::Mode,
+    refusal::Refusal,
+};
+
+const MAGIC: [u8; 8] = *b"bjstate\0";
+const VERSION: u32 = 1;
+
+/// What makes two FMUs the same one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Identity {
+    /// Kind and degrees of freedom.
+    pub(crate) variables: Variables,
+    /// Instantiation token.
+    pub(crate) token: String,
+}
+
+impl fmt::Display for Identity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Variables { kind, dofs } = self.variables;
+        write!(
+            f,
+            "{} with {} DOF a side, token {}",
+            kind.name(),
+            dofs.count(),
+            self.token
+        )
+    }
+}
+
+/// Everything that an instance has to remember to go on from here, bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Snapshot {
+    /// FMU that it belongs to.
+    pub(crate) identity: Arc<Identity>,
+    /// State of the state machine.
+    pub(crate) mode: Mode,
+    /// Stop time, s.
+    pub(crate) stop_s: Option<f64>,
+    /// Values of all variables, time among them.
+    pub(crate) values: Values,
+}
+
+/// Why bytes are no FMU state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Damage {
+    /// They do not begin like one.
+    Magic,
+    /// They have another layout.
+    Version { found: u32 },
+    /// They are too many or too few.
+    Length { found: usize, expected: usize },
+    /// They are not those that were written.
+    Checksum,
+    /// A field has a value that it cannot have.
+    Field { name: &'static str },
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Magic => {
+                f.write_str("the bytes were not written by fmi3SerializeFMUState of this library")
+            }
+            Self::Version { found } => {
+                write!(
+                    f,
+                    "it has layout {found}, this library reads layout {VERSION}"
+                )
+            }
+            Self::Length { found, expected } => {
+                write!(f, "it has {found} bytes, expected {expected}")
+            }
+            Self::Checksum => f.write_str("its checksum is wrong, the bytes were changed"),
+            Self::Field { name } => write!(f, "its {name} is impossible"),
+        }
+    }
+}
+
+impl Snapshot {
+    /// Number of bytes of the serialised state.
+    pub(crate) fn serialized_size(&self) -> usize {
+        MAGIC.len() + 4 + 4 + self.identity.token.len() + 4 + 8 + 4 + 8 * REFERENCE_COUNT + 8
+    }
+
+    /// The state in bytes.
+    pub(crate) fn serialize(&self) -> Vec<u8> {
+        let Identity { variables, token } = &*self.identity;
+        let mut bytes = Vec::with_capacity(self.serialized_size());
+        bytes.extend(MAGIC);
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend((token.len() as u32).to_le_bytes());
+        bytes.extend(token.as_bytes());
+        bytes.push(kind_number(variables.kind));
+        bytes.push(variables.dofs.count());
+        bytes.push(self.mode.number());
+        bytes.push(u8::from(self.stop_s.is_some()));
+        bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
+        bytes.extend((REFERENCE_COUNT as u32).to_le_bytes());
+        for value in self.values {
+            bytes.extend(value.to_le_bytes());
+        }
+        bytes.extend(fnv1a(&bytes).to_le_bytes());
+        bytes
+    }
+
+    /// The state that was serialised, if it is one of the FMU `identity`.
+    pub(crate) fn deserialize(bytes: &[u8], identity: &Arc<Identity>) -> Result<Self, Refusal> {
+        let mut reader = Reader {
+            rest: bytes,
+            total: bytes.len(),
+        };
+        if reader.array::<8>()? != MAGIC {
+            return Err(Damage::Magic.into());
+        }
+        let version = reader.u32()?;
+        if version != VERSION {
+            return Err(Damage::Version { found: version }.into());
+        }
+        let (content, checksum) = bytes.split_last_chunk::<8>().ok_or(Damage::Length {
+            found: bytes.len(),
+            expected: 8,
+        })?;
+        if fnv1a(content) != u64::from_le_bytes(*checksum) {
+            return Err(Damage::Checksum.into());
+        }
+        let length = reader.u32()? as usize;
+        let token = String::from_utf8(reader.take(length)?.to_vec())
+            .map_err(|_| Damage::Field { name: "token" })?;
+        let kind = match reader.u8()? {
+            0 => Kind::Element,
+            1 => Kind::Lap,
+            _ => return Err(Damage::Field { name: "kind" }.into()),
+        };
+        let dofs = match reader.u8()? {
+            1 => Dofs::One,
+            2 => Dofs::Two,
+            _ => {
+                return Err(Damage::Field {
+                    name: "number of degrees of freedom",
+                }
+                .into());
+            }
+        };
+        let found = Identity {
+            variables: Variables { kind, dofs },
+            token,
+        };
+        if found != **identity {
+            return Err(Refusal::OtherFmu {
+                found: found.to_string(),
+                expected: identity.to_string(),
+            });
+        }
+        let mode = Mode::from_number(reader.u8()?).ok_or(Damage::Field { name: "mode" })?;
+        let has_stop = reader.u8()? != 0;
+        let stop_s = reader.f64()?;
+        if reader.u32()? as usize != REFERENCE_COUNT {
+            return Err(Damage::Field {
+                name: "number of variables",
+            }
+            .into());
+        }
+        let mut values = [0.0; REFERENCE_COUNT];
+        for value in &mut values {
+            *value = reader.f64()?;
+        }
+        reader.array::<8>()?;
+        if !reader.rest.is_empty() {
+            let expected = bytes.len() - reader.rest.len();
+            return Err(Damage::Length {
+                found: bytes.len(),
+                expected,
+            }
+            .into());
+        }
+        Ok(Self {
+            identity: Arc::clone(identity),
+            mode,
+            stop_s: has_stop.then_some(stop_s),
+            values,
+        })
+    }
+}
+
+/// Takes fields from the front of the bytes.
+struct Reader<'a> {
+    rest: &'a [u8],
+    total: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, length: usize) -> Result<&'a [u8], Damage> {
+        let (field, rest) = self.rest.split_at_checked(length).ok_or(Damage::Length {
+            found: self.total,
+            expected: (self.total - self.rest.len()).saturating_add(length),
+        })?;
+        self.rest = rest;
+        Ok(field)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
+        let field = self.take(N)?;
+        let mut array = [0; N];
+        array.copy_from_slice(field);
+        Ok(array)
+    }
+
+    fn u8(&mut self) -> Result<u8, Damage> {
+        self.array().map(u8::from_le_bytes)
+    }
+
+    fn u32(&mut self) -> Result<u32, Damage> {
+        self.array().map(u32::from_le_bytes)
+    }
+
+    fn f64(&mut self) -> Result<f64, Damage> {
+        self.array().map(f64::from_le_bytes)
+    }
+}
+
+const fn kind_number(kind: Kind) -> u8 {
+    match kind {
+        Kind::Element => 0,
+        Kind::Lap => 1,
+    }
+}
+
+/// 64-bit FNV-1a hash.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fnv1a;
+
+    #[test]
+    fn the_hash_is_fnv1a() {
+        // published test vectors of the FNV reference code
+        assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}

@@ -1,0 +1,319 @@
+//! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
+
+use std::{mem::MaybeUninit, sync::Arc};
+
+use crate::{
+    fmu_state::{Identity, Snapshot},
+    interface::{REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
+    mode::Mode,
+    models::{self, Model},
+    refusal::{Active, Refusal},
+    start_file::StartFile,
+};
+
+/// Roles whose values are calculated only when somebody asks.
+const CALCULATED: Roles = Roles::of(&[Role::Output]);
+
+/// Parameters, after a change of which the model has to be prepared again.
+const PARAMETERS: Roles = Roles::of(&[Role::Parameter]);
+
+/// One instance of an FMU.
+pub(crate) struct Instance {
+    identity: Arc<Identity>,
+    roles: [Roles; REFERENCE_COUNT],
+    model: Box<dyn Model>,
+    start: Values,
+    values: Values,
+    mode: Mode,
+    stop_s: Option<f64>,
+    parameters_changed: bool,
+    outputs_stale: bool,
+}
+
+impl Instance {
+    /// Instance of the FMU with these start values, if `token` is its token.
+    pub(crate) fn new(file: StartFile, token: &str) -> Result<Self, Refusal> {
+        let StartFile {
+            variables,
+            token: expected,
+            values,
+        } = file;
+        if token != expected {
+            return Err(Refusal::Token {
+                found: token.to_owned(),
+                expected,
+            });
+        }
+        Ok(Self {
+            identity: Arc::new(Identity {
+                variables,
+                token: expected,
+            }),
+            roles: variables.roles(),
+            model: models::model(variables),
+            start: values,
+            values,
+            mode: Mode::Instantiated,
+            stop_s: None,
+            parameters_changed: true,
+            outputs_stale: true,
+        })
+    }
+
+    /// Current time, s.
+    pub(crate) fn time_s(&self) -> f64 {
+        self.values[TIME]
+    }
+
+    /// Starts initialisation at `start_s`, for a simulation until `stop_s` where the importer knows that.
+    pub(crate) fn enter_initialization(
+        &mut self,
+        start_s: f64,
+        stop_s: Option<f64>,
+    ) -> Result<(), Refusal> {
+        self.require(Mode::Instantiated)?;
+        if !start_s.is_finite() {
+            return Err(Refusal::StartTime { found_s: start_s });
+        }
+        if let Some(found_s) = stop_s
+            && !(found_s.is_finite() && found_s >= start_s)
+        {
+            return Err(Refusal::StopTime { start_s, found_s });
+        }
+        self.values[TIME] = start_s;
+        self.stop_s = stop_s;
+        self.mode = Mode::Initialization;
+        Ok(())
+    }
+
+    /// Ends initialisation: the parameters take effect.
+    pub(crate) fn exit_initialization(&mut self) -> Result<Option<Active>, Refusal> {
+        self.require(Mode::Initialization)?;
+        let warning = self.take_parameters_into_use()?;
+        self.mode = Mode::Step;
+        Ok(warning)
+    }
+
+    /// Ends the simulation.
+    pub(crate) fn terminate(&mut self) -> Result<(), Refusal> {
+        self.require(Mode::Step)?;
+        self.mode = Mode::Terminated;
+        Ok(())
+    }
+
+    /// After an error the simulation must not go on, but values stay readable and earlier states can be restored.
+    pub(crate) fn fail(&mut self) {
+        self.mode = Mode::Terminated;
+    }
+
+    /// Back to where the instance was after instantiation.
+    pub(crate) fn reset(&mut self) {
+        self.values = self.start;
+        self.mode = Mode::Instantiated;
+        self.stop_s = None;
+        self.parameters_changed = true;
+        self.outputs_stale = true;
+    }
+
+    /// Reads the variables with these value references; `values` has the same length.
+    #[inline]
+    pub(crate) fn get(
+        &mut self,
+        references: &[u32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Refusal> {
+        for (&reference, value) in references.iter().zip(values) {
+            let (index, roles) = self.known(reference)?;
+            if roles.intersects(CALCULATED) {
+                if self.outputs_stale {
+                    self.model.calculate_outputs(&mut self.values);
+                    self.outputs_stale = false;
+                }
+                if !self.values[index].is_finite() {
+                    return Err(self.overflow(index));
+                }
+            }
+            value.write(self.values[index]);
+        }
+        Ok(())
+    }
+
+    /// Sets the variables with these value references, all or none; `values` has the same length.
+    #[inline]
+    pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
+        let settable = self.mode.settable();
+        for (&reference, &value) in references.iter().zip(values) {
+            let (index, roles) = self.known(reference)?;
+            if !roles.intersects(settable) {
+                return Err(self.not_settable(index));
+            }
+            if !value.is_finite() {
+                return Err(Refusal::ValueNotFinite {
+                    name: self.name(index),
+                    value,
+                });
+            }
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            let (index, roles) = self.known(reference)?;
+            self.values[index] = value;
+            self.parameters_changed |= roles.intersects(PARAMETERS);
+        }
+        self.outputs_stale = true;
+        Ok(())
+    }
+
+    /// Advances from `current_s` by `interval_s`, with the inputs held.
+    #[inline]
+    pub(crate) fn step(
+        &mut self,
+        current_s: f64,
+        interval_s: f64,
+    ) -> Result<Option<Active>, Refusal> {
+        self.require(Mode::Step)?;
+        let end_s = self.end_of_step(current_s, interval_s)?;
+        let warning = if self.parameters_changed {
+            self.take_parameters_into_use()?
+        } else {
+            None
+        };
+        self.model
+            .advance(&mut self.values, current_s, interval_s)?;
+        self.values[TIME] = end_s;
+        self.outputs_stale = true;
+        Ok(warning)
+    }
+
+    /// Everything that this instance has to remember.
+    pub(crate) fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            identity: Arc::clone(&self.identity),
+            mode: self.mode,
+            stop_s: self.stop_s,
+            values: self.values,
+        }
+    }
+
+    /// Goes on from a snapshot of this or another instance of the same FMU.
+    pub(crate) fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
+        if *snapshot.identity != *self.identity {
+            return Err(Refusal::OtherFmu {
+                found: snapshot.identity.to_string(),
+                expected: self.identity.to_string(),
+            });
+        }
+        self.mode = snapshot.mode;
+        self.stop_s = snapshot.stop_s;
+        self.values = snapshot.values;
+        self.parameters_changed = true;
+        self.outputs_stale = true;
+        Ok(())
+    }
+
+    /// The snapshot that these bytes were written from.
+    pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<Snapshot, Refusal> {
+        Snapshot::deserialize(bytes, &self.identity)
+    }
+
+    /// Refuses access to variables under another type than their own.
+    pub(crate) fn refuse_type(
+        &self,
+        references: &[u32],
+        asked: &'static str,
+    ) -> Result<(), Refusal> {
+        match references.first() {
+            None => Ok(()),
+            Some(&reference) => {
+                let (index, _) = self.known(reference)?;
+                Err(Refusal::NotOfType {
+                    name: self.name(index),
+                    asked,
+                })
+            }
+        }
+    }
+
+    fn require(&self, expected: Mode) -> Result<(), Refusal> {
+        if self.mode == expected {
+            Ok(())
+        } else {
+            Err(Refusal::WrongMode {
+                found: self.mode,
+                expected,
+            })
+        }
+    }
+
+    /// Index and role of a value reference that this FMU has.
+    #[inline]
+    fn known(&self, reference: u32) -> Result<(usize, Roles), Refusal> {
+        let index = reference as usize;
+        match self.roles.get(index) {
+            Some(&roles) if roles != Roles::NONE => Ok((index, roles)),
+            _ => Err(Refusal::UnknownReference { reference }),
+        }
+    }
+
+    /// End of the step, if the importer's and the FMU's times agree but for rounding.
+    #[inline]
+    fn end_of_step(&self, current_s: f64, interval_s: f64) -> Result<f64, Refusal> {
+        if !(interval_s.is_finite() && interval_s > 0.0) {
+            return Err(Refusal::StepSize {
+                found_s: interval_s,
+            });
+        }
+        // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
+        let expected_s = self.time_s();
+        let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
+        if !((current_s - expected_s).abs() <= rounding_s) {
+            return Err(Refusal::CommunicationPoint {
+                found_s: current_s,
+                expected_s,
+            });
+        }
+        let end_s = current_s + interval_s;
+        if !(end_s > expected_s && end_s.is_finite()) {
+            return Err(Refusal::StepVanishes {
+                current_s,
+                interval_s,
+            });
+        }
+        if let Some(stop_s) = self.stop_s
+            && end_s - stop_s > 1e-6 * interval_s + 1e-9 * stop_s.abs()
+        {
+            return Err(Refusal::PastStop { end_s, stop_s });
+        }
+        Ok(end_s)
+    }
+
+    #[cold]
+    fn take_parameters_into_use(&mut self) -> Result<Option<Active>, Refusal> {
+        let warning = self.model.prepare(&self.values)?;
+        self.parameters_changed = false;
+        Ok(warning)
+    }
+
+    #[cold]
+    fn overflow(&self, index: usize) -> Refusal {
+        let variable = self.identity.variables.get(index);
+        Refusal::OutputNotFinite {
+            name: self.name(index),
+            unit: variable.map_or("", |variable| variable.unit),
+            time_s: self.time_s(),
+        }
+    }
+
+    #[cold]
+    fn not_settable(&self, index: usize) -> Refusal {
+        let variable = self.identity.variables.get(index);
+        Refusal::NotSettable {
+            name: self.name(index),
+            role: variable.map_or(Role::Output, |variable| variable.role),
+            mode: self.mode,
+        }
+    }
+
+    fn name(&self, index: usize) -> &'static str {
+        self.identity.variables.name(index)
+    }
+}

@@ -1,0 +1,148 @@
+//! Tables of variables, generated from `modelDescription/*.xml`.
+
+include!(concat!(env!("OUT_DIR"), "/interface.rs"));
+
+/// One variable of an FMU.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Variable {
+    /// Structured name.
+    pub(crate) name: &'static str,
+    /// Coherent SI unit.
+    pub(crate) unit: &'static str,
+    /// What it is to the library.
+    pub(crate) role: Role,
+    /// Start value that the FMU has before its start-value file and the importer set others; 0 for what is calculated.
+    pub(crate) start: f64,
+    /// Whether it exists only where the joint rotates.
+    pub(crate) rotational: bool,
+}
+
+/// What a variable is to the library; each role is one bit of a [`Roles`] set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Role {
+    /// Time.
+    Independent = 1,
+    /// Tunable parameter.
+    Parameter = 2,
+    /// Continuous input.
+    Input = 4,
+    /// Continuous state, exposed as an output.
+    State = 8,
+    /// Calculated output.
+    Output = 16,
+}
+
+/// A set of roles; empty for a value reference that the FMU does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Roles(u8);
+
+impl Roles {
+    /// No role at all.
+    pub(crate) const NONE: Self = Self(0);
+
+    /// The set of these roles.
+    pub(crate) const fn of(roles: &[Role]) -> Self {
+        let mut bits = 0;
+        let mut index = 0;
+        while index < roles.len() {
+            bits |= roles[index] as u8;
+            index += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether the sets have a role in common.
+    #[inline]
+    pub(crate) const fn intersects(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+}
+
+/// Values of all variables of an FMU, by value reference.
+pub(crate) type Values = [f64; REFERENCE_COUNT];
+
+/// Which of the two FMUs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// The joint alone: motion in, loads out.
+    Element,
+    /// Two bodies and the joint between them: loads in, motion out.
+    Lap,
+}
+
+impl Kind {
+    /// Name in the start-value file.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Element => "element",
+            Self::Lap => "lap",
+        }
+    }
+}
+
+/// Number of degrees of freedom of the joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dofs {
+    /// Translation y.
+    One,
+    /// Translation y and rotation θ.
+    Two,
+}
+
+impl Dofs {
+    /// The number itself.
+    pub(crate) const fn count(self) -> u8 {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+        }
+    }
+}
+
+/// Variables that one FMU has: a table of its kind, without the rotational ones for a joint that only translates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Variables {
+    /// Which of the two FMUs.
+    pub(crate) kind: Kind,
+    /// Degrees of freedom of its joint.
+    pub(crate) dofs: Dofs,
+}
+
+impl Variables {
+    /// The variable with this value reference, if the FMU has one.
+    pub(crate) fn get(self, reference: usize) -> Option<&'static Variable> {
+        let table = match self.kind {
+            Kind::Element => &ELEMENT,
+            Kind::Lap => &LAP,
+        };
+        table
+            .get(reference)?
+            .as_ref()
+            .filter(|variable| self.dofs == Dofs::Two || !variable.rotational)
+    }
+
+    /// All variables with their value references, in ascending order.
+    pub(crate) fn iter(self) -> impl Iterator<Item = (usize, &'static Variable)> {
+        (0..REFERENCE_COUNT).filter_map(move |reference| Some((reference, self.get(reference)?)))
+    }
+
+    /// Name of the variable with this value reference, for messages.
+    pub(crate) fn name(self, reference: usize) -> &'static str {
+        self.get(reference)
+            .map_or("(no variable)", |variable| variable.name)
+    }
+
+    /// Role of each value reference.
+    pub(crate) fn roles(self) -> [Roles; REFERENCE_COUNT] {
+        std::array::from_fn(|reference| {
+            self.get(reference)
+                .map_or(Roles::NONE, |variable| Roles::of(&[variable.role]))
+        })
+    }
+
+    /// Start values of the model description.
+    pub(crate) fn start(self) -> Values {
+        std::array::from_fn(|reference| self.get(reference).map_or(0.0, |variable| variable.start))
+    }
+}

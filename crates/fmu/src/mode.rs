@@ -1,0 +1,64 @@
+//! The state machine of FMI for Co-Simulation without Event Mode (FMI 3.0, 2.3 and 4.2.1).
+
+use std::fmt;
+
+use crate::interface::{Role, Roles};
+
+/// State of the state machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// After instantiation or reset.
+    Instantiated,
+    /// Between entering and leaving initialisation.
+    Initialization,
+    /// Between communication steps.
+    Step,
+    /// After termination, and after every error: values can still be read.
+    Terminated,
+}
+
+impl Mode {
+    /// Roles of the variables that the importer may set in this mode.
+    #[inline]
+    pub(crate) const fn settable(self) -> Roles {
+        const START: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
+        const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
+        match self {
+            Self::Instantiated | Self::Initialization => START,
+            Self::Step => TUNABLE,
+            Self::Terminated => Roles::NONE,
+        }
+    }
+
+    /// Number in a serialised FMU state.
+    pub(crate) const fn number(self) -> u8 {
+        match self {
+            Self::Instantiated => 0,
+            Self::Initialization => 1,
+            Self::Step => 2,
+            Self::Terminated => 3,
+        }
+    }
+
+    /// Inverse of [`Mode::number`].
+    pub(crate) const fn from_number(number: u8) -> Option<Self> {
+        match number {
+            0 => Some(Self::Instantiated),
+            1 => Some(Self::Initialization),
+            2 => Some(Self::Step),
+            3 => Some(Self::Terminated),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Instantiated => "Instantiated",
+            Self::Initialization => "Initialization Mode",
+            Self::Step => "Step Mode",
+            Self::Terminated => "Terminated",
+        })
+    }
+}

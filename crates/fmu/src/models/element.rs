@@ -1,0 +1,41 @@
+//! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
+
+use crate::{
+    interface::{Values, reference as vr},
+    models::{
+        Model,
+        sides::{A, B, is_active, joint_law, set_joint_load},
+    },
+    refusal::{Active, Refusal},
+};
+
+/// The joint alone, with `D` degrees of freedom.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element<const D: usize>;
+
+impl<const D: usize> Model for Element<D> {
+    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal> {
+        let [joint_stiffness, joint_damping] = is_active::<D>(&joint_law(values));
+        Ok(Active {
+            joint_stiffness,
+            joint_damping,
+            supports: false,
+        }
+        .warning())
+    }
+
+    fn advance(&self, _: &mut Values, _: f64, _: f64) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn calculate_outputs(&self, values: &mut Values) {
+        let law = joint_law::<D>(values);
+        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
+        let on_b = law.load_on_b(&relative);
+        A.set_load(values, &on_b.map(|load| -load));
+        B.set_load(values, &on_b);
+        set_joint_load(values, &on_b);
+        values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
+        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative.velocity);
+    }
+}

@@ -1,0 +1,233 @@
+//! The lap FMU: two supported bodies and the joint between them, loads in, motion out, integrated by RK4.
+
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::{
+    Defect, Lap, LapIntegrator, LapLoads, LapState, STABILITY_LIMIT_REAL, substeps,
+};
+
+use crate::{
+    interface::{Dofs, Kind, Values, Variable, Variables, reference as vr},
+    models::{
+        Model,
+        sides::{A, B, is_active, joint_law, set_joint_load},
+    },
+    refusal::{Active, Refusal},
+};
+
+/// Most Runge–Kutta steps in one communication step: about a minute's work.
+pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
+
+/// Two bodies and the joint between them, with `D` degrees of freedom a side.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LapModel<const D: usize> {
+    /// What the parameters give; `None` before they are first taken into use.
+    prepared: Option<Prepared<D>>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Prepared<const D: usize> {
+    integrator: LapIntegrator<D>,
+    step_size_max_s: f64,
+    /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
+    amplitude: [f64; D],
+}
+
+impl<const D: usize> Model for LapModel<D> {
+    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal> {
+        let step_size_max_s = values[vr::STEP_SIZE_MAX];
+        if !(step_size_max_s.is_finite() && step_size_max_s > 0.0) {
+            return Err(Refusal::StepSizeMax {
+                found_s: step_size_max_s,
+            });
+        }
+        let lap = lap::<D>(values);
+        match lap.defect() {
+            Some(Defect::Inertia { on_a, dof, value }) => {
+                let side = if on_a { A } else { B };
+                let variable = variable(side.inertia[dof]);
+                return Err(Refusal::Inertia {
+                    name: variable.map_or("", |variable| variable.name),
+                    unit: variable.map_or("", |variable| variable.unit),
+                    found: value,
+                });
+            }
+            Some(Defect::NotFinite) => return Err(Refusal::NotUsable),
+            None => {}
+        }
+        let spectrum = lap.spectrum().ok_or(Refusal::NotUsable)?;
+        if !spectrum.is_stable_with(step_size_max_s) {
+            // on the whole left half plane RK4 is stable for |hλ| up to about 2.6; stay clear of that
+            let advised_s = 0.9 * STABILITY_LIMIT_REAL / spectrum.largest_modulus();
+            return Err(Refusal::UnstableStep {
+                step_s: step_size_max_s,
+                advised_s,
+            });
+        }
+        self.prepared = Some(Prepared {
+            integrator: LapIntegrator::new(&lap),
+            step_size_max_s,
+            amplitude: lap
+                .escape_amplitude()
+                .map(|limit| limit.unwrap_or(f64::MAX)),
+        });
+        let [joint_stiffness, joint_damping] = is_active(&lap.joint);
+        let supports = [&lap.a, &lap.b]
+            .iter()
+            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
+            .any(|&coefficient| coefficient < 0.0);
+        Ok(Active {
+            joint_stiffness,
+            joint_damping,
+            supports,
+        }
+        .warning())
+    }
+
+    fn advance(&self, values: &mut Values, time_s: f64, interval_s: f64) -> Result<(), Refusal> {
+        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
+        let step_size_max_s = prepared.step_size_max_s;
+        // n = ⌈H/h_max⌉
+        let count = substeps(interval_s, step_size_max_s)
+            .filter(|count| count.get() <= SUBSTEPS_MAX)
+            .ok_or(Refusal::TooManySubsteps {
+                interval_s,
+                step_size_max_s,
+            })?;
+        let start = state::<D>(values);
+        let loads = LapLoads {
+            a: A.load(values),
+            b: B.load(values),
+        };
+        let end = prepared
+            .integrator
+            .advance(&start, &loads, interval_s, count);
+        if !prepared.holds(&end) {
+            return Err(prepared.explain(
+                &start,
+                &loads,
+                Step {
+                    time_s,
+                    interval_s,
+                    count,
+                },
+            ));
+        }
+        A.set_motion(values, &end.a);
+        B.set_motion(values, &end.b);
+        Ok(())
+    }
+
+    fn calculate_outputs(&self, values: &mut Values) {
+        let lap = lap::<D>(values);
+        let state = state::<D>(values);
+        let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
+        set_joint_load(values, &on_b);
+        values[vr::ENERGY_STORED] = lap.stored_energy(&state);
+        values[vr::POWER_DISSIPATED] = lap.dissipated_power(&state);
+    }
+}
+
+/// One communication step.
+#[derive(Clone, Copy)]
+struct Step {
+    time_s: f64,
+    interval_s: f64,
+    count: NonZeroU32,
+}
+
+impl<const D: usize> Prepared<D> {
+    /// Whether the state is finite and the joint holds.
+    #[inline]
+    fn holds(&self, state: &LapState<D>) -> bool {
+        let relative = state.a.relative_to(&state.b);
+        let mut sum = 0.0;
+        let mut holds = true;
+        for dof in 0..D {
+            sum += state.a.displacement[dof].abs() + state.b.displacement[dof].abs();
+            sum += state.a.velocity[dof].abs() + state.b.velocity[dof].abs();
+            // a comparison with NaN is false
+            holds &= relative.displacement[dof].abs() <= self.amplitude[dof];
+        }
+        holds && sum <= f64::MAX
+    }
+
+    /// Goes through a failed step again, one Runge–Kutta step at a time, to say what failed first, and when.
+    #[cold]
+    fn explain(&self, start: &LapState<D>, loads: &LapLoads<D>, step: Step) -> Refusal {
+        let count = step.count.get();
+        let length_s = step.interval_s / f64::from(count);
+        let mut state = *start;
+        let mut time_s = step.time_s;
+        for index in 1..=count {
+            state = self
+                .integrator
+                .advance(&state, loads, length_s, NonZeroU32::MIN);
+            time_s = step.time_s + length_s * f64::from(index);
+            if !self.holds(&state) {
+                break;
+            }
+        }
+        self.fault(&state, time_s)
+    }
+
+    fn fault(&self, state: &LapState<D>, time_s: f64) -> Refusal {
+        for (side, motion) in [(A, &state.a), (B, &state.b)] {
+            let numbers = motion.displacement.iter().chain(&motion.velocity);
+            for (reference, number) in side.motion_references::<D>().zip(numbers) {
+                if !number.is_finite() {
+                    return Refusal::StateNotFinite {
+                        name: name(reference),
+                        time_s,
+                    };
+                }
+            }
+        }
+        let relative = state.a.relative_to(&state.b);
+        for dof in 0..D {
+            if relative.displacement[dof].abs() > self.amplitude[dof] {
+                return Refusal::Escape {
+                    a: name(A.displacement[dof]),
+                    b: name(B.displacement[dof]),
+                    unit: variable(A.displacement[dof]).map_or("", |variable| variable.unit),
+                    relative: relative.displacement[dof],
+                    amplitude: self.amplitude[dof],
+                    time_s,
+                };
+            }
+        }
+        // only a sum overflowed, or rounding hid the fault from the single steps
+        Refusal::StateNotFinite {
+            name: name(A.displacement[0]),
+            time_s,
+        }
+    }
+}
+
+fn lap<const D: usize>(values: &Values) -> Lap<D> {
+    Lap {
+        joint: joint_law(values),
+        a: A.body(values),
+        b: B.body(values),
+    }
+}
+
+#[inline]
+fn state<const D: usize>(values: &Values) -> LapState<D> {
+    LapState {
+        a: A.motion(values),
+        b: B.motion(values),
+    }
+}
+
+fn variable(reference: usize) -> Option<&'static Variable> {
+    Variables {
+        kind: Kind::Lap,
+        dofs: Dofs::Two,
+    }
+    .get(reference)
+}
+
+fn name(reference: usize) -> &'static str {
+    variable(reference).map_or("", |variable| variable.name)
+}

@@ -1,0 +1,36 @@
+//! What the FMUs simulate, behind one interface: each model reads and writes the variables by value reference.
+
+mod element;
+mod lap;
+mod sides;
+
+pub(crate) use lap::SUBSTEPS_MAX;
+
+use crate::{
+    interface::{Dofs, Kind, Values, Variables},
+    refusal::{Active, Refusal},
+};
+
+/// A model behind the FMI functions.
+///
+/// Parameters, inputs and states live in the table of values. A model keeps only what it derives from the parameters.
+pub(crate) trait Model: Send {
+    /// Takes the parameters in `values` into use.
+    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal>;
+
+    /// Advances the states from `time_s` by `interval_s`, with the inputs held; on refusal `values` are untouched.
+    fn advance(&self, values: &mut Values, time_s: f64, interval_s: f64) -> Result<(), Refusal>;
+
+    /// Calculates the outputs from parameters, inputs and states.
+    fn calculate_outputs(&self, values: &mut Values);
+}
+
+/// The model of an FMU.
+pub(crate) fn model(variables: Variables) -> Box<dyn Model> {
+    match (variables.kind, variables.dofs) {
+        (Kind::Element, Dofs::One) => Box::new(element::Element::<1>),
+        (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>),
+        (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
+        (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+    }
+}

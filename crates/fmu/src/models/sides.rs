@@ -1,0 +1,119 @@
+//! Where the two sides of the joint, and its law, are among the variables.
+
+use bolted_joint_dynamics::{Body, JointLaw, Motion, is_positive_semidefinite};
+
+use crate::interface::{Values, reference as vr};
+
+/// Value references of one side, translation first, then rotation.
+pub(super) struct Side {
+    pub(super) displacement: [usize; 2],
+    velocity: [usize; 2],
+    load: [usize; 2],
+    pub(super) inertia: [usize; 2],
+    stiffness: [usize; 2],
+    damping: [usize; 2],
+}
+
+/// Side a.
+pub(super) const A: Side = Side {
+    displacement: [vr::A_Y, vr::A_THETA],
+    velocity: [vr::A_V, vr::A_OMEGA],
+    load: [vr::A_FORCE, vr::A_MOMENT],
+    inertia: [vr::A_MASS, vr::A_MOMENT_OF_INERTIA],
+    stiffness: [vr::A_K_Y, vr::A_K_THETA],
+    damping: [vr::A_C_Y, vr::A_C_THETA],
+};
+
+/// Side b.
+pub(super) const B: Side = Side {
+    displacement: [vr::B_Y, vr::B_THETA],
+    velocity: [vr::B_V, vr::B_OMEGA],
+    load: [vr::B_FORCE, vr::B_MOMENT],
+    inertia: [vr::B_MASS, vr::B_MOMENT_OF_INERTIA],
+    stiffness: [vr::B_K_Y, vr::B_K_THETA],
+    damping: [vr::B_C_Y, vr::B_C_THETA],
+};
+
+impl Side {
+    /// Value references of displacement and velocity.
+    pub(super) fn motion_references<const D: usize>(&self) -> impl Iterator<Item = usize> {
+        self.displacement
+            .into_iter()
+            .take(D)
+            .chain(self.velocity.into_iter().take(D))
+    }
+
+    #[inline]
+    pub(super) fn motion<const D: usize>(&self, values: &Values) -> Motion<D> {
+        Motion {
+            displacement: gather(values, &self.displacement),
+            velocity: gather(values, &self.velocity),
+        }
+    }
+
+    #[inline]
+    pub(super) fn set_motion<const D: usize>(&self, values: &mut Values, motion: &Motion<D>) {
+        scatter(values, &self.displacement, &motion.displacement);
+        scatter(values, &self.velocity, &motion.velocity);
+    }
+
+    #[inline]
+    pub(super) fn load<const D: usize>(&self, values: &Values) -> [f64; D] {
+        gather(values, &self.load)
+    }
+
+    #[inline]
+    pub(super) fn set_load<const D: usize>(&self, values: &mut Values, load: &[f64; D]) {
+        scatter(values, &self.load, load);
+    }
+
+    pub(super) fn body<const D: usize>(&self, values: &Values) -> Body<D> {
+        Body {
+            inertia: gather(values, &self.inertia),
+            stiffness: gather(values, &self.stiffness),
+            damping: gather(values, &self.damping),
+        }
+    }
+}
+
+/// Law of the joint.
+#[inline]
+pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
+    const STIFFNESS: [[usize; 2]; 2] = [
+        [vr::JOINT_K_YY, vr::JOINT_K_YTHETA],
+        [vr::JOINT_K_YTHETA, vr::JOINT_K_THETATHETA],
+    ];
+    const DAMPING: [[usize; 2]; 2] = [
+        [vr::JOINT_C_YY, vr::JOINT_C_YTHETA],
+        [vr::JOINT_C_YTHETA, vr::JOINT_C_THETATHETA],
+    ];
+    const CUBIC: [usize; 2] = [vr::JOINT_K3_Y, vr::JOINT_K3_THETA];
+    JointLaw {
+        stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
+        damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
+        cubic: gather(values, &CUBIC),
+    }
+}
+
+/// Whether the joint's stiffness and damping can feed energy.
+pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
+    [&law.stiffness, &law.damping].map(|matrix| !is_positive_semidefinite(matrix))
+}
+
+/// Writes the load on side b to the outputs `joint.F` and `joint.M`.
+#[inline]
+pub(super) fn set_joint_load<const D: usize>(values: &mut Values, load_on_b: &[f64; D]) {
+    scatter(values, &[vr::JOINT_FORCE, vr::JOINT_MOMENT], load_on_b);
+}
+
+#[inline]
+fn gather<const D: usize>(values: &Values, references: &[usize; 2]) -> [f64; D] {
+    std::array::from_fn(|dof| values[references[dof]])
+}
+
+#[inline]
+fn scatter<const D: usize>(values: &mut Values, references: &[usize; 2], from: &[f64; D]) {
+    for dof in 0..D {
+        values[references[dof]] = from[dof];
+    }
+}

@@ -1,0 +1,294 @@
+//! Why a call is refused or answered with a warning: what was found, what was expected, what to do.
+
+use std::fmt;
+
+use crate::{
+    fmu_state::Damage, interface::Role, mode::Mode, models::SUBSTEPS_MAX, resources::ResourceError,
+    start_file::StartFileError,
+};
+
+/// Reason for an error status. The state machine goes to Terminated, as FMI 3.0, 2.3.1 asks; values stay as they were.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Refusal {
+    /// The call is not allowed in this mode.
+    WrongMode { found: Mode, expected: Mode },
+    /// No variable has this value reference.
+    UnknownReference { reference: u32 },
+    /// The variable exists, but not in this type.
+    NotOfType {
+        name: &'static str,
+        asked: &'static str,
+    },
+    /// The variable must not be set, or not in this mode.
+    NotSettable {
+        name: &'static str,
+        role: Role,
+        mode: Mode,
+    },
+    /// A value to set is NaN or infinite.
+    ValueNotFinite { name: &'static str, value: f64 },
+    /// A calculated output is NaN or infinite.
+    OutputNotFinite {
+        name: &'static str,
+        unit: &'static str,
+        time_s: f64,
+    },
+    /// A pointer argument is null.
+    NullPointer { argument: &'static str },
+    /// A pointer argument is not aligned, or the array behind it cannot exist.
+    BadArray { argument: &'static str },
+    /// A string argument is not UTF-8.
+    NotUtf8 { argument: &'static str },
+    /// A string argument is empty.
+    Empty { argument: &'static str },
+    /// Arrays that belong together differ in length.
+    Count {
+        argument: &'static str,
+        found: usize,
+        expected: usize,
+    },
+    /// The memory for a serialised FMU state has the wrong size, in bytes.
+    Size { found: usize, expected: usize },
+    /// The start time is NaN or infinite.
+    StartTime { found_s: f64 },
+    /// The stop time is not a number after the start time.
+    StopTime { start_s: f64, found_s: f64 },
+    /// The communication step is not positive and finite.
+    StepSize { found_s: f64 },
+    /// The communication step is too small to change the time.
+    StepVanishes { current_s: f64, interval_s: f64 },
+    /// The importer's time is not the FMU's.
+    CommunicationPoint { found_s: f64, expected_s: f64 },
+    /// The step would pass the stop time.
+    PastStop { end_s: f64, stop_s: f64 },
+    /// The communication step needs more Runge–Kutta steps than anyone can wait for.
+    TooManySubsteps {
+        interval_s: f64,
+        step_size_max_s: f64,
+    },
+    /// An inertia is not positive.
+    Inertia {
+        name: &'static str,
+        unit: &'static str,
+        found: f64,
+    },
+    /// A parameter that the dynamics cannot use.
+    NotUsable,
+    /// The longest Runge–Kutta step is not positive.
+    StepSizeMax { found_s: f64 },
+    /// Runge–Kutta steps of this length would diverge.
+    UnstableStep { step_s: f64, advised_s: f64 },
+    /// The relative displacement is past the point where a softening joint holds.
+    Escape {
+        a: &'static str,
+        b: &'static str,
+        unit: &'static str,
+        relative: f64,
+        amplitude: f64,
+        time_s: f64,
+    },
+    /// A state is NaN or infinite.
+    StateNotFinite { name: &'static str, time_s: f64 },
+    /// A log category that the model description does not define.
+    UnknownCategory { found: String },
+    /// An FMU state that this library did not make.
+    ForeignState,
+    /// An FMU state of another FMU.
+    OtherFmu { found: String, expected: String },
+    /// Serialised bytes that are no FMU state.
+    Damaged(Damage),
+    /// The importer's token is not that of the FMU's resources.
+    Token { found: String, expected: String },
+    /// A function or an option that this FMU does not offer.
+    NotProvided { reason: &'static str },
+    /// The FMU's resources cannot be found.
+    Resource(ResourceError),
+    /// The start-value file cannot be used.
+    StartFile(StartFileError),
+    /// A defect of the library itself.
+    Internal,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WrongMode { found, expected } => write!(
+                f,
+                "is not allowed in state {found}, only in {expected}{}",
+                if *found == Mode::Terminated {
+                    "; call fmi3Reset or fmi3SetFMUState to continue"
+                } else {
+                    ""
+                }
+            ),
+            Self::UnknownReference { reference } => write!(
+                f,
+                "value reference {reference} does not exist; take it from modelDescription.xml"
+            ),
+            Self::NotOfType { name, asked } => write!(
+                f,
+                "variable {name} is of type Float64, not {asked}; use the Float64 function"
+            ),
+            Self::NotSettable { name, role, mode } => {
+                let kind = match role {
+                    Role::Independent => "the independent variable",
+                    Role::Parameter => "a parameter",
+                    Role::Input => "an input",
+                    Role::State => "a state",
+                    Role::Output => "a calculated output",
+                };
+                write!(f, "variable {name} is {kind} and cannot be set in state {mode}")
+            }
+            Self::ValueNotFinite { name, value } => {
+                write!(f, "variable {name} cannot be set to {value}; expected a finite number")
+            }
+            Self::OutputNotFinite { name, unit, time_s } => write!(
+                f,
+                "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
+            ),
+            Self::NullPointer { argument } => write!(f, "argument {argument} is a null pointer"),
+            Self::BadArray { argument } => {
+                write!(f, "argument {argument} does not point to an array of that type and length")
+            }
+            Self::NotUtf8 { argument } => write!(f, "argument {argument} is not UTF-8"),
+            Self::Empty { argument } => write!(f, "argument {argument} is an empty string"),
+            Self::Count { argument, found, expected } => write!(
+                f,
+                "argument {argument} is {found}, expected {expected}: every variable is a scalar"
+            ),
+            Self::Size { found, expected } => write!(
+                f,
+                "argument size is {found}, expected the {expected} of fmi3SerializedFMUStateSize"
+            ),
+            Self::StartTime { found_s } => write!(f, "startTime is {found_s}, expected a finite number"),
+            Self::StopTime { start_s, found_s } => write!(
+                f,
+                "stopTime is {found_s}, expected a finite number not before startTime = {start_s} s"
+            ),
+            Self::StepSize { found_s } => write!(
+                f,
+                "communicationStepSize is {found_s}, expected a finite number greater than zero"
+            ),
+            Self::StepVanishes { current_s, interval_s } => write!(
+                f,
+                "communicationStepSize = {interval_s} s is lost to rounding at t = {current_s} s; take a longer step"
+            ),
+            Self::CommunicationPoint { found_s, expected_s } => write!(
+                f,
+                "currentCommunicationPoint is {found_s} s, but the FMU is at t = {expected_s} s"
+            ),
+            Self::PastStop { end_s, stop_s } => write!(
+                f,
+                "the step would end at t = {end_s} s, after stopTime = {stop_s} s"
+            ),
+            Self::TooManySubsteps { interval_s, step_size_max_s } => write!(
+                f,
+                "a communication step of {interval_s} s with step_size_max = {step_size_max_s} s takes more than \
+                 {SUBSTEPS_MAX} Runge-Kutta steps; shorten the one or raise the other"
+            ),
+            Self::Inertia { name, unit, found } => write!(
+                f,
+                "parameter {name} is {found} {unit}, expected a number greater than zero"
+            ),
+            Self::NotUsable => f.write_str(
+                "the parameters give no equations of motion that can be integrated; bring their magnitudes closer together",
+            ),
+            Self::StepSizeMax { found_s } => write!(
+                f,
+                "parameter step_size_max is {found_s} s, expected a number greater than zero"
+            ),
+            Self::UnstableStep { step_s, advised_s } => write!(
+                f,
+                "Runge-Kutta steps of step_size_max = {step_s} s diverge with these parameters; set step_size_max to \
+                 {advised_s:e} s or less"
+            ),
+            Self::Escape { a, b, unit, relative, amplitude, time_s } => write!(
+                f,
+                "{a} - {b} = {relative:e} {unit} at t = {time_s} s is past {amplitude:e} {unit}, where the softening \
+                 joint no longer holds and the motion diverges; reduce the load or check the cubic stiffness"
+            ),
+            Self::StateNotFinite { name, time_s } => write!(
+                f,
+                "state {name} is no finite number at t = {time_s} s: the motion diverges; check loads, parameters and \
+                 step_size_max"
+            ),
+            Self::UnknownCategory { found } => write!(
+                f,
+                "log category \"{found}\" does not exist; take it from <LogCategories> in modelDescription.xml"
+            ),
+            Self::ForeignState => f.write_str("argument FMUState was not made by this library, or is already freed"),
+            Self::OtherFmu { found, expected } => write!(
+                f,
+                "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
+            ),
+            Self::Damaged(damage) => write!(f, "the serialised FMU state cannot be used: {damage}"),
+            Self::Token { found, expected } => write!(
+                f,
+                "instantiationToken is \"{found}\", but the FMU's resources have \"{expected}\"; \
+                 pass the token of the same FMU's modelDescription.xml"
+            ),
+            Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),
+            Self::Resource(error) => error.fmt(f),
+            Self::StartFile(error) => error.fmt(f),
+            Self::Internal => f.write_str("failed by a defect in the FMU's library; please report it"),
+        }
+    }
+}
+
+impl From<StartFileError> for Refusal {
+    fn from(error: StartFileError) -> Self {
+        Self::StartFile(error)
+    }
+}
+
+impl From<ResourceError> for Refusal {
+    fn from(error: ResourceError) -> Self {
+        Self::Resource(error)
+    }
+}
+
+impl From<Damage> for Refusal {
+    fn from(damage: Damage) -> Self {
+        Self::Damaged(damage)
+    }
+}
+
+/// Reason for a warning status: the call did its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Active {
+    /// The joint's stiffness matrix is not positive semidefinite.
+    pub(crate) joint_stiffness: bool,
+    /// The joint's damping matrix is not positive semidefinite.
+    pub(crate) joint_damping: bool,
+    /// A support has negative stiffness or damping.
+    pub(crate) supports: bool,
+}
+
+impl Active {
+    /// The warning, if there is anything to warn of.
+    pub(crate) fn warning(self) -> Option<Self> {
+        (self.joint_stiffness || self.joint_damping || self.supports).then_some(self)
+    }
+}
+
+impl fmt::Display for Active {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [
+            (
+                self.joint_stiffness,
+                "the joint's stiffness matrix is not positive semidefinite",
+            ),
+            (
+                self.joint_damping,
+                "the joint's damping matrix is not positive semidefinite",
+            ),
+            (self.supports, "a support has negative stiffness or damping"),
+        ];
+        let mut separator = "";
+        for (_, part) in parts.iter().filter(|(present, _)| *present) {
+            write!(f, "{separator}{part}")?;
+            separator = ", ";
+        }
+        f.write_str(": the model is active and can feed energy into the simulation")
+    }
+}

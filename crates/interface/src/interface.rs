@@ -1,0 +1,246 @@
+//! The interface of one FMU, read from its model description, and that of both.
+
+use std::{fs, path::Path};
+
+use fmi_schema::{
+    fmi3::{Float64Type, Fmi3ModelDescription, TypeDefinition, Variable as Declared},
+    traits::FmiModelDescription,
+};
+
+use crate::{
+    agreement,
+    error::{InterfaceError, Problem},
+    structure, units,
+    variable::{Role, Variable},
+};
+
+/// Interface of one FMU, checked.
+#[derive(Debug)]
+pub struct Interface {
+    /// File that it was read from, such as `lap.xml`.
+    pub file: String,
+    /// Name of the library, without its extension.
+    pub model_identifier: String,
+    /// Variables in the order of their value references.
+    pub variables: Vec<Variable>,
+    /// Names of the log categories, in the order of the file.
+    pub log_categories: Vec<String>,
+    pub(crate) description: Fmi3ModelDescription,
+}
+
+impl Interface {
+    /// Reads and checks one model description.
+    ///
+    /// # Errors
+    ///
+    /// [`InterfaceError::Malformed`] if `xml` is no FMI 3.0 model description, [`InterfaceError::Inconsistent`] with
+    /// the first [`Problem`] found in it.
+    pub fn from_xml(file: &str, xml: &str) -> Result<Self, InterfaceError> {
+        let description =
+            Fmi3ModelDescription::deserialize(xml).map_err(|source| InterfaceError::Malformed {
+                file: file.to_owned(),
+                source,
+            })?;
+        Self::checked(file, description).map_err(|problem| InterfaceError::Inconsistent {
+            file: file.to_owned(),
+            problem,
+        })
+    }
+
+    /// Variable of this name.
+    #[must_use]
+    pub fn variable(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().find(|variable| variable.name == name)
+    }
+
+    fn checked(file: &str, description: Fmi3ModelDescription) -> Result<Self, Problem> {
+        let model_identifier = check_header(&description)?;
+        units::check_units(&description)?;
+        let types = float64_types(&description);
+        units::check_types(&types, &description)?;
+        let log_categories = log_categories(&description)?;
+        let mut variables = description
+            .model_variables
+            .variables
+            .iter()
+            .map(|declared| match declared {
+                Declared::Float64(declared) => Variable::new(declared, &types),
+                other => Err(Problem::NotFloat64 {
+                    variable: name_of(other),
+                }),
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        check_uniqueness(&variables)?;
+        check_independent(&variables)?;
+        variables.sort_by_key(|variable| variable.reference);
+        units::check_derivatives(&variables, &description)?;
+        structure::check(&description.model_structure, &variables)?;
+        Ok(Self {
+            file: file.to_owned(),
+            model_identifier,
+            variables,
+            log_categories,
+            description,
+        })
+    }
+}
+
+/// Interfaces of both FMUs, checked against each other.
+#[derive(Debug)]
+pub struct Interfaces {
+    /// The joint alone, `element.xml`.
+    pub element: Interface,
+    /// Two bodies and the joint between them, `lap.xml`.
+    pub lap: Interface,
+}
+
+impl Interfaces {
+    /// Files that [`Interfaces::read`] reads.
+    pub const FILES: [&str; 2] = ["element.xml", "lap.xml"];
+
+    /// Reads both model descriptions from `folder` and checks them.
+    ///
+    /// # Errors
+    ///
+    /// [`InterfaceError`] for the first file that cannot be read or is inconsistent, or where the two disagree.
+    pub fn read(folder: &Path) -> Result<Self, InterfaceError> {
+        let [element, lap] = Self::FILES.map(|file| {
+            let path = folder.join(file);
+            let xml = fs::read_to_string(&path).map_err(|source| InterfaceError::Unreadable {
+                path: path.display().to_string(),
+                source,
+            })?;
+            Interface::from_xml(file, &xml)
+        });
+        Self::new(element?, lap?)
+    }
+
+    /// Checks that two interfaces agree in all that they share.
+    ///
+    /// # Errors
+    ///
+    /// [`InterfaceError::Inconsistent`], naming the file of `lap`.
+    pub fn new(element: Interface, lap: Interface) -> Result<Self, InterfaceError> {
+        agreement::check(&lap, &element).map_err(|problem| InterfaceError::Inconsistent {
+            file: lap.file.clone(),
+            problem,
+        })?;
+        Ok(Self { element, lap })
+    }
+
+    /// Number of value references: one more than the largest.
+    #[must_use]
+    pub fn reference_count(&self) -> usize {
+        [&self.element, &self.lap]
+            .iter()
+            .flat_map(|interface| &interface.variables)
+            .map(|variable| variable.reference as usize + 1)
+            .max()
+            .unwrap_or(0)
+    }
+}
+
+fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {
+    if description.fmi_version != "3.0" {
+        return Err(Problem::Version {
+            found: description.fmi_version.clone(),
+        });
+    }
+    let identifier = description
+        .co_simulation
+        .as_ref()
+        .map(|co_simulation| co_simulation.model_identifier.clone())
+        .ok_or(Problem::NoCoSimulation)?;
+    let is_c_identifier = identifier.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && identifier
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if is_c_identifier {
+        Ok(identifier)
+    } else {
+        Err(Problem::ModelIdentifier { found: identifier })
+    }
+}
+
+pub(crate) fn float64_types(description: &Fmi3ModelDescription) -> Vec<&Float64Type> {
+    description
+        .type_definitions
+        .iter()
+        .flat_map(|types| &types.type_definitions)
+        .filter_map(|definition| match definition {
+            TypeDefinition::Float64(float64) => Some(float64),
+            _ => None,
+        })
+        .collect()
+}
+
+fn log_categories(description: &Fmi3ModelDescription) -> Result<Vec<String>, Problem> {
+    let mut names: Vec<String> = Vec::new();
+    for category in description
+        .log_categories
+        .iter()
+        .flat_map(|list| &list.categories)
+    {
+        if names.contains(&category.name) {
+            return Err(Problem::DuplicateDefinition {
+                list: "<LogCategories>",
+                name: category.name.clone(),
+            });
+        }
+        names.push(category.name.clone());
+    }
+    Ok(names)
+}
+
+fn name_of(declared: &Declared) -> String {
+    use fmi_schema::fmi3::AbstractVariableTrait as _;
+    match declared {
+        Declared::Int8(variable) => variable.name(),
+        Declared::UInt8(variable) => variable.name(),
+        Declared::Int16(variable) => variable.name(),
+        Declared::UInt16(variable) => variable.name(),
+        Declared::Int32(variable) => variable.name(),
+        Declared::UInt32(variable) => variable.name(),
+        Declared::Int64(variable) => variable.name(),
+        Declared::UInt64(variable) => variable.name(),
+        Declared::Float32(variable) => variable.name(),
+        Declared::Float64(variable) => variable.name(),
+        Declared::Boolean(variable) => variable.name(),
+        Declared::String(variable) => variable.name(),
+        Declared::Binary(variable) => variable.name(),
+        Declared::Clock(variable) => variable.name(),
+    }
+    .to_owned()
+}
+
+fn check_uniqueness(variables: &[Variable]) -> Result<(), Problem> {
+    for (index, second) in variables.iter().enumerate() {
+        for first in &variables[..index] {
+            if first.name == second.name {
+                return Err(Problem::DuplicateName {
+                    variable: second.name.clone(),
+                });
+            }
+            if first.reference == second.reference {
+                return Err(Problem::DuplicateReference {
+                    reference: second.reference,
+                    first: first.name.clone(),
+                    second: second.name.clone(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_independent(variables: &[Variable]) -> Result<(), Problem> {
+    let found: Vec<(String, u32)> = variables
+        .iter()
+        .filter(|variable| variable.role == Role::Independent)
+        .map(|variable| (variable.name.clone(), variable.reference))
+        .collect();
+    match found.as_slice() {
+        [(name, 0)] if name == "time" => Ok(()),
+        _ => Err(Problem::Independent { found }),
+    }
+}

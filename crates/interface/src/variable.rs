@@ -1,0 +1,205 @@
+//! One declared variable, with what its type and unit say about it.
+
+use fmi_schema::fmi3::{Causality, Float64Type, FmiFloat64, Initial, Variability};
+
+use crate::{
+    combination::{effective_initial, is_allowed},
+    error::Problem,
+    rotation::requires_rotation,
+};
+
+/// What a variable is to the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Time.
+    Independent,
+    /// Tunable parameter.
+    Parameter,
+    /// Continuous input.
+    Input,
+    /// Output whose initial value is known exactly: a continuous state that is exposed.
+    State,
+    /// Output that is calculated.
+    Output,
+}
+
+/// A variable of an FMU, checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Structured name, such as `joint.k_yy`.
+    pub name: String,
+    /// Value reference.
+    pub reference: u32,
+    /// What it is to the library.
+    pub role: Role,
+    /// Start value in `unit`; `None` for what is calculated.
+    pub start: Option<f64>,
+    /// Coherent SI unit.
+    pub unit: String,
+    /// Typical magnitude in `unit`, 1 where the type gives none.
+    pub nominal: f64,
+    /// Value reference of the variable that this one is the time derivative of.
+    pub derivative_of: Option<u32>,
+    /// One line for people.
+    pub description: String,
+}
+
+impl Variable {
+    /// Whether the variable is absent from the FMU of a joint that only translates.
+    #[must_use]
+    pub fn requires_rotation(&self) -> bool {
+        requires_rotation(&self.name)
+    }
+
+    /// Checks one `<Float64>` on its own, against its type.
+    pub(crate) fn new(declared: &FmiFloat64, types: &[&Float64Type]) -> Result<Self, Problem> {
+        let variable = || declared.name.clone();
+        if !is_structured(&declared.name) {
+            return Err(Problem::IllegalName {
+                variable: variable(),
+            });
+        }
+        if !declared.dimensions.is_empty() {
+            return Err(Problem::NotScalar {
+                variable: variable(),
+            });
+        }
+        let description = declared
+            .description
+            .clone()
+            .filter(|text| !text.trim().is_empty())
+            .ok_or_else(|| Problem::NoDescription {
+                variable: variable(),
+            })?;
+        let type_name = declared
+            .declared_type
+            .as_deref()
+            .ok_or_else(|| Problem::NoType {
+                variable: variable(),
+            })?;
+        let declared_type = types
+            .iter()
+            .find(|candidate| candidate.name == type_name)
+            .ok_or_else(|| Problem::UndefinedType {
+                variable: variable(),
+                declared_type: type_name.to_owned(),
+            })?;
+        let role = role(declared)?;
+        let start = start(declared, declared_type, role)?;
+        Ok(Self {
+            name: variable(),
+            reference: declared.value_reference,
+            role,
+            start,
+            unit: declared_type.unit.clone().unwrap_or_default(),
+            nominal: declared_type.nominal.unwrap_or(1.0),
+            derivative_of: declared.derivative,
+            description,
+        })
+    }
+}
+
+/// Whether the name is `word(.word)*`, the part of FMI's structured naming convention that this project uses.
+fn is_structured(name: &str) -> bool {
+    name.split('.').all(|word| {
+        word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            && word.starts_with(|c: char| !c.is_ascii_digit())
+    })
+}
+
+fn role(declared: &FmiFloat64) -> Result<Role, Problem> {
+    let causality = declared.causality.unwrap_or_default();
+    let variability = declared
+        .variability
+        .unwrap_or(default_variability(causality));
+    if !is_allowed(causality, variability) {
+        return Err(Problem::Combination {
+            variable: declared.name.clone(),
+            causality,
+            variability,
+        });
+    }
+    let initial =
+        effective_initial(causality, variability, declared.initial).map_err(|initial| {
+            Problem::ForbiddenInitial {
+                variable: declared.name.clone(),
+                initial,
+                causality,
+                variability,
+            }
+        })?;
+    match (causality, variability, initial) {
+        (Causality::Independent, ..) => Ok(Role::Independent),
+        (Causality::Parameter, Variability::Tunable, _) => Ok(Role::Parameter),
+        (Causality::Input, Variability::Continuous, _) => Ok(Role::Input),
+        (Causality::Output, Variability::Continuous, Some(Initial::Exact)) => Ok(Role::State),
+        (Causality::Output, Variability::Continuous, Some(Initial::Calculated)) => Ok(Role::Output),
+        // legal in FMI, but nothing that the library implements
+        _ => Err(Problem::NoRole {
+            variable: declared.name.clone(),
+            causality,
+            variability,
+            initial,
+        }),
+    }
+}
+
+/// FMI 3.0, 2.4.7.4: parameters are fixed unless they say otherwise, Float64 of any other causality is continuous.
+fn default_variability(causality: Causality) -> Variability {
+    match causality {
+        Causality::Parameter | Causality::CalculatedParameter | Causality::StructuralParameter => {
+            Variability::Fixed
+        }
+        _ => Variability::Continuous,
+    }
+}
+
+fn start(
+    declared: &FmiFloat64,
+    declared_type: &Float64Type,
+    role: Role,
+) -> Result<Option<f64>, Problem> {
+    let variable = || declared.name.clone();
+    let needed = matches!(role, Role::Input | Role::Parameter | Role::State);
+    let Some(found) = declared.start.as_deref() else {
+        return if needed {
+            Err(Problem::NoStart {
+                variable: variable(),
+            })
+        } else {
+            Ok(None)
+        };
+    };
+    if !needed {
+        return Err(Problem::UnwantedStart {
+            variable: variable(),
+        });
+    }
+    let &[start] = found else {
+        return Err(Problem::IllegalStart {
+            variable: variable(),
+            found: found.to_vec(),
+        });
+    };
+    if !start.is_finite() {
+        return Err(Problem::IllegalStart {
+            variable: variable(),
+            found: found.to_vec(),
+        });
+    }
+    // a variable may narrow its type's range
+    let min = declared
+        .min
+        .or(declared_type.min)
+        .unwrap_or(f64::NEG_INFINITY);
+    let max = declared.max.or(declared_type.max).unwrap_or(f64::INFINITY);
+    if !(min..=max).contains(&start) {
+        return Err(Problem::StartOutOfRange {
+            variable: variable(),
+            start,
+            min,
+            max,
+        });
+    }
+    Ok(Some(start))
+}

@@ -1,0 +1,276 @@
+//! Damages the project's own model descriptions one way at a time: each damage must be refused with the problem that names it.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that cannot go on has failed"
+)]
+
+use bolted_joint_interface::{Interface, InterfaceError, Interfaces, Problem, Role};
+
+const ELEMENT: &str = include_str!("../../../modelDescription/element.xml");
+const LAP: &str = include_str!("../../../modelDescription/lap.xml");
+
+/// Problem that `xml` is refused with after replacing the first `from` by `to`.
+fn problem(xml: &str, from: &str, to: &str) -> Problem {
+    assert!(
+        xml.contains(from),
+        "the description does not contain {from}"
+    );
+    match Interface::from_xml("damaged.xml", &xml.replacen(from, to, 1)) {
+        Err(InterfaceError::Inconsistent { file, problem }) => {
+            assert_eq!(file, "damaged.xml");
+            problem
+        }
+        other => panic!("replacing {from} by {to} gave {other:?}"),
+    }
+}
+
+/// Problem that a damaged lap.xml is refused with beside an intact element.xml.
+fn disagreement(from: &str, to: &str) -> Problem {
+    assert!(LAP.contains(from), "lap.xml does not contain {from}");
+    let element = Interface::from_xml("element.xml", ELEMENT).unwrap();
+    let lap = Interface::from_xml("lap.xml", &LAP.replace(from, to)).unwrap();
+    match Interfaces::new(element, lap) {
+        Err(InterfaceError::Inconsistent { file, problem }) => {
+            assert_eq!(file, "lap.xml");
+            problem
+        }
+        other => panic!("replacing {from} by {to} gave {other:?}"),
+    }
+}
+
+macro_rules! refused {
+    ($name:ident: $xml:ident, $from:expr => $to:expr, $pattern:pat $(if $guard:expr)?) => {
+        #[test]
+        fn $name() {
+            let problem = problem($xml, $from, $to);
+            assert!(matches!(&problem, $pattern $(if $guard)?), "{problem}");
+        }
+    };
+}
+
+refused!(version: LAP, r#"fmiVersion="3.0""# => r#"fmiVersion="2.0""#, Problem::Version { found } if found == "2.0");
+refused!(model_identifier: LAP, r#"modelIdentifier="bolted_joint""# => r#"modelIdentifier="bolted-joint""#,
+    Problem::ModelIdentifier { found } if found == "bolted-joint");
+refused!(other_type: LAP, r#"<Float64 name="a.y" valueReference="1""# => r#"<Float32 name="x" valueReference="99"/><Float64 name="a.y" valueReference="1""#,
+    Problem::NotFloat64 { variable } if variable == "x");
+refused!(array: LAP, r#"start="2e-5" description="Longest Runge-Kutta step, greater than zero; a communication step takes as many equal steps as needed"/>"#
+    => r#"start="2e-5" description="d"><Dimension start="2"/></Float64>"#,
+    Problem::NotScalar { variable } if variable == "step_size_max");
+refused!(illegal_name: LAP, r#"name="a.y""# => r#"name="a.2y""#, Problem::IllegalName { variable } if variable == "a.2y");
+refused!(illegal_character: LAP, r#"name="a.y""# => r#"name="a y""#, Problem::IllegalName { variable } if variable == "a y");
+refused!(duplicate_name: LAP, r#"name="a.theta""# => r#"name="a.y""#, Problem::DuplicateName { variable } if variable == "a.y");
+refused!(duplicate_reference: LAP, r#"name="a.theta" valueReference="2""# => r#"name="a.theta" valueReference="1""#,
+    Problem::DuplicateReference { reference: 1, first, second } if first == "a.y" && second == "a.theta");
+refused!(no_description: LAP, r#"description="Displacement of body a""# => r#"description=" ""#,
+    Problem::NoDescription { variable } if variable == "a.y");
+refused!(no_type: LAP, r#"declaredType="StepSize""# => "", Problem::NoType { variable } if variable == "step_size_max");
+refused!(undefined_type: LAP, r#"declaredType="StepSize""# => r#"declaredType="Step""#,
+    Problem::UndefinedType { variable, declared_type } if variable == "step_size_max" && declared_type == "Step");
+refused!(duplicate_type: LAP, r#"<Float64Type name="Rotation""# => r#"<Float64Type name="Displacement""#,
+    Problem::DuplicateDefinition { list: "<TypeDefinitions>", name } if name == "Displacement");
+refused!(duplicate_unit: LAP, r#"<Unit name="rad">"# => r#"<Unit name="m">"#,
+    Problem::DuplicateDefinition { list: "<UnitDefinitions>", name } if name == "m");
+refused!(duplicate_display_unit: LAP, r#"<DisplayUnit name="um""# => r#"<DisplayUnit name="mm""#,
+    Problem::DuplicateDefinition { list: "<Unit>", name } if name == "mm");
+refused!(duplicate_category: LAP, r#"<Category name="logStatusError""# => r#"<Category name="logEvents""#,
+    Problem::DuplicateDefinition { list: "<LogCategories>", name } if name == "logEvents");
+refused!(no_unit: LAP, r#"quantity="Force" unit="N""# => r#"quantity="Force""#,
+    Problem::NoUnit { declared_type } if declared_type == "Force");
+refused!(undefined_unit: LAP, r#"quantity="Force" unit="N""# => r#"quantity="Force" unit="lbf""#,
+    Problem::UndefinedUnit { declared_type, unit } if declared_type == "Force" && unit == "lbf");
+refused!(undefined_display_unit: LAP, r#"displayUnit="kN""# => r#"displayUnit="MN""#,
+    Problem::UndefinedDisplayUnit { declared_type, unit, display_unit }
+        if declared_type == "Force" && unit == "N" && display_unit == "MN");
+refused!(no_base_unit: LAP, r#"<BaseUnit s="1"/>"# => "", Problem::NoBaseUnit { unit } if unit == "s");
+refused!(factor_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" factor="60"/>"#, Problem::NotCoherent { unit } if unit == "s");
+refused!(offset_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" offset="1"/>"#, Problem::NotCoherent { unit } if unit == "s");
+refused!(display_factor: LAP, r#"name="mm" factor="1000""# => r#"name="mm" factor="0""#,
+    Problem::DisplayFactor { unit, display_unit, factor: 0.0 } if unit == "m" && display_unit == "mm");
+refused!(nominal: LAP, r#"nominal="100""# => r#"nominal="-100""#,
+    Problem::Nominal { declared_type, nominal: -100.0 } if declared_type == "Force");
+refused!(zero_nominal: LAP, r#"nominal="100""# => r#"nominal="0""#, Problem::Nominal { nominal: 0.0, .. });
+refused!(range: LAP, r#"min="0" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
+    Problem::Range { declared_type, min: 1.0, max: 0.0 } if declared_type == "StepSize");
+refused!(combination: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="continuous""#,
+    Problem::Combination { variable, .. } if variable == "joint.k_yy");
+refused!(fixed_input: LAP, r#"causality="input" variability="continuous""# => r#"causality="input" variability="fixed""#,
+    Problem::Combination { variable, .. } if variable == "a.F");
+refused!(forbidden_initial: LAP, r#"causality="parameter" variability="tunable" initial="exact""# => r#"causality="parameter" variability="tunable" initial="approx""#,
+    Problem::ForbiddenInitial { variable, .. } if variable == "joint.k_yy");
+refused!(initial_of_time: LAP, r#"causality="independent" variability="continuous""# => r#"causality="independent" variability="continuous" initial="exact""#,
+    Problem::ForbiddenInitial { variable, .. } if variable == "time");
+refused!(unimplemented_parameter: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="fixed""#,
+    Problem::NoRole { variable, .. } if variable == "joint.k_yy");
+refused!(guessed_state: LAP, r#"causality="output" variability="continuous" initial="exact""# => r#"causality="output" variability="continuous" initial="approx""#,
+    Problem::NoRole { variable, .. } if variable == "a.y");
+refused!(no_start_of_state: LAP, r#"declaredType="Displacement" start="0""# => r#"declaredType="Displacement""#,
+    Problem::NoStart { variable } if variable == "a.y");
+refused!(no_start_of_input: ELEMENT, r#"declaredType="Displacement" start="0""# => r#"declaredType="Displacement""#,
+    Problem::NoStart { variable } if variable == "a.y");
+refused!(no_start_of_parameter: LAP, r#" start="1.41""# => "", Problem::NoStart { variable } if variable == "a.m");
+refused!(start_of_output: LAP, r#"declaredType="Energy""# => r#"declaredType="Energy" start="0""#,
+    Problem::UnwantedStart { variable } if variable == "energy.stored");
+refused!(start_of_time: LAP, r#"declaredType="Time""# => r#"declaredType="Time" start="0""#,
+    Problem::UnwantedStart { variable } if variable == "time");
+refused!(several_starts: LAP, r#"start="1.41""# => r#"start="1.41 1.42""#,
+    Problem::IllegalStart { variable, found } if variable == "a.m" && *found == [1.41, 1.42]);
+refused!(infinite_start: LAP, r#"start="1.41""# => r#"start="inf""#, Problem::IllegalStart { variable, .. } if variable == "a.m");
+refused!(start_out_of_range: LAP, r#"start="1.41""# => r#"start="-1.41""#,
+    Problem::StartOutOfRange { variable, start: -1.41, min: 0.0, .. } if variable == "a.m");
+refused!(no_independent: LAP, r#"causality="independent" variability="continuous" declaredType="Time""# => r#"causality="input" variability="continuous" declaredType="Time" start="0""#,
+    Problem::Independent { found } if found.is_empty());
+refused!(independent_name: LAP, r#"name="time""# => r#"name="t""#, Problem::Independent { found } if found[0].0 == "t");
+refused!(derivative_of_nothing: LAP, r#"derivative="1""# => r#"derivative="77""#,
+    Problem::UndefinedDerivative { variable, reference: 77 } if variable == "a.v");
+refused!(derivative_of_itself: LAP, r#"derivative="1""# => r#"derivative="3""#,
+    Problem::UndefinedDerivative { variable, reference: 3 } if variable == "a.v");
+refused!(derivative_of_parameter: LAP, r#"derivative="1""# => r#"derivative="17""#,
+    Problem::UndefinedDerivative { variable, reference: 17 } if variable == "a.v");
+refused!(derivative_of_another_unit: LAP, r#"derivative="1""# => r#"derivative="2""#,
+    Problem::DerivativeUnit { variable, of, .. } if variable == "a.v" && of == "a.theta");
+refused!(output_of_nothing: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="77" "#,
+    Problem::UndefinedReference { element: "Output", reference: 77 });
+refused!(output_twice: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="2" "#,
+    Problem::DuplicateUnknown { element: "Output", variable } if variable == "a.theta");
+refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies=""/>"# => "",
+    Problem::MissingUnknown { element: "Output", variable } if variable == "a.y");
+refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
+    Problem::UnexpectedUnknown { element: "Output", variable } if variable == "a.F");
+refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="3 4 7 8 20 21 22 29 30 35 36"/>"# => "",
+    Problem::MissingUnknown { element: "InitialUnknown", variable } if variable == "power.dissipated");
+refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
+    Problem::UnexpectedUnknown { element: "InitialUnknown", variable } if variable == "a.y");
+refused!(state_derivative_without_state: LAP, r#"<InitialUnknown valueReference="13""# => r#"<ContinuousStateDerivative valueReference="1"/><InitialUnknown valueReference="13""#,
+    Problem::UnexpectedUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.y");
+refused!(no_dependencies: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1"/>"#,
+    Problem::NoDependencies { element: "Output", variable } if variable == "a.y");
+refused!(dependency_on_nothing: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="77"/>"#,
+    Problem::UndefinedReference { element: "Output", reference: 77 });
+refused!(dependency_on_output: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="13"/>"#,
+    Problem::NotKnown { element: "Output", variable, dependency } if variable == "a.y" && dependency == "joint.F");
+refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="9 9"/>"#,
+    Problem::DuplicateDependency { element: "Output", variable, dependency } if variable == "a.y" && dependency == "a.F");
+refused!(kind_count: LAP, r#"dependenciesKind="dependent dependent dependent dependent dependent""# => r#"dependenciesKind="dependent""#,
+    Problem::KindCount { element: "Output", variable, dependencies: 5, kinds: 1 } if variable == "joint.F");
+refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="3 4 7 8 20 21 22 29 30 35 36"/>"#
+    => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
+    Problem::InitialKind { variable } if variable == "power.dissipated");
+
+#[test]
+fn no_co_simulation() {
+    let start = LAP.find("<CoSimulation").unwrap();
+    let end = start + LAP[start..].find("/>").unwrap() + 2;
+    assert_eq!(problem(LAP, &LAP[start..end], ""), Problem::NoCoSimulation);
+}
+
+#[test]
+fn unknown_attribute_is_malformed() {
+    let xml = LAP.replacen("nominal=", "typical=", 1);
+    let error = Interface::from_xml("lap.xml", &xml).unwrap_err();
+    assert!(matches!(error, InterfaceError::Malformed { .. }), "{error}");
+    assert!(error.to_string().starts_with("lap.xml: "), "{error}");
+}
+
+#[test]
+fn shared_names_have_shared_references() {
+    let problem = disagreement(
+        r#"name="step_size_max" valueReference="37""#,
+        r#"name="step_size_max" valueReference="38""#,
+    );
+    assert_eq!(problem, Problem::Gap { reference: 37 });
+    // swap two numbers that occur in declarations only
+    let swapped = LAP
+        .replace(
+            r#"name="joint.k_yy" valueReference="17""#,
+            r#"name="joint.k_yy" valueReference="24""#,
+        )
+        .replace(
+            r#"name="joint.k3_theta" valueReference="24""#,
+            r#"name="joint.k3_theta" valueReference="17""#,
+        );
+    let element = Interface::from_xml("element.xml", ELEMENT).unwrap();
+    let lap = Interface::from_xml("lap.xml", &swapped).unwrap();
+    let error = Interfaces::new(element, lap).unwrap_err().to_string();
+    assert!(
+        error.contains("\"joint.k3_theta\" has valueReference 17, but 24 in element.xml"),
+        "{error}"
+    );
+}
+
+#[test]
+fn references_are_not_reused() {
+    let problem = disagreement(r#"name="joint.k_yy""#, r#"name="joint.stiffness""#);
+    assert!(
+        matches!(&problem, Problem::ReferenceReused { reference: 17, variable, other_variable, .. }
+            if variable == "joint.stiffness" && other_variable == "joint.k_yy"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn shared_definitions_are_equal() {
+    for (from, to, what) in [
+        (
+            r#"modelIdentifier="bolted_joint""#,
+            r#"modelIdentifier="lap""#,
+            "modelIdentifier",
+        ),
+        (
+            r#"<Category name="logEvents""#,
+            r#"<Category name="logAll""#,
+            "list of log categories",
+        ),
+        (
+            r#"name="mm" factor="1000""#,
+            r#"name="mm" factor="999""#,
+            "unit",
+        ),
+        (r#"nominal="100""#, r#"nominal="1000""#, "type"),
+        (
+            r#"<Float64 name="joint.k_yy" valueReference="17" causality="parameter" variability="tunable" initial="exact" declaredType="Stiffness""#,
+            r#"<Float64 name="joint.k_yy" valueReference="17" causality="parameter" variability="tunable" initial="exact" declaredType="Damping""#,
+            "unit of variable",
+        ),
+    ] {
+        let problem = disagreement(from, to);
+        assert!(
+            matches!(&problem, Problem::DefinitionDiffers { what: found, .. } if *found == what),
+            "{problem}"
+        );
+    }
+}
+
+#[test]
+fn missing_file_is_named() {
+    let error = Interfaces::read(std::path::Path::new("no such folder"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("element.xml") && error.contains("cannot be read"),
+        "{error}"
+    );
+}
+
+#[test]
+fn intact_descriptions_are_accepted() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
+    let interfaces = Interfaces::read(&folder).unwrap();
+    assert_eq!(interfaces.element.variables.len(), 25);
+    assert_eq!(interfaces.lap.variables.len(), 38);
+    assert_eq!(interfaces.reference_count(), 38);
+    let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
+    assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
+    assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
+    assert_eq!(role(&interfaces.lap, "joint.F"), Some(Role::Output));
+    let rotational = |interface: &Interface| {
+        interface
+            .variables
+            .iter()
+            .filter(|variable| variable.requires_rotation())
+            .count()
+    };
+    // θ, ω, M of both sides, M of the joint, five joint parameters; J, k_θ, c_θ of both bodies
+    assert_eq!(rotational(&interfaces.element), 6 + 1 + 5);
+    assert_eq!(rotational(&interfaces.lap), 6 + 1 + 5 + 6);
+}

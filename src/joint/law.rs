@@ -1,0 +1,115 @@
+//! From the joint file's lists to the fixed-size equations that are integrated.
+
+use bolted_joint_dynamics as dynamics;
+use thiserror::Error;
+
+use super::{Body, DofSet, Joint, JointFile};
+
+/// Why a joint file does not give the equations asked for.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LawError {
+    /// The joint has another number of DOFs.
+    #[error("joint.dofs: found {found}, expected {expected} degrees of freedom")]
+    DofCount {
+        /// DOFs of the joint.
+        found: DofSet,
+        /// Number asked for.
+        expected: usize,
+    },
+    /// The joint depends on the preload.
+    #[error(
+        "joint.over_preload: found a joint that depends on the preload, expected constant stiffness and damping; \
+         give joint.stiffness and joint.damping at one preload instead"
+    )]
+    OverPreload,
+    /// The two bodies of the lap model are not there.
+    #[error(
+        "bodies: not found, expected the inertia, stiffness and damping of both bodies a and b; \
+         add them, or use the joint alone"
+    )]
+    NoBodies,
+    /// A list has not as many entries as the joint has DOFs: [`JointFile::validate`] tells more.
+    #[error(
+        "{path}: found a list that does not fit joint.dofs, expected {expected} entries everywhere"
+    )]
+    Shape {
+        /// Key of the list.
+        path: &'static str,
+        /// Number of DOFs.
+        expected: usize,
+    },
+}
+
+impl Joint {
+    /// The load law of a joint with `D` DOFs a side.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError`] where the joint has not `D` DOFs, depends on the preload, or is malformed.
+    pub fn law<const D: usize>(&self) -> Result<dynamics::JointLaw<D>, LawError> {
+        if self.dofs.count() != D {
+            return Err(LawError::DofCount {
+                found: self.dofs,
+                expected: D,
+            });
+        }
+        if self.over_preload.is_some() {
+            return Err(LawError::OverPreload);
+        }
+        let cubic = if self.cubic.is_empty() {
+            [0.0; D]
+        } else {
+            list("joint.cubic", &self.cubic)?
+        };
+        Ok(dynamics::JointLaw {
+            stiffness: matrix("joint.stiffness", &self.stiffness)?,
+            damping: matrix("joint.damping", &self.damping)?,
+            cubic,
+        })
+    }
+}
+
+impl JointFile {
+    /// The lap model: both bodies and the joint between them, `D` DOFs a side.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError`] where there are no bodies, and as [`Joint::law`].
+    pub fn lap<const D: usize>(&self) -> Result<dynamics::Lap<D>, LawError> {
+        let joint = self.joint.law()?;
+        let bodies = self.bodies.as_ref().ok_or(LawError::NoBodies)?;
+        Ok(dynamics::Lap {
+            joint,
+            a: body("bodies.a", &bodies.a)?,
+            b: body("bodies.b", &bodies.b)?,
+        })
+    }
+}
+
+fn body<const D: usize>(path: &'static str, body: &Body) -> Result<dynamics::Body<D>, LawError> {
+    Ok(dynamics::Body {
+        inertia: list(path, &body.inertia)?,
+        stiffness: list(path, &body.stiffness)?,
+        damping: list(path, &body.damping)?,
+    })
+}
+
+fn list<const D: usize>(path: &'static str, entries: &[f64]) -> Result<[f64; D], LawError> {
+    entries
+        .try_into()
+        .map_err(|_| LawError::Shape { path, expected: D })
+}
+
+fn matrix<const D: usize>(
+    path: &'static str,
+    rows: &[Vec<f64>],
+) -> Result<[[f64; D]; D], LawError> {
+    let mut matrix = [[0.0; D]; D];
+    if rows.len() != D {
+        return Err(LawError::Shape { path, expected: D });
+    }
+    for (target, row) in matrix.iter_mut().zip(rows) {
+        *target = list(path, row)?;
+    }
+    Ok(matrix)
+}

@@ -1,0 +1,25 @@
+//! The joint file, `*.joint.json`: what identification and prediction write, and what the export turns into an FMU.
+//!
+//! All quantities are in SI units. [`JointFile::read`] refuses what it does not understand and says where;
+//! [`Passivity`] tells whether the joint can feed energy into a simulation, which reading does not judge.
+
+mod dofs;
+mod error;
+mod law;
+mod nearest;
+mod passivity;
+mod problem;
+mod read;
+mod record;
+mod validate;
+mod write;
+
+pub use dofs::DofSet;
+pub use error::JointFileError;
+pub use law::LawError;
+pub use passivity::{MatrixPassivity, Passivity};
+pub use problem::Problem;
+pub use record::{
+    Bodies, Body, Format, FunctionResidual, InputFile, Joint, JointFile, OverPreload, Provenance,
+    Residual, StandardDeviation, Uncertainty, Validity,
+};

@@ -1,0 +1,145 @@
+//! What can be wrong with the numbers of a joint file that is well formed otherwise.
+
+use thiserror::Error;
+
+use super::DofSet;
+
+/// One thing that is wrong in a joint file, by the path of its key.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Problem {
+    /// A key that is needed here is not there.
+    #[error("{path}: not found, expected {expected}")]
+    Missing {
+        /// Path of the key.
+        path: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A list has not one entry for each DOF.
+    #[error(
+        "{path}: found {found} {}, expected {}, one for each of joint.dofs = {dofs}",
+        if *found == 1 { "entry" } else { "entries" },
+        dofs.count()
+    )]
+    Length {
+        /// Path of the list.
+        path: String,
+        /// Its number of entries.
+        found: usize,
+        /// DOFs of the joint.
+        dofs: DofSet,
+    },
+    /// A list over the preload has not one entry for each preload.
+    #[error(
+        "{path}: found {found} entries, expected {expected}, one for each of joint.over_preload.preload"
+    )]
+    TableLength {
+        /// Path of the list.
+        path: String,
+        /// Its number of entries.
+        found: usize,
+        /// Number of preloads.
+        expected: usize,
+    },
+    /// A table with too few preloads to interpolate.
+    #[error(
+        "joint.over_preload.preload: found {found}, expected at least 2 preloads; \
+         for one preload give joint.stiffness and joint.damping instead"
+    )]
+    TooFewPreloads {
+        /// Number of preloads.
+        found: usize,
+    },
+    /// A number that is infinite or not a number.
+    #[error("{path}: found {found}, expected a finite number")]
+    NotFinite {
+        /// Path of the number.
+        path: String,
+        /// The number.
+        found: f64,
+    },
+    /// A matrix is not symmetric.
+    #[error(
+        "{path}: found {upper:?} at [{row}][{column}] and {lower:?} at [{column}][{row}], \
+         expected a symmetric matrix; give both entries the same value"
+    )]
+    Asymmetric {
+        /// Path of the matrix.
+        path: String,
+        /// Row of the entry above the diagonal.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// Entry above the diagonal.
+        upper: f64,
+        /// Entry below the diagonal.
+        lower: f64,
+    },
+    /// A number that must not be negative.
+    #[error("{path}: found {found:?}, expected {what} of zero or more")]
+    Negative {
+        /// Path of the number.
+        path: String,
+        /// The number.
+        found: f64,
+        /// What the number is.
+        what: &'static str,
+    },
+    /// An inertia that is not positive.
+    #[error("{path}: found {found:?}, expected an inertia greater than zero")]
+    Inertia {
+        /// Path of the number.
+        path: String,
+        /// The number, kg or kg·m².
+        found: f64,
+    },
+    /// A preload that is not above the one before it.
+    #[error(
+        "{path}: found {found:?} N·m after {previous:?} N·m, expected strictly increasing preloads"
+    )]
+    PreloadNotIncreasing {
+        /// Path of the preload.
+        path: String,
+        /// The preload, N·m.
+        found: f64,
+        /// The one before it, N·m.
+        previous: f64,
+    },
+    /// The nominal preload lies outside the table.
+    #[error(
+        "joint.over_preload.nominal: found {found:?} N·m, expected a preload within the table, \
+         from {first:?} to {last:?} N·m"
+    )]
+    NominalOutside {
+        /// The nominal preload, N·m.
+        found: f64,
+        /// First preload of the table, N·m.
+        first: f64,
+        /// Last preload of the table, N·m.
+        last: f64,
+    },
+    /// A frequency band that is empty.
+    #[error(
+        "validity.frequency_hz: found {from_hz:?} to {to_hz:?} Hz, expected the lower frequency first"
+    )]
+    Band {
+        /// First entry, Hz.
+        from_hz: f64,
+        /// Second entry, Hz.
+        to_hz: f64,
+    },
+    /// A name that is blank or does not fit on a line.
+    #[error("name: found {found:?}, expected one line of text")]
+    Name {
+        /// The name.
+        found: String,
+    },
+    /// A hash that cannot be one.
+    #[error("{path}: found {found:?}, expected 64 lower-case hexadecimal digits")]
+    Hash {
+        /// Path of the hash.
+        path: String,
+        /// What is there.
+        found: String,
+    },
+}

@@ -1,0 +1,229 @@
+//! The records of the joint file, format "bolted-joint/1", as plain data.
+
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
+use super::DofSet;
+
+/// A bolted joint, with what is known about it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Joint file of bolted-joint")]
+pub struct JointFile {
+    /// Version of the format.
+    pub format: Format,
+    /// Name of the joint, one line.
+    #[schemars(length(min = 1))]
+    pub name: String,
+    /// The joint itself: stiffness, damping, cubic stiffness.
+    pub joint: Joint,
+    /// The two bodies of a lap model that the joint connects.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bodies: Option<Bodies>,
+    /// How well the joint's parameters are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
+    /// Where the joint's parameters hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validity: Option<Validity>,
+    /// How far the model is from the measurement that it was identified from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub residual: Option<Residual>,
+    /// Where the parameters come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
+}
+
+/// Version of the joint file's format.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Format {
+    /// The first and only version.
+    #[default]
+    #[serde(rename = "bolted-joint/1")]
+    V1,
+}
+
+impl Format {
+    /// The version as it stands in the file.
+    pub const NAME: &'static str = "bolted-joint/1";
+}
+
+/// The massless joint: load on side b = K (x_a - x_b) + C d/dt(x_a - x_b) + k3 (x_a - x_b)^3, on side a the opposite.
+///
+/// `stiffness` and `damping` are required unless `over_preload` is there, which replaces all three.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
+pub struct Joint {
+    /// Relative motions that the joint resists.
+    pub dofs: DofSet,
+    /// K, symmetric: N/m, N/rad; N·m/m, N·m/rad.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    pub stiffness: Vec<Vec<f64>>,
+    /// C, symmetric: N·s/m, N·s/rad; N·m·s/m, N·m·s/rad.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    pub damping: Vec<Vec<f64>>,
+    /// k3 on each relative DOF, N/m³ and N·m/rad³: positive hardens, negative softens. Left out, it is zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2))]
+    pub cubic: Vec<f64>,
+    /// The same three over the bolt's preload, in their place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_preload: Option<OverPreload>,
+}
+
+/// Stiffness, damping and cubic stiffness at several preloads of the bolt.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OverPreload {
+    /// Tightening torques, N·m, strictly increasing.
+    #[schemars(length(min = 2), inner(range(min = 0)))]
+    pub preload: Vec<f64>,
+    /// Tightening torque at the start, N·m, within the range of `preload`.
+    #[schemars(range(min = 0))]
+    pub nominal: f64,
+    /// K at each preload, in the units of the joint's own.
+    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    pub stiffness: Vec<Vec<Vec<f64>>>,
+    /// C at each preload, in the units of the joint's own.
+    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    pub damping: Vec<Vec<Vec<f64>>>,
+    /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cubic: Vec<Vec<f64>>,
+}
+
+/// The two bodies of a lap model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bodies {
+    /// Body on side a.
+    pub a: Body,
+    /// Body on side b.
+    pub b: Body,
+}
+
+/// A rigid body on its own support, one entry for each DOF of the joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Mass in kg, moment of inertia in kg·m²; greater than zero.
+    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
+    pub inertia: Vec<f64>,
+    /// Support stiffness in N/m, N·m/rad; zero for a free body.
+    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    pub stiffness: Vec<f64>,
+    /// Support damping in N·s/m, N·m·s/rad.
+    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    pub damping: Vec<f64>,
+}
+
+/// How well the joint's parameters are known.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Uncertainty {
+    /// One standard deviation of each entry of the joint's matrices.
+    pub standard_deviation: StandardDeviation,
+    /// What the standard deviations rest on, in words.
+    pub basis: String,
+}
+
+/// One standard deviation of each entry of the joint's matrices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StandardDeviation {
+    /// Of K, in its units.
+    #[schemars(
+        length(min = 1, max = 2),
+        inner(length(min = 1, max = 2), inner(range(min = 0)))
+    )]
+    pub stiffness: Vec<Vec<f64>>,
+    /// Of C, in its units.
+    #[schemars(
+        length(min = 1, max = 2),
+        inner(length(min = 1, max = 2), inner(range(min = 0)))
+    )]
+    pub damping: Vec<Vec<f64>>,
+}
+
+/// Where the joint's parameters hold.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Validity {
+    /// Lowest and highest frequency that the parameters were determined from, Hz.
+    #[serde(deserialize_with = "super::read::pair")]
+    #[schemars(inner(range(min = 0)))]
+    pub frequency_hz: [f64; 2],
+}
+
+/// How far the model is from the measurement that it was identified from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Residual {
+    /// Root mean square of (measured - computed) over that of the measured, all functions together.
+    #[schemars(range(min = 0))]
+    pub relative_rms: f64,
+    /// Number of spectral lines compared.
+    pub lines: usize,
+    /// The same for each function compared.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub functions: Vec<FunctionResidual>,
+}
+
+/// How far the model is from one measured function.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FunctionResidual {
+    /// Response DOF, such as `11:+Y`.
+    pub response: String,
+    /// Reference DOF, such as `12:+Y`.
+    pub reference: String,
+    /// Root mean square of (measured - computed) over that of the measured.
+    #[schemars(range(min = 0))]
+    pub relative_rms: f64,
+}
+
+/// Where the joint's parameters come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Program that wrote the file.
+    pub tool: String,
+    /// Version of that program.
+    pub version: String,
+    /// Method, such as `frf-decoupling`.
+    pub method: String,
+    /// Joint model, such as `full`.
+    pub model: String,
+    /// Files that the parameters were determined from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<InputFile>,
+    /// What a reader should know before using the joint.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// A file that the parameters were determined from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InputFile {
+    /// What the file was used for, such as `a.frf`.
+    pub role: String,
+    /// Its name, as the study gives it.
+    pub file: String,
+    /// SHA-256 of its contents, 64 lower-case hexadecimal digits.
+    #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
+    pub sha256: String,
+}
+
+/// JSON Schema has a word for "greater than zero", the derive macro has none.
+fn entries_above_zero(list: &mut Schema) {
+    if let Some(entries) = list
+        .pointer_mut("/items")
+        .and_then(|items| items.as_object_mut())
+    {
+        entries.insert("exclusiveMinimum".to_owned(), 0.into());
+    }
+}

@@ -1,0 +1,251 @@
+//! Checks that the records of a joint file agree with each other: sizes, symmetry, signs.
+
+use super::{Body, DofSet, Joint, JointFile, OverPreload, Problem};
+
+impl JointFile {
+    /// Everything that is wrong with the file's contents, in the order of the file; empty where all is well.
+    ///
+    /// Whether the joint is passive is not judged here: see [`JointFile::passivity`].
+    #[must_use]
+    pub fn validate(&self) -> Vec<Problem> {
+        let mut check = Check {
+            dofs: self.joint.dofs,
+            problems: Vec::new(),
+        };
+        if self.name.trim().is_empty() || self.name.chars().any(char::is_control) {
+            check.problems.push(Problem::Name {
+                found: self.name.clone(),
+            });
+        }
+        check.joint(&self.joint);
+        if let Some(bodies) = &self.bodies {
+            check.body("bodies.a", &bodies.a);
+            check.body("bodies.b", &bodies.b);
+        }
+        if let Some(uncertainty) = &self.uncertainty {
+            let deviation = &uncertainty.standard_deviation;
+            for (key, matrix) in [
+                ("stiffness", &deviation.stiffness),
+                ("damping", &deviation.damping),
+            ] {
+                let path = format!("uncertainty.standard_deviation.{key}");
+                check.matrix(&path, matrix);
+                for (i, row) in matrix.iter().enumerate() {
+                    check.not_negative(&format!("{path}[{i}]"), row, "a standard deviation");
+                }
+            }
+        }
+        if let Some(validity) = &self.validity {
+            check.band(&validity.frequency_hz);
+        }
+        if let Some(residual) = &self.residual {
+            let what = "a root mean square";
+            check.magnitude("residual.relative_rms", residual.relative_rms, what);
+            for (i, function) in residual.functions.iter().enumerate() {
+                let path = format!("residual.functions[{i}].relative_rms");
+                check.magnitude(&path, function.relative_rms, what);
+            }
+        }
+        if let Some(provenance) = &self.provenance {
+            for (i, input) in provenance.inputs.iter().enumerate() {
+                check.hash(&format!("provenance.inputs[{i}].sha256"), &input.sha256);
+            }
+        }
+        check.problems
+    }
+}
+
+/// The problems found so far, and the DOFs that sizes are compared with.
+struct Check {
+    dofs: DofSet,
+    problems: Vec<Problem>,
+}
+
+impl Check {
+    fn joint(&mut self, joint: &Joint) {
+        let replaced = joint.over_preload.is_some();
+        for (path, matrix) in [
+            ("joint.stiffness", &joint.stiffness),
+            ("joint.damping", &joint.damping),
+        ] {
+            if !matrix.is_empty() {
+                self.matrix(path, matrix);
+            } else if !replaced {
+                self.problems.push(Problem::Missing {
+                    path: path.to_owned(),
+                    expected: "a symmetric matrix with a row for each of joint.dofs",
+                });
+            }
+        }
+        if !joint.cubic.is_empty() {
+            self.list("joint.cubic", &joint.cubic);
+        }
+        if let Some(table) = &joint.over_preload {
+            self.over_preload(table);
+        }
+    }
+
+    fn over_preload(&mut self, table: &OverPreload) {
+        const PATH: &str = "joint.over_preload";
+        let path = format!("{PATH}.preload");
+        let preloads = &table.preload;
+        if preloads.len() < 2 {
+            self.problems.push(Problem::TooFewPreloads {
+                found: preloads.len(),
+            });
+        }
+        self.finite_list(&path, preloads);
+        self.not_negative(&path, preloads, "a preload");
+        for (i, pair) in preloads.windows(2).enumerate() {
+            if pair[1] <= pair[0] {
+                self.problems.push(Problem::PreloadNotIncreasing {
+                    path: format!("{path}[{}]", i + 1),
+                    found: pair[1],
+                    previous: pair[0],
+                });
+            }
+        }
+        if let (Some(&first), Some(&last)) = (preloads.first(), preloads.last())
+            && !(first..=last).contains(&table.nominal)
+        {
+            self.problems.push(Problem::NominalOutside {
+                found: table.nominal,
+                first,
+                last,
+            });
+        }
+        for (key, matrices) in [("stiffness", &table.stiffness), ("damping", &table.damping)] {
+            let path = format!("{PATH}.{key}");
+            self.table_length(&path, matrices.len(), preloads.len());
+            for (i, matrix) in matrices.iter().enumerate() {
+                self.matrix(&format!("{path}[{i}]"), matrix);
+            }
+        }
+        if !table.cubic.is_empty() {
+            let path = format!("{PATH}.cubic");
+            self.table_length(&path, table.cubic.len(), preloads.len());
+            for (i, cubic) in table.cubic.iter().enumerate() {
+                self.list(&format!("{path}[{i}]"), cubic);
+            }
+        }
+    }
+
+    fn body(&mut self, path: &str, body: &Body) {
+        let inertia = format!("{path}.inertia");
+        self.list(&inertia, &body.inertia);
+        for (i, &found) in body.inertia.iter().enumerate() {
+            if found <= 0.0 {
+                let path = format!("{inertia}[{i}]");
+                self.problems.push(Problem::Inertia { path, found });
+            }
+        }
+        for (key, list, what) in [
+            ("stiffness", &body.stiffness, "a support stiffness"),
+            ("damping", &body.damping, "a support damping"),
+        ] {
+            let path = format!("{path}.{key}");
+            self.list(&path, list);
+            self.not_negative(&path, list, what);
+        }
+    }
+
+    /// A square matrix with a row for each DOF, finite and symmetric.
+    fn matrix(&mut self, path: &str, matrix: &[Vec<f64>]) {
+        if self.length(path, matrix.len()) {
+            for (i, row) in matrix.iter().enumerate() {
+                self.list(&format!("{path}[{i}]"), row);
+            }
+        }
+        for (row, entries) in matrix.iter().enumerate() {
+            for (column, &upper) in entries.iter().enumerate().skip(row + 1) {
+                let Some(&lower) = matrix.get(column).and_then(|entries| entries.get(row)) else {
+                    continue;
+                };
+                if upper != lower && upper.is_finite() && lower.is_finite() {
+                    self.problems.push(Problem::Asymmetric {
+                        path: path.to_owned(),
+                        row,
+                        column,
+                        upper,
+                        lower,
+                    });
+                }
+            }
+        }
+    }
+
+    /// A list with a finite entry for each DOF.
+    fn list(&mut self, path: &str, entries: &[f64]) {
+        self.length(path, entries.len());
+        self.finite_list(path, entries);
+    }
+
+    fn length(&mut self, path: &str, found: usize) -> bool {
+        let fits = found == self.dofs.count();
+        if !fits {
+            self.problems.push(Problem::Length {
+                path: path.to_owned(),
+                found,
+                dofs: self.dofs,
+            });
+        }
+        fits
+    }
+
+    fn table_length(&mut self, path: &str, found: usize, expected: usize) {
+        if found != expected {
+            let path = path.to_owned();
+            self.problems.push(Problem::TableLength {
+                path,
+                found,
+                expected,
+            });
+        }
+    }
+
+    fn finite_list(&mut self, path: &str, entries: &[f64]) {
+        for (i, &found) in entries.iter().enumerate() {
+            if !found.is_finite() {
+                let path = format!("{path}[{i}]");
+                self.problems.push(Problem::NotFinite { path, found });
+            }
+        }
+    }
+
+    fn not_negative(&mut self, path: &str, entries: &[f64], what: &'static str) {
+        for (i, &found) in entries.iter().enumerate() {
+            if found < 0.0 {
+                let path = format!("{path}[{i}]");
+                self.problems.push(Problem::Negative { path, found, what });
+            }
+        }
+    }
+
+    fn magnitude(&mut self, path: &str, found: f64, what: &'static str) {
+        let path = path.to_owned();
+        if !found.is_finite() {
+            self.problems.push(Problem::NotFinite { path, found });
+        } else if found < 0.0 {
+            self.problems.push(Problem::Negative { path, found, what });
+        }
+    }
+
+    fn band(&mut self, frequency_hz: &[f64; 2]) {
+        self.finite_list("validity.frequency_hz", frequency_hz);
+        self.not_negative("validity.frequency_hz", frequency_hz, "a frequency");
+        let [from_hz, to_hz] = *frequency_hz;
+        if from_hz >= to_hz {
+            self.problems.push(Problem::Band { from_hz, to_hz });
+        }
+    }
+
+    fn hash(&mut self, path: &str, found: &str) {
+        let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+        if found.len() != 64 || !found.chars().all(is_digit) {
+            self.problems.push(Problem::Hash {
+                path: path.to_owned(),
+                found: found.to_owned(),
+            });
+        }
+    }
+}

@@ -3,6 +3,7 @@
 mod dof;
 mod error;
 mod function;
+mod noise;
 mod quantity;
 mod set;
 mod uff;
@@ -10,6 +11,7 @@ mod uff;
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;
 pub use function::Frf;
+pub use noise::polluted;
 pub use quantity::Quantity;
 pub use set::{FrfSet, Receptance};
 pub use uff::{

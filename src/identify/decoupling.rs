@@ -56,7 +56,9 @@ fn interface_receptance(
     right: &ComplexMatrix,
 ) -> Option<ComplexMatrix> {
     let joint_dofs = left.ncols();
-    if difference.nrows().min(difference.ncols()) < joint_dofs || difference.nrows() == joint_dofs && difference.is_square() {
+    if difference.nrows().min(difference.ncols()) < joint_dofs
+        || difference.nrows() == joint_dofs && difference.is_square()
+    {
         return Some(right * difference.clone().try_inverse()? * left);
     }
     (pseudo_inverse(left)? * difference * pseudo_inverse(right)?).try_inverse()
@@ -65,9 +67,19 @@ fn interface_receptance(
 fn pseudo_inverse(matrix: &ComplexMatrix) -> Option<ComplexMatrix> {
     // Columns of rotation and translation differ in units; scaled to unit length they can be told from rounding.
     let tall = matrix.nrows() >= matrix.ncols();
-    let tall_matrix = if tall { matrix.clone() } else { matrix.transpose() };
-    let lengths: Vec<f64> = tall_matrix.column_iter().map(|column| column.norm()).collect();
-    if lengths.iter().any(|&length| !(length.is_finite() && length > 0.0)) {
+    let tall_matrix = if tall {
+        matrix.clone()
+    } else {
+        matrix.transpose()
+    };
+    let lengths: Vec<f64> = tall_matrix
+        .column_iter()
+        .map(|column| column.norm())
+        .collect();
+    if lengths
+        .iter()
+        .any(|&length| !(length.is_finite() && length > 0.0))
+    {
         return None;
     }
     let mut scaled = tall_matrix;

@@ -33,6 +33,9 @@ pub(super) struct Estimate {
     pub(super) joint: JointMatrices,
     /// Σ|residual|² with the final weights.
     pub(super) cost: f64,
+    /// −2 log-likelihood up to a constant, the common scale of the variances profiled out: it ranks estimates whose
+    /// weights differ.
+    pub(super) misfit: f64,
     /// Real residuals minus unknowns.
     pub(super) degrees_of_freedom: usize,
     /// (JᵀJ)⁻¹ with the final weights, in the order of the unknowns; `None` where JᵀJ is singular.
@@ -79,11 +82,14 @@ pub(super) fn estimate(
     let unit_covariance = scaled
         .cholesky()
         .map(|factor| scaled_by(&factor.inverse(), &scale));
-    let residuals = 2 * lines.frequency_hz.len() * lines.measured.len();
+    // −2 ln L = N ln(Σ|r|²/σ² / N) + Σ ln σ² for N complex residuals
+    let count = variances.len() as f64;
+    let log_variances: f64 = variances.iter().map(|variance| variance.ln()).sum();
     Some(Estimate {
         joint: matrices(model, &unknowns),
         cost: normal.cost,
-        degrees_of_freedom: residuals.saturating_sub(model.unknowns()),
+        misfit: count * (normal.cost / count).ln() + log_variances,
+        degrees_of_freedom: (2 * variances.len()).saturating_sub(model.unknowns()),
         unit_covariance,
         converged,
     })
@@ -155,8 +161,7 @@ fn normal_equations(
                 // ∂K*/∂k = E_ij, ∂K*/∂c = jω E_ij
                 let by_stiffness = linearised.sensitivity(place, entry);
                 row[index] = by_stiffness;
-                row[entries.len() + index] =
-                    num_complex::Complex64::new(0.0, omega) * by_stiffness;
+                row[entries.len() + index] = num_complex::Complex64::new(0.0, omega) * by_stiffness;
             }
             normal.cost += weight * residual.norm_sqr();
             for i in 0..size {
@@ -192,7 +197,9 @@ fn levenberg_marquardt(
             system[(i, i)] += damping;
         }
         let gradient = normal.gradient.component_mul(&scale);
-        let step = system.cholesky().map(|factor| factor.solve(&gradient).component_mul(&scale));
+        let step = system
+            .cholesky()
+            .map(|factor| factor.solve(&gradient).component_mul(&scale));
         let trial = step.as_ref().map(|step| &unknowns + step);
         let improved = trial
             .as_ref()

@@ -57,11 +57,7 @@ impl Lines {
     }
 
     /// H^C_ss at one line with the two factors of its derivative, dH^C_ss = −P dK* Q.
-    pub(super) fn linearised(
-        &self,
-        line: usize,
-        joint: &JointMatrices,
-    ) -> Option<Linearised> {
+    pub(super) fn linearised(&self, line: usize, joint: &JointMatrices) -> Option<Linearised> {
         let stiffness = joint.complex_stiffness(self.frequency_hz[line]);
         let b = &self.b[line];
         let free = &self.a_joint[line] + &b.joint;

@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
+use crate::joint::DofSet;
 use crate::structure::ComplexMatrix;
 
 /// Structure of the joint's matrices (Tol section 4.2.2).
@@ -44,6 +45,15 @@ impl JointModel {
     #[must_use]
     pub fn unknowns(self) -> usize {
         2 * self.entries().len()
+    }
+}
+
+impl From<JointModel> for DofSet {
+    fn from(model: JointModel) -> Self {
+        match model {
+            JointModel::Translation => Self::Translation,
+            JointModel::Diagonal | JointModel::Full => Self::TranslationRotation,
+        }
     }
 }
 
@@ -107,7 +117,11 @@ mod tests {
 
     #[test]
     fn unknowns_and_matrices_are_each_others_inverse() {
-        for model in [JointModel::Translation, JointModel::Diagonal, JointModel::Full] {
+        for model in [
+            JointModel::Translation,
+            JointModel::Diagonal,
+            JointModel::Full,
+        ] {
             let unknowns: Vec<f64> = (1..=model.unknowns()).map(|i| i as f64).collect();
             let matrices = JointMatrices::from_unknowns(model, &unknowns);
             assert_eq!(matrices.stiffness, matrices.stiffness.transpose());

@@ -1,0 +1,302 @@
+//! From a study to lines: reads the files, computes the beams, forms rotations, and puts all on one frequency axis.
+
+use std::path::Path;
+
+use num_complex::Complex64;
+
+use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
+use crate::structure::{
+    Beam, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
+};
+
+use super::error::IdentifyError;
+use super::lines::Lines;
+use super::model::JointMatrices;
+use super::study::{FrfFile, JointPlace, Rotation, Source, Study, Substructure};
+
+/// Everything that the study names, line by line.
+pub(super) fn lines(study: &Study) -> Result<Lines, IdentifyError> {
+    let [from_hz, to_hz] = study.frequency_range_hz;
+    let path = &study.assembly.path;
+    let in_file = |source| in_file(path, source);
+    let assembly = read(&study.assembly)?
+        .restricted_to(from_hz, to_hz)
+        .map_err(in_file)?;
+    let axis = Axis {
+        path,
+        frequency_hz: assembly.frequency_hz(),
+    };
+    let points = &study.points;
+    let mut measured = Vec::new();
+    let mut entries = vec![Vec::new(); points.len() * points.len()];
+    for (column, &reference) in points.iter().enumerate() {
+        for (row, &response) in points.iter().enumerate() {
+            let receptance = assembly.receptance(response, reference).map_err(in_file)?;
+            if !receptance.is_reciprocal() {
+                measured.push((row, column));
+            }
+            entries[column * points.len() + row] = receptance.values().to_vec();
+        }
+    }
+    Ok(Lines {
+        assembly: matrices(points.len(), axis.frequency_hz.len(), &entries),
+        measured,
+        ..substructures(study, &axis)?
+    })
+}
+
+/// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
+///
+/// # Errors
+/// [`IdentifyError`] if the substructures' data cannot be used, or at an undamped resonance.
+pub fn predict_assembly(
+    study: &Study,
+    joint: &JointMatrices,
+    frequency_hz: &[f64],
+) -> Result<FrfSet, IdentifyError> {
+    let axis = Axis {
+        path: &study.assembly.path,
+        frequency_hz,
+    };
+    let assembly = substructures(study, &axis)?.regenerated(joint)?;
+    let mut functions = Vec::new();
+    for (row, &response) in study.points.iter().enumerate() {
+        for (column, &reference) in study.points.iter().enumerate() {
+            let values = assembly
+                .iter()
+                .map(|matrix| matrix[(row, column)])
+                .collect();
+            functions.push(Frf::new(
+                response,
+                reference,
+                frequency_hz.to_vec(),
+                values,
+            )?);
+        }
+    }
+    Ok(FrfSet::new(functions)?)
+}
+
+/// Lines without the assembly: what A and B contribute.
+fn substructures(study: &Study, axis: &Axis<'_>) -> Result<Lines, IdentifyError> {
+    let points = &study.points;
+    Ok(Lines {
+        frequency_hz: axis.frequency_hz.to_vec(),
+        a_joint: joint_and_points(study, "a", &study.a, &[], axis)?,
+        b: joint_and_points(study, "b", &study.b, points, axis)?
+            .iter()
+            .map(|receptance| Partition::of(receptance, study.model.dofs()))
+            .collect(),
+        assembly: Vec::new(),
+        points: points.clone(),
+        measured: Vec::new(),
+    })
+}
+
+/// The assembly's frequencies within the band, to which every other file has to agree.
+struct Axis<'a> {
+    path: &'a Path,
+    frequency_hz: &'a [f64],
+}
+
+fn in_file(path: &Path, source: FrfError) -> IdentifyError {
+    IdentifyError::FrfFile {
+        path: path.to_owned(),
+        source,
+    }
+}
+
+fn read(file: &FrfFile) -> Result<FrfSet, IdentifyError> {
+    let options = UffOptions {
+        quantity: file.quantity,
+        ..UffOptions::default()
+    };
+    Ok(read_uff58(&file.path, &options)?.into_set()?)
+}
+
+/// Receptance matrices of a substructure at each line: the joint's DOFs first, then `points`.
+fn joint_and_points(
+    study: &Study,
+    key: &'static str,
+    substructure: &Substructure,
+    points: &[Dof],
+    axis: &Axis<'_>,
+) -> Result<Vec<ComplexMatrix>, IdentifyError> {
+    match &substructure.joint {
+        JointPlace::Position(x_m) => {
+            let Source::Beam(beam) = &substructure.source else {
+                return Err(IdentifyError::Study {
+                    path: study.path.clone(),
+                    key: format!("{key}.joint"),
+                    found: "a position".to_owned(),
+                    expected: "labels of measured points".to_owned(),
+                });
+            };
+            beam_receptances(study, substructure, beam, *x_m, points, axis).map_err(|source| {
+                IdentifyError::Beam {
+                    path: study.path.clone(),
+                    key,
+                    source,
+                }
+            })
+        }
+        JointPlace::Labels { y, theta } => {
+            let (joint, transformation) = joint_labels(*y, theta.as_ref(), study.model.dofs());
+            let labels: Vec<Dof> = joint.iter().chain(points).copied().collect();
+            let receptances = labelled_receptances(&substructure.source, &labels, axis)?;
+            // (joint, points) = T (labels): H = T H_labels Tᵀ   (Tol 3.54)
+            let (joint_dofs, joint_labels) = transformation.shape();
+            let mut whole =
+                ComplexMatrix::zeros(joint_dofs + points.len(), joint_labels + points.len());
+            whole
+                .view_mut((0, 0), (joint_dofs, joint_labels))
+                .copy_from(&transformation);
+            for point in 0..points.len() {
+                whole[(joint_dofs + point, joint_labels + point)] = Complex64::from(1.0);
+            }
+            let transposed = whole.transpose();
+            Ok(receptances
+                .iter()
+                .map(|receptance| &whole * receptance * &transposed)
+                .collect())
+        }
+    }
+}
+
+/// Labels of the measured DOFs from which the joint's follow, and the matrix that takes one to the other.
+fn joint_labels(y: Dof, theta: Option<&Rotation>, joint_dofs: usize) -> (Vec<Dof>, ComplexMatrix) {
+    match theta {
+        Some(Rotation::Difference { points, spacing_m }) if joint_dofs == 2 => {
+            let difference = CentralDifference {
+                spacing_m: *spacing_m,
+            };
+            (points.to_vec(), difference.transformation())
+        }
+        Some(Rotation::Measured(theta)) if joint_dofs == 2 => {
+            (vec![y, *theta], ComplexMatrix::identity(2, 2))
+        }
+        _ => (vec![y], ComplexMatrix::identity(1, 1)),
+    }
+}
+
+fn beam_receptances(
+    study: &Study,
+    substructure: &Substructure,
+    beam: &Beam,
+    joint_m: f64,
+    points: &[Dof],
+    axis: &Axis<'_>,
+) -> Result<Vec<ComplexMatrix>, crate::structure::BeamError> {
+    let joint = [Motion::Translation, Motion::Rotation]
+        .into_iter()
+        .take(study.model.dofs())
+        .map(|motion| (joint_m, motion, 1.0));
+    let labelled = points.iter().map(|point| {
+        let motion = if point.direction().is_rotation() {
+            Motion::Rotation
+        } else {
+            Motion::Translation
+        };
+        let position_m = substructure.positions_m.get(point).copied();
+        (
+            position_m.unwrap_or(f64::NAN),
+            motion,
+            point.sign().factor(),
+        )
+    });
+    let dofs: Vec<(f64, Motion, f64)> = joint.chain(labelled).collect();
+    let on_beam: Vec<BeamPoint> = dofs
+        .iter()
+        .map(|&(position_m, motion, _)| BeamPoint { position_m, motion })
+        .collect();
+    let mut receptances = beam.receptances(&on_beam, axis.frequency_hz)?;
+    for receptance in &mut receptances {
+        for (p, &(_, _, row_sign)) in dofs.iter().enumerate() {
+            for (q, &(_, _, column_sign)) in dofs.iter().enumerate() {
+                receptance[(p, q)] *= row_sign * column_sign;
+            }
+        }
+    }
+    Ok(receptances)
+}
+
+/// Receptances between all `labels` of a measured substructure.
+fn labelled_receptances(
+    source: &Source,
+    labels: &[Dof],
+    axis: &Axis<'_>,
+) -> Result<Vec<ComplexMatrix>, IdentifyError> {
+    let mut entries = Vec::with_capacity(labels.len() * labels.len());
+    match source {
+        Source::Frf(file) => {
+            let set = read(file)?;
+            let (from_hz, to_hz) = axis.ends();
+            let set = set
+                .restricted_to(from_hz, to_hz)
+                .map_err(|source| in_file(&file.path, source))?;
+            axis.compare(&file.path, set.frequency_hz())?;
+            for &reference in labels {
+                for &response in labels {
+                    let receptance = set
+                        .receptance(response, reference)
+                        .map_err(|source| in_file(&file.path, source))?;
+                    entries.push(receptance.values().to_vec());
+                }
+            }
+        }
+        Source::Modal(path) => {
+            let model = ModalModel::read(path)?;
+            for &reference in labels {
+                for &response in labels {
+                    entries.push(model.receptance(response, reference, axis.frequency_hz)?);
+                }
+            }
+        }
+        // A beam's joint is given by its position, which the study's check has made sure of.
+        Source::Beam(_) => {}
+    }
+    Ok(matrices(labels.len(), axis.frequency_hz.len(), &entries))
+}
+
+/// One size×size matrix a line from entries in column-major order, each over all lines.
+fn matrices(size: usize, line_count: usize, entries: &[Vec<Complex64>]) -> Vec<ComplexMatrix> {
+    (0..line_count)
+        .map(|line| {
+            ComplexMatrix::from_iterator(size, size, entries.iter().map(|entry| entry[line]))
+        })
+        .collect()
+}
+
+impl Axis<'_> {
+    /// First and last frequency, widened by what rounding in another file may have moved them.
+    fn ends(&self) -> (f64, f64) {
+        let first = self.frequency_hz[0];
+        let last = self.frequency_hz[self.frequency_hz.len() - 1];
+        (first * (1.0 - 1e-5), last * (1.0 + 1e-5))
+    }
+
+    fn compare(&self, path: &Path, other_hz: &[f64]) -> Result<(), IdentifyError> {
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-5 * a.abs().max(b.abs());
+        let shared = self.frequency_hz.len().min(other_hz.len());
+        let first_difference = (0..shared)
+            .find(|&line| !same(self.frequency_hz[line], other_hz[line]))
+            .or_else(|| (self.frequency_hz.len() != other_hz.len()).then_some(shared));
+        let Some(line) = first_difference else {
+            return Ok(());
+        };
+        let (from_hz, to_hz) = self.ends();
+        let show = |axis: &[f64]| {
+            axis.get(line)
+                .map_or_else(|| "(no line left)".to_owned(), |hz| format!("{hz} Hz"))
+        };
+        Err(IdentifyError::DifferingAxes {
+            first_path: self.path.to_owned(),
+            second_path: path.to_owned(),
+            from_hz,
+            to_hz,
+            line: line + 1,
+            first: show(self.frequency_hz),
+            second: show(other_hz),
+        })
+    }
+}

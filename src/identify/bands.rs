@@ -1,0 +1,137 @@
+//! Averages of the decoupled stiffness over bands: the classical estimate, and the start of the refined one.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+use serde::Deserialize;
+
+use crate::structure::ComplexMatrix;
+
+use super::model::{JointMatrices, JointModel};
+
+/// Frequency bands, from and to in Hz, over which each entry of the joint's matrices is averaged.
+///
+/// An entry without bands is the median over all lines: without a choice of bands some lines are far off, because the
+/// receptances do not depend on the joint there, and a mean would follow them.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bands {
+    /// Bands for k_Fy and c_Fy.
+    #[serde(default)]
+    pub yy: Vec<[f64; 2]>,
+    /// Bands for k_Fθ and c_Fθ.
+    #[serde(default)]
+    pub ytheta: Vec<[f64; 2]>,
+    /// Bands for k_Mθ and c_Mθ.
+    #[serde(default)]
+    pub thetatheta: Vec<[f64; 2]>,
+}
+
+impl Bands {
+    pub(super) fn named(&self) -> [(&'static str, &[[f64; 2]]); 3] {
+        [
+            ("yy", &self.yy),
+            ("ytheta", &self.ytheta),
+            ("thetatheta", &self.thetatheta),
+        ]
+    }
+
+    fn of_entry(&self, entry: (usize, usize)) -> &[[f64; 2]] {
+        match entry {
+            (0, 0) => &self.yy,
+            (1, 1) => &self.thetatheta,
+            _ => &self.ytheta,
+        }
+    }
+}
+
+/// K and C of `model` from the decoupled K* of each line; `None` if an entry has no line to average.
+pub(super) fn average(
+    model: JointModel,
+    frequency_hz: &[f64],
+    decoupled: &[Option<ComplexMatrix>],
+    bands: &Bands,
+) -> Option<JointMatrices> {
+    let size = model.dofs();
+    let mut average = JointMatrices {
+        stiffness: DMatrix::zeros(size, size),
+        damping: DMatrix::zeros(size, size),
+    };
+    for &(row, column) in model.entries() {
+        let bands = bands.of_entry((row, column));
+        let within =
+            |hz: f64| bands.is_empty() || bands.iter().any(|b| (b[0]..=b[1]).contains(&hz));
+        // k = Re K*, c = Im K*/ω; the two off-diagonal entries of a symmetric joint are one number.
+        let values: Vec<Complex64> = frequency_hz
+            .iter()
+            .zip(decoupled)
+            .filter(|&(&hz, _)| within(hz))
+            .filter_map(|(&hz, stiffness)| {
+                let stiffness = stiffness.as_ref()?;
+                let entry = 0.5 * (stiffness[(row, column)] + stiffness[(column, row)]);
+                Some(Complex64::new(
+                    entry.re,
+                    entry.im / (std::f64::consts::TAU * hz),
+                ))
+            })
+            .collect();
+        let summary = if bands.is_empty() { median } else { mean };
+        let k = summary(values.iter().map(|value| value.re).collect())?;
+        let c = summary(values.iter().map(|value| value.im).collect())?;
+        for place in [(row, column), (column, row)] {
+            average.stiffness[place] = k;
+            average.damping[place] = c;
+        }
+    }
+    Some(average)
+}
+
+fn mean(values: Vec<f64>) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => None,
+        odd if odd % 2 == 1 => Some(values[middle]),
+        _ => Some(0.5 * (values[middle - 1] + values[middle])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_choose_the_lines_and_no_band_takes_the_median() {
+        let frequency_hz = [1.0, 2.0, 3.0];
+        let line = |k: f64, hz: f64| {
+            let imaginary = std::f64::consts::TAU * hz * 10.0 * k;
+            Some(ComplexMatrix::from_element(
+                1,
+                1,
+                Complex64::new(k, imaginary),
+            ))
+        };
+        let decoupled = [line(1.0, 1.0), line(5.0, 2.0), line(100.0, 3.0)];
+        let entry = |bands: &Bands| {
+            let average =
+                average(JointModel::Translation, &frequency_hz, &decoupled, bands).unwrap();
+            (average.stiffness[(0, 0)], average.damping[(0, 0)])
+        };
+        let (k, c) = entry(&Bands::default());
+        assert!((k - 5.0).abs() < 1e-12 && (c - 50.0).abs() < 1e-12);
+        let low = Bands {
+            yy: vec![[0.5, 2.5]],
+            ..Bands::default()
+        };
+        let (k, c) = entry(&low);
+        assert!((k - 3.0).abs() < 1e-12 && (c - 30.0).abs() < 1e-12);
+        let nowhere = Bands {
+            yy: vec![[7.0, 8.0]],
+            ..Bands::default()
+        };
+        assert!(average(JointModel::Translation, &frequency_hz, &decoupled, &nowhere).is_none());
+    }
+}

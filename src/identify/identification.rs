@@ -1,0 +1,343 @@
+//! The identification itself, from lines to a joint with its uncertainty.
+
+use nalgebra::DMatrix;
+
+use crate::frf::Dof;
+use crate::joint::{
+    Format, FunctionResidual, Joint, JointFile, Provenance, Residual, StandardDeviation,
+    Uncertainty, Validity,
+};
+use crate::structure::{ComplexMatrix, Partition};
+
+use super::bands::{self, Bands};
+use super::error::IdentifyError;
+use super::estimator::{Estimate, NoiseLevel, estimate};
+use super::lines::Lines;
+use super::model::{JointMatrices, JointModel};
+use super::starts::starts;
+use super::study::Study;
+use super::{assemble, decoupling, provenance};
+
+/// Lines that are enough to tell which start leads to the best estimate.
+const LINES_FOR_STARTS: usize = 200;
+
+/// Two estimates are the same if their −2 log-likelihoods agree to this.
+const SAME_MISFIT: f64 = 1e-3;
+
+/// A standard deviation beyond this fraction of the value makes the value unreliable.
+const UNRELIABLE: f64 = 0.5;
+
+/// What was identified, and from what.
+#[derive(Clone, Debug)]
+pub struct Identification {
+    /// Name of the joint.
+    pub name: String,
+    /// Joint model.
+    pub model: JointModel,
+    /// The data.
+    pub lines: Lines,
+    /// K* of each line by (3.21); `None` where a matrix was singular.
+    pub decoupled: Vec<Option<ComplexMatrix>>,
+    /// Average of the decoupled values over bands, where every entry had lines.
+    pub band_average: Option<JointMatrices>,
+    /// The estimate.
+    pub joint: JointMatrices,
+    /// One standard deviation of each entry; infinite where the data do not determine the joint.
+    pub standard_deviation: JointMatrices,
+    /// The assembly's receptances H^C_ss with the estimated joint, line by line.
+    pub regenerated: Vec<ComplexMatrix>,
+    /// Fit of each measured function.
+    pub fits: Vec<FunctionFit>,
+    /// Root mean square of |measured − computed|/|computed| over all lines and functions.
+    pub relative_rms: f64,
+    /// χ² over degrees of freedom, where the study states the noise: about 1 if the model fits.
+    pub reduced_chi_squared: Option<f64>,
+    /// How many starts were tried, and how many of them led to this estimate.
+    pub starts: (usize, usize),
+    /// What the user should know before using the result.
+    pub warnings: Vec<String>,
+    provenance: Provenance,
+    bodies: Option<crate::joint::Bodies>,
+}
+
+/// Fit of one measured function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FunctionFit {
+    /// Response.
+    pub response: Dof,
+    /// Reference.
+    pub reference: Dof,
+    /// Row and column in H^C_ss.
+    pub place: (usize, usize),
+    /// Root mean square of |measured − computed|/|computed| over the lines.
+    pub relative_rms: f64,
+}
+
+/// The refined estimate from lines alone, with what led to it.
+#[derive(Clone, Debug)]
+pub struct LinesEstimate {
+    decoupled: Vec<Option<ComplexMatrix>>,
+    band_average: Option<JointMatrices>,
+    joint: JointMatrices,
+    standard_deviation: JointMatrices,
+    reduced_cost: f64,
+    starts: (usize, usize),
+    warnings: Vec<String>,
+}
+
+impl LinesEstimate {
+    /// The joint.
+    #[must_use]
+    pub fn joint(&self) -> &JointMatrices {
+        &self.joint
+    }
+
+    /// One standard deviation of each entry.
+    #[must_use]
+    pub fn standard_deviation(&self) -> &JointMatrices {
+        &self.standard_deviation
+    }
+
+    /// Average of the decoupled values, from which the estimate started.
+    #[must_use]
+    pub fn band_average(&self) -> Option<&JointMatrices> {
+        self.band_average.as_ref()
+    }
+}
+
+/// Identifies the joint of a study.
+///
+/// # Errors
+/// [`IdentifyError`] if a file or the study cannot be used, or the data do not lead to an estimate.
+pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
+    let lines = assemble::lines(study)?;
+    let estimate = identify_lines(&lines, study.model, study.noise, &study.bands)?;
+    let regenerated = lines.regenerated(&estimate.joint)?;
+    let fits: Vec<FunctionFit> = lines
+        .measured
+        .iter()
+        .map(|&place| FunctionFit {
+            response: lines.points[place.0],
+            reference: lines.points[place.1],
+            place,
+            relative_rms: relative_rms(&lines.assembly, &regenerated, place),
+        })
+        .collect();
+    let mean_square: f64 =
+        fits.iter().map(|fit| fit.relative_rms.powi(2)).sum::<f64>() / fits.len() as f64;
+    let provenance = provenance::of(study)?;
+    Ok(Identification {
+        name: study.name.clone(),
+        model: study.model,
+        decoupled: estimate.decoupled,
+        band_average: estimate.band_average,
+        joint: estimate.joint,
+        standard_deviation: estimate.standard_deviation,
+        regenerated,
+        fits,
+        relative_rms: mean_square.sqrt(),
+        reduced_chi_squared: study.noise.map(|_| estimate.reduced_cost),
+        starts: estimate.starts,
+        warnings: estimate.warnings,
+        lines,
+        provenance,
+        bodies: study.bodies.clone(),
+    })
+}
+
+fn relative_rms(
+    measured: &[ComplexMatrix],
+    computed: &[ComplexMatrix],
+    place: (usize, usize),
+) -> f64 {
+    let squares = measured.iter().zip(computed).map(|(measured, computed)| {
+        (measured[place] - computed[place]).norm_sqr() / computed[place].norm_sqr()
+    });
+    (squares.sum::<f64>() / measured.len() as f64).sqrt()
+}
+
+/// Identifies a joint from lines: decoupling, band average, then the refined estimate from several starts.
+///
+/// # Errors
+/// [`IdentifyError::NoEstimate`] if no start leads to an estimate.
+pub fn identify_lines(
+    lines: &Lines,
+    model: JointModel,
+    noise: Option<NoiseLevel>,
+    bands: &Bands,
+) -> Result<LinesEstimate, IdentifyError> {
+    let decoupled = decouple(lines);
+    let band_average = bands::average(model, &lines.frequency_hz, &decoupled, bands);
+    let weights = noise.unwrap_or(NoiseLevel {
+        relative: 1.0,
+        floor: 0.0,
+    });
+    let (best, starts) = best_estimate(lines, model, weights, band_average.as_ref())?;
+    let reduced_cost = best.cost / best.degrees_of_freedom.max(1) as f64 * 2.0;
+    let standard_deviation = standard_deviation(model, &best, reduced_cost);
+    let mut warnings = Vec::new();
+    if lines.points.len() < model.dofs() {
+        warnings.push(format!(
+            "{} response point for a joint with {} DOFs: the decoupled matrix has rank {} on every line, so the band \
+             averages are no estimate; the refined values rest on the lines together",
+            lines.points.len(),
+            model.dofs(),
+            lines.points.len()
+        ));
+    }
+    if !best.converged {
+        warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
+    }
+    warnings.extend(unreliable(model, &best.joint, &standard_deviation));
+    Ok(LinesEstimate {
+        decoupled,
+        band_average,
+        joint: best.joint,
+        standard_deviation,
+        reduced_cost,
+        starts,
+        warnings,
+    })
+}
+
+fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
+    let line = |index: usize| {
+        let a_joint = &lines.a_joint[index];
+        // Equation (3.21) needs nothing of A but H_jj.
+        let a = Partition::of(a_joint, a_joint.nrows());
+        decoupling::from_ss(&a, &lines.b[index], &lines.assembly[index])
+    };
+    (0..lines.frequency_hz.len()).map(line).collect()
+}
+
+/// The estimate with the lowest cost, and of how many starts how many led to it.
+fn best_estimate(
+    lines: &Lines,
+    model: JointModel,
+    noise: NoiseLevel,
+    band_average: Option<&JointMatrices>,
+) -> Result<(Estimate, (usize, usize)), IdentifyError> {
+    let stride = (lines.frequency_hz.len() / LINES_FOR_STARTS).max(1);
+    let thinned = lines.thinned(stride);
+    let starts = starts(&thinned, model, band_average);
+    let mut estimates: Vec<Estimate> = starts
+        .iter()
+        .filter_map(|start| estimate(&thinned, model, noise, start))
+        .collect();
+    estimates.sort_by(|a, b| {
+        let unconverged = |estimate: &Estimate| !estimate.converged;
+        unconverged(a)
+            .cmp(&unconverged(b))
+            .then(a.misfit.total_cmp(&b.misfit))
+    });
+    let no_estimate = || IdentifyError::NoEstimate {
+        starts: starts.len(),
+        points: lines
+            .points
+            .iter()
+            .map(Dof::to_string)
+            .collect::<Vec<_>>()
+            .join(", "),
+    };
+    let lowest = estimates.first().ok_or_else(no_estimate)?;
+    let agreeing = estimates
+        .iter()
+        .filter(|other| other.converged && other.misfit <= lowest.misfit + SAME_MISFIT)
+        .count();
+    let refined = estimate(lines, model, noise, &lowest.joint).ok_or_else(no_estimate)?;
+    Ok((refined, (starts.len(), agreeing)))
+}
+
+/// Standard deviations from s²(JᵀJ)⁻¹, s² being the residual's own variance.
+fn standard_deviation(model: JointModel, best: &Estimate, reduced_cost: f64) -> JointMatrices {
+    let unknowns: Vec<f64> = match &best.unit_covariance {
+        Some(covariance) => covariance
+            .diagonal()
+            .iter()
+            // JᵀJ counts real and imaginary parts with σ² each; together they have σ², so each has half of it.
+            .map(|variance| (0.5 * reduced_cost * variance).sqrt())
+            .collect(),
+        None => vec![f64::INFINITY; model.unknowns()],
+    };
+    JointMatrices::from_unknowns(model, &unknowns)
+}
+
+fn unreliable(
+    model: JointModel,
+    joint: &JointMatrices,
+    deviation: &JointMatrices,
+) -> impl Iterator<Item = String> {
+    let matrices = [
+        ("stiffness", &joint.stiffness, &deviation.stiffness),
+        ("damping", &joint.damping, &deviation.damping),
+    ];
+    let mut found = Vec::new();
+    for (name, values, deviations) in matrices {
+        for &(row, column) in model.entries() {
+            let (value, deviation) = (values[(row, column)], deviations[(row, column)]);
+            if deviation.is_nan() || deviation > UNRELIABLE * value.abs() {
+                found.push(format!(
+                    "{name}[{row}][{column}] = {value:.3e} has a standard deviation of {deviation:.1e}: \
+                     the data hardly determine it"
+                ));
+            }
+        }
+    }
+    found.into_iter()
+}
+
+impl Identification {
+    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from.
+    #[must_use]
+    pub fn joint_file(&self) -> JointFile {
+        let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
+            matrix
+                .row_iter()
+                .map(|row| row.iter().copied().collect())
+                .collect()
+        };
+        let finite = |matrix: &DMatrix<f64>| matrix.iter().all(|value| value.is_finite());
+        let deviation = &self.standard_deviation;
+        let frequency_hz = &self.lines.frequency_hz;
+        JointFile {
+            format: Format::V1,
+            name: self.name.clone(),
+            joint: Joint {
+                dofs: self.model.into(),
+                stiffness: rows(&self.joint.stiffness),
+                damping: rows(&self.joint.damping),
+                cubic: vec![0.0; self.model.dofs()],
+                over_preload: None,
+            },
+            bodies: self.bodies.clone(),
+            uncertainty: (finite(&deviation.stiffness) && finite(&deviation.damping)).then(|| {
+                Uncertainty {
+                    standard_deviation: StandardDeviation {
+                        stiffness: rows(&deviation.stiffness),
+                        damping: rows(&deviation.damping),
+                    },
+                    basis: "linearised least squares, scaled by the residual's own variance; \
+                            noise of the assembly's receptances only"
+                        .to_owned(),
+                }
+            }),
+            validity: Some(Validity {
+                frequency_hz: [frequency_hz[0], frequency_hz[frequency_hz.len() - 1]],
+            }),
+            residual: Some(Residual {
+                relative_rms: self.relative_rms,
+                lines: frequency_hz.len(),
+                functions: self
+                    .fits
+                    .iter()
+                    .map(|fit| FunctionResidual {
+                        response: fit.response.to_string(),
+                        reference: fit.reference.to_string(),
+                        relative_rms: fit.relative_rms,
+                    })
+                    .collect(),
+            }),
+            provenance: Some(self.provenance.clone()),
+        }
+    }
+}

@@ -1,4 +1,7 @@
-//! Command line of bolted-joint.
-fn main() {
-    println!("{}", env!("CARGO_PKG_VERSION"));
+//! The command line of bolted-joint; everything it does is in the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    bolted_joint::cli::main()
 }

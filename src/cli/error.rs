@@ -1,0 +1,45 @@
+//! Everything that can end a command with exit code 1.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::export::ExportError;
+use crate::frf::FrfError;
+use crate::identify::IdentifyError;
+use crate::joint::JointFileError;
+
+/// Why a command did not do what it was asked for.
+#[derive(Debug, Error)]
+pub(super) enum CliError {
+    #[error(transparent)]
+    Identify(#[from] IdentifyError),
+    #[error(transparent)]
+    Frf(#[from] FrfError),
+    #[error(transparent)]
+    JointFile(#[from] JointFileError),
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    Unwritable { path: PathBuf, source: io::Error },
+    #[error("{option}: found {found}, expected {expected}")]
+    Option {
+        option: &'static str,
+        found: String,
+        expected: &'static str,
+    },
+    #[error("{}: {findings}", path.display())]
+    Check { path: PathBuf, findings: String },
+    #[error("the result cannot be printed: {0}")]
+    Output(#[from] io::Error),
+    #[error("the result cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl CliError {
+    /// Whether the reader of stdout has gone away, as `head` does: no error of the user's.
+    pub(super) fn is_closed_output(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}

@@ -1,0 +1,152 @@
+//! `identify`: a study becomes a joint file.
+
+use std::fmt::Write as _;
+
+use num_complex::Complex64;
+use serde_json::json;
+
+use crate::identify::{Identification, Study, identify};
+use crate::report::{FrfFigure, FrfPanel};
+
+use super::IdentifyArguments;
+use super::error::CliError;
+use super::output::{print, write_file};
+use super::table::{Table, Unknown, number};
+
+/// At most so many functions are drawn.
+const PANELS: usize = 3;
+
+pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+    if let Some(figure) = &arguments.figure {
+        let extension = figure.extension().and_then(|extension| extension.to_str());
+        if extension != Some("svg") {
+            return Err(CliError::Option {
+                option: "--figure",
+                found: figure.display().to_string(),
+                expected: "a name that ends in .svg",
+            });
+        }
+    }
+    let study = Study::read(&arguments.study)?;
+    let found = identify(&study)?;
+    let joint_file = found.joint_file();
+    let drawing = arguments.figure.as_ref().map(|path| (path, figure(&found, "")));
+    joint_file.write(&arguments.output)?;
+    if let Some((path, drawing)) = drawing {
+        write_file(path, drawing.as_bytes())?;
+    }
+    for warning in warnings(&found) {
+        eprintln!("warning: {warning}");
+    }
+    if arguments.json {
+        let value = json!({
+            "output": arguments.output,
+            "figure": arguments.figure,
+            "joint_file": joint_file,
+            "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
+            "reduced_chi_squared": found.reduced_chi_squared,
+            "warnings": warnings(&found),
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    let mut text = summary(&found);
+    let _ = writeln!(text, "\nwrote {}", arguments.output.display());
+    if let Some(path) = &arguments.figure {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    print(&text)
+}
+
+/// What the identification and the passivity of its result give reason to warn of.
+pub(super) fn warnings(found: &Identification) -> Vec<String> {
+    let passivity = found.joint_file().passivity();
+    let active = passivity.active().map(|matrix| {
+        format!("{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
+    });
+    found.warnings.iter().cloned().chain(active).collect()
+}
+
+/// The result for people.
+fn summary(found: &Identification) -> String {
+    let mut text = format!("{}\n{}\n\n", found.name, basis(found));
+    let mut table = Table::new(&["", "identified", "± std. dev.", "band average", "unit"]);
+    for unknown in Unknown::of(found.model) {
+        let average = found.band_average.as_ref();
+        table.row(vec![
+            unknown.name.to_owned(),
+            number(unknown.value(&found.joint), 5),
+            number(unknown.value(&found.standard_deviation), 2),
+            average.map_or_else(|| "none".to_owned(), |average| number(unknown.value(average), 5)),
+            unknown.unit.to_owned(),
+        ]);
+    }
+    text += &table.render();
+    let _ = writeln!(text, "\n{}", fit(found));
+    text
+}
+
+/// What the result rests on, in one line.
+pub(super) fn basis(found: &Identification) -> String {
+    let frequency_hz = &found.lines.frequency_hz;
+    format!(
+        "joint model \"{}\" from {} functions at {} points, {} lines from {} to {} Hz",
+        found.model,
+        found.fits.len(),
+        found.lines.points.len(),
+        frequency_hz.len(),
+        number(frequency_hz[0], 4),
+        number(frequency_hz[frequency_hz.len() - 1], 4),
+    )
+}
+
+/// How well the result fits, in one line.
+pub(super) fn fit(found: &Identification) -> String {
+    let chi_squared = found
+        .reduced_chi_squared
+        .map(|value| format!("; χ² per degree of freedom {value:.3}"))
+        .unwrap_or_default();
+    let passive = if found.joint_file().passivity().is_passive() {
+        "passive"
+    } else {
+        "ACTIVE"
+    };
+    let (tried, agreeing) = found.starts;
+    format!(
+        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; the joint is {passive}",
+        100.0 * found.relative_rms
+    )
+}
+
+/// The drive-point functions (or, without any, the first ones), measured and regenerated.
+pub(super) fn figure(found: &Identification, subtitle: &str) -> String {
+    let curve = |matrices: &[crate::structure::ComplexMatrix], place| -> Vec<Complex64> {
+        matrices.iter().map(|matrix| matrix[place]).collect()
+    };
+    let drive_points = found.fits.iter().filter(|fit| fit.response == fit.reference);
+    let others = found.fits.iter().filter(|fit| fit.response != fit.reference);
+    let curves: Vec<_> = drive_points
+        .chain(others)
+        .take(PANELS)
+        .map(|fit| {
+            let label = format!("{} / {}", fit.response, fit.reference);
+            let measured = curve(&found.lines.assembly, fit.place);
+            let regenerated = curve(&found.regenerated, fit.place);
+            (label, measured, regenerated)
+        })
+        .collect();
+    FrfFigure {
+        title: &found.name,
+        subtitle,
+        frequency_hz: &found.lines.frequency_hz,
+        panels: curves
+            .iter()
+            .map(|(label, measured, regenerated)| FrfPanel {
+                label: label.clone(),
+                unit: "m/N",
+                measured,
+                regenerated,
+            })
+            .collect(),
+    }
+    .to_svg()
+}

@@ -1,0 +1,132 @@
+//! Small tables of numbers for the terminal.
+
+use std::fmt::Write as _;
+
+use crate::identify::{JointMatrices, JointModel};
+
+/// Rows of text under a header, columns aligned: the first to the left, the others to the right.
+pub(super) struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub(super) fn new(header: &[&str]) -> Self {
+        Self {
+            rows: vec![header.iter().map(|&title| title.to_owned()).collect()],
+        }
+    }
+
+    pub(super) fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// The table, each line indented by two spaces.
+    pub(super) fn render(&self) -> String {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..columns)
+            .map(|column| {
+                let cells = self.rows.iter().filter_map(|row| row.get(column));
+                cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+            })
+            .collect();
+        let mut text = String::new();
+        for row in &self.rows {
+            let mut line = String::new();
+            for (column, cell) in row.iter().enumerate() {
+                let padding = " ".repeat(widths[column] - cell.chars().count());
+                if column == 0 {
+                    line += &format!("  {cell}{padding}");
+                } else {
+                    line += &format!("  {padding}{cell}");
+                }
+            }
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        text
+    }
+}
+
+/// One unknown of a joint, by its name in the FMU.
+pub(super) struct Unknown {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    matrix: Matrix,
+    place: (usize, usize),
+}
+
+#[derive(Clone, Copy)]
+enum Matrix {
+    Stiffness,
+    Damping,
+}
+
+impl Unknown {
+    /// The unknowns of a joint model: stiffnesses, then dampings.
+    pub(super) fn of(model: JointModel) -> Vec<Self> {
+        let named = |matrix: Matrix, place: (usize, usize)| {
+            let (name, unit) = match (matrix, place) {
+                (Matrix::Stiffness, (0, 0)) => ("k_yy", "N/m"),
+                (Matrix::Stiffness, (1, 1)) => ("k_thetatheta", "N·m/rad"),
+                (Matrix::Stiffness, _) => ("k_ytheta", "N/rad"),
+                (Matrix::Damping, (0, 0)) => ("c_yy", "N·s/m"),
+                (Matrix::Damping, (1, 1)) => ("c_thetatheta", "N·m·s/rad"),
+                (Matrix::Damping, _) => ("c_ytheta", "N·s/rad"),
+            };
+            Self {
+                name,
+                unit,
+                matrix,
+                place,
+            }
+        };
+        [Matrix::Stiffness, Matrix::Damping]
+            .into_iter()
+            .flat_map(|matrix| model.entries().iter().map(move |&place| named(matrix, place)))
+            .collect()
+    }
+
+    /// Its value in these matrices.
+    pub(super) fn value(&self, joint: &JointMatrices) -> f64 {
+        match self.matrix {
+            Matrix::Stiffness => joint.stiffness[self.place],
+            Matrix::Damping => joint.damping[self.place],
+        }
+    }
+}
+
+/// A number with `digits` significant digits, in the form that is easier to read.
+pub(super) fn number(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if (-3..6).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", digits.saturating_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_digits() {
+        assert_eq!(number(573_012.3, 5), "573012");
+        assert_eq!(number(0.083_04, 3), "0.0830");
+        assert_eq!(number(-8.263, 3), "-8.26");
+        assert_eq!(number(4.56e9, 3), "4.56e9");
+        assert_eq!(number(1e-7, 2), "1.0e-7");
+        assert_eq!(number(0.0, 3), "0");
+    }
+
+    #[test]
+    fn columns_line_up_by_characters() {
+        let mut table = Table::new(&["", "value"]);
+        table.row(vec!["k_yy".into(), "5".into()]);
+        table.row(vec!["N·m".into(), "±1234".into()]);
+        assert_eq!(table.render(), "        value\n  k_yy      5\n  N·m   ±1234\n");
+    }
+}

@@ -1,0 +1,55 @@
+"""Joint files that the tests export."""
+
+import copy
+
+
+def joint(dofs, stiffness, damping, cubic, bodies=None, name="test joint"):
+    file = {
+        "format": "bolted-joint/1",
+        "name": name,
+        "joint": {"dofs": dofs, "stiffness": stiffness, "damping": damping, "cubic": cubic},
+    }
+    if bodies:
+        file["bodies"] = bodies
+    return file
+
+
+def body(inertia, stiffness, damping):
+    return {"inertia": inertia, "stiffness": stiffness, "damping": damping}
+
+
+# Pirdayr, Table 3, Ex.03; the two bodies are made to differ so that nothing hides behind the symmetry.
+ONE_DOF_BODIES = {
+    "a": body([2.35], [10.56e5], [1.39]),
+    "b": body([1.90], [8.82e5], [1.24]),
+}
+LINEAR_1 = joint(["y"], [[4.56e6]], [[54.0]], [0.0], ONE_DOF_BODIES)
+HARDENING_1 = joint(["y"], [[4.56e6]], [[54.0]], [3e12], ONE_DOF_BODIES)
+SOFTENING_1 = joint(["y"], [[4.56e6]], [[54.0]], [-2e12], ONE_DOF_BODIES)
+
+# Tol, Table 5.3 (updated), between two larger bodies on supports.
+TWO_DOF_BODIES = {
+    "a": body([0.5, 2e-4], [2e5, 50.0], [3.0, 0.004]),
+    "b": body([0.3, 1e-4], [1e5, 80.0], [2.0, 0.002]),
+}
+TOL_K = [[5.73e5, 5.82e3], [5.82e3, 1.29e3]]
+TOL_C = [[10.83, -0.83], [-0.83, 0.083]]
+LINEAR_2 = joint(["y", "theta"], TOL_K, TOL_C, [0.0, 0.0], TWO_DOF_BODIES)
+HARDENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [5e11, 4e5], TWO_DOF_BODIES)
+SOFTENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [-2e11, -1e5], TWO_DOF_BODIES)
+
+LAPS = {
+    "linear-1": LINEAR_1,
+    "hardening-1": HARDENING_1,
+    "softening-1": SOFTENING_1,
+    "linear-2": LINEAR_2,
+    "hardening-2": HARDENING_2,
+    "softening-2": SOFTENING_2,
+}
+
+
+def changed(file, **joint_entries):
+    """A copy of a joint file with other entries of `joint`."""
+    copied = copy.deepcopy(file)
+    copied["joint"].update(joint_entries)
+    return copied

@@ -73,6 +73,8 @@ pub(crate) enum Damage {
     Checksum,
     /// A field has a value that it cannot have.
     Field { name: &'static str },
+    /// A variable is NaN or infinite.
+    Value { name: &'static str },
 }
 
 impl fmt::Display for Damage {
@@ -92,6 +94,7 @@ impl fmt::Display for Damage {
             }
             Self::Checksum => f.write_str("its checksum is wrong, the bytes were changed"),
             Self::Field { name } => write!(f, "its {name} is impossible"),
+            Self::Value { name } => write!(f, "its value of {name} is impossible"),
         }
     }
 }
@@ -181,8 +184,14 @@ impl Snapshot {
             .into());
         }
         let mut values = [0.0; REFERENCE_COUNT];
-        for value in &mut values {
+        for (reference, value) in values.iter_mut().enumerate() {
             *value = reader.f64()?;
+            if !value.is_finite() {
+                return Err(Damage::Value {
+                    name: identity.variables.name(reference),
+                }
+                .into());
+            }
         }
         reader.array::<8>()?;
         if !reader.rest.is_empty() {

@@ -75,10 +75,8 @@ fn a_state_handle_is_used_again() {
     let first = state;
     assert_eq!(instance.set(&[vr::A_F], &[7.0]), c::OK);
     // SAFETY: the instance and the state live
-    assert_eq!(
-        unsafe { c::fmi3GetFMUState(instance.handle, &raw mut state) },
-        c::OK
-    );
+    let status = unsafe { c::fmi3GetFMUState(instance.handle, &raw mut state) };
+    assert_eq!(status, c::OK);
     assert_eq!(state, first);
     let bytes = instance.serialize(state);
     assert_eq!(instance.set(&[vr::A_F], &[8.0]), c::OK);

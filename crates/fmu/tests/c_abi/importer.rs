@@ -360,10 +360,8 @@ impl Instance {
     pub(crate) fn save(&mut self) -> *mut c_void {
         let mut state = ptr::null_mut();
         // SAFETY: the instance lives, the pointer is to a local
-        assert_eq!(
-            unsafe { c::fmi3GetFMUState(self.handle, &raw mut state) },
-            c::OK
-        );
+        let status = unsafe { c::fmi3GetFMUState(self.handle, &raw mut state) };
+        assert_eq!(status, c::OK);
         assert!(!state.is_null());
         state
     }
@@ -375,10 +373,8 @@ impl Instance {
 
     pub(crate) fn free_state(&mut self, mut state: *mut c_void) {
         // SAFETY: the instance lives, the tests pass living states
-        assert_eq!(
-            unsafe { c::fmi3FreeFMUState(self.handle, &raw mut state) },
-            c::OK
-        );
+        let status = unsafe { c::fmi3FreeFMUState(self.handle, &raw mut state) };
+        assert_eq!(status, c::OK);
         assert!(state.is_null());
     }
 

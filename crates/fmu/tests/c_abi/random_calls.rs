@@ -240,7 +240,7 @@ impl Subject {
 
 #[test]
 fn a_hundred_thousand_random_calls() {
-    let mut random = Random(0x5eed_0f_b017ed);
+    let mut random = Random(0x5eed_0fb0_17ed);
     let mut subjects: Vec<Subject> = (0..4).map(|_| Subject::new()).collect();
     let (mut steps, mut refusals) = (0, 0);
     for _ in 0..100_000 {

@@ -80,9 +80,7 @@ pub(crate) enum Damage {
 impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Magic => {
-                f.write_str("the bytes were not written by fmi3SerializeFMUState of this library")
-            }
+            Self::Magic => f.write_str("the bytes were not written by this library"),
             Self::Version { found } => {
                 write!(
                     f,
@@ -177,6 +175,9 @@ impl Snapshot {
         let mode = Mode::from_number(reader.u8()?).ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;
+        if !stop_s.is_finite() {
+            return Err(Damage::Field { name: "stop time" }.into());
+        }
         if reader.u32()? as usize != REFERENCE_COUNT {
             return Err(Damage::Field {
                 name: "number of variables",

@@ -156,8 +156,10 @@ impl Instance {
         }
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
+            // importers that set every parameter before every step pay only for those that change
+            self.parameters_changed |=
+                roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
             self.values[index] = value;
-            self.parameters_changed |= roles.intersects(PARAMETERS);
         }
         self.outputs_stale = true;
         Ok(())

@@ -202,7 +202,7 @@ fn every_damaged_byte_is_noticed() {
     assert!(
         instance
             .error()
-            .contains("were not written by fmi3SerializeFMUState")
+            .contains("were not written by this library")
     );
 }
 

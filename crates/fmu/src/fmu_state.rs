@@ -73,14 +73,14 @@ pub(crate) enum Damage {
     Checksum,
     /// A field has a value that it cannot have.
     Field { name: &'static str },
+    /// A variable is NaN or infinite.
+    Value { name: &'static str },
 }
 
 impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Magic => {
-                f.write_str("the bytes were not written by fmi3SerializeFMUState of this library")
-            }
+            Self::Magic => f.write_str("the bytes were not written by this library"),
             Self::Version { found } => {
                 write!(
                     f,
@@ -92,6 +92,7 @@ impl fmt::Display for Damage {
             }
             Self::Checksum => f.write_str("its checksum is wrong, the bytes were changed"),
             Self::Field { name } => write!(f, "its {name} is impossible"),
+            Self::Value { name } => write!(f, "its value of {name} is impossible"),
         }
     }
 }
@@ -174,6 +175,9 @@ impl Snapshot {
         let mode = Mode::from_number(reader.u8()?).ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;
+        if !stop_s.is_finite() {
+            return Err(Damage::Field { name: "stop time" }.into());
+        }
         if reader.u32()? as usize != REFERENCE_COUNT {
             return Err(Damage::Field {
                 name: "number of variables",
@@ -181,8 +185,14 @@ impl Snapshot {
             .into());
         }
         let mut values = [0.0; REFERENCE_COUNT];
-        for value in &mut values {
+        for (reference, value) in values.iter_mut().enumerate() {
             *value = reader.f64()?;
+            if !value.is_finite() {
+                return Err(Damage::Value {
+                    name: identity.variables.name(reference),
+                }
+                .into());
+            }
         }
         reader.array::<8>()?;
         if !reader.rest.is_empty() {

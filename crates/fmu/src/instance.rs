@@ -156,8 +156,10 @@ impl Instance {
         }
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
+            // importers that set every parameter before every step pay only for those that change
+            self.parameters_changed |=
+                roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
             self.values[index] = value;
-            self.parameters_changed |= roles.intersects(PARAMETERS);
         }
         self.outputs_stale = true;
         Ok(())
@@ -186,11 +188,19 @@ impl Instance {
 
     /// Everything that this instance has to remember.
     pub(crate) fn snapshot(&self) -> Snapshot {
+        // what is calculated is no part of the state: it follows from the rest, and may not even be finite
+        let values = std::array::from_fn(|index| {
+            if self.roles[index].intersects(CALCULATED) {
+                0.0
+            } else {
+                self.values[index]
+            }
+        });
         Snapshot {
             identity: Arc::clone(&self.identity),
             mode: self.mode,
             stop_s: self.stop_s,
-            values: self.values,
+            values,
         }
     }
 
@@ -265,7 +275,8 @@ impl Instance {
         // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
         let expected_s = self.time_s();
         let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
-        if !((current_s - expected_s).abs() <= rounding_s) {
+        let agrees = (current_s - expected_s).abs() <= rounding_s;
+        if !agrees {
             return Err(Refusal::CommunicationPoint {
                 found_s: current_s,
                 expected_s,

@@ -1,8 +1,8 @@
 //! The shared library inside every FMU: FMI C ABIs over `bolted-joint-dynamics`.
 //!
 //! The library is the same for every joint. What it simulates, and with which start values, it reads from
-//! `resources/start.txt` of the FMU that it is instantiated for. [`instance`] holds all behaviour in safe Rust;
-//! [`fmi3`] turns C pointers and arrays into slices, and refusals into statuses and log messages.
+//! `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe Rust;
+//! `fmi3` turns C pointers and arrays into slices, and refusals into statuses and log messages.
 
 mod fmi3;
 mod fmu_state;

@@ -116,7 +116,7 @@ impl fmt::Display for Refusal {
                 f,
                 "is not allowed in state {found}, only in {expected}{}",
                 if *found == Mode::Terminated {
-                    "; call fmi3Reset or fmi3SetFMUState to continue"
+                    "; reset the instance or restore a saved state to continue"
                 } else {
                     ""
                 }
@@ -158,7 +158,7 @@ impl fmt::Display for Refusal {
             ),
             Self::Size { found, expected } => write!(
                 f,
-                "argument size is {found}, expected the {expected} of fmi3SerializedFMUStateSize"
+                "argument size is {found}, but the serialised FMU state has {expected} bytes"
             ),
             Self::StartTime { found_s } => write!(f, "startTime is {found_s}, expected a finite number"),
             Self::StopTime { start_s, found_s } => write!(

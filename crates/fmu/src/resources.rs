@@ -76,16 +76,13 @@ fn own_folder() -> Option<PathBuf> {
 
 /// Folder that a path or a `file:` URI leads to.
 fn folder_of(path: &str) -> Result<PathBuf, ResourceError> {
-    let is_uri = path
-        .get(..5)
-        .is_some_and(|scheme| scheme.eq_ignore_ascii_case("file:"));
-    if !is_uri {
-        return Ok(PathBuf::from(path));
-    }
+    let rest = match path.split_at_checked(5) {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file:") => rest,
+        _ => return Ok(PathBuf::from(path)),
+    };
     let refuse = || ResourceError::Uri {
         found: path.to_owned(),
     };
-    let rest = &path[5..];
     // file:/path, file:///path and file://localhost/path lead to this machine
     let local = match rest.strip_prefix("//") {
         None => rest,
@@ -95,15 +92,18 @@ fn folder_of(path: &str) -> Result<PathBuf, ResourceError> {
         return Err(refuse());
     }
     let decoded = percent_decoded(local).ok_or_else(refuse)?;
-    // file:///C:/path: the slash before the drive is no part of the path
-    let mut start = decoded.chars().skip(1);
+    Ok(PathBuf::from(without_slash_before_drive(&decoded)))
+}
+
+/// On Windows `/C:/path` of a URI is `C:/path`.
+fn without_slash_before_drive(path: &str) -> &str {
+    let Some(rest) = path.strip_prefix('/').filter(|_| cfg!(windows)) else {
+        return path;
+    };
+    let mut start = rest.chars();
     let has_drive =
         start.next().is_some_and(|c| c.is_ascii_alphabetic()) && start.next() == Some(':');
-    Ok(PathBuf::from(if cfg!(windows) && has_drive {
-        &decoded[1..]
-    } else {
-        &decoded
-    }))
+    if has_drive { rest } else { path }
 }
 
 /// Text with `%XX` replaced by bytes; `None` if that is not UTF-8 or an escape is broken.

@@ -45,7 +45,7 @@ impl<const D: usize> Model for LapModel<D> {
         match lap.defect() {
             Some(Defect::Inertia { on_a, dof, value }) => {
                 let side = if on_a { A } else { B };
-                let variable = variable(side.inertia[dof]);
+                let variable = side.inertia.get(dof).copied().and_then(variable);
                 return Err(Refusal::Inertia {
                     name: variable.map_or("", |variable| variable.name),
                     unit: variable.map_or("", |variable| variable.unit),

@@ -1,0 +1,21 @@
+//! Drives the library through the C functions that an importer sees, declared here as in the FMI 3.0 headers.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that cannot go on has failed"
+)]
+
+// the functions come from the library's symbols
+extern crate bolted_joint as _;
+
+mod c;
+mod fmu_state;
+mod importer;
+mod instantiation;
+mod not_provided;
+mod own_folder;
+mod random_calls;
+mod state_machine;
+mod stepping;
+mod variables;

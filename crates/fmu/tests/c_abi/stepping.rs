@@ -1,0 +1,507 @@
+//! Communication steps: what they compute, how they end, and what they refuse.
+
+use crate::{
+    c,
+    importer::{Instance, Kind, vr},
+};
+
+/// The lap's equations with one DOF, written down once more: m, k, c of both bodies; k12, c12, k3; F of both.
+struct Equations {
+    m: f64,
+    k: f64,
+    c: f64,
+    k12: f64,
+    c12: f64,
+    k3: f64,
+    force: [f64; 2],
+}
+
+impl Equations {
+    /// Rate of (y_a, v_a, y_b, v_b).
+    fn rate(&self, x: [f64; 4]) -> [f64; 4] {
+        let [ya, va, yb, vb] = x;
+        let joint = self.k12 * (ya - yb) + self.c12 * (va - vb) + self.k3 * (ya - yb).powi(3);
+        [
+            va,
+            (self.force[0] - self.k * ya - self.c * va - joint) / self.m,
+            vb,
+            (self.force[1] - self.k * yb - self.c * vb + joint) / self.m,
+        ]
+    }
+
+    /// `n` classical Runge–Kutta steps of length `h`.
+    fn runge_kutta(&self, mut x: [f64; 4], h: f64, n: usize) -> [f64; 4] {
+        let shifted = |x: [f64; 4], factor: f64, k: [f64; 4]| -> [f64; 4] {
+            std::array::from_fn(|i| x[i] + factor * k[i])
+        };
+        for _ in 0..n {
+            let k1 = self.rate(x);
+            let k2 = self.rate(shifted(x, h / 2.0, k1));
+            let k3 = self.rate(shifted(x, h / 2.0, k2));
+            let k4 = self.rate(shifted(x, h, k3));
+            x = std::array::from_fn(|i| {
+                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
+            });
+        }
+        x
+    }
+}
+
+const EQUATIONS: Equations = Equations {
+    m: 2.0,
+    k: 8e5,
+    c: 1.0,
+    k12: 4e6,
+    c12: 8.0,
+    k3: 5e12,
+    force: [30.0, -20.0],
+};
+const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
+const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
+
+fn lap(step_size_max: f64) -> Instance {
+    let mut instance = Instance::new(
+        Kind::Lap,
+        1,
+        &[("joint.k3_y", 5e12), ("step_size_max", step_size_max)],
+    );
+    assert_eq!(instance.set(&STATES, &START), c::OK);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+    instance
+}
+
+fn assert_close(found: [f64; 4], expected: [f64; 4], tolerance: f64) {
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found - expected).abs() <= tolerance * expected.abs(),
+            "{found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_step_is_the_right_number_of_runge_kutta_steps() {
+    // steps so long that one more or less shows: ω h ≈ 0.4
+    for (interval, step_size_max, count) in [
+        (1e-2, 2e-4, 50),
+        (0.1 * (0.1 + 0.2) - 0.02, 2e-4, 50), // 0.010000000000000002 s
+        (1.0e-2 + 1e-8, 2e-4, 51),
+        (1e-4, 2e-4, 1),
+        (2e-4, 2e-4, 1),
+        (3e-4, 2e-4, 2),
+    ] {
+        let mut instance = lap(step_size_max);
+        assert_eq!(instance.step(0.0, interval), (c::OK, interval));
+        let expected = EQUATIONS.runge_kutta(START, interval / f64::from(count), count as usize);
+        assert_close(instance.get(STATES), expected, 1e-11);
+        let other =
+            EQUATIONS.runge_kutta(START, interval / f64::from(count + 1), count as usize + 1);
+        let [found, ..] = instance.get(STATES);
+        assert!((found - other[0]).abs() > 1e-8 * other[0].abs());
+    }
+}
+
+#[test]
+fn free_vibration_follows_the_closed_form() {
+    // both bodies in phase, no damping: y = y0 cos ωt, ω² = k/m; the joint carries nothing
+    let mut instance = Instance::new(
+        Kind::Lap,
+        1,
+        &[("a.c_y", 0.0), ("b.c_y", 0.0), ("step_size_max", 1e-6)],
+    );
+    assert_eq!(instance.set(&[vr::A_Y, vr::B_Y], &[1e-3, 1e-3]), c::OK);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    let omega = f64::sqrt(8e5 / 2.0);
+    for n in 0..100 {
+        let t = f64::from(n) * 1e-4;
+        let [y, v, time, force, energy] =
+            instance.get([vr::A_Y, vr::A_V, vr::TIME, vr::JOINT_F, vr::ENERGY]);
+        assert_eq!((instance.get([vr::B_Y, vr::B_V]), force), ([y, v], 0.0));
+        assert!((time - t).abs() < 1e-15);
+        assert!((y - 1e-3 * (omega * t).cos()).abs() < 1e-14, "{y}");
+        assert!((v + 1e-3 * omega * (omega * t).sin()).abs() < 1e-11, "{v}");
+        // ½ k y0² for each body
+        assert!((energy / 0.8 - 1.0).abs() < 1e-11, "{energy}");
+        assert_eq!(instance.step(t, 1e-4).0, c::OK);
+    }
+}
+
+#[test]
+fn dissipation_balances_the_energy() {
+    let mut instance = lap(1e-6);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &[0.0, 0.0]), c::OK);
+    let [start] = instance.get([vr::ENERGY]);
+    let h = 1e-6;
+    let mut t = 0.0;
+    let mut dissipated = 0.0;
+    let [mut power] = instance.get([vr::POWER]);
+    for _ in 0..20_000 {
+        assert_eq!(instance.step(t, h).0, c::OK);
+        t += h;
+        let [next] = instance.get([vr::POWER]);
+        dissipated += 0.5 * h * (power + next);
+        power = next;
+    }
+    let [end] = instance.get([vr::ENERGY]);
+    assert!(dissipated > 0.05 * start);
+    assert!(
+        ((start - end) / dissipated - 1.0).abs() < 1e-5,
+        "{start} {end} {dissipated}"
+    );
+}
+
+#[test]
+fn halves_of_a_step_make_the_whole() {
+    let (mut whole, mut halves) = (lap(2e-5), lap(2e-5));
+    assert_eq!(whole.step(0.0, 1e-3).0, c::OK);
+    assert_eq!(halves.step(0.0, 5e-4).0, c::OK);
+    assert_eq!(halves.step(5e-4, 5e-4).0, c::OK);
+    assert_close(halves.get(STATES), whole.get(STATES), 1e-12);
+}
+
+#[test]
+fn time_does_not_drift() {
+    // the importer computes t = n·h, or adds h: both are accepted, and the FMU ends where the importer does
+    let h = 1e-4;
+    for multiply in [true, false] {
+        let mut instance = lap(1e-4);
+        let mut t = 0.0;
+        for n in 1..=100_000_u32 {
+            let (status, last) = instance.step(t, h);
+            assert_eq!((status, last), (c::OK, t + h));
+            t = if multiply { f64::from(n) * h } else { t + h };
+        }
+        let [time] = instance.get([vr::TIME]);
+        assert!((time - 10.0).abs() < if multiply { 1e-14 } else { 1e-9 });
+    }
+}
+
+#[test]
+fn steps_that_cannot_be_are_refused_and_nothing_moves() {
+    for (t, h, expected) in [
+        (0.0, 0.0, "communicationStepSize is 0"),
+        (0.0, -1e-3, "communicationStepSize is -0.001"),
+        (0.0, f64::NAN, "communicationStepSize is NaN"),
+        (0.0, f64::INFINITY, "communicationStepSize is inf"),
+        (
+            1e-3,
+            1e-3,
+            "currentCommunicationPoint is 0.001 s, but the FMU is at t = 0 s",
+        ),
+        (-1e-3, 1e-3, "but the FMU is at t = 0 s"),
+        (f64::NAN, 1e-3, "currentCommunicationPoint is NaN"),
+        (0.0, 1e5, "more than 1000000000 Runge-Kutta steps"),
+        (0.0, 1e300, "more than 1000000000 Runge-Kutta steps"),
+    ] {
+        let mut instance = lap(2e-5);
+        let before = instance.get([vr::TIME, vr::A_Y, vr::B_V, vr::ENERGY]);
+        let (status, last) = instance.step(t, h);
+        assert_eq!((status, last), (c::ERROR, 0.0));
+        let message = instance.error();
+        assert!(
+            message.starts_with("fmi3DoStep: ") && message.contains(expected),
+            "{message}"
+        );
+        assert_eq!(
+            instance.get([vr::TIME, vr::A_Y, vr::B_V, vr::ENERGY]),
+            before
+        );
+    }
+}
+
+#[test]
+fn a_step_that_rounding_swallows_is_refused() {
+    let mut instance = Instance::new(Kind::Element, 1, &[]);
+    assert_eq!(instance.enter_initialization(1e6, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.step(1e6, 1e-12).0, c::ERROR);
+    assert!(
+        instance
+            .error()
+            .contains("is lost to rounding at t = 1000000 s")
+    );
+}
+
+#[test]
+fn the_stop_time_is_kept_but_for_rounding() {
+    let started = || {
+        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        assert_eq!(instance.enter_initialization(0.0, Some(0.3)), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        instance
+    };
+    let mut instance = started();
+    // 0.1 + 0.1 + 0.1 > 0.3 by one bit
+    let mut t = 0.0;
+    for _ in 0..3 {
+        assert_eq!(instance.step(t, 0.1).0, c::OK);
+        t += 0.1;
+    }
+    assert!(t > 0.3);
+    assert_eq!(instance.step(t, 1e-3).0, c::ERROR);
+    assert!(instance.error().contains("after stopTime = 0.3 s"));
+    let mut instance = started();
+    assert_eq!(instance.step(0.0, 0.31).0, c::ERROR);
+    assert!(
+        instance
+            .error()
+            .contains("the step would end at t = 0.31 s, after stopTime = 0.3 s")
+    );
+}
+
+#[test]
+fn null_results_are_refused() {
+    use std::ptr::null_mut;
+    let (mut flag, mut time) = (false, 0.0);
+    let (flag, time) = (&raw mut flag, &raw mut time);
+    for (event, terminate, early, last, expected) in [
+        (null_mut(), flag, flag, time, "eventHandlingNeeded"),
+        (flag, null_mut(), flag, time, "terminateSimulation"),
+        (flag, flag, null_mut(), time, "earlyReturn"),
+        (flag, flag, flag, null_mut(), "lastSuccessfulTime"),
+    ] {
+        let mut instance = lap(2e-5);
+        // SAFETY: all pointers are null or to locals
+        let status = unsafe {
+            c::fmi3DoStep(
+                instance.handle,
+                0.0,
+                1e-3,
+                true,
+                event,
+                terminate,
+                early,
+                last,
+            )
+        };
+        assert_eq!(status, c::ERROR);
+        let message = instance.error();
+        assert!(
+            message.contains(&format!("argument {expected} is a null pointer")),
+            "{message}"
+        );
+        assert_eq!(instance.get([vr::TIME]), [0.0]);
+    }
+}
+
+#[test]
+fn parameters_are_checked_when_they_take_effect() {
+    for (reference, value, expected) in [
+        (
+            vr::A_MASS,
+            0.0,
+            "parameter a.m is 0 kg, expected a number greater than zero",
+        ),
+        (vr::A_MASS, -2.0, "parameter a.m is -2 kg"),
+        (vr::STEP_SIZE_MAX, 0.0, "parameter step_size_max is 0 s"),
+        (
+            vr::STEP_SIZE_MAX,
+            -1e-5,
+            "parameter step_size_max is -0.00001 s",
+        ),
+        // ω² = (8e5 + 8e6)/2, ω = 2098 rad/s: RK4 diverges beyond 2.83/ω = 1.35 ms
+        (
+            vr::STEP_SIZE_MAX,
+            1.4e-3,
+            "step_size_max = 0.0014 s diverge",
+        ),
+    ] {
+        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        assert_eq!(instance.set(&[reference], &[value]), c::OK);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::ERROR);
+        let message = instance.error();
+        assert!(
+            message.starts_with("fmi3ExitInitializationMode: "),
+            "{message}"
+        );
+        assert!(message.contains(expected), "{message}");
+
+        let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+        assert_eq!(instance.set(&[reference], &[value]), c::OK);
+        assert_eq!(instance.step(1e-3, 1e-3).0, c::ERROR);
+        let message = instance.error();
+        assert!(
+            message.starts_with("fmi3DoStep: ") && message.contains(expected),
+            "{message}"
+        );
+        assert_eq!(instance.get([vr::TIME]), [1e-3]);
+    }
+    let mut instance = Instance::new(Kind::Lap, 1, &[("step_size_max", 1.3e-3)]);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+}
+
+#[test]
+fn a_tuned_parameter_acts_from_the_next_step_on() {
+    let mut instance = lap(2e-5);
+    assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    let reached = instance.get(STATES);
+    assert_eq!(instance.set(&[vr::K_YY, vr::C_YY], &[2e6, 30.0]), c::OK);
+    assert_eq!(instance.step(1e-3, 1e-3).0, c::OK);
+    let tuned = Equations {
+        k12: 2e6,
+        c12: 30.0,
+        ..EQUATIONS
+    };
+    assert_close(
+        instance.get(STATES),
+        tuned.runge_kutta(reached, 2e-5, 50),
+        1e-11,
+    );
+}
+
+#[test]
+fn active_models_give_a_warning_and_work() {
+    for (kind, changes, expected) in [
+        (
+            Kind::Lap,
+            ("joint.c_yy", -1.0),
+            "the joint's damping matrix is not positive semidefinite",
+        ),
+        (
+            Kind::Element,
+            ("joint.k_yy", -1.0),
+            "the joint's stiffness matrix is not positive semidefinite",
+        ),
+        (
+            Kind::Lap,
+            ("b.c_y", -0.5),
+            "a support has negative stiffness or damping",
+        ),
+    ] {
+        let mut instance = Instance::new(kind, 1, &[changes]);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::WARNING);
+        let log = instance.take_log();
+        let warning = log
+            .iter()
+            .find(|message| message.status == c::WARNING)
+            .unwrap();
+        assert_eq!(warning.category, "logStatusWarning");
+        assert!(warning.text.contains(expected), "{warning:?}");
+        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    }
+    // tuned later, the next step warns once
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    assert_eq!(instance.set(&[vr::B_C_Y], &[-0.5]), c::OK);
+    assert_eq!(instance.step(0.0, 1e-3), (c::WARNING, 1e-3));
+    assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+}
+
+#[test]
+fn escape_from_a_softening_joint_is_reported_and_the_last_point_kept() {
+    // k = 8e5, k12 = 4e6, k3 = −1e12: the joint holds up to √((k + 2 k12)/(−2 k3)) = 2.0976 mm apart
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[("joint.k3_y", -1e12)]);
+    let amplitude = f64::sqrt(8.8e6 / 2e12);
+    // load the joint slowly: its static limit is reached somewhere on the way
+    let mut t = 0.0;
+    let mut force = 0.0;
+    let before = loop {
+        assert!(force < 1e5, "the joint never gave way");
+        let before = instance.get([vr::TIME, vr::A_Y, vr::B_Y, vr::A_V, vr::B_V]);
+        let (status, last) = instance.step(t, 1e-3);
+        if status == c::ERROR {
+            assert_eq!(last, t);
+            break before;
+        }
+        t += 1e-3;
+        force += 10.0;
+        assert_eq!(instance.set(&[vr::A_F, vr::B_F], &[force, -force]), c::OK);
+    };
+    let message = instance.error();
+    assert!(
+        message.starts_with("fmi3DoStep: a.y - b.y = ") && message.contains("softening joint"),
+        "{message}"
+    );
+    assert!(
+        message.contains(&format!("is past {amplitude:e} m")),
+        "{message}"
+    );
+    // told within the step that failed
+    let time: f64 = message
+        .split("t = ")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((t..=t + 1e-3).contains(&time), "{time}");
+    assert_eq!(
+        instance.get([vr::TIME, vr::A_Y, vr::B_Y, vr::A_V, vr::B_V]),
+        before
+    );
+    assert!((before[1] - before[2]).abs() <= amplitude);
+}
+
+#[test]
+fn motion_that_overflows_is_reported_by_state_and_time() {
+    let mut instance = Instance::stepping(Kind::Lap, 2, &[]);
+    assert_eq!(instance.set(&[vr::B_M], &[f64::MAX]), c::OK);
+    assert_eq!(instance.step(0.0, 1e-3), (c::ERROR, 0.0));
+    let message = instance.error();
+    assert!(
+        message.contains("state ") && message.contains("is no finite number at t = 0.000"),
+        "{message}"
+    );
+    assert_eq!(instance.get([vr::B_THETA, vr::B_OMEGA, vr::TIME]), [0.0; 3]);
+
+    // a hardening joint under an absurd load
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[("joint.k3_y", 1e20)]);
+    assert_eq!(instance.set(&[vr::B_F], &[1e12]), c::OK);
+    let mut t = 0.0;
+    while instance.step(t, 1e-3).0 == c::OK {
+        t += 1e-3;
+        assert!(t < 1.0, "never diverged");
+    }
+    assert!(instance.error().contains("the motion diverges"));
+    assert!(
+        instance
+            .try_get(&STATES)
+            .unwrap()
+            .iter()
+            .all(|value| value.is_finite())
+    );
+}
+
+#[test]
+fn coupled_translation_and_rotation_are_symmetric() {
+    // a static check of every coupling: with K, r = x_a − x_b in balance under constant loads, heavily damped
+    let mut instance = Instance::new(
+        Kind::Lap,
+        2,
+        &[
+            ("a.c_y", 4e3),
+            ("b.c_y", 4e3),
+            ("a.c_theta", 2.0),
+            ("b.c_theta", 2.0),
+            ("step_size_max", 1e-4),
+        ],
+    );
+    assert_eq!(instance.set(&[vr::A_F, vr::B_M], &[100.0, 3.0]), c::OK);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.step(0.0, 0.5).0, c::OK);
+    let [ya, ta, yb, tb, force, moment] = instance.get([
+        vr::A_Y,
+        vr::A_THETA,
+        vr::B_Y,
+        vr::B_THETA,
+        vr::JOINT_F,
+        vr::JOINT_M,
+    ]);
+    let close =
+        |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    close(force, 4e6 * (ya - yb) + 1e4 * (ta - tb));
+    close(moment, 1e4 * (ya - yb) + 2e3 * (ta - tb));
+    close(8e5 * ya, 100.0 - force);
+    close(8e5 * yb, force);
+    close(1e3 * ta, -moment);
+    close(1e3 * tb, 3.0 + moment);
+}

@@ -1,6 +1,7 @@
 //! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #![forbid(unsafe_code)]
 
+pub mod export;
 pub mod frf;
 pub mod identify;
 pub mod joint;

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod frf;
+pub mod report;
 pub mod structure;
 mod text_file;
 

@@ -21,7 +21,11 @@ impl CentralDifference {
     pub fn transformation(&self) -> ComplexMatrix {
         // T = 1/(2s) [0 2s 0; −1 0 1]   (Tol 3.53)
         let slope = 0.5 / self.spacing_m;
-        ComplexMatrix::from_row_slice(2, 3, &[0.0, 1.0, 0.0, -slope, 0.0, slope].map(Complex64::from))
+        ComplexMatrix::from_row_slice(
+            2,
+            3,
+            &[0.0, 1.0, 0.0, -slope, 0.0, slope].map(Complex64::from),
+        )
     }
 }
 

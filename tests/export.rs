@@ -115,8 +115,7 @@ fn the_fmu_has_the_files_of_the_standard() {
             (2009, 12, 8, 14, 33, 22)
         );
     }
-    // General purpose flag of the first local header: bit 3 would announce a data descriptor, which the standard forbids
-    // nobody but old importers stumble over.
+    // Bit 3 of the first header's flags would announce a data descriptor, over which some importers stumble.
     assert_eq!(fmu.bytes()[6] & 0b1000, 0);
 }
 

@@ -7,6 +7,7 @@ mod origin;
 mod parameters;
 mod running;
 mod sketch;
+mod variables;
 
 use bolted_joint_interface::Interface as Declared;
 
@@ -37,6 +38,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
         model::section(page),
         parameters::section(page),
         running::section(page),
+        variables::section(page),
         origin::section(page),
         licences::section(),
     ]

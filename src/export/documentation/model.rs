@@ -1,9 +1,6 @@
-//! What the FMU computes: a drawing, its equations, its variables.
-
-use bolted_joint_interface::Role;
+//! What the FMU computes: a drawing and its equations.
 
 use super::super::Interface;
-use super::html::{cell, escaped, number, number_cell, table};
 use super::{Page, sketch};
 use crate::joint::DofSet;
 
@@ -17,10 +14,9 @@ pub(super) fn section(page: &Page<'_>) -> String {
     };
     format!(
         "<h2>Model</h2>\n<figure>\n{}<figcaption>The arrows point the way that counts as positive, for loads as for \
-         motions.</figcaption>\n</figure>\n<p>{motion}. All quantities are in SI units.</p>\n{}<h2>Variables</h2>\n{}",
+         motions.</figcaption>\n</figure>\n<p>{motion}. All quantities are in SI units.</p>\n{}",
         sketch::svg(page.interface, dofs),
         equations(page.interface),
-        variables(page),
     )
 }
 
@@ -54,41 +50,4 @@ fn equations(interface: Interface) -> String {
             )
         }
     }
-}
-
-fn variables(page: &Page<'_>) -> String {
-    let rows: Vec<String> = page
-        .declared
-        .variables
-        .iter()
-        .map(|variable| {
-            let role = match variable.role {
-                Role::Independent => "independent",
-                Role::Parameter => "tunable parameter",
-                Role::Input => "input",
-                Role::State => "output, state",
-                Role::Output => "output",
-            };
-            [
-                cell(&format!("<code>{}</code>", escaped(&variable.name))),
-                number_cell(&variable.reference.to_string()),
-                cell(role),
-                cell(&escaped(&variable.unit)),
-                number_cell(&variable.start.map(number).unwrap_or_default()),
-                cell(&escaped(&variable.description)),
-            ]
-            .concat()
-        })
-        .collect();
-    table(
-        &[
-            "Name",
-            "Reference",
-            "Causality",
-            "Unit",
-            "Start",
-            "Description",
-        ],
-        &rows,
-    )
 }

@@ -19,7 +19,7 @@ pub(super) fn svg(interface: Interface, dofs: DofSet) -> String {
                 solid(&mut drawing, left, 80, label);
                 motion(&mut drawing, arrow, label, dofs);
             }
-            connection(&mut drawing, 140, 480, "K, k3", "C");
+            connection(&mut drawing, 140, 480, "K, k<tspan>3</tspan>", "C");
             "Sides a and b, joined by springs K, k3 and dampers C"
         }
         Interface::Lap => {
@@ -36,7 +36,7 @@ pub(super) fn svg(interface: Interface, dofs: DofSet) -> String {
                 "k<tspan>a</tspan>",
                 "c<tspan>a</tspan>",
             );
-            connection(&mut drawing, 190, 430, "K, k3", "C");
+            connection(&mut drawing, 190, 430, "K, k<tspan>3</tspan>", "C");
             connection(
                 &mut drawing,
                 510,

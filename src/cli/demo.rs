@@ -12,7 +12,6 @@ use nalgebra::dmatrix;
 use crate::export::Interface;
 use crate::frf::{polluted, resonances, write_uff58};
 use crate::identify::{Identification, JointMatrices, Study, identify, predict_assembly};
-use crate::joint::JointFile;
 
 use super::DemoArguments;
 use super::error::CliError;
@@ -194,10 +193,14 @@ fn name_in(folder: &Path, path: &Path) -> String {
         .to_string()
 }
 
-/// The built-in joint file is one that this program reads.
 #[cfg(test)]
-#[test]
-fn the_built_in_lap_joint_is_valid() {
-    let joint = JointFile::from_json(PIRDAYR, "built in").unwrap();
-    assert_eq!(joint.joint.stiffness, [[4.56e6]]);
+mod tests {
+    use super::PIRDAYR;
+    use crate::joint::JointFile;
+
+    #[test]
+    fn the_built_in_lap_joint_is_valid() {
+        let file = JointFile::from_json(PIRDAYR, "built in").unwrap();
+        assert_eq!(file.joint.stiffness, [[4.56e6]]);
+    }
 }

@@ -8,7 +8,6 @@ use crate::export::{
     ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp, fmu_bytes,
 };
 use crate::joint::JointFile;
-use crate::text_file;
 
 use super::ExportArguments;
 use super::error::CliError;
@@ -52,8 +51,7 @@ pub(super) fn export_to(
     fmu: &Path,
     options: &ExportOptions,
 ) -> Result<Exported, CliError> {
-    let file = JointFile::read(joint_file)?;
-    let text = text_file::read(joint_file, "a joint file (JSON)")?;
+    let (file, text) = JointFile::read_with_source(joint_file)?;
     let exported = fmu_bytes(&file, &text, options)?;
     exported.write(fmu)?;
     Ok(exported)

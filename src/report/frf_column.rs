@@ -6,10 +6,10 @@ use super::axis::Axis;
 use super::curve::{self, Sample};
 use super::frf_figure::FrfPanel;
 use super::legend::{Key, REGENERATED_COLOUR, draw_marks};
-use super::resonance::{Resonance, resonances};
 use super::strip::{FAINT_TEXT, Strip, TEXT};
 use super::svg::{PathData, Svg};
 use super::text;
+use crate::frf::{Resonance, resonances};
 
 // Heights of what stands in a column, from the top.
 const PANEL_LABEL: f64 = 22.0;

@@ -15,7 +15,7 @@ const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Ne
 const PAGE_WIDTH: f64 = 960.0;
 const MARGIN: f64 = 18.0;
 /// Distance between columns that share their magnitude axis (pixels).
-const BETWEEN_COLUMNS: f64 = 20.0;
+const BETWEEN_COLUMNS: f64 = 26.0;
 const MOST_COLUMNS: usize = 3;
 
 const TITLE_FONT: f64 = 18.0;

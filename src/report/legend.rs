@@ -78,7 +78,7 @@ impl Key {
             }
             Self::Regenerated | Self::Uncoupled => path.polyline(&[at(0.0), at(SAMPLE_WIDTH)]),
             Self::Resonance => {
-                let x = left + 0.5 * SAMPLE_WIDTH;
+                let x = left + 0.8 * SAMPLE_WIDTH;
                 let ends = [middle - 8.0, middle + 8.0];
                 path.polyline(&ends.map(|y| Point { x, y }));
             }

@@ -11,3 +11,6 @@ mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
+
+#[cfg(test)]
+mod tests;

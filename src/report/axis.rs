@@ -4,6 +4,10 @@
 const DRAWABLE: std::ops::RangeInclusive<f64> = 1e-300..=1e300;
 /// Ticks of a logarithmic axis are written as plain numbers if all lie within these powers of ten.
 const PLAIN_EXPONENTS: std::ops::RangeInclusive<i32> = -3..=3;
+/// Room between the extremes of the data and the end of a logarithmic axis, a ratio.
+const LOGARITHMIC_MARGIN: f64 = 1.25;
+/// A phase axis goes on beyond half a turn (degrees), so that a curve along its edge can be seen.
+pub(super) const PHASE_END: f64 = 195.0;
 /// Part of a tick step that rounding may take a tick past the end of its axis.
 const TICK_ROUNDING: f64 = 1e-9;
 
@@ -24,7 +28,7 @@ pub(super) enum Axis {
         /// Number of the last value in the series.
         high: i32,
     },
-    /// An angle in degrees over one turn, −180 to 180.
+    /// An angle in degrees over one turn, −180 to 180, and a little more.
     Phase,
 }
 
@@ -81,20 +85,13 @@ impl Axis {
         }
     }
 
-    /// Covers `values`, rounded outwards to 1, 2 or 5 times a power of ten, but no more than `decades` below
+    /// Covers `values` with some room, rounded outwards to 1, 2 or 5 times a power of ten, but no more than `decades` below
     /// the largest. `None` if no value can be drawn: zero, negative and non-finite ones cannot.
     pub(super) fn logarithmic(values: impl Iterator<Item = f64>, decades: i32) -> Option<Self> {
         let (smallest, largest) = extremes(values.filter(|value| DRAWABLE.contains(value)))?;
-        let high = series_at_least(largest);
-        let low = series_at_most(smallest).max(high - 3 * decades);
-        Some(if low < high {
-            Self::Logarithmic { low, high }
-        } else {
-            Self::Logarithmic {
-                low: low - 1,
-                high: high + 1,
-            }
-        })
+        let high = series_at_least(largest * LOGARITHMIC_MARGIN);
+        let low = series_at_most(smallest / LOGARITHMIC_MARGIN).max(high - 3 * decades);
+        Some(Self::Logarithmic { low, high })
     }
 
     /// Where `value` lies between the start (0) and the end (1); outside of that if it is off the axis, `None`
@@ -106,7 +103,7 @@ impl Axis {
                 let (low, high) = (one_two_five(low).log10(), one_two_five(high).log10());
                 (value.log10() - low) / (high - low)
             }),
-            Self::Phase => value.is_finite().then(|| (value + 180.0) / 360.0),
+            Self::Phase => value.is_finite().then(|| 0.5 + 0.5 * value / PHASE_END),
         }
     }
 
@@ -275,7 +272,7 @@ mod tests {
     }
 
     fn log_axis(values: &[f64]) -> Axis {
-        Axis::logarithmic(values.iter().copied(), 12).expect("drawable")
+        Axis::logarithmic(values.iter().copied(), 15).expect("drawable")
     }
 
     #[test]
@@ -387,7 +384,7 @@ mod tests {
     #[test]
     fn a_logarithmic_axis_shows_no_more_decades_than_asked() {
         let axis = Axis::logarithmic([1e-30, 1.0].into_iter(), 6).expect("drawable");
-        assert_eq!(axis, Axis::Logarithmic { low: -18, high: 0 });
+        assert_eq!(axis, Axis::Logarithmic { low: -17, high: 1 });
         assert!(Axis::logarithmic([0.0, f64::INFINITY].into_iter(), 6).is_none());
     }
 
@@ -395,6 +392,7 @@ mod tests {
     fn phase_has_right_angles() {
         let ticks = Axis::Phase.ticks(5);
         assert_eq!(labels(&ticks), ["−180", "−90", "0", "90", "180"]);
-        assert_eq!(Axis::Phase.position(-90.0), Some(0.25));
+        assert_eq!(Axis::Phase.position(0.0), Some(0.5));
+        assert_eq!(Axis::Phase.position(-PHASE_END), Some(0.0));
     }
 }

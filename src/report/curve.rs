@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use num_complex::Complex64;
 
+use super::axis::PHASE_END;
 use super::svg::{PathData, Point};
 
 /// Side of the squares that show one dot at most (pixels).
@@ -31,6 +32,19 @@ pub(super) fn phase(frequency_hz: &[f64], function: &[Complex64]) -> Vec<Sample>
     samples
         .map(|(&frequency, value)| (frequency, degrees(value)))
         .collect()
+}
+
+/// Takes a turn off the phases in `samples`, or adds one, where that brings them nearer to `reference` and they stay
+/// on the axis: noise about ±180° then lies on both sides of the reference and not at both ends of the axis.
+pub(super) fn turned_towards(reference: &[Sample], mut samples: Vec<Sample>) -> Vec<Sample> {
+    for (sample, reference) in samples.iter_mut().zip(reference) {
+        let away = sample.1 - reference.1;
+        let turned = sample.1 - 360_f64.copysign(away);
+        if away.abs() > 180.0 && turned.abs() <= PHASE_END {
+            sample.1 = turned;
+        }
+    }
+    samples
 }
 
 /// |measured − regenerated| / |regenerated| in per cent over frequency.
@@ -256,6 +270,14 @@ mod tests {
         assert!((pieces[0][2].0 - crossing).abs() < 1e-12 && pieces[0][2].1 == -180.0);
         assert!((pieces[1][0].0 - crossing).abs() < 1e-12 && pieces[1][0].1 == 180.0);
         assert_eq!(pieces[1][1..], [(3.0, 160.0), (4.0, 150.0)]);
+    }
+
+    #[test]
+    fn noise_about_half_a_turn_stays_together() {
+        let reference = [(1.0, -179.0), (2.0, 178.0), (3.0, -100.0), (4.0, f64::NAN)];
+        let samples = vec![(1.0, 179.5), (2.0, -170.0), (3.0, 120.0), (4.0, 179.0)];
+        let expected = [(1.0, -180.5), (2.0, 190.0), (3.0, 120.0), (4.0, 179.0)];
+        assert_eq!(turned_towards(&reference, samples), expected);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::axis::Axis;
 use super::curve::{self, Sample};
 use super::frf_figure::FrfPanel;
-use super::legend::{Key, REGENERATED_COLOUR, draw_marks};
+use super::legend::{Key, REGENERATED_COLOUR};
 use super::strip::{FAINT_TEXT, Strip, TEXT};
 use super::svg::{PathData, Svg};
 use super::text;
@@ -15,9 +15,9 @@ use crate::frf::{Resonance, resonances};
 const PANEL_LABEL: f64 = 22.0;
 const RESONANCE_LABELS: f64 = 18.0;
 const MAGNITUDE: f64 = 230.0;
-const PHASE: f64 = 112.0;
+const PHASE: f64 = 120.0;
 const RESIDUAL: f64 = 84.0;
-const BETWEEN_STRIPS: f64 = 12.0;
+const BETWEEN_STRIPS: f64 = 14.0;
 const FREQUENCY_LABELS: f64 = 48.0;
 
 const PANEL_FONT: f64 = 13.0;
@@ -144,7 +144,7 @@ impl<'a> Column<'a> {
             .containing(&note);
     }
 
-    /// Writes the frequencies of the resonances above the strip, the most prominent first, as long as there is room
+    /// Writes the frequencies of the resonances (Hz) above the strip, the most prominent first, as long as there is room
     /// beside those already there. Returns the marked ones.
     fn draw_resonance_labels(&self, svg: &mut Svg) -> Vec<Resonance> {
         let strip = &self.magnitude;
@@ -155,7 +155,7 @@ impl<'a> Column<'a> {
             let Some(x) = strip.place_frequency(resonance.frequency_hz) else {
                 return false;
             };
-            let label = format!("{:.1} Hz", resonance.frequency_hz);
+            let label = format!("{:.1}", resonance.frequency_hz);
             let half = 0.5 * text::width(&label, NOTE_FONT);
             let middle = x.min(strip.width - half).max(half);
             let (start, end) = (middle - half, middle + half + BETWEEN_RESONANCES);
@@ -179,7 +179,7 @@ impl<'a> Column<'a> {
         let samples = |function: &[Complex64]| curve::magnitude(self.frequency_hz, function);
         let strip = &self.magnitude;
         strip.draw_grid(svg);
-        draw_marks(&mark_lines(marked, strip), svg);
+        Key::Resonance.draw(&mark_lines(marked, strip), svg);
         Key::Measured.draw(&dots(&samples(self.panel.measured), strip), svg);
         self.draw_lines(|function| line(&[samples(function)], strip), svg);
         if strip.value.is_none() {
@@ -198,8 +198,10 @@ impl<'a> Column<'a> {
         let samples = |function: &[Complex64]| curve::phase(self.frequency_hz, function);
         let strip = &self.phase;
         strip.draw_grid(svg);
-        draw_marks(&mark_lines(marked, strip), svg);
-        Key::Measured.draw(&dots(&samples(self.panel.measured), strip), svg);
+        Key::Resonance.draw(&mark_lines(marked, strip), svg);
+        let regenerated = samples(self.panel.regenerated);
+        let measured = curve::turned_towards(&regenerated, samples(self.panel.measured));
+        Key::Measured.draw(&dots(&measured, strip), svg);
         let pieces = |function: &[Complex64]| curve::unwrapped_pieces(&samples(function));
         self.draw_lines(|function| line(&pieces(function), strip), svg);
         strip.draw_frame(svg);
@@ -208,8 +210,8 @@ impl<'a> Column<'a> {
     fn draw_residual(&self, marked: &[Resonance], svg: &mut Svg) {
         if let Some(strip) = &self.residual {
             strip.draw_grid(svg);
-            draw_marks(&mark_lines(marked, strip), svg);
-            Key::Measured.draw(&dots(&self.residuals(), strip), svg);
+            Key::Resonance.draw(&mark_lines(marked, strip), svg);
+            Key::Residual.draw(&dots(&self.residuals(), strip), svg);
             strip.draw_frame(svg);
         }
     }

@@ -6,6 +6,7 @@ use super::axis::Axis;
 use super::curve::{self, Sample};
 use super::frf_column::{self, Column, ColumnAxes};
 use super::legend::{Key, draw_legend};
+use super::resonance::resonances;
 use super::strip::{FAINT_TEXT, TEXT, VALUE_LABELS};
 use super::svg::Svg;
 use super::text::wrapped;
@@ -14,7 +15,7 @@ const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Ne
 const PAGE_WIDTH: f64 = 960.0;
 const MARGIN: f64 = 18.0;
 /// Distance between columns that share their magnitude axis (pixels).
-const BETWEEN_COLUMNS: f64 = 20.0;
+const BETWEEN_COLUMNS: f64 = 26.0;
 const MOST_COLUMNS: usize = 3;
 
 const TITLE_FONT: f64 = 18.0;
@@ -137,15 +138,15 @@ impl FrfFigure<'_> {
     fn draw_row(&self, panels: &[FrfPanel<'_>], columns: usize, top: f64, svg: &mut Svg) {
         let frequency = Axis::linear(self.frequency_hz.iter().copied());
         let residual = self.has_residuals().then(|| self.residual_axis());
-        let has_own_axis = |column: usize| {
-            column == 0
-                || panels
-                    .get(column)
-                    .is_some_and(|panel| panel.unit != panels[column - 1].unit)
-        };
         let gap = |column: usize| match column {
             0 => VALUE_LABELS,
-            _ if has_own_axis(column) => VALUE_LABELS + BETWEEN_COLUMNS,
+            _ if self
+                .panels
+                .chunks(columns)
+                .any(|row| has_own_axis(row, column)) =>
+            {
+                VALUE_LABELS + BETWEEN_COLUMNS
+            }
             _ => BETWEEN_COLUMNS,
         };
         let gaps: f64 = (0..columns).map(gap).sum();
@@ -162,7 +163,7 @@ impl FrfFigure<'_> {
             };
             let drawn = Column::new(panel, self.frequency_hz, axes, (left, top + 0.5), width);
             drawn.draw(svg);
-            if has_own_axis(column) {
+            if has_own_axis(panels, column) {
                 drawn.draw_magnitude_labels(svg);
             }
             if column == 0 {
@@ -184,9 +185,15 @@ impl FrfFigure<'_> {
             (Key::Measured, any(|panel| !panel.measured.is_empty())),
             (Key::Regenerated, any(|panel| !panel.regenerated.is_empty())),
             (Key::Uncoupled, any(|panel| panel.uncoupled.is_some())),
+            (Key::Resonance, self.has_resonances()),
         ];
         let shown = keys.into_iter().filter(|(_, shown)| *shown);
         shown.map(|(key, _)| key).collect()
+    }
+
+    fn has_resonances(&self) -> bool {
+        let mut panels = self.panels.iter();
+        panels.any(|panel| !resonances(self.frequency_hz, panel.regenerated).is_empty())
     }
 
     fn has_residuals(&self) -> bool {
@@ -209,6 +216,15 @@ impl FrfFigure<'_> {
         values.sort_by(f64::total_cmp);
         let below = values.len() / RESIDUALS_ABOVE_AXIS;
         Axis::logarithmic(values.into_iter().skip(below), RESIDUAL_DECADES)
+    }
+}
+
+/// Whether a panel cannot be read by the magnitude axis of its neighbour to the left.
+fn has_own_axis(row: &[FrfPanel<'_>], column: usize) -> bool {
+    let unit = |column: usize| row.get(column).map(|panel| panel.unit);
+    match column.checked_sub(1) {
+        None => true,
+        Some(neighbour) => unit(column).is_some_and(|own| Some(own) != unit(neighbour)),
     }
 }
 

@@ -1,14 +1,14 @@
 //! The look of the curves, and the key that explains it.
 
-use super::strip::{TEXT, draw_path};
+use super::strip::TEXT;
 use super::svg::{PathData, Point, Svg};
 use super::text;
 
 // Blue and vermilion from the palette of Okabe and Ito, which the colour-blind can tell apart.
 pub(super) const REGENERATED_COLOUR: &str = "#0072b2";
 const UNCOUPLED_COLOUR: &str = "#d55e00";
-const MEASURED_COLOUR: &str = "#8c959f";
-const MARK_COLOUR: &str = "#0072b2";
+const MEASURED_COLOUR: &str = "#b4bac1";
+const RESIDUAL_COLOUR: &str = "#8c959f";
 
 const FONT: f64 = 12.5;
 const SAMPLE_WIDTH: f64 = 26.0;
@@ -20,6 +20,10 @@ pub(super) enum Key {
     Measured,
     Regenerated,
     Uncoupled,
+    /// Its name is in the axis' label.
+    Residual,
+    /// Upright lines, with the frequency above them.
+    Resonance,
 }
 
 impl Key {
@@ -28,6 +32,8 @@ impl Key {
             Self::Measured => "measured",
             Self::Regenerated => "regenerated",
             Self::Uncoupled => "uncoupled",
+            Self::Residual => "residual",
+            Self::Resonance => "resonance, Hz",
         }
     }
 
@@ -37,9 +43,11 @@ impl Key {
             return;
         }
         let (colour, width, dashes) = match self {
-            Self::Measured => (MEASURED_COLOUR, 2.6, None),
+            Self::Measured => (MEASURED_COLOUR, 4.2, None),
             Self::Regenerated => (REGENERATED_COLOUR, 1.5, None),
             Self::Uncoupled => (UNCOUPLED_COLOUR, 1.2, Some("6 3")),
+            Self::Residual => (RESIDUAL_COLOUR, 1.9, None),
+            Self::Resonance => (REGENERATED_COLOUR, 1.0, Some("1 3")),
         };
         let element = svg
             .element("path")
@@ -62,24 +70,20 @@ impl Key {
             y: middle,
         };
         match self {
-            Self::Measured => {
+            Self::Measured | Self::Residual => {
                 for dot in [4.0, 10.0, 16.0, 22.0] {
                     path.move_to(at(dot));
                     path.dot();
                 }
             }
             Self::Regenerated | Self::Uncoupled => path.polyline(&[at(0.0), at(SAMPLE_WIDTH)]),
+            Self::Resonance => {
+                let x = left + 0.8 * SAMPLE_WIDTH;
+                let ends = [middle - 8.0, middle + 8.0];
+                path.polyline(&ends.map(|y| Point { x, y }));
+            }
         }
         path
-    }
-}
-
-/// Draws the lines that mark resonances.
-pub(super) fn draw_marks(path: &PathData, svg: &mut Svg) {
-    if !path.is_empty() {
-        svg.element("g").word("stroke-dasharray", "1 3").open();
-        draw_path(svg, path, MARK_COLOUR, 1.0);
-        svg.close();
     }
 }
 

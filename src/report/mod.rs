@@ -10,3 +10,6 @@ mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
+
+#[cfg(test)]
+mod tests;

@@ -13,15 +13,15 @@ const FRAME: &str = "#6e7781";
 const TICK_FONT: f64 = 12.0;
 const EXPONENT_FONT: f64 = 9.5;
 /// Room to the left of a strip for the labels of its value axis (pixels).
-pub(super) const VALUE_LABELS: f64 = 58.0;
+pub(super) const VALUE_LABELS: f64 = 64.0;
 /// Distance of the value axis' name from the strip (pixels).
-const NAME_DISTANCE: f64 = 46.0;
+const NAME_DISTANCE: f64 = 50.0;
 /// How far the baseline of a text lies below its middle, part of the font size.
 const MIDDLE: f64 = 0.36;
 const TICK: f64 = 5.0;
 const MINOR_TICK: f64 = 3.0;
 /// Distance between labelled ticks at which they are easy to read (pixels).
-const FREQUENCY_TICK_DISTANCE: f64 = 52.0;
+const FREQUENCY_TICK_DISTANCE: f64 = 44.0;
 const VALUE_TICK_DISTANCE: f64 = 26.0;
 
 /// Where a strip lies on the page (pixels) and what its axes show. Its own points count from its upper left corner.

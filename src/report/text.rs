@@ -1,19 +1,18 @@
 //! Room that a text takes, without knowing the font that the reader's machine will choose.
 
-/// Mean width of a character in a wide sans-serif font, part of the font size.
-const CHARACTER_WIDTH: f64 = 0.6;
-
-/// Width of `text` (pixels), rather too much than too little.
+/// Width of `text` (pixels) in a rather wide sans-serif font.
 pub(super) fn width(text: &str, font_size: f64) -> f64 {
-    let characters = text.chars().map(|character| match character {
-        'i' | 'j' | 'l' | 'I' | '|' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.6,
-        'm' | 'w' | 'M' | 'W' => 1.5,
-        'A'..='Z' => 1.15,
+    let per_font_size = text.chars().map(|character| match character {
+        'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | '|' | '.' | ',' | ':' | ';' | '·' | '\''
+        | ' ' => 0.34,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.95,
+        'A'..='Z' => 0.72,
+        '0'..='9' => 0.62,
         // Ideographs and symbols beyond the alphabets fill a square.
-        '\u{2e80}'.. => 1.7,
-        _ => 1.0,
+        '\u{2e80}'.. => 1.0,
+        _ => 0.58,
     });
-    CHARACTER_WIDTH * font_size * characters.sum::<f64>()
+    font_size * per_font_size.sum::<f64>()
 }
 
 /// `text` itself if there is room for it, otherwise its beginning and an ellipsis.

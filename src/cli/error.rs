@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::export::ExportError;
+use crate::export::{ExportError, InspectError};
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::JointFileError;
@@ -14,13 +14,15 @@ use crate::joint::JointFileError;
 #[derive(Debug, Error)]
 pub(super) enum CliError {
     #[error(transparent)]
-    Identify(#[from] IdentifyError),
+    Identify(Box<IdentifyError>),
     #[error(transparent)]
     Frf(#[from] FrfError),
     #[error(transparent)]
     JointFile(#[from] JointFileError),
     #[error(transparent)]
     Export(#[from] ExportError),
+    #[error(transparent)]
+    Inspect(#[from] InspectError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{option}: found {found}, expected {expected}")]
@@ -29,12 +31,18 @@ pub(super) enum CliError {
         found: String,
         expected: &'static str,
     },
-    #[error("{}: {findings}", path.display())]
+    #[error("{}:\n  {findings}", path.display())]
     Check { path: PathBuf, findings: String },
     #[error("the result cannot be printed: {0}")]
     Output(#[from] io::Error),
     #[error("the result cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+}
+
+impl From<IdentifyError> for CliError {
+    fn from(error: IdentifyError) -> Self {
+        Self::Identify(Box::new(error))
+    }
 }
 
 impl CliError {

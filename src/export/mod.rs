@@ -8,6 +8,7 @@ mod description;
 mod documentation;
 mod error;
 mod fmu;
+mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
@@ -18,6 +19,7 @@ mod token;
 
 pub use error::ExportError;
 pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
+pub use inspect::{InspectError, Inspection, inspect};
 pub use interface::Interface;
 pub use platforms::{Library, LibrarySource};
 pub use step::{StepChoice, StepSize};

@@ -31,6 +31,49 @@ pub(super) fn start_file(
     )
 }
 
+/// What such a file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct StartFile {
+    pub(super) interface: Interface,
+    pub(super) token: String,
+    pub(super) parameters: Vec<(String, f64)>,
+}
+
+impl StartFile {
+    /// Reads the text back; `None` where it is not such a file.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        if lines.next()? != HEADER {
+            return None;
+        }
+        let mut field = |name: &str| lines.next()?.strip_prefix(name)?.strip_prefix(' ');
+        let interface = match field("model")? {
+            "element" => Interface::Element,
+            "lap" => Interface::Lap,
+            _ => return None,
+        };
+        field("dofs")?;
+        let token = field("token")?.to_owned();
+        let parameters = lines
+            .map(|line| {
+                let (name, value) = line.split_once(' ')?;
+                Some((name.to_owned(), value.parse().ok()?))
+            })
+            .collect::<Option<_>>()?;
+        Some(Self {
+            interface,
+            token,
+            parameters,
+        })
+    }
+
+    /// Start value of the parameter `name`.
+    pub(super) fn value(&self, name: &str) -> Option<f64> {
+        let found = self.parameters.iter().find(|(other, _)| other == name);
+        found.map(|&(_, value)| value)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,5 +94,9 @@ mod tests {
             text,
             "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken 0123\njoint.k_yy 573000.0\nstep_size_max 2e-5\n"
         );
+        let read = StartFile::parse(&text).unwrap();
+        assert_eq!((read.interface, &*read.token), (Interface::Lap, "0123"));
+        assert_eq!(read.parameters, parameters);
+        assert_eq!(StartFile::parse(&text.replace("2e-5", "fast")), None);
     }
 }

@@ -6,10 +6,10 @@ use super::axis::Axis;
 use super::curve::{self, Sample};
 use super::frf_column::{self, Column, ColumnAxes};
 use super::legend::{Key, draw_legend};
-use super::resonance::resonances;
 use super::strip::{FAINT_TEXT, TEXT, VALUE_LABELS};
 use super::svg::Svg;
 use super::text::wrapped;
+use crate::frf::resonances;
 
 const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
 const PAGE_WIDTH: f64 = 960.0;

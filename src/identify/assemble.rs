@@ -100,10 +100,10 @@ struct Axis<'a> {
 }
 
 fn in_file(path: &Path, source: FrfError) -> IdentifyError {
-    IdentifyError::FrfFile {
+    IdentifyError::Frf(FrfError::InFile {
         path: path.to_owned(),
-        source,
-    }
+        source: Box::new(source),
+    })
 }
 
 fn read(file: &FrfFile) -> Result<FrfSet, IdentifyError> {

@@ -37,14 +37,6 @@ pub enum IdentifyError {
     /// A universal file cannot be used.
     #[error(transparent)]
     Frf(#[from] FrfError),
-    /// A universal file lacks a function.
-    #[error("{}: {source}", path.display())]
-    FrfFile {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: FrfError,
-    },
     /// Modal data cannot be used.
     #[error(transparent)]
     Modal(#[from] ModalError),

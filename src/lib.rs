@@ -1,9 +1,15 @@
 //! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
+//!
+//! The way of the data: [`frf`] and [`structure`] give receptances, [`identify`] finds the joint that couples them,
+//! [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`report`] draws what was found.
 #![forbid(unsafe_code)]
 
+pub mod cli;
+pub mod export;
 pub mod frf;
 pub mod identify;
 pub mod joint;
+pub mod report;
 pub mod structure;
 mod text_file;
 pub(crate) mod whole_file;

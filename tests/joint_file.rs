@@ -161,6 +161,29 @@ fn text_that_is_no_json() {
 }
 
 #[test]
+fn no_damage_goes_unnoticed_or_brings_the_reader_down() {
+    let whole = JointFile::from_json(GOOD, "").unwrap();
+    for (at, c) in GOOD.char_indices() {
+        assert!(at + 2 >= GOOD.len() || JointFile::from_json(&GOOD[..at], "").is_err());
+        for other in ['"', '[', '}', ',', '-', 'e', '9', 'é', '\n', '\u{1}'] {
+            let text = format!("{}{other}{}", &GOOD[..at], &GOOD[at + c.len_utf8()..]);
+            if let Err(refused) = JointFile::from_json(&text, "damaged.json") {
+                assert!(
+                    refused.to_string().starts_with("damaged.json:"),
+                    "{refused}"
+                );
+            } else if JointFile::from_json(&text, "").unwrap() == whole {
+                // Only layout, or a digit or sign that makes no difference to the number, may be replaced unnoticed.
+                assert!(
+                    c.is_whitespace() || c == other,
+                    "{c} by {other} at {at}: {text}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn keys_that_do_not_exist_or_are_not_there() {
     assert_eq!(
         refusal("\"stiffness\"", "\"stifness\""),
@@ -292,6 +315,7 @@ fn contents_that_do_not_fit_together() {
             "every problem is told: {message}"
         );
     }
+    assert!(refusal("\"bad\"", "\"a\\uffff\"").contains("expected one line of text"));
     assert!(refusal("\"bad\"", "\" \"").contains("name: found \" \", expected one line of text"));
     assert!(
         refusal("\"bad\"", "\"a\\nb\"")

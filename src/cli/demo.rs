@@ -10,9 +10,8 @@ use std::path::{Path, PathBuf};
 use nalgebra::dmatrix;
 
 use crate::export::Interface;
-use crate::frf::{polluted, resonances_hz, write_uff58};
+use crate::frf::{polluted, resonances, write_uff58};
 use crate::identify::{Identification, JointMatrices, Study, identify, predict_assembly};
-use crate::joint::JointFile;
 
 use super::DemoArguments;
 use super::error::CliError;
@@ -136,7 +135,15 @@ fn report(
         basis(found)
     );
     let truth = published_joint();
-    let mut table = Table::new(&["", "true", "identified", "error", "± std. dev.", "band average", "unit"]);
+    let mut table = Table::new(&[
+        "",
+        "true",
+        "identified",
+        "error",
+        "± std. dev.",
+        "band average",
+        "unit",
+    ]);
     for unknown in Unknown::of(found.model) {
         let (exact, value) = (unknown.value(&truth), unknown.value(&found.joint));
         let deviation = unknown.value(&found.standard_deviation);
@@ -146,20 +153,24 @@ fn report(
             number(value, 5),
             format!("{:+.3} %", 100.0 * (value / exact - 1.0)),
             format!("{:.3} %", 100.0 * (deviation / exact).abs()),
-            found
-                .band_average
-                .as_ref()
-                .map_or_else(|| "none".to_owned(), |average| number(unknown.value(average), 4)),
+            found.band_average.as_ref().map_or_else(
+                || "none".to_owned(),
+                |average| number(unknown.value(average), 4),
+            ),
             unknown.unit.to_owned(),
         ]);
     }
     text += &table.render();
     let _ = writeln!(text, "\n{}", fit(found));
     let middle = found.lines.points.len() / 2;
-    let drive_point: Vec<_> = found.regenerated.iter().map(|matrix| matrix[(middle, middle)]).collect();
-    let resonances: Vec<String> = resonances_hz(&found.lines.frequency_hz, &drive_point)
+    let drive_point: Vec<_> = found
+        .regenerated
         .iter()
-        .map(|hz| format!("{hz:.1}"))
+        .map(|matrix| matrix[(middle, middle)])
+        .collect();
+    let resonances: Vec<String> = resonances(&found.lines.frequency_hz, &drive_point)
+        .iter()
+        .map(|resonance| format!("{:.1}", resonance.frequency_hz))
         .collect();
     let _ = writeln!(
         text,
@@ -176,13 +187,20 @@ fn report(
 }
 
 fn name_in(folder: &Path, path: &Path) -> String {
-    path.strip_prefix(folder).unwrap_or(path).display().to_string()
+    path.strip_prefix(folder)
+        .unwrap_or(path)
+        .display()
+        .to_string()
 }
 
-/// The built-in joint file is one that this program reads.
 #[cfg(test)]
-#[test]
-fn the_built_in_lap_joint_is_valid() {
-    let joint = JointFile::from_json(PIRDAYR, "built in").unwrap();
-    assert_eq!(joint.joint.stiffness, [[4.56e6]]);
+mod tests {
+    use super::PIRDAYR;
+    use crate::joint::JointFile;
+
+    #[test]
+    fn the_built_in_lap_joint_is_valid() {
+        let file = JointFile::from_json(PIRDAYR, "built in").unwrap();
+        assert_eq!(file.joint.stiffness, [[4.56e6]]);
+    }
 }

@@ -2,8 +2,124 @@
 
 use std::path::Path;
 
-use crate::export::{ExportOptions, Exported, Interface, Timestamp, fmu_bytes};
+use serde_json::json;
+
+use crate::export::{
+    ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp, fmu_bytes,
+};
+use crate::joint::JointFile;
 
 use super::ExportArguments;
 use super::error::CliError;
-use super::output::{print, write_file};
+use super::output::print;
+use super::table::number;
+
+pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
+    let options = ExportOptions {
+        step_size_max_s: arguments.step_size_max,
+        platforms: arguments.platforms.clone(),
+        allow_active: arguments.allow_active,
+        ..options(arguments.interface.into())?
+    };
+    let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
+    for matrix in exported.passivity.active() {
+        eprintln!("warning: {matrix}: this FMU can feed energy into a simulation");
+    }
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&as_json(
+            &exported,
+            &arguments.output,
+        ))?);
+    }
+    print(&summary(&exported, &arguments.output))
+}
+
+/// The options of a plain export as this interface.
+pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
+    Ok(ExportOptions {
+        interface,
+        step_size_max_s: None,
+        platforms: None,
+        allow_active: false,
+        date: Timestamp::from_environment()?,
+    })
+}
+
+/// Reads a joint file and writes its FMU, whole or not at all.
+pub(super) fn export_to(
+    joint_file: &Path,
+    fmu: &Path,
+    options: &ExportOptions,
+) -> Result<Exported, CliError> {
+    let (file, text) = JointFile::read_with_source(joint_file)?;
+    let exported = fmu_bytes(&file, &text, options)?;
+    exported.write(fmu)?;
+    Ok(exported)
+}
+
+/// What was written, in five lines.
+fn summary(exported: &Exported, fmu: &Path) -> String {
+    let platforms: Vec<&str> = exported
+        .libraries
+        .iter()
+        .map(|library| library.platform.as_str())
+        .collect();
+    format!(
+        "wrote {} ({} files, {} kB)\n\
+         model: {}, {}\n\
+         steps: {}\n\
+         platforms: {}\n\
+         token: {}\n",
+        fmu.display(),
+        exported.entries.len(),
+        exported.bytes().len().div_ceil(1000),
+        exported.model_name,
+        exported.interface.summary(),
+        exported
+            .step
+            .as_ref()
+            .map_or_else(|| "none, the element has no states".to_owned(), steps),
+        platforms.join(", "),
+        exported.token,
+    )
+}
+
+/// What was written, in one line.
+pub(super) fn one_line(exported: &Exported) -> String {
+    let steps = exported
+        .step
+        .as_ref()
+        .map(|step| format!("; {}", steps(step)));
+    format!(
+        "{}{}",
+        exported.interface.summary(),
+        steps.unwrap_or_default()
+    )
+}
+
+fn steps(step: &StepSize) -> String {
+    let why = match step.choice {
+        StepChoice::Given => "as given".to_owned(),
+        StepChoice::Accuracy => format!("for |λ|max = {} 1/s", number(step.largest_modulus, 3)),
+        StepChoice::NoModes => "nothing moves by itself".to_owned(),
+    };
+    format!("RK4 of at most {} s, {why}", number(step.longest_s, 2))
+}
+
+fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
+    json!({
+        "output": fmu,
+        "interface": exported.interface.name(),
+        "model_name": exported.model_name,
+        "token": exported.token,
+        "step_size_max_s": exported.step.map(|step| step.longest_s),
+        "escape_amplitude": exported.escape_amplitude,
+        "platforms": exported.libraries.iter().map(|library| &library.platform).collect::<Vec<_>>(),
+        "entries": exported
+            .entries
+            .iter()
+            .map(|entry| json!({ "path": entry.path, "size": entry.size }))
+            .collect::<Vec<_>>(),
+        "passive": exported.passivity.is_passive(),
+    })
+}

@@ -30,7 +30,10 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let study = Study::read(&arguments.study)?;
     let found = identify(&study)?;
     let joint_file = found.joint_file();
-    let drawing = arguments.figure.as_ref().map(|path| (path, figure(&found, "")));
+    let drawing = arguments
+        .figure
+        .as_ref()
+        .map(|path| (path, figure(&found, "")));
     joint_file.write(&arguments.output)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
@@ -76,7 +79,10 @@ fn summary(found: &Identification) -> String {
             unknown.name.to_owned(),
             number(unknown.value(&found.joint), 5),
             number(unknown.value(&found.standard_deviation), 2),
-            average.map_or_else(|| "none".to_owned(), |average| number(unknown.value(average), 5)),
+            average.map_or_else(
+                || "none".to_owned(),
+                |average| number(unknown.value(average), 5),
+            ),
             unknown.unit.to_owned(),
         ]);
     }
@@ -122,8 +128,14 @@ pub(super) fn figure(found: &Identification, subtitle: &str) -> String {
     let curve = |matrices: &[crate::structure::ComplexMatrix], place| -> Vec<Complex64> {
         matrices.iter().map(|matrix| matrix[place]).collect()
     };
-    let drive_points = found.fits.iter().filter(|fit| fit.response == fit.reference);
-    let others = found.fits.iter().filter(|fit| fit.response != fit.reference);
+    let drive_points = found
+        .fits
+        .iter()
+        .filter(|fit| fit.response == fit.reference);
+    let others = found
+        .fits
+        .iter()
+        .filter(|fit| fit.response != fit.reference);
     let curves: Vec<_> = drive_points
         .chain(others)
         .take(PANELS)
@@ -145,6 +157,7 @@ pub(super) fn figure(found: &Identification, subtitle: &str) -> String {
                 unit: "m/N",
                 measured,
                 regenerated,
+                uncoupled: None,
             })
             .collect(),
     }

@@ -78,7 +78,12 @@ struct ExportArguments {
     #[arg(short, long, value_name = "NAME.fmu")]
     output: PathBuf,
     /// Interface of the FMU
-    #[arg(long = "as", value_enum, value_name = "INTERFACE", default_value = "element")]
+    #[arg(
+        long = "as",
+        value_enum,
+        value_name = "INTERFACE",
+        default_value = "element"
+    )]
     interface: InterfaceArgument,
     /// Version of the FMI standard
     #[arg(long, value_enum, value_name = "VERSION", default_value = "3")]

@@ -81,7 +81,12 @@ impl Unknown {
         };
         [Matrix::Stiffness, Matrix::Damping]
             .into_iter()
-            .flat_map(|matrix| model.entries().iter().map(move |&place| named(matrix, place)))
+            .flat_map(|matrix| {
+                model
+                    .entries()
+                    .iter()
+                    .map(move |&place| named(matrix, place))
+            })
             .collect()
     }
 
@@ -127,6 +132,9 @@ mod tests {
         let mut table = Table::new(&["", "value"]);
         table.row(vec!["k_yy".into(), "5".into()]);
         table.row(vec!["N·m".into(), "±1234".into()]);
-        assert_eq!(table.render(), "        value\n  k_yy      5\n  N·m   ±1234\n");
+        assert_eq!(
+            table.render(),
+            "        value\n  k_yy      5\n  N·m   ±1234\n"
+        );
     }
 }

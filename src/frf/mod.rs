@@ -5,6 +5,7 @@ mod error;
 mod function;
 mod noise;
 mod quantity;
+mod resonance;
 mod set;
 mod uff;
 
@@ -13,6 +14,7 @@ pub use error::FrfError;
 pub use function::Frf;
 pub use noise::polluted;
 pub use quantity::Quantity;
+pub use resonance::{Resonance, resonances};
 pub use set::{FrfSet, Receptance};
 pub use uff::{
     SkippedFunction, UffOptions, UffProblem, UffReading, UnitFactorError, UnitSystem, read_uff58,

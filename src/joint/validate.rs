@@ -12,7 +12,9 @@ impl JointFile {
             dofs: self.joint.dofs,
             problems: Vec::new(),
         };
-        if self.name.trim().is_empty() || self.name.chars().any(char::is_control) {
+        // The name becomes an attribute in XML, which has no control characters and none of the two noncharacters.
+        let has_no_place = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        if self.name.trim().is_empty() || self.name.chars().any(has_no_place) {
             check.problems.push(Problem::Name {
                 found: self.name.clone(),
             });

@@ -52,7 +52,8 @@ def export(run, tmp_path_factory):
 class Slave:
     """An FMI 3.0 co-simulation instance with access by variable names."""
 
-    def __init__(self, folder, **options):
+    def __init__(self, folder, resources=None):
+        """`resources` is passed to the FMU as its resource path, where FMPy would pass its own."""
         self.description = fmpy.read_model_description(str(folder))
         self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
         self.messages = []
@@ -62,7 +63,12 @@ class Slave:
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName="test",
         )
-        self.fmu.instantiate(loggingOn=True, logMessage=self.log, **options)
+        if resources is not None:
+            instantiate = self.fmu.fmi3InstantiateCoSimulation
+            self.fmu.fmi3InstantiateCoSimulation = lambda name, token, _, *others: instantiate(
+                name, token, resources, *others
+            )
+        self.fmu.instantiate(loggingOn=True, logMessage=self.log)
 
     def log(self, environment, status, category, message):
         self.messages.append((status, category.decode(), message.decode()))

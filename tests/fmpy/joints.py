@@ -36,7 +36,7 @@ TOL_K = [[5.73e5, 5.82e3], [5.82e3, 1.29e3]]
 TOL_C = [[10.83, -0.83], [-0.83, 0.083]]
 LINEAR_2 = joint(["y", "theta"], TOL_K, TOL_C, [0.0, 0.0], TWO_DOF_BODIES)
 HARDENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [5e11, 4e5], TWO_DOF_BODIES)
-SOFTENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [-2e11, -1e5], TWO_DOF_BODIES)
+SOFTENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [-2e10, -1e5], TWO_DOF_BODIES)
 
 LAPS = {
     "linear-1": LINEAR_1,

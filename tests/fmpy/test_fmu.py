@@ -24,8 +24,8 @@ def test_the_validator_finds_no_problem(export, case, interface):
     assert validate_fmu(str(fmu)) == []
     description = fmpy.read_model_description(str(fmu), validate=True)
     assert description.fmiVersion == "3.0"
-    assert description.coSimulation.canGetAndSetFMUState
-    assert description.coSimulation.canSerializeFMUState
+    assert description.coSimulation.canGetAndSetFMUstate
+    assert description.coSimulation.canSerializeFMUstate
     result = fmpy.simulate_fmu(str(fmu), stop_time=1e-3, output_interval=1e-4)
     assert len(result) == 11
 
@@ -45,8 +45,8 @@ def test_start_values_are_those_of_the_joint_file(export):
 def test_units_and_display_units(export):
     description = fmpy.read_model_description(str(export(LINEAR_2, "lap")))
     variables = {v.name: v for v in description.modelVariables}
-    assert variables["a.y"].declaredType is None or True
-    assert (variables["a.y"].unit, variables["a.y"].displayUnit) == ("m", "mm")
+    displacement = variables["a.y"].declaredType
+    assert (displacement.unit, displacement.displayUnit) == ("m", "mm")
     units = {unit.name: unit for unit in description.unitDefinitions}
     newton = units["N"].baseUnit
     assert (newton.kg, newton.m, newton.s) == (1, 1, -2)
@@ -104,13 +104,11 @@ def test_the_archive_holds_what_the_user_may_look_at(export):
 def test_resources_are_found_in_any_folder(export, tmp_path, folder, ending):
     target = tmp_path / folder
     fmpy.extract(str(export(HARDENING_1, "lap")), str(target))
-    instance = Slave(target)
-    instance.fmu.freeInstance()
-    fmu = instance.fmu
-    fmu.instantiate(resourcePath=str(target / "resources") + ending, loggingOn=True, logMessage=instance.log)
+    resources = (str(target / "resources") + ending).encode()
+    instance = Slave(target, resources=resources)
     instance.initialise()
     assert instance.get("joint.k3_y", "a.m") == [3e12, 2.35]
-    fmu.freeInstance()
+    instance.fmu.freeInstance()
 
 
 def refusal(instance, call):
@@ -169,7 +167,7 @@ def test_escape_of_a_softening_joint_is_an_error_not_a_nan(slave):
             instance.step(index * 1e-5, 1e-5)
 
     message = refusal(instance, run)
-    assert "y" in message and "escape" in message
+    assert "a.y - b.y" in message and "t = " in message and "softening" in message
     assert np.isfinite(instance.get("a.y", "a.v", "b.y", "b.v", "joint.F", "energy.stored")).all()
 
 

@@ -1,0 +1,113 @@
+//! Pieces of HTML: escaped text, numbers, tables.
+
+/// `text` as HTML text or attribute value; characters that HTML forbids are replaced.
+pub(super) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(c),
+            c if c.is_control() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The first letter in upper case.
+pub(super) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map(|first| first.to_uppercase().chain(letters).collect())
+        .unwrap_or_default()
+}
+
+/// A number to six significant digits, with a power of ten where it is large or small.
+pub(super) fn number(value: f64) -> String {
+    let rounded = format!("{value:.5e}");
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return rounded;
+    };
+    let short = |text: &str| {
+        let text = if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            text
+        };
+        text.replace('-', "−")
+    };
+    match exponent.parse::<i32>() {
+        Ok(power @ -3..=5) => {
+            let decimals = usize::try_from(5 - power).unwrap_or_default();
+            short(&format!("{value:.decimals$}"))
+        }
+        Ok(_) => format!(
+            "{} × 10<sup>{}</sup>",
+            short(mantissa),
+            exponent.replace('-', "−")
+        ),
+        Err(_) => rounded,
+    }
+}
+
+/// A number and its unit.
+pub(super) fn quantity(value: f64, unit: &str) -> String {
+    format!("{} {unit}", number(value))
+}
+
+/// A table; `rows` hold finished cells, `<td>…</td>`.
+pub(super) fn table(headings: &[&str], rows: &[String]) -> String {
+    let headings: String = headings
+        .iter()
+        .map(|heading| format!("<th>{heading}</th>"))
+        .collect();
+    let rows: String = rows.iter().map(|row| format!("<tr>{row}</tr>\n")).collect();
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr>{headings}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+    )
+}
+
+/// A cell of finished HTML.
+pub(super) fn cell(html: &str) -> String {
+    format!("<td>{html}</td>")
+}
+
+/// A cell whose content is aligned as numbers are.
+pub(super) fn number_cell(html: &str) -> String {
+    format!("<td class=\"number\">{html}</td>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_leave_its_place() {
+        assert_eq!(
+            escaped("<script>\"&'\u{7}</script>"),
+            "&lt;script&gt;&quot;&amp;&#39;\u{fffd}&lt;/script&gt;"
+        );
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (-0.83, "−0.83"),
+            (573_000.0, "573000"),
+            (4.56e6, "4.56 × 10<sup>6</sup>"),
+            (2e-5, "2 × 10<sup>−5</sup>"),
+            (0.083, "0.083"),
+            (1.0 / 3.0, "0.333333"),
+            (999_999.99, "1 × 10<sup>6</sup>"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(number(value), expected);
+        }
+    }
+}

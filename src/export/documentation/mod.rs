@@ -1,0 +1,59 @@
+//! The FMU's documentation: one page that needs no network, and the licences.
+
+mod html;
+mod licences;
+mod model;
+mod origin;
+mod parameters;
+mod running;
+mod sketch;
+mod variables;
+
+use bolted_joint_interface::Interface as Declared;
+
+use super::description::generation_tool;
+use super::fmu::LapFacts;
+use super::{Interface, Timestamp};
+use crate::joint::{JointFile, Passivity};
+use html::escaped;
+
+pub(super) use licences::licences;
+
+/// What the page tells.
+pub(super) struct Page<'a> {
+    pub(super) file: &'a JointFile,
+    pub(super) interface: Interface,
+    pub(super) declared: &'a Declared,
+    /// `None` for the element.
+    pub(super) lap: Option<&'a LapFacts>,
+    pub(super) passivity: &'a Passivity,
+    pub(super) token: &'a str,
+    pub(super) date: Timestamp,
+}
+
+/// The page `documentation/index.html`.
+pub(super) fn html(page: &Page<'_>) -> String {
+    let name = escaped(&page.file.name);
+    let sections = [
+        model::section(page),
+        parameters::section(page),
+        running::section(page),
+        variables::section(page),
+        origin::section(page),
+        licences::section(),
+    ]
+    .concat();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}</title>\n<style>\n{css}</style>\n</head>\n<body>\n<header>\n<h1>{name}</h1>\n\
+         <p>{summary}. FMI 3.0 co-simulation, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
+         <main>\n{sections}</main>\n<footer><p>Instantiation token <code>{token}</code></p></footer>\n\
+         </body>\n</html>\n",
+        css = include_str!("style.css"),
+        summary = html::capitalised(page.interface.summary()),
+        tool = escaped(&generation_tool()),
+        date = page.date,
+        token = page.token,
+    )
+}

@@ -1,0 +1,247 @@
+//! Puts an FMU together.
+
+use std::path::{Path, PathBuf};
+
+use bolted_joint_dynamics::{Eigenvalue, Spectrum};
+
+use super::archive::{File, archive};
+use super::description::{self, Description};
+use super::documentation::{self, Page};
+use super::parameters::start_value;
+use super::platforms::{Library, binaries};
+use super::start_file::{parameter_lines, start_file};
+use super::step::{Experiment, StepSize};
+use super::token::token;
+use super::{ExportError, Interface, Timestamp};
+use crate::joint::{DofSet, JointFile, LawError, Passivity};
+use crate::whole_file;
+
+/// What to export, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportOptions {
+    /// Which of the two FMUs.
+    pub interface: Interface,
+    /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
+    pub step_size_max_s: Option<f64>,
+    /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
+    pub platforms: Option<PathBuf>,
+    /// Whether a joint that can feed energy into a simulation is exported all the same.
+    pub allow_active: bool,
+    /// Date in the FMU.
+    pub date: Timestamp,
+}
+
+/// An FMU, and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// Which of the two FMUs it is.
+    pub interface: Interface,
+    /// Name of its model, which is the joint's.
+    pub model_name: String,
+    /// Instantiation token.
+    pub token: String,
+    /// Longest Runge–Kutta step; `None` for the element, which takes no steps.
+    pub step: Option<StepSize>,
+    /// Relative displacement (m, rad) of each DOF beyond which a softening lap runs away; `None` where it does not soften,
+    /// no entries for the element.
+    pub escape_amplitude: Vec<Option<f64>>,
+    /// Whether the joint is passive, by matrix.
+    pub passivity: Passivity,
+    /// Libraries in it.
+    pub libraries: Vec<Library>,
+    /// Its files.
+    pub entries: Vec<Entry>,
+    bytes: Vec<u8>,
+}
+
+/// A file of an FMU.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// Path in the FMU.
+    pub path: String,
+    /// Length before compression, bytes.
+    pub size: usize,
+}
+
+impl Exported {
+    /// The FMU itself.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Writes the FMU to `path`, whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// [`ExportError::Unwritable`] where the system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), ExportError> {
+        whole_file::write(path, &self.bytes).map_err(|source| ExportError::Unwritable {
+            path: path.to_path_buf(),
+            source,
+        })
+    }
+}
+
+/// What the equations of a lap model say about running it.
+pub(super) struct LapFacts {
+    pub(super) step: StepSize,
+    pub(super) experiment: Experiment,
+    pub(super) modes: Vec<Mode>,
+    pub(super) escape_amplitude: Vec<Option<f64>>,
+}
+
+/// A mode of the lap model about rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mode {
+    /// Undamped natural frequency, Hz.
+    pub(super) frequency_hz: f64,
+    /// Negative where the mode grows.
+    pub(super) damping_ratio: f64,
+}
+
+/// The FMU of the joint in `file`, whose very text is `source_json`.
+///
+/// The same file, options and program give the same bytes.
+///
+/// # Errors
+///
+/// [`ExportError`]: an invalid or active joint, a joint over preload, a lap without bodies, an unstable step size,
+/// libraries that cannot be read.
+pub fn fmu_bytes(
+    file: &JointFile,
+    source_json: &str,
+    options: &ExportOptions,
+) -> Result<Exported, ExportError> {
+    let problems = file.validate();
+    if !problems.is_empty() {
+        return Err(ExportError::Invalid { problems });
+    }
+    if file.joint.over_preload.is_some() {
+        return Err(LawError::OverPreload.into());
+    }
+    let passivity = file.passivity();
+    if !passivity.is_passive() && !options.allow_active {
+        return Err(ExportError::Active {
+            matrices: passivity.active().cloned().collect(),
+        });
+    }
+    let lap = lap_facts(file, options)?;
+    let step = lap.as_ref().map(|lap| lap.step);
+
+    let dofs = file.joint.dofs;
+    let mut description = Description::new(options.interface, dofs)?;
+    let summary = format!("{}: {}", file.name, options.interface.summary());
+    description.set_names(&file.name, summary);
+    if let Some(experiment) = experiment(file, lap.as_ref()) {
+        description.set_experiment(experiment);
+    }
+    let longest_step_s = step.map(|step| step.longest_s);
+    let parameters = description.set_parameters(|name| start_value(file, longest_step_s, name))?;
+    let library_name = description.model_identifier();
+    let parameters = parameter_lines(&parameters);
+    let token = token(&[&description.text()?, &parameters]);
+    let (xml, declared) = description.finish(&token, options.date)?;
+
+    let page = documentation::html(&Page {
+        file,
+        interface: options.interface,
+        declared: &declared,
+        lap: lap.as_ref(),
+        passivity: &passivity,
+        token: &token,
+        date: options.date,
+    });
+    let mut files = vec![
+        File::text(description::FILE, xml),
+        File::text(
+            "resources/start.txt",
+            start_file(options.interface, dofs, &token, &parameters),
+        ),
+        File::text("resources/joint.json", source_json),
+        File::text("documentation/index.html", page),
+    ];
+    files.extend(documentation::licences());
+    let mut libraries = Vec::new();
+    for binary in binaries(options.platforms.as_deref(), &library_name)? {
+        libraries.push(binary.library);
+        files.push(File {
+            path: binary.path,
+            bytes: binary.bytes,
+            executable: true,
+        });
+    }
+    Ok(Exported {
+        interface: options.interface,
+        model_name: file.name.clone(),
+        token,
+        step,
+        escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
+        passivity,
+        libraries,
+        bytes: archive(&files, options.date)?,
+        entries: files
+            .into_iter()
+            .map(|file| Entry {
+                path: file.path,
+                size: file.bytes.len(),
+            })
+            .collect(),
+    })
+}
+
+/// `None` for the element.
+fn lap_facts(file: &JointFile, options: &ExportOptions) -> Result<Option<LapFacts>, ExportError> {
+    match (options.interface, file.joint.dofs) {
+        (Interface::Element, _) => match options.step_size_max_s {
+            Some(found_s) => Err(ExportError::StepOfElement { found_s }),
+            None => Ok(None),
+        },
+        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(file, options).map(Some),
+        (Interface::Lap, DofSet::TranslationRotation) => {
+            sized_lap_facts::<2>(file, options).map(Some)
+        }
+    }
+}
+
+fn sized_lap_facts<const D: usize>(
+    file: &JointFile,
+    options: &ExportOptions,
+) -> Result<LapFacts, ExportError> {
+    let lap = file.lap::<D>()?;
+    let step = StepSize::choose(&lap, options.step_size_max_s)?;
+    let spectrum = lap.spectrum();
+    Ok(LapFacts {
+        step,
+        experiment: Experiment::of_lap(spectrum.as_ref(), &step),
+        modes: spectrum.as_ref().map(modes).unwrap_or_default(),
+        escape_amplitude: lap.escape_amplitude().to_vec(),
+    })
+}
+
+/// The oscillating modes, by frequency.
+fn modes(spectrum: &Spectrum) -> Vec<Mode> {
+    let negligible = 1e-6 * spectrum.largest_modulus();
+    let oscillates = |eigenvalue: &&Eigenvalue| eigenvalue.imaginary > negligible;
+    let mut modes: Vec<Mode> = spectrum
+        .eigenvalues()
+        .iter()
+        .filter(oscillates)
+        // λ = −ζω + jω√(1 − ζ²)
+        .map(|eigenvalue| Mode {
+            frequency_hz: eigenvalue.modulus() / std::f64::consts::TAU,
+            damping_ratio: -eigenvalue.real / eigenvalue.modulus(),
+        })
+        .collect();
+    modes.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
+    modes
+}
+
+/// `None` where the joint file says nothing about the times that matter.
+fn experiment(file: &JointFile, lap: Option<&LapFacts>) -> Option<Experiment> {
+    match (lap, &file.validity) {
+        (Some(lap), _) => Some(lap.experiment),
+        (None, Some(validity)) => Some(Experiment::of_element(validity.frequency_hz[1])),
+        (None, None) => None,
+    }
+}

@@ -1,0 +1,24 @@
+//! From a joint file to an FMU (FMI 3.0, co-simulation) that any FMI tool can load.
+//!
+//! Nothing is compiled: the FMU's library is the same for every joint and is carried inside this crate. [`fmu_bytes`]
+//! writes the model description, the start values that the library reads, the documentation, and the archive around them.
+
+mod archive;
+mod description;
+mod documentation;
+mod error;
+mod fmu;
+mod interface;
+mod parameters;
+mod platforms;
+mod start_file;
+mod step;
+mod timestamp;
+mod token;
+
+pub use error::ExportError;
+pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
+pub use interface::Interface;
+pub use platforms::{Library, LibrarySource};
+pub use step::{StepChoice, StepSize};
+pub use timestamp::Timestamp;

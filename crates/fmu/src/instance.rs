@@ -86,10 +86,11 @@ impl Instance {
         Ok(())
     }
 
-    /// Ends initialisation: the parameters take effect.
+    /// Ends initialisation: the parameters take effect. If they cannot, the importer may still set others.
     pub(crate) fn exit_initialization(&mut self) -> Result<Option<Active>, Refusal> {
         self.require(Mode::Initialization)?;
-        let warning = self.take_parameters_into_use()?;
+        let warning = self.prepare_model()?;
+        self.parameters_changed = false;
         self.mode = Mode::Step;
         Ok(warning)
     }
@@ -101,7 +102,7 @@ impl Instance {
         Ok(())
     }
 
-    /// After an error the simulation must not go on, but values stay readable and earlier states can be restored.
+    /// After a failure the simulation must not go on, but values stay readable and earlier states can be restored.
     pub(crate) fn fail(&mut self) {
         self.mode = Mode::Terminated;
     }
@@ -175,12 +176,14 @@ impl Instance {
         self.require(Mode::Step)?;
         let end_s = self.end_of_step(current_s, interval_s)?;
         let warning = if self.parameters_changed {
-            self.take_parameters_into_use()?
+            self.prepare_model()?
         } else {
             None
         };
         self.model
             .advance(&mut self.values, current_s, interval_s)?;
+        // only now, so that a warning reaches the importer even if this step is refused and the next one is not
+        self.parameters_changed = false;
         self.values[TIME] = end_s;
         self.outputs_stale = true;
         Ok(warning)
@@ -298,10 +301,8 @@ impl Instance {
     }
 
     #[cold]
-    fn take_parameters_into_use(&mut self) -> Result<Option<Active>, Refusal> {
-        let warning = self.model.prepare(&self.values)?;
-        self.parameters_changed = false;
-        Ok(warning)
+    fn prepare_model(&mut self) -> Result<Option<Active>, Refusal> {
+        self.model.prepare(&self.values)
     }
 
     #[cold]

@@ -15,7 +15,7 @@ pub(crate) enum Status {
     Ok = 0,
     /// Done, with a remark.
     Warning = 1,
-    /// Refused; the simulation must not be continued from here.
+    /// Refused, with the instance as it was, or failed, with the instance terminated.
     Error = 3,
 }
 

@@ -13,7 +13,7 @@ pub(crate) enum Mode {
     Initialization,
     /// Between communication steps.
     Step,
-    /// After termination, and after every error: values can still be read.
+    /// After termination, and after a failed simulation: values can still be read.
     Terminated,
 }
 

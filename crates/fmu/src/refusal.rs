@@ -7,7 +7,10 @@ use crate::{
     start_file::StartFileError,
 };
 
-/// Reason for an error status. The state machine goes to Terminated, as FMI 3.0, 2.3.1 asks; values stay as they were.
+/// Reason for an error status.
+///
+/// After most of them the instance is exactly as it was before the call, its mode included, so that the importer may
+/// mend the call and go on; [`Refusal::ends_the_simulation`] tells the others.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Refusal {
     /// The call is not allowed in this mode.
@@ -107,6 +110,20 @@ pub(crate) enum Refusal {
     StartFile(StartFileError),
     /// A defect of the library itself.
     Internal,
+}
+
+impl Refusal {
+    /// Whether there is nothing to go on from: the motion diverged during a step, or the library itself failed.
+    ///
+    /// The instance is then Terminated, with the values of the last communication point; a restored state or a reset
+    /// brings it back. FMI 3.0, 2.3.1 has an FMU terminate after any error. Where the call alone was wrong, this
+    /// library goes on: an importer that stops nevertheless loses nothing.
+    pub(crate) const fn ends_the_simulation(&self) -> bool {
+        matches!(
+            self,
+            Self::Escape { .. } | Self::StateNotFinite { .. } | Self::Internal
+        )
+    }
 }
 
 impl fmt::Display for Refusal {

@@ -5,7 +5,7 @@ use crate::{
     logging::Status,
 };
 
-/// Advances the instance; it always reaches the end of the step, or refuses it and stays where it was.
+/// Advances the instance; it reaches the end of the step, or stays where it was.
 ///
 /// # Safety
 ///

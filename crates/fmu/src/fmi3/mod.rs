@@ -76,7 +76,7 @@ impl fmt::Display for Event {
     }
 }
 
-/// Runs `body` on the instance behind `handle`: no panic leaves, every refusal is logged and terminates the simulation.
+/// Runs `body` on the instance behind `handle`: no panic leaves, every refusal is logged, and a failed simulation ends.
 ///
 /// # Safety
 ///
@@ -97,14 +97,14 @@ unsafe fn call(
     }
 }
 
-/// Logs what came out of a call.
+/// Logs what came out of a call, and ends a simulation that failed.
 #[cold]
 fn conclude(
     function: &'static str,
     handle: &mut handle::Handle,
     outcome: Result<Done, Refusal>,
 ) -> Status {
-    if outcome.is_err() {
+    if outcome.as_ref().is_err_and(Refusal::ends_the_simulation) {
         handle.instance.fail();
     }
     // a copy: the callback may use the instance

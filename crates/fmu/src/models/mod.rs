@@ -15,7 +15,7 @@ use crate::{
 ///
 /// Parameters, inputs and states live in the table of values. A model keeps only what it derives from the parameters.
 pub(crate) trait Model: Send {
-    /// Takes the parameters in `values` into use.
+    /// Takes the parameters in `values` into use, or refuses them and keeps those in use before.
     fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal>;
 
     /// Advances the states from `time_s` by `interval_s`, with the inputs held; on refusal `values` are untouched.

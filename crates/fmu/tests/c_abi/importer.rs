@@ -271,6 +271,25 @@ impl Instance {
         }
     }
 
+    /// The message of a call that is refused, and that must leave the instance as it was, mode included.
+    pub(crate) fn refused(&mut self, call: impl FnOnce(&mut Self) -> c_int) -> String {
+        let before = self.state_bytes();
+        assert_eq!(call(self), c::ERROR);
+        assert!(
+            self.state_bytes() == before,
+            "the call changed the instance"
+        );
+        self.error()
+    }
+
+    /// All that the instance remembers: mode, stop time, values.
+    pub(crate) fn state_bytes(&mut self) -> Vec<u8> {
+        let state = self.save();
+        let bytes = self.serialize(state);
+        self.free_state(state);
+        bytes
+    }
+
     pub(crate) fn enter_initialization(&mut self, start_s: f64, stop_s: Option<f64>) -> c_int {
         self.start_s = start_s;
         // SAFETY: the instance lives

@@ -4,7 +4,7 @@ use std::ffi::c_void;
 
 use crate::{
     c,
-    importer::{Instance, Kind, vr},
+    importer::{Instance, Kind, TOKEN, vr},
 };
 
 /// xorshift64*: the same calls in every run.
@@ -59,27 +59,32 @@ struct Subject {
     instance: Instance,
     expected: Expected,
     saved: Option<(*mut c_void, Expected)>,
+    /// All that the instance remembered after the last call.
+    bytes: Vec<u8>,
 }
 
 impl Subject {
     fn new() -> Self {
+        let mut instance = Instance::new(Kind::Lap, 2, &[]);
+        let bytes = instance.state_bytes();
         Self {
-            instance: Instance::new(Kind::Lap, 2, &[]),
+            instance,
             expected: FRESH,
             saved: None,
+            bytes,
         }
     }
 
-    /// One random call; tells whether it was refused.
+    /// One random call; tells whether it was answered with an error.
     fn call(&mut self, random: &mut Random) -> bool {
         let expected = self.expected;
         let allowed = |modes: &[Mode]| modes.contains(&expected.mode);
         // mostly what makes sense next, so that the sequence gets somewhere
         let choice = match expected.mode {
-            _ if random.one_in(3) => random.below(12),
+            _ if random.one_in(3) => random.below(11),
             Mode::Instantiated => random.pick(&[0, 0, 4, 5]),
             Mode::Initialization => random.pick(&[1, 1, 4, 5]),
-            Mode::Step => random.pick(&[10, 10, 10, 4]),
+            Mode::Step => random.pick(&[10, 10, 10, 10, 4, 11]),
             Mode::Terminated => 3,
         };
         let (ok, status) = match choice {
@@ -180,6 +185,14 @@ impl Subject {
                 }
                 (damaged == bytes, loaded.err().unwrap_or(c::OK))
             }
+            11 if random.one_in(8) => {
+                // a moment that no number can follow: the one kind of call that ends the simulation
+                assert_eq!(self.instance.set(&[vr::B_M], &[f64::MAX]), c::OK);
+                let (status, last) = self.instance.step(expected.time, 1e-4);
+                assert_eq!(last, expected.time);
+                self.expected.mode = Mode::Terminated;
+                (false, status)
+            }
             _ => {
                 let h = if random.one_in(16) {
                     random.pick(&[0.0, -1.0, f64::NAN])
@@ -202,21 +215,25 @@ impl Subject {
                 (ok, status)
             }
         };
-        if !ok {
-            self.expected.mode = Mode::Terminated;
-        }
         assert_eq!(status, if ok { c::OK } else { c::ERROR }, "{expected:?}");
         !ok
     }
 
     /// The instance is where the importer thinks it is.
-    fn check(&mut self, refused: bool) {
+    fn check(&mut self, before: Mode, refused: bool) {
         let Expected {
+            mode,
             time,
             force,
             displacement,
-            ..
         } = self.expected;
+        // the layout of the bytes: header, version, length of the token, token, kind, degrees of freedom, mode
+        let bytes = self.instance.state_bytes();
+        assert_eq!(bytes[8 + 4 + 4 + TOKEN.len() + 2], mode as u8);
+        if refused && mode == before {
+            assert!(bytes == self.bytes, "a refused call changed the instance");
+        }
+        self.bytes = bytes;
         assert_eq!(
             self.instance.get([vr::TIME, vr::A_F, vr::A_Y]),
             [time, force, displacement]
@@ -242,7 +259,7 @@ impl Subject {
 fn a_hundred_thousand_random_calls() {
     let mut random = Random(0x5eed_0fb0_17ed);
     let mut subjects: Vec<Subject> = (0..4).map(|_| Subject::new()).collect();
-    let (mut steps, mut refusals) = (0, 0);
+    let (mut steps, mut refusals, mut failures) = (0, 0, 0);
     for _ in 0..100_000 {
         let index = random.below(subjects.len() as u64) as usize;
         if random.one_in(500) {
@@ -255,15 +272,17 @@ fn a_hundred_thousand_random_calls() {
         let subject = &mut subjects[index];
         let before = subject.expected;
         let refused = subject.call(&mut random);
-        subject.check(refused);
-        refusals += u32::from(refused);
+        subject.check(before.mode, refused);
+        let failed = refused && subject.expected.mode != before.mode;
+        refusals += u32::from(refused && !failed);
+        failures += u32::from(failed);
         steps +=
             u32::from(subject.expected.mode == Mode::Step && subject.expected.time > before.time);
     }
     // the sequence is worth something only if it gets everywhere
     assert!(
-        steps > 10_000 && refusals > 10_000,
-        "{steps} steps, {refusals} refusals"
+        steps > 10_000 && refusals > 10_000 && failures > 500,
+        "{steps} steps, {refusals} refusals, {failures} failures"
     );
     for subject in &mut subjects {
         if let Some((state, _)) = subject.saved.take() {

@@ -1,4 +1,4 @@
-//! Which call is allowed in which state, and what an error does.
+//! Which call is allowed in which state, and what a refused call and a failed step leave behind.
 
 use std::ptr;
 
@@ -77,23 +77,21 @@ fn calls_are_allowed_in_the_states_of_the_standard_only() {
     for (function, call, allowed) in calls {
         for state in STATES {
             let mut instance = instance_in(state);
-            let expected = if allowed.contains(&state) {
-                c::OK
-            } else {
-                c::ERROR
-            };
-            assert_eq!(call(&mut instance), expected, "{function} in {state:?}");
-            if expected == c::ERROR {
-                let message = instance.error();
-                let name = match state {
-                    State::Instantiated => "Instantiated",
-                    State::Initialization => "Initialization Mode",
-                    State::Step => "Step Mode",
-                    State::Terminated => "Terminated",
-                };
-                assert!(message.starts_with(&format!("{function}: ")), "{message}");
-                assert!(message.contains(&format!("in state {name}")), "{message}");
+            if allowed.contains(&state) {
+                assert_eq!(call(&mut instance), c::OK, "{function} in {state:?}");
+                continue;
             }
+            // the instance stays where it is, so the same call is refused again in the same words
+            let message = instance.refused(call);
+            assert_eq!(instance.refused(call), message);
+            let name = match state {
+                State::Instantiated => "Instantiated",
+                State::Initialization => "Initialization Mode",
+                State::Step => "Step Mode",
+                State::Terminated => "Terminated",
+            };
+            assert!(message.starts_with(&format!("{function}: ")), "{message}");
+            assert!(message.contains(&format!("in state {name}")), "{message}");
         }
     }
 }
@@ -115,31 +113,91 @@ fn states_are_saved_and_restored_in_every_state() {
 }
 
 #[test]
-fn an_error_ends_the_simulation_but_not_the_values() {
-    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
-    assert_eq!(instance.set(&[vr::B_F], &[100.0]), c::OK);
-    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
-    let before = instance.get([vr::TIME, vr::A_Y, vr::B_Y, vr::B_F, vr::JOINT_F]);
-    let saved = instance.save();
-    assert_eq!(instance.step(1e-3, -1e-3).0, c::ERROR);
-    instance.take_log();
-    // FMI 3.0, 2.3.1: after fmi3Error the FMU is in state Terminated
-    assert_eq!(instance.step(1e-3, 1e-3).0, c::ERROR);
-    assert!(instance.error().contains(
-        "in state Terminated, only in Step Mode; reset the instance or restore a saved state"
-    ));
-    assert_eq!(
-        instance.get([vr::TIME, vr::A_Y, vr::B_Y, vr::B_F, vr::JOINT_F]),
-        before
-    );
-    // a saved state goes on
-    assert_eq!(instance.restore(saved), c::OK);
-    assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
-    instance.free_state(saved);
-    // and a reset starts again
-    assert_eq!(instance.terminate(), c::OK);
-    assert_eq!(instance.reset(), c::OK);
-    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+fn after_a_refused_call_the_simulation_goes_on() {
+    // one instance makes every kind of mistake on its way, the other makes none
+    let mut careless = Instance::new(Kind::Lap, 1, &[]);
+    let mut careful = Instance::new(Kind::Lap, 1, &[]);
+    careless.refused(|i| i.set(&[vr::K_YY, vr::A_F], &[1.0, f64::NAN]));
+    careless.refused(|i| i.step(0.0, 1e-3).0);
+    careless.refused(|i| i.enter_initialization(f64::NAN, None));
+    careless.refused(|i| i.enter_initialization(1.0, Some(0.5)));
+    for instance in [&mut careless, &mut careful] {
+        assert_eq!(instance.enter_initialization(1.0, Some(2.0)), c::OK);
+    }
+    // a parameter that cannot take effect is found when initialisation ends, and can still be mended there
+    assert_eq!(careless.set(&[vr::A_MASS], &[0.0]), c::OK);
+    let message = careless.refused(Instance::exit_initialization);
+    assert!(message.contains("parameter a.m is 0 kg"), "{message}");
+    assert_eq!(careless.set(&[vr::A_MASS], &[2.0]), c::OK);
+    careless.refused(|i| i.enter_initialization(0.0, None));
+    for instance in [&mut careless, &mut careful] {
+        assert_eq!(instance.exit_initialization(), c::OK);
+        assert_eq!(instance.set(&[vr::B_F], &[100.0]), c::OK);
+    }
+    let mut t = 1.0;
+    for _ in 0..20 {
+        careless.refused(|i| i.step(t, -1e-3).0);
+        careless.refused(|i| i.step(t + 1e-3, 1e-3).0);
+        careless.refused(|i| i.step(t, 2.0).0);
+        careless.refused(|i| i.set(&[vr::A_F, vr::A_Y], &[1.0, 1.0]));
+        careless.refused(|i| i.try_get(&[vr::NONE]).err().unwrap_or(c::OK));
+        careless.refused(|i| i.restore(ptr::null_mut()));
+        careless.refused(|i| i.deserialize(&[0; 100]).err().unwrap_or(c::OK));
+        // SAFETY: the instance lives, the function refuses
+        careless.refused(|i| unsafe { c::fmi3EnterEventMode(i.handle) });
+        assert_eq!(careless.set(&[vr::STEP_SIZE_MAX], &[-1.0]), c::OK);
+        let message = careless.refused(|i| i.step(t, 1e-3).0);
+        assert!(message.contains("step_size_max is -1 s"), "{message}");
+        assert_eq!(careless.set(&[vr::STEP_SIZE_MAX], &[2e-5]), c::OK);
+        for instance in [&mut careless, &mut careful] {
+            assert_eq!(instance.step(t, 1e-3), (c::OK, t + 1e-3));
+        }
+        t += 1e-3;
+    }
+    assert!(careful.get([vr::A_Y]) != [0.0]);
+    assert_eq!(careless.state_bytes(), careful.state_bytes());
+}
+
+#[test]
+fn a_failed_step_ends_the_simulation_but_not_the_values() {
+    const ALL: [u32; 5] = [vr::TIME, vr::A_Y, vr::B_Y, vr::B_F, vr::JOINT_F];
+    // a softening joint that a load tears, and a load that no number can follow
+    for (changes, load) in [(&[("joint.k3_y", -1e12)][..], 1e8), (&[], f64::MAX)] {
+        let mut instance = Instance::stepping(Kind::Lap, 1, changes);
+        assert_eq!(instance.set(&[vr::B_F], &[100.0]), c::OK);
+        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        let saved = instance.save();
+        assert_eq!(instance.set(&[vr::B_F], &[load]), c::OK);
+        let before = instance.get(ALL);
+        assert_eq!(instance.step(1e-3, 1e-3), (c::ERROR, 1e-3));
+        instance.take_log();
+        // a smaller load comes too late, but what was reached can be read
+        for call in [
+            |i: &mut Instance| i.step(1e-3, 1e-3).0,
+            |i: &mut Instance| i.set(&[vr::B_F], &[100.0]),
+            Instance::terminate,
+        ] {
+            let message = instance.refused(call);
+            assert!(message.contains("in state Terminated"), "{message}");
+        }
+        let message = instance.refused(|i| i.step(1e-3, 1e-3).0);
+        assert!(
+            message.contains("only in Step Mode; reset the instance or restore a saved state"),
+            "{message}"
+        );
+        assert_eq!(instance.get(ALL), before);
+        // a saved state goes on
+        assert_eq!(instance.restore(saved), c::OK);
+        assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+        instance.free_state(saved);
+        // and a reset starts again
+        assert_eq!(instance.set(&[vr::B_F], &[load]), c::OK);
+        assert_eq!(instance.step(2e-3, 1e-3), (c::ERROR, 2e-3));
+        assert_eq!(instance.reset(), c::OK);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    }
 }
 
 #[test]
@@ -174,8 +232,7 @@ fn the_time_span_is_checked() {
         (1.0, Some(f64::INFINITY), "stopTime is inf"),
     ] {
         let mut instance = Instance::new(Kind::Element, 1, &[]);
-        assert_eq!(instance.enter_initialization(start, stop), c::ERROR);
-        let message = instance.error();
+        let message = instance.refused(|i| i.enter_initialization(start, stop));
         assert!(message.contains(expected), "{message}");
     }
     let mut instance = Instance::new(Kind::Element, 1, &[]);

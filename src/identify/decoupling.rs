@@ -17,7 +17,7 @@ pub fn from_rr(a: &Partition, b: &Partition, assembly_rr: &ComplexMatrix) -> Opt
 
 /// K* from the assembly's receptances at points of A for loads at points of B (Tol 3.19).
 ///
-/// `None` where a matrix that has to be inverted is singular.
+/// `None` where a matrix that has to be inverted is singular, or not square for want of points on one side.
 #[must_use]
 pub fn from_rs(a: &Partition, b: &Partition, assembly_rs: &ComplexMatrix) -> Option<ComplexMatrix> {
     // K* = [H_ks (H^C_rs)⁻¹ H_rj − H_jj − H_kk]⁻¹   (Tol 3.19)
@@ -27,7 +27,7 @@ pub fn from_rs(a: &Partition, b: &Partition, assembly_rs: &ComplexMatrix) -> Opt
 
 /// K* from the assembly's receptances at points of B for loads at points of A (Tol 3.20).
 ///
-/// `None` where a matrix that has to be inverted is singular.
+/// `None` where a matrix that has to be inverted is singular, or not square for want of points on one side.
 #[must_use]
 pub fn from_sr(a: &Partition, b: &Partition, assembly_sr: &ComplexMatrix) -> Option<ComplexMatrix> {
     // K* = [H_jr (H^C_sr)⁻¹ H_sk − H_jj − H_kk]⁻¹   (Tol 3.20)
@@ -47,21 +47,23 @@ pub fn from_ss(a: &Partition, b: &Partition, assembly_ss: &ComplexMatrix) -> Opt
 
 /// Z from Δ = L Z⁻¹ R, where Δ (points × points) is what the joint does to the receptances.
 ///
-/// With as many points as joint DOFs, or fewer, this is the product R Δ⁻¹ L of the printed equations. With more
-/// points, Δ has the rank of the joint and no inverse unless noise lends it one; then Z⁻¹ = L⁺ Δ R⁺ is the
-/// least-squares solution, which uses all points and equals the printed product where that exists.
+/// With as many points as joint DOFs, or fewer, this is the product R Δ⁻¹ L of the printed equations, which needs as many
+/// points on both sides. With more points Δ has the rank of the joint, and no inverse unless noise lends it one; then
+/// Z⁻¹ = L⁺ Δ R⁺ is the least-squares solution, which uses all points.
 fn interface_receptance(
     left: &ComplexMatrix,
     difference: &ComplexMatrix,
     right: &ComplexMatrix,
 ) -> Option<ComplexMatrix> {
     let joint_dofs = left.ncols();
-    if difference.nrows().min(difference.ncols()) < joint_dofs
-        || difference.nrows() == joint_dofs && difference.is_square()
-    {
-        return Some(right * difference.clone().try_inverse()? * left);
+    let (rows, columns) = difference.shape();
+    if rows.min(columns) > joint_dofs || rows != columns && rows.min(columns) == joint_dofs {
+        return (pseudo_inverse(left)? * difference * pseudo_inverse(right)?).try_inverse();
     }
-    (pseudo_inverse(left)? * difference * pseudo_inverse(right)?).try_inverse()
+    if rows != columns {
+        return None;
+    }
+    Some(right * difference.clone().try_inverse()? * left)
 }
 
 fn pseudo_inverse(matrix: &ComplexMatrix) -> Option<ComplexMatrix> {
@@ -93,7 +95,7 @@ fn pseudo_inverse(matrix: &ComplexMatrix) -> Option<ComplexMatrix> {
     Some(if tall { inverse } else { inverse.transpose() })
 }
 
-/// K* = (Z − H_jj − H_kk)⁻¹.
+/// K* = (Z − H_jj − H_kk)⁻¹
 fn joint(z: ComplexMatrix, a: &Partition, b: &Partition) -> Option<ComplexMatrix> {
     let stiffness = (z - &a.joint - &b.joint).try_inverse()?;
     stiffness

@@ -178,8 +178,8 @@ pub fn identify_lines(
     let mut warnings = Vec::new();
     if lines.points.len() < model.dofs() {
         warnings.push(format!(
-            "{} response point for a joint with {} DOFs: the decoupled matrix has rank {} on every line, so the band \
-             averages are no estimate; the refined values rest on the lines together",
+            "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
+             determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
             lines.points.len(),
             model.dofs(),
             lines.points.len()

@@ -162,7 +162,7 @@ pub struct Validity {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Residual {
-    /// Root mean square of (measured - computed) over that of the measured, all functions together.
+    /// Root mean square of |measured - computed| / |computed| over all lines and functions.
     #[schemars(range(min = 0))]
     pub relative_rms: f64,
     /// Number of spectral lines compared.
@@ -180,7 +180,7 @@ pub struct FunctionResidual {
     pub response: String,
     /// Reference DOF, such as `12:+Y`.
     pub reference: String,
-    /// Root mean square of (measured - computed) over that of the measured.
+    /// Root mean square of |measured - computed| / |computed| over the lines.
     #[schemars(range(min = 0))]
     pub relative_rms: f64,
 }

@@ -87,3 +87,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn too_few_points_on_one_side_give_no_joint_and_no_panic() {
+    let pair = beams_4_2_2(vec![117.0], &[0.27], &[0.195, 0.21, 0.225]);
+    let (a, b) = (&pair.a[0], &pair.b[0]);
+    let assembly = couple(a, b, &joint_4_2_2().complex_stiffness(117.0)).unwrap();
+    assert_eq!(from_rs(a, b, &assembly.rs), None);
+    assert_eq!(from_sr(a, b, &assembly.sr), None);
+    // One point on both sides gives a number, as the printed equation does, though no joint.
+    assert!(from_rr(a, b, &assembly.rr).is_some());
+}

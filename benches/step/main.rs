@@ -1,0 +1,87 @@
+//! What a communication step costs through FMI, beside the same equations in a plain Rust loop.
+//!
+//! The FMU's side is what an importer does: `fmi3SetFloat64`, `fmi3DoStep`, `fmi3GetFloat64`, in the very library that
+//! the executable embeds, loaded at run time. Criterion reports both sides; after that, both are timed once more in
+//! turns, so that they share whatever else the machine does, and their ratios are printed.
+
+mod comparison;
+mod fmu;
+mod start_file;
+
+use std::{error::Error, time::Duration};
+
+use bolted_joint_dynamics::{Body, JointLaw, Lap};
+use criterion::Criterion;
+
+use crate::{comparison::Comparison, fmu::Library};
+
+/// Longest Runge–Kutta step, s.
+const STEP_SIZE_MAX_S: f64 = 1e-5;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let library = Library::load()?;
+    let (translation, rotation) = (translational_lap(), rotational_lap());
+    let mut comparisons = [
+        Comparison::of_lap("lap, 1 DOF, 1 substep", &library, &translation, 1)?,
+        Comparison::of_lap("lap, 1 DOF, 50 substeps", &library, &translation, 50)?,
+        Comparison::of_lap("lap, 2 DOF, 1 substep", &library, &rotation, 1)?,
+        Comparison::of_lap("lap, 2 DOF, 50 substeps", &library, &rotation, 50)?,
+        Comparison::of_element("element, 2 DOF", &library, &rotation.joint)?,
+    ];
+    for comparison in &mut comparisons {
+        comparison.check()?;
+    }
+
+    let mut criterion = Criterion::default()
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+        .sample_size(50)
+        .configure_from_args();
+    for comparison in &mut comparisons {
+        comparison.bench(&mut criterion);
+    }
+    criterion.final_summary();
+
+    // Cargo tells in this way that it is to measure, the user that it is only to try or to list
+    let is_given = |option: &str| std::env::args().any(|argument| argument == option);
+    if is_given("--bench") && !is_given("--test") && !is_given("--list") {
+        comparison::print_ratios(&mut comparisons);
+    }
+    Ok(())
+}
+
+/// Two equal masses with a hardening joint.
+fn translational_lap() -> Lap<1> {
+    let body = Body {
+        inertia: [2.35],
+        stiffness: [10.56e5],
+        damping: [31.5],
+    };
+    Lap {
+        joint: JointLaw {
+            stiffness: [[4.56e6]],
+            damping: [[10.0]],
+            cubic: [5e12],
+        },
+        a: body,
+        b: body,
+    }
+}
+
+/// The same with rotation, coupled through the joint.
+fn rotational_lap() -> Lap<2> {
+    let body = Body {
+        inertia: [1.41, 1e-3],
+        stiffness: [8.24e5, 1e3],
+        damping: [20.0, 0.05],
+    };
+    Lap {
+        joint: JointLaw {
+            stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+            damping: [[10.83, -0.83], [-0.83, 0.083]],
+            cubic: [5e12, 1e6],
+        },
+        a: body,
+        b: body,
+    }
+}

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum TextFileError {
     /// The file is missing or may not be read.
-    #[error("{}: cannot be read ({source}); check the path, which is taken relative to the file that names it", path.display())]
+    #[error("{}: cannot be read ({source}); check the path; paths in a study are relative to the study's own folder", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -57,8 +57,11 @@ pub(crate) fn read(path: &Path, expected: &'static str) -> Result<String, TextFi
         expected,
     };
     match (nul, String::from_utf8(bytes)) {
-        (Some(offset), _) => Err(binary(offset)),
-        (None, Err(error)) => Err(binary(error.utf8_error().valid_up_to())),
+        (nul, Err(error)) => {
+            let valid_up_to = error.utf8_error().valid_up_to();
+            Err(binary(nul.map_or(valid_up_to, |nul| nul.min(valid_up_to))))
+        }
+        (Some(nul), Ok(_)) => Err(binary(nul)),
         (None, Ok(text)) => Ok(text),
     }
 }

@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     };
     if arguments.json {
         let value = json!({
-            "file": path,
+            "file": path.display().to_string(),
             "kind": report.kind,
             "sound": report.findings.is_empty(),
             "facts": report.facts,

@@ -17,7 +17,7 @@ use super::DemoArguments;
 use super::error::CliError;
 use super::export::{self, export_to};
 use super::identify::{basis, figure, fit, warnings};
-use super::output::{print, write_file};
+use super::output::{message, print, write_file};
 use super::table::{Table, Unknown, number};
 
 const STUDY: &str = include_str!("../../examples/tol-m10x16/study.toml");
@@ -64,6 +64,8 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
             expected: "a fraction from 0 to below 1, such as 0.01 for 1 %",
         });
     }
+    let element = export::options(Interface::Element)?;
+    let lap = export::options(Interface::Lap)?;
     fs::create_dir_all(&arguments.output).map_err(|source| CliError::Unwritable {
         path: arguments.output.clone(),
         source,
@@ -75,7 +77,7 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let study = synthesise(&mut files, arguments)?;
     let found = identify(&study)?;
     for warning in warnings(&found) {
-        eprintln!("warning: {warning}");
+        message(&format!("warning: {warning}"));
     }
     let joint_file = files.path("m10x16.joint.json");
     found.joint_file().write(&joint_file)?;
@@ -84,15 +86,15 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
         100.0 * arguments.noise
     );
     files.write("m10x16-frf.svg", figure(&found, &subtitle).as_bytes())?;
-    let lap = files.write("pirdayr-ex03.joint.json", PIRDAYR.as_bytes())?;
+    let pirdayr = files.write("pirdayr-ex03.joint.json", PIRDAYR.as_bytes())?;
     let mut exports = String::new();
-    for (joint_file, interface, name) in [
-        (&joint_file, Interface::Element, "m10x16-element.fmu"),
-        (&joint_file, Interface::Lap, "m10x16-lap.fmu"),
-        (&lap, Interface::Lap, "pirdayr-ex03-lap.fmu"),
+    for (joint_file, options, name) in [
+        (&joint_file, &element, "m10x16-element.fmu"),
+        (&joint_file, &lap, "m10x16-lap.fmu"),
+        (&pirdayr, &lap, "pirdayr-ex03-lap.fmu"),
     ] {
         let fmu = files.path(name);
-        let exported = export_to(joint_file, &fmu, &export::options(interface)?)?;
+        let exported = export_to(joint_file, &fmu, options)?;
         let _ = writeln!(exports, "  {name}: {}", export::one_line(&exported));
     }
     print(&report(&found, arguments, &exports, &files))

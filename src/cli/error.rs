@@ -21,10 +21,14 @@ pub(super) enum CliError {
     JointFile(#[from] JointFileError),
     #[error(transparent)]
     Export(#[from] ExportError),
+    #[error("{}: {source}", path.display())]
+    Unexportable { path: PathBuf, source: ExportError },
     #[error(transparent)]
     Inspect(#[from] InspectError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Unwritable { path: PathBuf, source: io::Error },
+    #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]
+    SameFile { path: PathBuf, other: PathBuf },
     #[error("{option}: found {found}, expected {expected}")]
     Option {
         option: &'static str,

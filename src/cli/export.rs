@@ -5,13 +5,13 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::export::{
-    ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp, fmu_bytes,
+    ExportError, ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp, fmu_bytes,
 };
 use crate::joint::JointFile;
 
 use super::ExportArguments;
 use super::error::CliError;
-use super::output::print;
+use super::output::{check_output, message, print};
 use super::table::number;
 
 pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
@@ -21,9 +21,12 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         allow_active: arguments.allow_active,
         ..options(arguments.interface.into())?
     };
+    check_output(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for matrix in exported.passivity.active() {
-        eprintln!("warning: {matrix}: this FMU can feed energy into a simulation");
+        message(&format!(
+            "warning: {matrix}: this FMU can feed energy into a simulation"
+        ));
     }
     if arguments.json {
         return print(&serde_json::to_string_pretty(&as_json(
@@ -52,7 +55,16 @@ pub(super) fn export_to(
     options: &ExportOptions,
 ) -> Result<Exported, CliError> {
     let (file, text) = JointFile::read_with_source(joint_file)?;
-    let exported = fmu_bytes(&file, &text, options)?;
+    let exported = fmu_bytes(&file, &text, options).map_err(|source| match source {
+        ExportError::Invalid { .. }
+        | ExportError::Active { .. }
+        | ExportError::Law(_)
+        | ExportError::NoSpectrum => CliError::Unexportable {
+            path: joint_file.to_owned(),
+            source,
+        },
+        _ => source.into(),
+    })?;
     exported.write(fmu)?;
     Ok(exported)
 }
@@ -108,7 +120,7 @@ fn steps(step: &StepSize) -> String {
 
 fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
     json!({
-        "output": fmu,
+        "output": fmu.display().to_string(),
         "interface": exported.interface.name(),
         "model_name": exported.model_name,
         "token": exported.token,

@@ -10,7 +10,7 @@ use crate::report::{FrfFigure, FrfPanel};
 
 use super::IdentifyArguments;
 use super::error::CliError;
-use super::output::{print, write_file};
+use super::output::{check_output, message, print, write_file};
 use super::table::{Table, Unknown, number};
 
 /// At most so many functions are drawn.
@@ -27,6 +27,10 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             });
         }
     }
+    check_output(&arguments.output, &[&arguments.study])?;
+    if let Some(figure) = &arguments.figure {
+        check_output(figure, &[&arguments.study, &arguments.output])?;
+    }
     let study = Study::read(&arguments.study)?;
     let found = identify(&study)?;
     let joint_file = found.joint_file();
@@ -39,12 +43,12 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         write_file(path, drawing.as_bytes())?;
     }
     for warning in warnings(&found) {
-        eprintln!("warning: {warning}");
+        message(&format!("warning: {warning}"));
     }
     if arguments.json {
         let value = json!({
-            "output": arguments.output,
-            "figure": arguments.figure,
+            "output": arguments.output.display().to_string(),
+            "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "joint_file": joint_file,
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,

@@ -49,7 +49,12 @@ struct DemoArguments {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Relative standard deviation of the measurement noise
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.01)]
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.01,
+        allow_hyphen_values = true
+    )]
     noise: f64,
 }
 
@@ -89,7 +94,7 @@ struct ExportArguments {
     #[arg(long, value_enum, value_name = "VERSION", default_value = "3")]
     fmi: FmiVersion,
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
@@ -150,7 +155,7 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is_closed_output() => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            output::message(&format!("error: {error}"));
             ExitCode::from(1)
         }
     }

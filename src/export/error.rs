@@ -40,7 +40,7 @@ pub enum ExportError {
     },
     /// A step size that is not positive and finite.
     #[error(
-        "step size: found {found_s:?} s, expected a finite number of seconds greater than zero"
+        "step size: found {found_s:?} s, expected a finite number of seconds greater than zero; leave --step-size-max out for an accurate one"
     )]
     StepNotPositive {
         /// The step size, s.

@@ -1,20 +1,25 @@
 //! Looks into an FMU that this program exported: do its parts agree, and can it be simulated?
 
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use bolted_joint_dynamics::Lap;
+use bolted_joint_interface::{Interface as Declared, Role, Variable};
 use thiserror::Error;
 
 use crate::joint::{DofSet, JointFile, JointFileError, Passivity};
 
-use super::Interface;
+use super::description::Description;
 use super::parameters::start_value;
 use super::start_file::{StartFile, parameter_lines};
+use super::{ExportError, Interface, Timestamp};
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
 const SAME_START: f64 = 1e-15;
+
+/// How many differing variables are told of before they are only counted.
+const LISTED_VARIABLES: usize = 5;
 
 /// Why a file cannot be looked into as an FMU.
 #[derive(Debug, Error)]
@@ -28,7 +33,7 @@ pub enum InspectError {
         source: std::io::Error,
     },
     /// The file is no zip archive, or a damaged one.
-    #[error("{}: found no readable zip archive ({source}), expected an FMU", path.display())]
+    #[error("{}: found no readable zip archive ({source}), expected an FMU; copy or export it again", path.display())]
     Archive {
         /// The file.
         path: PathBuf,
@@ -36,7 +41,7 @@ pub enum InspectError {
         source: zip::result::ZipError,
     },
     /// A file that belongs into the FMU is missing or no text.
-    #[error("{}: `{entry}` is missing or no text; expected an FMU that `bolted-joint export` wrote", path.display())]
+    #[error("{}: `{entry}` is missing or no text; expected an FMU that `bolted-joint export` wrote; export it again", path.display())]
     Entry {
         /// The FMU.
         path: PathBuf,
@@ -129,8 +134,31 @@ pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
         findings
             .push("binaries: found no library, expected one for at least one platform".to_owned());
     }
+    for index in 0..archive.len() {
+        let name = archive
+            .name_for_index(index)
+            .and_then(Result::ok)
+            .map_or_else(|| format!("entry {index}"), |name| name.into_owned());
+        let read = archive
+            .by_index(index)
+            .map_err(io::Error::other)
+            .and_then(|mut file| io::copy(&mut file, &mut io::sink()));
+        if let Err(refused) = read {
+            findings.push(format!(
+                "{name}: found it damaged ({refused}), expected it to unpack; copy or export the FMU again"
+            ));
+        }
+    }
+    if start.dof_count != joint.joint.dofs.count() {
+        findings.push(format!(
+            "resources/start.txt: found dofs {}, expected {} from resources/joint.json",
+            start.dof_count,
+            joint.joint.dofs.count()
+        ));
+    }
     let step_size_max_s = start.value("step_size_max");
-    let model_name = description_findings(&xml, &start, &mut findings);
+    let expected = expected_interface(&joint, &start);
+    let model_name = description_findings(&xml, &start, expected, &mut findings);
     for (name, value) in &start.parameters {
         let expected = start_value(&joint, step_size_max_s, name);
         let same = expected.is_some_and(|e| (e - value).abs() <= SAME_START * e.abs());
@@ -160,15 +188,81 @@ pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
     })
 }
 
+/// What the model description of this joint and interface declares.
+fn expected_interface(joint: &JointFile, start: &StartFile) -> Result<Declared, ExportError> {
+    let mut description = Description::new(start.interface, joint.joint.dofs)?;
+    let step_size_max_s = start.value("step_size_max");
+    description.set_parameters(|name| start_value(joint, step_size_max_s, name))?;
+    let (_, declared) = description.finish(&start.token, Timestamp::from_epoch_text("0")?)?;
+    Ok(declared)
+}
+
+/// Where the model description declares other variables than this program does; start values are compared elsewhere.
+fn variable_findings(found: &Declared, expected: &Declared) -> Vec<String> {
+    let mut findings = Vec::new();
+    const FILE: &str = "modelDescription.xml";
+    if found.model_identifier != expected.model_identifier {
+        findings.push(format!(
+            "{FILE}: found modelIdentifier \"{}\", expected \"{}\"",
+            found.model_identifier, expected.model_identifier
+        ));
+    }
+    for wanted in &expected.variables {
+        let same = |other: &Variable| {
+            (other.reference, other.role, &other.unit)
+                == (wanted.reference, wanted.role, &wanted.unit)
+        };
+        match found.variable(&wanted.name) {
+            None => findings.push(format!(
+                "{FILE}: variable {} not found, expected it as resources/start.txt names this interface",
+                wanted.name
+            )),
+            Some(other) if !same(other) => findings.push(format!(
+                "{FILE}: found variable {} as {:?} {} in {}, expected {:?} {} in {}",
+                wanted.name,
+                other.role,
+                other.reference,
+                other.unit,
+                wanted.role,
+                wanted.reference,
+                wanted.unit
+            )),
+            Some(_) => {}
+        }
+    }
+    for other in &found.variables {
+        if expected.variable(&other.name).is_none() {
+            findings.push(format!(
+                "{FILE}: found variable {}, expected none of that name",
+                other.name
+            ));
+        }
+    }
+    if let Some(more) = findings.len().checked_sub(LISTED_VARIABLES + 1) {
+        findings.truncate(LISTED_VARIABLES);
+        findings.push(format!("{FILE}: {} more variables differ", more + 1));
+    }
+    findings
+}
+
 /// Checks the model description against the start values; returns the model's name.
-fn description_findings(xml: &str, start: &StartFile, findings: &mut Vec<String>) -> String {
-    match bolted_joint_interface::Interface::from_xml("modelDescription.xml", xml) {
+fn description_findings(
+    xml: &str,
+    start: &StartFile,
+    expected: Result<Declared, ExportError>,
+    findings: &mut Vec<String>,
+) -> String {
+    match Declared::from_xml("modelDescription.xml", xml) {
         Err(error) => findings.push(error.to_string()),
         Ok(interface) => {
+            match expected {
+                Err(refused) => findings.push(format!("resources/joint.json: {refused}")),
+                Ok(expected) => findings.extend(variable_findings(&interface, &expected)),
+            }
             let declared: Vec<(String, f64)> = interface
                 .variables
                 .iter()
-                .filter(|variable| variable.role == bolted_joint_interface::Role::Parameter)
+                .filter(|variable| variable.role == Role::Parameter)
                 .filter_map(|variable| Some((variable.name.clone(), variable.start?)))
                 .collect();
             if parameter_lines(&declared) != parameter_lines(&start.parameters) {

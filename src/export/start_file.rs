@@ -35,6 +35,7 @@ pub(super) fn start_file(
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct StartFile {
     pub(super) interface: Interface,
+    pub(super) dof_count: usize,
     pub(super) token: String,
     pub(super) parameters: Vec<(String, f64)>,
 }
@@ -52,7 +53,7 @@ impl StartFile {
             "lap" => Interface::Lap,
             _ => return None,
         };
-        field("dofs")?;
+        let dof_count = field("dofs")?.parse().ok()?;
         let token = field("token")?.to_owned();
         let parameters = lines
             .map(|line| {
@@ -62,6 +63,7 @@ impl StartFile {
             .collect::<Option<_>>()?;
         Some(Self {
             interface,
+            dof_count,
             token,
             parameters,
         })

@@ -144,7 +144,7 @@ pub enum FrfError {
     /// A pair that was not measured, nor its transpose.
     #[error(
         "no function with response {response} and reference {reference}, nor the reverse; \
-         there are (response / reference) {}",
+         there are (response / reference) {}; add the missing one, or use other points",
         list(present)
     )]
     MissingPair {
@@ -157,7 +157,8 @@ pub enum FrfError {
     },
     /// No line lies in a frequency band.
     #[error(
-        "found no line from {from_hz} to {to_hz} Hz, expected a band with lines; the functions go from {first_hz} to {last_hz} Hz"
+        "found no line {}, expected a band with lines; the functions go from {first_hz} to {last_hz} Hz",
+        band(*from_hz, *to_hz)
     )]
     EmptyBand {
         /// Lower end of the band, Hz.
@@ -170,7 +171,7 @@ pub enum FrfError {
         last_hz: f64,
     },
     /// A file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
+    #[error("{}: cannot be read ({source}); check the path, in a study it is relative to the study's own folder", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -178,7 +179,7 @@ pub enum FrfError {
         source: io::Error,
     },
     /// A file cannot be written.
-    #[error("{}: cannot be written: {source}", path.display())]
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -204,6 +205,16 @@ pub enum FrfError {
         /// What is wrong with them.
         source: Box<FrfError>,
     },
+}
+
+/// A band in words; an end that leaves nothing out is not named.
+fn band(from_hz: f64, to_hz: f64) -> String {
+    match (from_hz > f64::MIN_POSITIVE, to_hz < f64::MAX) {
+        (true, true) => format!("from {from_hz} to {to_hz} Hz"),
+        (false, true) => format!("above 0 and up to {to_hz} Hz"),
+        (true, false) => format!("from {from_hz} Hz on"),
+        (false, false) => "above 0 Hz".to_owned(),
+    }
 }
 
 fn pair(&(response, reference): &(Dof, Dof)) -> String {

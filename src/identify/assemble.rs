@@ -38,6 +38,19 @@ pub(super) fn lines(study: &Study) -> Result<Lines, IdentifyError> {
             entries[column * points.len() + row] = receptance.values().to_vec();
         }
     }
+    // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
+    let needed = study.model.unknowns().div_ceil(2 * measured.len()).max(2);
+    if axis.frequency_hz.len() < needed {
+        return Err(IdentifyError::TooFewLines {
+            path: path.clone(),
+            found: axis.frequency_hz.len(),
+            from_hz: axis.first_hz(),
+            to_hz: axis.last_hz(),
+            needed,
+            model: study.model,
+            functions: measured.len(),
+        });
+    }
     Ok(Lines {
         assembly: matrices(points.len(), axis.frequency_hz.len(), &entries),
         measured,
@@ -268,11 +281,20 @@ fn matrices(size: usize, line_count: usize, entries: &[Vec<Complex64>]) -> Vec<C
 }
 
 impl Axis<'_> {
+    fn first_hz(&self) -> f64 {
+        self.frequency_hz[0]
+    }
+
+    fn last_hz(&self) -> f64 {
+        self.frequency_hz[self.frequency_hz.len() - 1]
+    }
+
     /// First and last frequency, widened by what rounding in another file may have moved them.
     fn ends(&self) -> (f64, f64) {
-        let first = self.frequency_hz[0];
-        let last = self.frequency_hz[self.frequency_hz.len() - 1];
-        (first * (1.0 - 1e-5), last * (1.0 + 1e-5))
+        (
+            self.first_hz() * (1.0 - 1e-5),
+            self.last_hz() * (1.0 + 1e-5),
+        )
     }
 
     fn compare(&self, path: &Path, other_hz: &[f64]) -> Result<(), IdentifyError> {
@@ -284,7 +306,6 @@ impl Axis<'_> {
         let Some(line) = first_difference else {
             return Ok(());
         };
-        let (from_hz, to_hz) = self.ends();
         let show = |axis: &[f64]| {
             axis.get(line)
                 .map_or_else(|| "(no line left)".to_owned(), |hz| format!("{hz} Hz"))
@@ -292,8 +313,8 @@ impl Axis<'_> {
         Err(IdentifyError::DifferingAxes {
             first_path: self.path.to_owned(),
             second_path: path.to_owned(),
-            from_hz,
-            to_hz,
+            from_hz: self.first_hz(),
+            to_hz: self.last_hz(),
             line: line + 1,
             first: show(self.frequency_hz),
             second: show(other_hz),

@@ -8,6 +8,8 @@ use crate::frf::FrfError;
 use crate::structure::{BeamError, CouplingError, ModalError};
 use crate::text_file::TextFileError;
 
+use super::model::JointModel;
+
 /// Why a joint cannot be identified.
 #[derive(Debug, Error)]
 pub enum IdentifyError {
@@ -72,6 +74,28 @@ pub enum IdentifyError {
         first: String,
         /// Frequency there in the second file, or that it has ended.
         second: String,
+    },
+    /// Fewer lines than unknowns need.
+    #[error(
+        "{}: found {found} line(s) from {from_hz} to {to_hz} Hz, expected at least {needed} for joint model \"{model}\" from \
+         {functions} function(s); widen `frequency` in the study or measure with finer lines",
+        path.display()
+    )]
+    TooFewLines {
+        /// File of the assembly's functions.
+        path: PathBuf,
+        /// Lines found in the band.
+        found: usize,
+        /// Lowest frequency of them, Hz.
+        from_hz: f64,
+        /// Highest frequency of them, Hz.
+        to_hz: f64,
+        /// Lines needed.
+        needed: usize,
+        /// Joint model.
+        model: JointModel,
+        /// Measured functions.
+        functions: usize,
     },
     /// The computed receptances have no finite value at some line.
     #[error("{source}")]

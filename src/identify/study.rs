@@ -1,9 +1,12 @@
 //! A study: what the user's TOML file asks for, checked before anything is read or computed.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use crate::frf::{Dof, Quantity};
 use crate::joint::Bodies;
@@ -172,14 +175,35 @@ struct JointPlaceTable {
     x: Option<f64>,
 }
 
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected a rotation such as \"2:+RZ\", or { points = [three points], spacing = metres }"
-)]
 enum ThetaTable {
     Measured(Dof),
     Difference(DifferenceTable),
+}
+
+/// By hand, since an untagged enum would not say which key of the table is wrong.
+impl<'de> Deserialize<'de> for ThetaTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ThetaVisitor;
+        impl<'de> Visitor<'de> for ThetaVisitor {
+            type Value = ThetaTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a rotation such as \"2:+RZ\", or { points = [three points], spacing = metres }",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<ThetaTable, E> {
+                text.parse().map(ThetaTable::Measured).map_err(E::custom)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ThetaTable, A::Error> {
+                DifferenceTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(ThetaTable::Difference)
+            }
+        }
+        deserializer.deserialize_any(ThetaVisitor)
+    }
 }
 
 #[derive(Deserialize)]
@@ -217,6 +241,19 @@ struct NoiseTable {
     relative: f64,
     #[serde(default)]
     floor: f64,
+}
+
+/// The names of the keys that are there, or `none`.
+fn names_given(none: &str, keys: &[(&str, bool)]) -> String {
+    let given: Vec<&str> = keys
+        .iter()
+        .filter_map(|&(name, there)| there.then_some(name))
+        .collect();
+    if given.is_empty() {
+        none.to_owned()
+    } else {
+        given.join(" and ")
+    }
 }
 
 /// Makes errors that name the study's file.
@@ -257,16 +294,26 @@ impl Study {
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, IdentifyError> {
         let file: StudyFile = toml::from_str(text).map_err(|error| IdentifyError::Syntax {
             path: path.to_owned(),
-            message: error.to_string(),
+            message: error.to_string().trim_end().to_owned(),
         })?;
         let check = Checker { path };
         let folder = path.parent().unwrap_or(Path::new(""));
         let model = file.joint.model;
         let a = check.substructure("a", file.a, folder, model)?;
         let b = check.substructure("b", file.b, folder, model)?;
+        if file.name.trim().is_empty() || file.name.chars().any(char::is_control) {
+            return check.refuse("name", format!("{:?}", file.name), "one line of text");
+        }
         let points = check.points(file.assembly.points)?;
         if let Source::Beam(_) = b.source {
             for point in &points {
+                if !(point.direction().is_translation() || point.direction().is_rotation()) {
+                    return check.refuse(
+                        "assembly.points",
+                        point.to_string(),
+                        "a direction such as \"11:+Y\" on a beam",
+                    );
+                }
                 if !b.positions_m.contains_key(point) {
                     return check.refuse(
                         "b.points",
@@ -281,7 +328,11 @@ impl Study {
         if !(from > 0.0 && from < to) {
             return check.refuse(
                 "frequency",
-                format!("from {from} to {to}"),
+                match (file.frequency.from, file.frequency.to) {
+                    (Some(from), None) => format!("from {from}"),
+                    (None, Some(to)) => format!("to {to}"),
+                    _ => format!("from {from} to {to}"),
+                },
                 "frequencies in Hz with 0 < from < to",
             );
         }
@@ -347,21 +398,16 @@ impl Checker<'_> {
             (None, Some(path), None) => Source::Modal(folder.join(path)),
             (None, None, Some(beam)) => Source::Beam(self.beam(key, beam)?),
             (frf, modal, beam) => {
-                let given: Vec<&str> = [
-                    ("frf", frf.is_some()),
-                    ("modal", modal.is_some()),
-                    ("beam", beam.is_some()),
-                ]
-                .into_iter()
-                .filter_map(|(name, there)| there.then_some(name))
-                .collect();
                 return self.refuse(
                     key,
-                    if given.is_empty() {
-                        "no source".to_owned()
-                    } else {
-                        given.join(" and ")
-                    },
+                    names_given(
+                        "no source",
+                        &[
+                            ("frf", frf.is_some()),
+                            ("modal", modal.is_some()),
+                            ("beam", beam.is_some()),
+                        ],
+                    ),
                     "exactly one of `frf`, `modal` and `beam`",
                 );
             }
@@ -382,6 +428,14 @@ impl Checker<'_> {
             );
         }
         let place_key = format!("{key}.joint");
+        let given = names_given(
+            "no key",
+            &[
+                ("x", table.joint.x.is_some()),
+                ("y", table.joint.y.is_some()),
+                ("theta", table.joint.theta.is_some()),
+            ],
+        );
         let joint = match (table.joint.x, table.joint.y, table.joint.theta) {
             (Some(x), None, None) if on_a_beam => JointPlace::Position(x),
             (None, Some(y), theta) if !on_a_beam => JointPlace::Labels {
@@ -391,23 +445,51 @@ impl Checker<'_> {
             _ if on_a_beam => {
                 return self.refuse(
                     place_key,
-                    "other keys",
+                    given,
                     "{ x = distance from the beam's first end in m }",
                 );
             }
             _ => {
                 return self.refuse(
                     place_key,
-                    "other keys",
+                    given,
                     "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
                 );
             }
         };
-        Ok(Substructure {
+        let substructure = Substructure {
             source,
             joint,
             positions_m: table.points,
-        })
+        };
+        self.positions(key, &substructure)?;
+        Ok(substructure)
+    }
+
+    /// Every position on a beam lies on it. A length that is none is left to the beam's own check.
+    fn positions(&self, key: &str, substructure: &Substructure) -> Result<(), IdentifyError> {
+        let Source::Beam(beam) = &substructure.source else {
+            return Ok(());
+        };
+        let joint = match substructure.joint {
+            JointPlace::Position(x_m) => Some((format!("{key}.joint.x"), x_m)),
+            JointPlace::Labels { .. } => None,
+        };
+        let labelled = substructure
+            .positions_m
+            .iter()
+            .map(|(point, &x_m)| (format!("{key}.points.\"{point}\""), x_m));
+        let length_m = beam.length_m;
+        for (key, x_m) in joint.into_iter().chain(labelled) {
+            if !(0.0..=length_m).contains(&x_m) && length_m > 0.0 {
+                return self.refuse(
+                    key,
+                    format!("{x_m}"),
+                    format!("a position on the beam, from 0 to {length_m} m"),
+                );
+            }
+        }
+        Ok(())
     }
 
     fn rotation(
@@ -460,10 +542,14 @@ impl Checker<'_> {
             (Some(OneOrMore::One(ratio)), None) => Damping::Ratios(vec![ratio]),
             (Some(OneOrMore::More(ratios)), None) => Damping::Ratios(ratios),
             (None, Some(eta)) => Damping::LossFactor(eta),
-            _ => {
+            (ratio, _) => {
                 return self.refuse(
                     format!("{key}.beam"),
-                    "both or none of `damping_ratio` and `loss_factor`",
+                    if ratio.is_some() {
+                        "both damping_ratio and loss_factor"
+                    } else {
+                        "neither damping_ratio nor loss_factor"
+                    },
                     "exactly one of them",
                 );
             }
@@ -488,10 +574,15 @@ impl Checker<'_> {
             );
         }
         for (index, point) in points.iter().enumerate() {
-            if points[..index].contains(point) {
+            let before = &points[..index];
+            if let Some(same) = before.iter().find(|&p| p == point || *p == point.flipped()) {
                 return self.refuse(
                     "assembly.points",
-                    format!("{point} twice"),
+                    if same == point {
+                        format!("{point} twice")
+                    } else {
+                        format!("both {same} and {point}, which are one point")
+                    },
                     "every point once",
                 );
             }

@@ -25,7 +25,7 @@ pub enum LawError {
     /// The two bodies of the lap model are not there.
     #[error(
         "bodies: not found, expected the inertia, stiffness and damping of both bodies a and b; \
-         add them, or use the joint alone"
+         add them, or export as element"
     )]
     NoBodies,
     /// A list has not as many entries as the joint has DOFs: [`JointFile::validate`] tells more.

@@ -59,7 +59,7 @@ pub enum ModalError {
         expected: &'static str,
     },
     /// A degree of freedom that the modes do not cover.
-    #[error("{}: no mode shape at {dof}; the points are {}", path.display(), list(present))]
+    #[error("{}: no mode shape at {dof}; the points are {}; correct the point in the study, or add its shape", path.display(), list(present))]
     MissingPoint {
         /// The file.
         path: PathBuf,
@@ -135,7 +135,7 @@ impl ModalModel {
         let path = path.to_owned();
         let file: File = toml::from_str(text).map_err(|error| ModalError::Syntax {
             path: path.clone(),
-            message: error.to_string(),
+            message: error.to_string().trim_end().to_owned(),
         })?;
         let model = Self {
             path,
@@ -385,7 +385,7 @@ mod tests {
             .unwrap_err();
         assert_eq!(
             missing.to_string(),
-            "modes.toml: no mode shape at 5:+Y; the points are 1:+Y, 2:+Y"
+            "modes.toml: no mode shape at 5:+Y; the points are 1:+Y, 2:+Y; correct the point in the study, or add its shape"
         );
     }
 }

@@ -168,13 +168,13 @@ pub enum UffProblem {
     /// Nothing says what was measured.
     #[error(
         "found neither a data type nor a label in records 9 and 10 that says whether this is receptance, mobility or accelerance; \
-         state the quantity when reading"
+         state it in the study, such as quantity = \"accelerance\" beside frf"
     )]
     UnknownQuantity,
     /// Two statements about what was measured.
     #[error(
         "found {first_statement}, which means {first}, and {second_statement}, which means {second}; expected one quantity. \
-         Find out which is right and state the quantity when reading"
+         Find out which is right and state it in the study, such as quantity = \"{first}\" beside frf"
     )]
     ContradictingQuantities {
         /// Where the first statement stands and how it reads.
@@ -189,7 +189,7 @@ pub enum UffProblem {
     /// Two statements about units.
     #[error(
         "found {first_statement}, by which one unit of the file is {first_factor} SI units, and {second_statement}, \
-         by which it is {second_factor}; expected one unit. Find out which is right and state the units when reading"
+         by which it is {second_factor}; expected one unit. Find out which is right and correct the other in the file"
     )]
     ContradictingUnits {
         /// Where the first statement stands and how it reads.
@@ -204,7 +204,7 @@ pub enum UffProblem {
     /// A unit that does not fit the degrees of freedom.
     #[error(
         "found {statement}, which does not fit a response along {response} and a reference along {reference}; \
-         expected the unit of that ratio. Correct the directions or state the units when reading"
+         expected the unit of that ratio. Correct the directions or the unit in the file"
     )]
     UnitNotOfDirections {
         /// Where the unit stands and how it reads.
@@ -217,7 +217,7 @@ pub enum UffProblem {
     /// Data set 164 says one thing by its code and another by its factors.
     #[error(
         "data set 164: found units code {code} ({name}) with the factors {length} (length) and {force} (force), \
-         expected {expected_length} and {expected_force}; state the units when reading"
+         expected {expected_length} and {expected_force}; correct the code or the factors in the file"
     )]
     UnitsCode {
         /// The code.

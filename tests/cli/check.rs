@@ -1,0 +1,304 @@
+//! `check`: what is sound is said to be, and every tampering with an FMU is found.
+
+use std::fs::{self, File};
+use std::io::{Cursor, Read as _, Write as _};
+
+use zip::write::SimpleFileOptions;
+use zip::{ZipArchive, ZipWriter};
+
+use crate::bench::{Bench, Outcome, PNG, replaced};
+use crate::joint_file::JOINT;
+
+/// A bench with a joint file and its FMUs.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.write("j.joint.json", JOINT);
+    for interface in ["element", "lap"] {
+        let fmu = format!("{interface}.fmu");
+        bench.done(&["export", "j.joint.json", "-o", &fmu, "--as", interface]);
+    }
+    bench
+}
+
+/// Packs `from` again as `to` with each entry as `change` leaves it; an entry that becomes `None` is left out.
+fn repacked(
+    bench: &Bench,
+    from: &str,
+    to: &str,
+    change: impl Fn(&str, Vec<u8>) -> Option<Vec<u8>>,
+) {
+    let mut old = ZipArchive::new(File::open(bench.path(from)).unwrap()).unwrap();
+    let mut new = ZipWriter::new(Cursor::new(Vec::new()));
+    for index in 0..old.len() {
+        let mut entry = old.by_index(index).unwrap();
+        let name = entry.name().unwrap().into_owned();
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).unwrap();
+        if let Some(bytes) = change(&name, bytes) {
+            new.start_file(name, SimpleFileOptions::default()).unwrap();
+            new.write_all(&bytes).unwrap();
+        }
+    }
+    bench.write(to, new.finish().unwrap().into_inner());
+}
+
+/// The lap FMU with one text of one entry replaced, and what `check` makes of it.
+fn edited(bench: &Bench, entry: &str, from: &str, to: &str) -> Outcome {
+    repacked(bench, "lap.fmu", "edited.fmu", |name, bytes| {
+        if name != entry {
+            return Some(bytes);
+        }
+        Some(replaced(&String::from_utf8(bytes).unwrap(), from, to).into_bytes())
+    });
+    bench.run(&["check", "edited.fmu"])
+}
+
+fn line(bench: &Bench, entry: &str, beginning: &str) -> String {
+    let mut fmu = ZipArchive::new(File::open(bench.path("lap.fmu")).unwrap()).unwrap();
+    let mut text = String::new();
+    fmu.by_name(entry)
+        .unwrap()
+        .read_to_string(&mut text)
+        .unwrap();
+    let mut lines = text.lines().map(str::trim);
+    lines
+        .find(|line| line.starts_with(beginning))
+        .unwrap()
+        .to_owned()
+}
+
+#[test]
+fn sound_files_are_said_to_be_sound() {
+    let bench = bench();
+    for (file, kind) in [
+        ("j.joint.json", "joint file"),
+        ("element.fmu", "FMU (FMI 3.0, co-simulation)"),
+        ("lap.fmu", "FMU (FMI 3.0, co-simulation)"),
+    ] {
+        let outcome = bench.done(&["check", file]);
+        assert!(outcome.stdout.starts_with(&format!("{file}: {kind}\n")));
+        assert!(outcome.stdout.contains("no problem found"));
+        assert_eq!(outcome.stderr, "");
+    }
+    // Packed anew and otherwise the same.
+    repacked(&bench, "lap.fmu", "again.fmu", |_, bytes| Some(bytes));
+    bench.done(&["check", "again.fmu"]);
+}
+
+#[test]
+fn an_active_joint_is_found() {
+    let bench = Bench::new();
+    bench.write(
+        "j.joint.json",
+        replaced(JOINT, "[[6, 0.05], [0.05, 0.02]]", "[[6, 5], [5, 0.02]]"),
+    );
+    bench.done(&["export", "j.joint.json", "-o", "o.fmu", "--allow-active"]);
+    for file in ["j.joint.json", "o.fmu"] {
+        let outcome = bench.run(&["check", file]);
+        assert_eq!(outcome.code, Some(1));
+        assert!(
+            outcome.stderr.starts_with(&format!("error: {file}:")),
+            "{}",
+            outcome.stderr
+        );
+        assert!(
+            outcome.stderr.contains("joint.damping is active"),
+            "{}",
+            outcome.stderr
+        );
+        assert!(!outcome.stdout.contains("no problem found"));
+    }
+}
+
+#[test]
+fn every_edit_of_an_fmu_is_found() {
+    let bench = bench();
+    let start = "resources/start.txt";
+    let description = "modelDescription.xml";
+    let token_line = line(&bench, start, "token ");
+    let token = token_line.strip_prefix("token ").unwrap();
+    let step_line = line(&bench, start, "step_size_max ");
+    for (entry, from, to, fragment) in [
+        (
+            start,
+            "joint.k_yy 80000.0",
+            "joint.k_yy 80001.0",
+            "found joint.k_yy = 80001.0",
+        ),
+        (
+            start,
+            "joint.k_yy 80000.0\n",
+            "",
+            "start values differ from resources/start.txt",
+        ),
+        (start, "dofs 2", "dofs 1", "found dofs 1, expected 2"),
+        (
+            start,
+            "model lap",
+            "model element",
+            "found variable a.y as State 1",
+        ),
+        (
+            start,
+            &token_line,
+            "token 0",
+            "expected \"0\" as in resources/start.txt",
+        ),
+        (
+            start,
+            &step_line,
+            "step_size_max 1.0",
+            "found 1.0 s, with which RK4 is unstable",
+        ),
+        (description, token, "0", "found instantiationToken \"0\""),
+        (
+            description,
+            "start=\"80000\"",
+            "start=\"80001\"",
+            "start values differ from resources/start.txt",
+        ),
+        (
+            description,
+            "name=\"joint.F\"",
+            "name=\"joint.load\"",
+            "variable joint.F not found",
+        ),
+        (
+            "resources/joint.json",
+            "8e4, 600",
+            "9e4, 600",
+            "found joint.k_yy = 80000.0, expected Some(90000.0)",
+        ),
+    ] {
+        let outcome = edited(&bench, entry, from, to);
+        assert_eq!(outcome.code, Some(1), "{entry}: {from} → {to}");
+        assert!(outcome.stderr.contains("edited.fmu"), "{}", outcome.stderr);
+        assert!(
+            outcome.stderr.contains(fragment),
+            "{fragment}: {}",
+            outcome.stderr
+        );
+    }
+}
+
+#[test]
+fn entries_that_are_missing_or_broken_are_named() {
+    let bench = bench();
+    for entry in [
+        "modelDescription.xml",
+        "resources/start.txt",
+        "resources/joint.json",
+    ] {
+        repacked(&bench, "lap.fmu", "less.fmu", |name, bytes| {
+            (name != entry).then_some(bytes)
+        });
+        bench.refused(
+            &["check", "less.fmu"],
+            &["less.fmu: ", entry, "export it again"],
+        );
+    }
+    repacked(&bench, "lap.fmu", "less.fmu", |name, bytes| {
+        (!name.starts_with("binaries/")).then_some(bytes)
+    });
+    let outcome = bench.run(&["check", "less.fmu"]);
+    assert_eq!(outcome.code, Some(1));
+    assert!(
+        outcome.stderr.contains("binaries: found no library"),
+        "{}",
+        outcome.stderr
+    );
+    for (entry, contents, fragment) in [
+        ("resources/start.txt", "hello", "resources/start.txt"),
+        (
+            "resources/joint.json",
+            "{",
+            "resources/joint.json:1:1: the file ends too early",
+        ),
+    ] {
+        repacked(&bench, "lap.fmu", "broken.fmu", |name, bytes| {
+            Some(if name == entry {
+                contents.into()
+            } else {
+                bytes
+            })
+        });
+        bench.refused(&["check", "broken.fmu"], &["broken.fmu: ", fragment]);
+    }
+    repacked(&bench, "lap.fmu", "broken.fmu", |name, bytes| {
+        Some(if name == "modelDescription.xml" {
+            b"<fmi".to_vec()
+        } else {
+            bytes
+        })
+    });
+    let outcome = bench.run(&["check", "broken.fmu"]);
+    assert_eq!(outcome.code, Some(1));
+    assert!(
+        outcome.stderr.contains("modelDescription.xml"),
+        "{}",
+        outcome.stderr
+    );
+}
+
+#[test]
+fn what_is_no_fmu_is_said_to_be_none() {
+    let bench = bench();
+    let whole = fs::read(bench.path("lap.fmu")).unwrap();
+    bench.write("cut.fmu", &whole[..whole.len() / 2]);
+    bench.refused(
+        &["check", "cut.fmu"],
+        &[
+            "cut.fmu: found no readable zip archive",
+            "copy or export it again",
+        ],
+    );
+    let mut other = ZipWriter::new(Cursor::new(Vec::new()));
+    other
+        .start_file("notes.txt", SimpleFileOptions::default())
+        .unwrap();
+    bench.write("other.zip", other.finish().unwrap().into_inner());
+    bench.refused(
+        &["check", "other.zip"],
+        &[
+            "other.zip: `modelDescription.xml` is missing",
+            "expected an FMU",
+        ],
+    );
+    bench.write("picture.png", PNG);
+    bench.refused(
+        &["check", "picture.png"],
+        &[
+            "picture.png: found bytes that are no text",
+            "expected a joint file",
+        ],
+    );
+    bench.refused(&["check", "missing.fmu"], &["missing.fmu: cannot be read"]);
+    bench.refused(
+        &["export", "lap.fmu", "-o", "o.fmu"],
+        &["lap.fmu: found a zip archive (an FMU?)"],
+    );
+}
+
+#[test]
+fn a_library_with_a_flipped_bit_is_found() {
+    let bench = bench();
+    let whole = fs::read(bench.path("lap.fmu")).unwrap();
+    let mut archive = ZipArchive::new(Cursor::new(&whole)).unwrap();
+    let names: Vec<String> = archive
+        .file_names()
+        .map(|name| name.unwrap().into_owned())
+        .collect();
+    let library = names.iter().find(|name| name.starts_with("binaries/"));
+    let entry = archive.by_name(library.unwrap()).unwrap();
+    let (start, size) = (entry.data_start().unwrap(), entry.compressed_size());
+    let mut damaged = whole.clone();
+    damaged[usize::try_from(start + size / 2).unwrap()] ^= 0x10;
+    bench.write("damaged.fmu", damaged);
+    let outcome = bench.run(&["check", "damaged.fmu"]);
+    assert_eq!(outcome.code, Some(1));
+    assert!(
+        outcome.stderr.contains("binaries/") && outcome.stderr.contains("damaged"),
+        "{}",
+        outcome.stderr
+    );
+}

@@ -1,0 +1,171 @@
+//! `export`: joints and options that do not make an FMU, and what they leave behind, which is nothing.
+
+use std::fs;
+
+use crate::bench::{Bench, replaced};
+use crate::joint_file::JOINT;
+
+fn bench(joint: &str) -> Bench {
+    let bench = Bench::new();
+    bench.write("j.joint.json", joint);
+    bench
+}
+
+fn export(more: &[&'static str]) -> Vec<&'static str> {
+    [&["export", "j.joint.json", "-o", "o.fmu"], more].concat()
+}
+
+#[test]
+fn an_active_joint_needs_to_be_insisted_on() {
+    let bench = bench(&replaced(
+        JOINT,
+        "[[6, 0.05], [0.05, 0.02]]",
+        "[[6, 5], [5, 0.02]]",
+    ));
+    bench.refused(
+        &export(&[]),
+        &[
+            "j.joint.json: joint.damping is active",
+            "positive semidefinite",
+            "--allow-active",
+        ],
+    );
+    let outcome = bench.done(&export(&["--allow-active"]));
+    assert!(
+        outcome.stderr.contains("warning: joint.damping is active"),
+        "{}",
+        outcome.stderr
+    );
+}
+
+#[test]
+fn a_joint_over_preload_is_refused() {
+    let preload = r#""over_preload": { "preload": [10, 25], "nominal": 10,
+      "stiffness": [[[6e5]], [[9e5]]], "damping": [[[12]], [[8]]] }"#;
+    let bench = bench(&format!(
+        r#"{{ "format": "bolted-joint/1", "name": "M8", "joint": {{ "dofs": ["y"], {preload} }} }}"#
+    ));
+    bench.refused(
+        &export(&[]),
+        &[
+            "j.joint.json: joint.over_preload: found",
+            "at one preload instead",
+        ],
+    );
+}
+
+#[test]
+fn a_lap_needs_bodies() {
+    let end = JOINT.find(",\n  \"bodies\"").unwrap();
+    let bench = bench(&format!("{}\n}}\n", &JOINT[..end]));
+    bench.refused(
+        &export(&["--as", "lap"]),
+        &["j.joint.json: bodies: not found", "export as element"],
+    );
+    bench.done(&export(&[]));
+}
+
+#[test]
+fn step_sizes_that_cannot_be_are_refused() {
+    let bench = bench(JOINT);
+    for (arguments, fragments) in [
+        (
+            ["--step-size-max", "1e-5"].as_slice(),
+            ["found 1e-5 s for the element", "export as lap"],
+        ),
+        (
+            &["--as", "lap", "--step-size-max", "0"],
+            ["found 0.0 s", "greater than zero"],
+        ),
+        (
+            &["--as", "lap", "--step-size-max", "-1e-5"],
+            ["found -1e-5 s", "greater than zero"],
+        ),
+        (
+            &["--as", "lap", "--step-size-max", "nan"],
+            ["found NaN s", "finite number of seconds"],
+        ),
+        (
+            &["--as", "lap", "--step-size-max", "inf"],
+            ["found inf s", "finite number of seconds"],
+        ),
+        (
+            &["--as", "lap", "--step-size-max", "1"],
+            [
+                "found 1.0 s, with which RK4 is unstable",
+                "expected at most",
+            ],
+        ),
+    ] {
+        bench.refused(
+            &export(arguments),
+            &["step size: ", fragments[0], fragments[1]],
+        );
+    }
+}
+
+#[test]
+fn a_folder_of_platforms_must_hold_platforms() {
+    let bench = bench(JOINT);
+    let command = export(&["--platforms", "p"]);
+    bench.refused(&command, &["p: cannot be read", "such as x86_64-windows"]);
+    fs::create_dir(bench.path("p")).unwrap();
+    bench.write("p/README.md", "libraries");
+    bench.refused(
+        &command,
+        &["p: found no platform's folder", "such as x86_64-windows"],
+    );
+    fs::create_dir(bench.path("p/win64")).unwrap();
+    bench.refused(
+        &command,
+        &["win64: is not the name of a platform", "rename or remove"],
+    );
+    fs::rename(bench.path("p/win64"), bench.path("p/x86_64-windows")).unwrap();
+    bench.refused(
+        &command,
+        &[
+            "bolted_joint.dll: not found",
+            "build it, or remove the folder",
+        ],
+    );
+    bench.write("p/x86_64-windows/bolted_joint.dll", "text");
+    bench.refused(
+        &command,
+        &["bolted_joint.dll: is not a shared library", "PE format"],
+    );
+    bench.write("p/x86_64-windows/bolted_joint.dll", "MZ and so on");
+    let outcome = bench.done(&export(&["--platforms", "p", "--json"]));
+    let platforms = outcome.json()["platforms"].clone();
+    assert!(
+        platforms
+            .as_array()
+            .unwrap()
+            .contains(&"x86_64-windows".into())
+    );
+}
+
+#[test]
+fn a_date_that_is_none_is_refused() {
+    let bench = bench(JOINT);
+    for date in ["", "today", "-1", "1.5", "253402300800"] {
+        bench.refused_by(
+            bench.command(&export(&[])).env("SOURCE_DATE_EPOCH", date),
+            &[
+                &format!("SOURCE_DATE_EPOCH: found {date:?}"),
+                "whole number",
+                "unset it",
+            ],
+        );
+    }
+}
+
+#[test]
+fn the_same_date_gives_the_same_bytes() {
+    let bench = bench(JOINT);
+    for name in ["one.fmu", "two.fmu"] {
+        let mut command = bench.command(&["export", "j.joint.json", "-o", name]);
+        let output = command.env("SOURCE_DATE_EPOCH", "0").output().unwrap();
+        assert!(output.status.success());
+    }
+    assert!(fs::read(bench.path("one.fmu")).unwrap() == fs::read(bench.path("two.fmu")).unwrap());
+}

@@ -1,0 +1,19 @@
+//! The program as its user meets it: what it makes of good files, and what it says about every kind of wrong one.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+mod bench;
+mod check;
+mod demo;
+mod export;
+mod identified;
+mod joint_file;
+mod modal_file;
+mod output;
+mod rig;
+mod study;
+mod universal_file;
+mod usage;

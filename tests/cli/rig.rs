@@ -1,0 +1,306 @@
+//! Two rigid bodies on springs, joined by a known joint: every receptance follows from a small matrix of dynamic stiffness.
+//!
+//! Nothing of the program under test computes here: the assembly is solved as one structure, not coupled from two, and the
+//! universal files are written by this module.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use nalgebra::{DMatrix, Matrix2, Matrix4, RowVector2, matrix, vector};
+use num_complex::Complex64;
+
+use crate::bench::Bench;
+
+/// Distance between the points of A, m.
+const SPACING: f64 = 0.03;
+/// Lines at 2, 5, … 200 Hz.
+const FIRST_HZ: f64 = 2.0;
+const STEP_HZ: f64 = 3.0;
+const LINES: usize = 67;
+
+/// The even axis of these lines as record 7 states it.
+pub(crate) const AXIS: &str = "    2.00000e0    3.00000e0";
+
+/// K and C of the joint on y and θ.
+#[derive(Clone, Copy)]
+pub(crate) struct Joint {
+    pub(crate) stiffness: Matrix2<f64>,
+    pub(crate) damping: Matrix2<f64>,
+}
+
+/// A joint with every entry.
+pub(crate) const FULL: Joint = Joint {
+    stiffness: matrix![8e4, 600.0; 600.0, 120.0],
+    damping: matrix![6.0, 0.05; 0.05, 0.02],
+};
+/// Without coupling of y and θ.
+pub(crate) const DIAGONAL: Joint = Joint {
+    stiffness: matrix![8e4, 0.0; 0.0, 120.0],
+    damping: matrix![6.0, 0.0; 0.0, 0.02],
+};
+/// With a hinge in place of the rotational stiffness.
+pub(crate) const TRANSLATION: Joint = Joint {
+    stiffness: matrix![8e4, 0.0; 0.0, 0.0],
+    damping: matrix![6.0, 0.0; 0.0, 0.0],
+};
+
+/// A rigid body on a support at its centre, by the coordinates y and θ of that centre.
+struct Body {
+    inertia: [f64; 2],
+    stiffness: [f64; 2],
+    damping: [f64; 2],
+}
+
+const A: Body = Body {
+    inertia: [1.2, 8e-3],
+    stiffness: [4e4, 300.0],
+    damping: [3.0, 0.01],
+};
+const B: Body = Body {
+    inertia: [0.5, 3e-3],
+    stiffness: [500.0, 5.0],
+    damping: [0.5, 2e-3],
+};
+
+impl Body {
+    fn dynamic_stiffness(&self, omega: f64) -> Matrix2<Complex64> {
+        // Z = k − ω² m + jωc
+        let z = |i: usize| {
+            Complex64::new(
+                self.stiffness[i] - omega * omega * self.inertia[i],
+                omega * self.damping[i],
+            )
+        };
+        Matrix2::from_diagonal(&vector![z(0), z(1)])
+    }
+}
+
+/// What a function is measured as, with the data type of the standard.
+#[derive(Clone, Copy)]
+pub(crate) enum Quantity {
+    Receptance,
+    Mobility,
+    Accelerance,
+}
+
+impl Quantity {
+    fn data_type(self) -> u8 {
+        match self {
+            Self::Receptance => 8,
+            Self::Mobility => 11,
+            Self::Accelerance => 12,
+        }
+    }
+
+    fn from_receptance(self, receptance: Complex64, omega: f64) -> Complex64 {
+        let s = Complex64::new(0.0, omega);
+        match self {
+            Self::Receptance => receptance,
+            Self::Mobility => s * receptance,
+            Self::Accelerance => s * s * receptance,
+        }
+    }
+}
+
+/// A measured degree of freedom: its node, and its motion by those of the body's centre.
+#[derive(Clone, Copy)]
+struct Point {
+    node: u32,
+    rotation: bool,
+    row: RowVector2<f64>,
+}
+
+/// Translation at a distance (m) from the centre: y + xθ.
+fn translation(node: u32, x_m: f64) -> Point {
+    Point {
+        node,
+        rotation: false,
+        row: RowVector2::new(1.0, x_m),
+    }
+}
+
+fn points_of_a() -> Vec<Point> {
+    vec![
+        translation(1, SPACING),
+        translation(2, 0.0),
+        translation(3, -SPACING),
+    ]
+}
+
+/// Where the joint holds B.
+const JOINT_ON_B_M: f64 = -0.1;
+
+fn joint_of_b() -> Vec<Point> {
+    let theta = Point {
+        node: 20,
+        rotation: true,
+        row: RowVector2::new(0.0, 1.0),
+    };
+    vec![translation(20, JOINT_ON_B_M), theta]
+}
+
+fn points_of_b() -> Vec<Point> {
+    vec![
+        translation(21, 0.02),
+        translation(22, 0.06),
+        translation(23, 0.1),
+    ]
+}
+
+/// Receptances between `points` of a body that moves by H (2×2) about its centre.
+fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Complex64 {
+    let (left, right) = (
+        response.row.map(Complex64::from),
+        reference.row.map(Complex64::from),
+    );
+    (left * h * right.transpose())[(0, 0)]
+}
+
+/// H of B's centre in the assembly: the joint's load acts on both bodies.
+fn assembled(joint: &Joint, omega: f64) -> Matrix2<Complex64> {
+    let mut z = Matrix4::zeros();
+    z.fixed_view_mut::<2, 2>(0, 0)
+        .copy_from(&A.dynamic_stiffness(omega));
+    z.fixed_view_mut::<2, 2>(2, 2)
+        .copy_from(&B.dynamic_stiffness(omega));
+    let k = joint
+        .stiffness
+        .zip_map(&joint.damping, |k, c| Complex64::new(k, omega * c));
+    // Relative motion of the joint: x_a − x_b = G (y_A, θ_A, y_B, θ_B)
+    let g = nalgebra::Matrix2x4::new(
+        1.0,
+        0.0,
+        -1.0,
+        -JOINT_ON_B_M, //
+        0.0,
+        1.0,
+        0.0,
+        -1.0,
+    )
+    .map(Complex64::from);
+    z += g.transpose() * k * g;
+    let h = z.try_inverse().unwrap();
+    h.fixed_view::<2, 2>(2, 2).into_owned()
+}
+
+/// A universal file of all pairs of `points`.
+fn universal_file(
+    points: &[Point],
+    quantity: Quantity,
+    h: impl Fn(f64) -> Matrix2<Complex64>,
+) -> String {
+    let omegas: Vec<f64> = (0..LINES)
+        .map(|line| TAU * (FIRST_HZ + STEP_HZ * line as f64))
+        .collect();
+    let motions: Vec<Matrix2<Complex64>> = omegas.iter().map(|&omega| h(omega)).collect();
+    let mut text = String::new();
+    for &response in points {
+        for &reference in points {
+            let values: Vec<Complex64> = omegas
+                .iter()
+                .zip(&motions)
+                .map(|(&omega, h)| {
+                    quantity.from_receptance(receptance(h, response, reference), omega)
+                })
+                .collect();
+            text += &function(response, reference, quantity, &values);
+        }
+    }
+    text
+}
+
+/// One data set 58: complex values in double precision, even abscissa.
+fn function(response: Point, reference: Point, quantity: Quantity, values: &[Complex64]) -> String {
+    let direction = |point: Point| if point.rotation { 6 } else { 2 };
+    let mut text = "    -1\n    58\nNONE\nNONE\nNONE\nNONE\nNONE\n".to_owned();
+    let _ = write!(text, "{:>5}{:>10}{:>5}{:>10}", 4, 0, 0, 0);
+    for point in [response, reference] {
+        let _ = write!(
+            text,
+            " {:<10}{:>10}{:>4}",
+            "NONE",
+            point.node,
+            direction(point)
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\n{:>10}{:>10}{:>10}{AXIS}{:>13.5e}",
+        6,
+        values.len(),
+        1,
+        0.0
+    );
+    for data_type in [18, quantity.data_type(), 13, 0] {
+        let _ = writeln!(
+            text,
+            "{data_type:>10}{:>5}{:>5}{:>5} {:<20} {:<20}",
+            0, 0, 0, "NONE", "NONE"
+        );
+    }
+    for pair in values.chunks(2) {
+        for value in pair {
+            let _ = write!(text, "{:>20.12e}{:>20.12e}", value.re, value.im);
+        }
+        text.push('\n');
+    }
+    text + "    -1\n"
+}
+
+/// Writes `a.uff`, `b.uff` and `c.uff`: what is measured on A, on B and on the assembly.
+pub(crate) fn measure(bench: &Bench, joint: &Joint, quantities: [Quantity; 3]) {
+    let [a, b, c] = quantities;
+    let of_body = |body: &'static Body| {
+        move |omega: f64| body.dynamic_stiffness(omega).try_inverse().unwrap()
+    };
+    bench.write("a.uff", universal_file(&points_of_a(), a, of_body(&A)));
+    let on_b = [joint_of_b(), points_of_b()].concat();
+    bench.write("b.uff", universal_file(&on_b, b, of_body(&B)));
+    let assembly = |omega: f64| assembled(joint, omega);
+    bench.write("c.uff", universal_file(&points_of_b(), c, assembly));
+}
+
+/// The study of these measurements with a joint model and points of the assembly.
+pub(crate) fn study(model: &str, points: &[u32]) -> String {
+    let points: Vec<String> = points.iter().map(|node| format!("\"{node}:+Y\"")).collect();
+    format!(
+        r#"method = "frf-decoupling"
+name = "two bodies"
+
+[a]
+frf = "a.uff"
+joint = {{ y = "2:+Y", theta = {{ points = ["3:+Y", "2:+Y", "1:+Y"], spacing = {SPACING} }} }}
+
+[b]
+frf = "b.uff"
+joint = {{ y = "20:+Y", theta = "20:+RZ" }}
+
+[assembly]
+frf = "c.uff"
+points = [{}]
+
+[joint]
+model = "{model}"
+
+[frequency]
+from = 2
+to = 200
+"#,
+        points.join(", ")
+    )
+}
+
+/// A bench with everything for an identification of `FULL`: files of receptances, and `study.toml`.
+pub(crate) fn ready() -> Bench {
+    let bench = Bench::new();
+    measure(&bench, &FULL, [Quantity::Receptance; 3]);
+    bench.write("study.toml", study("full", &[21, 22, 23]));
+    bench
+}
+
+/// The matrix at `key` of a joint file.
+pub(crate) fn matrix_of(joint_file: &serde_json::Value, key: &str) -> DMatrix<f64> {
+    let rows = joint_file["joint"][key].as_array().unwrap();
+    let size = rows.len();
+    DMatrix::from_fn(size, size, |i, j| rows[i][j].as_f64().unwrap())
+}

@@ -1,0 +1,85 @@
+//! The command line itself: help, version, and what is wrong usage.
+
+use crate::bench::Bench;
+
+#[test]
+fn wrong_usage_ends_with_2() {
+    let bench = Bench::new();
+    for arguments in [
+        [].as_slice(),
+        &["weld"],
+        &["identify"],
+        &["identify", "study.toml"],
+        &["identify", "study.toml", "-o"],
+        &["identify", "study.toml", "-o", "o.json", "--seed", "1"],
+        &["export", "o.joint.json"],
+        &["export", "o.joint.json", "-o", "o.fmu", "--as", "spring"],
+        &["export", "o.joint.json", "-o", "o.fmu", "--fmi", "1"],
+        &[
+            "export",
+            "o.joint.json",
+            "-o",
+            "o.fmu",
+            "--step-size-max",
+            "small",
+        ],
+        &["export", "-o", "o.fmu"],
+        &["check"],
+        &["check", "one", "two"],
+        &["demo", "--seed", "-1"],
+        &["demo", "--noise", "much"],
+    ] {
+        let outcome = bench.run(arguments);
+        assert_eq!(outcome.code, Some(2), "{arguments:?}");
+        assert_eq!(outcome.stdout, "", "{arguments:?}");
+        assert!(outcome.stderr.contains("Usage:") || outcome.stderr.contains("--help"));
+    }
+    assert!(bench.names().is_empty());
+}
+
+#[test]
+fn help_says_what_each_command_needs() {
+    let bench = Bench::new();
+    for (arguments, fragments) in [
+        (
+            ["--help"].as_slice(),
+            ["demo", "identify", "export", "check", "Exit codes"].as_slice(),
+        ),
+        (&["demo", "--help"], &["--output", "--seed", "--noise"]),
+        (
+            &["identify", "--help"],
+            &["<STUDY>", "TOML", "--output", "--figure", "--json"],
+        ),
+        (
+            &["export", "--help"],
+            &[
+                "<JOINT_FILE>",
+                "--output",
+                "element",
+                "lap",
+                "--step-size-max",
+                "--platforms",
+                "--allow-active",
+            ],
+        ),
+        (
+            &["check", "--help"],
+            &["<FILE>", "Joint file or FMU", "--json"],
+        ),
+    ] {
+        let outcome = bench.done(arguments);
+        for fragment in fragments {
+            assert!(
+                outcome.stdout.contains(fragment),
+                "{fragment} in {}",
+                outcome.stdout
+            );
+        }
+        assert_eq!(outcome.stderr, "");
+    }
+    let version = bench.done(&["--version"]).stdout;
+    assert_eq!(
+        version,
+        format!("bolted-joint {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}

@@ -115,7 +115,7 @@ struct Axis<'a> {
 fn in_file(path: &Path, source: FrfError) -> IdentifyError {
     IdentifyError::FrfFile {
         path: path.to_owned(),
-        source,
+        source: Box::new(source),
     }
 }
 

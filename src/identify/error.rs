@@ -45,7 +45,7 @@ pub enum IdentifyError {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: FrfError,
+        source: Box<FrfError>,
     },
     /// Modal data cannot be used.
     #[error(transparent)]

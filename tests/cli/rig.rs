@@ -92,7 +92,7 @@ impl Quantity {
         }
     }
 
-    fn from_receptance(self, receptance: Complex64, omega: f64) -> Complex64 {
+    fn of_receptance(self, receptance: Complex64, omega: f64) -> Complex64 {
         let s = Complex64::new(0.0, omega);
         match self {
             Self::Receptance => receptance,
@@ -200,7 +200,7 @@ fn universal_file(
                 .iter()
                 .zip(&motions)
                 .map(|(&omega, h)| {
-                    quantity.from_receptance(receptance(h, response, reference), omega)
+                    quantity.of_receptance(receptance(h, response, reference), omega)
                 })
                 .collect();
             text += &function(response, reference, quantity, &values);

@@ -174,7 +174,7 @@ pub enum UffProblem {
     /// Two statements about what was measured.
     #[error(
         "found {first_statement}, which means {first}, and {second_statement}, which means {second}; expected one quantity. \
-         Find out which is right and state it in the study, such as quantity = \"{first}\" beside frf"
+         Find out which is right and state the quantity in the study, such as quantity = \"{first}\" beside frf"
     )]
     ContradictingQuantities {
         /// Where the first statement stands and how it reads.

@@ -1,0 +1,370 @@
+//! Checks of a study's tables: what passes is complete, physical and without contradiction.
+
+use std::path::Path;
+
+use crate::frf::Dof;
+use crate::joint::Bodies;
+use crate::structure::{Beam, Damping};
+
+use super::super::bands::Bands;
+use super::super::error::IdentifyError;
+use super::super::estimator::NoiseLevel;
+use super::super::model::JointModel;
+use super::tables::{
+    BeamTable, DifferenceTable, FrequencyTable, NoiseTable, OneOrMore, SubstructureTable,
+    ThetaTable,
+};
+use super::{FrfFile, JointPlace, Rotation, Source, Substructure};
+
+/// Makes errors that name the study's file.
+pub(super) struct Checker<'a> {
+    pub(super) path: &'a Path,
+}
+
+impl Checker<'_> {
+    fn refuse<T>(
+        &self,
+        key: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Result<T, IdentifyError> {
+        Err(IdentifyError::Study {
+            path: self.path.to_owned(),
+            key: key.into(),
+            found: found.into(),
+            expected: expected.into(),
+        })
+    }
+}
+
+impl Checker<'_> {
+    /// The frequency range to use, Hz; where an end is left out, everything there is.
+    pub(super) fn frequency_range(
+        &self,
+        table: &FrequencyTable,
+    ) -> Result<[f64; 2], IdentifyError> {
+        let from = table.from.unwrap_or(f64::MIN_POSITIVE);
+        let to = table.to.unwrap_or(f64::MAX);
+        if from > 0.0 && from < to {
+            return Ok([from, to]);
+        }
+        self.refuse(
+            "frequency",
+            match (table.from, table.to) {
+                (Some(from), None) => format!("from {from}"),
+                (None, Some(to)) => format!("to {to}"),
+                _ => format!("from {from} to {to}"),
+            },
+            "frequencies in Hz with 0 < from < to",
+        )
+    }
+
+    pub(super) fn bands(&self, bands: &Bands) -> Result<(), IdentifyError> {
+        for (name, bands) in bands.named() {
+            if let Some([from, to]) = bands.iter().find(|[from, to]| !(*from > 0.0 && from < to)) {
+                return self.refuse(
+                    format!("bands.{name}"),
+                    format!("[{from}, {to}]"),
+                    "bands [from, to] in Hz with 0 < from < to",
+                );
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn noise(&self, table: &NoiseTable) -> Result<NoiseLevel, IdentifyError> {
+        let &NoiseTable { relative, floor } = table;
+        let usable = |value: f64| value.is_finite() && value >= 0.0;
+        if usable(relative) && usable(floor) && relative + floor > 0.0 {
+            return Ok(NoiseLevel { relative, floor });
+        }
+        self.refuse(
+            "noise",
+            format!("relative = {relative}, floor = {floor}"),
+            "standard deviations that are not negative, at least one of them above zero",
+        )
+    }
+
+    pub(super) fn name(&self, name: &str) -> Result<(), IdentifyError> {
+        if name.trim().is_empty() || name.chars().any(char::is_control) {
+            return self.refuse("name", format!("{name:?}"), "one line of text");
+        }
+        Ok(())
+    }
+
+    /// Every point of the assembly has a place on the beam B.
+    pub(super) fn points_on_beam(
+        &self,
+        points: &[Dof],
+        b: &Substructure,
+    ) -> Result<(), IdentifyError> {
+        for point in points {
+            if !(point.direction().is_translation() || point.direction().is_rotation()) {
+                return self.refuse(
+                    "assembly.points",
+                    point.to_string(),
+                    "a direction such as \"11:+Y\" on a beam",
+                );
+            }
+            if !b.positions_m.contains_key(point) {
+                return self.refuse(
+                    "b.points",
+                    format!("no position of {point}"),
+                    format!("\"{point}\" = its distance from the beam's first end in m"),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn substructure(
+        &self,
+        key: &str,
+        table: SubstructureTable,
+        folder: &Path,
+        model: JointModel,
+    ) -> Result<Substructure, IdentifyError> {
+        let source = match (table.frf, table.modal, table.beam) {
+            (Some(path), None, None) => Source::Frf(FrfFile {
+                path: folder.join(path),
+                quantity: table.quantity,
+            }),
+            (None, Some(path), None) => Source::Modal(folder.join(path)),
+            (None, None, Some(beam)) => Source::Beam(self.beam(key, beam)?),
+            (frf, modal, beam) => {
+                return self.refuse(
+                    key,
+                    names_given(
+                        "no source",
+                        &[
+                            ("frf", frf.is_some()),
+                            ("modal", modal.is_some()),
+                            ("beam", beam.is_some()),
+                        ],
+                    ),
+                    "exactly one of `frf`, `modal` and `beam`",
+                );
+            }
+        };
+        if table.quantity.is_some() && !matches!(source, Source::Frf(_)) {
+            return self.refuse(
+                format!("{key}.quantity"),
+                "a quantity",
+                "it beside `frf` only",
+            );
+        }
+        let on_a_beam = matches!(source, Source::Beam(_));
+        if !on_a_beam && !table.points.is_empty() {
+            return self.refuse(
+                format!("{key}.points"),
+                "positions",
+                "them beside `beam` only; measured points have labels",
+            );
+        }
+        let place_key = format!("{key}.joint");
+        let given = names_given(
+            "no key",
+            &[
+                ("x", table.joint.x.is_some()),
+                ("y", table.joint.y.is_some()),
+                ("theta", table.joint.theta.is_some()),
+            ],
+        );
+        let joint = match (table.joint.x, table.joint.y, table.joint.theta) {
+            (Some(x), None, None) if on_a_beam => JointPlace::Position(x),
+            (None, Some(y), theta) if !on_a_beam => JointPlace::Labels {
+                y,
+                theta: self.rotation(&place_key, y, theta, model)?,
+            },
+            _ if on_a_beam => {
+                return self.refuse(
+                    place_key,
+                    given,
+                    "{ x = distance from the beam's first end in m }",
+                );
+            }
+            _ => {
+                return self.refuse(
+                    place_key,
+                    given,
+                    "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
+                );
+            }
+        };
+        let substructure = Substructure {
+            source,
+            joint,
+            positions_m: table.points,
+        };
+        self.positions(key, &substructure)?;
+        Ok(substructure)
+    }
+
+    /// Every position on a beam lies on it. A length that is none is left to the beam's own check.
+    fn positions(&self, key: &str, substructure: &Substructure) -> Result<(), IdentifyError> {
+        let Source::Beam(beam) = &substructure.source else {
+            return Ok(());
+        };
+        let joint = match substructure.joint {
+            JointPlace::Position(x_m) => Some((format!("{key}.joint.x"), x_m)),
+            JointPlace::Labels { .. } => None,
+        };
+        let labelled = substructure
+            .positions_m
+            .iter()
+            .map(|(point, &x_m)| (format!("{key}.points.\"{point}\""), x_m));
+        let length_m = beam.length_m;
+        for (key, x_m) in joint.into_iter().chain(labelled) {
+            if !(0.0..=length_m).contains(&x_m) && length_m > 0.0 {
+                return self.refuse(
+                    key,
+                    format!("{x_m}"),
+                    format!("a position on the beam, from 0 to {length_m} m"),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn rotation(
+        &self,
+        key: &str,
+        y: Dof,
+        theta: Option<ThetaTable>,
+        model: JointModel,
+    ) -> Result<Option<Rotation>, IdentifyError> {
+        let key = format!("{key}.theta");
+        match theta {
+            None if model.dofs() == 1 => Ok(None),
+            None => self.refuse(
+                key,
+                "nothing",
+                format!("a rotation, which joint model \"{model}\" needs: a measured one or {{ points = […], spacing = … }}"),
+            ),
+            Some(_) if model.dofs() == 1 => Ok(None),
+            Some(ThetaTable::Measured(dof)) if dof.direction().is_rotation() => {
+                Ok(Some(Rotation::Measured(dof)))
+            }
+            Some(ThetaTable::Measured(dof)) => {
+                self.refuse(key, dof.to_string(), "a rotation such as \"2:+RZ\"")
+            }
+            Some(ThetaTable::Difference(DifferenceTable { points, spacing })) => {
+                if !(spacing.is_finite() && spacing > 0.0) {
+                    return self.refuse(
+                        format!("{key}.spacing"),
+                        spacing.to_string(),
+                        "the distance between neighbouring points in m",
+                    );
+                }
+                if points[1] != y {
+                    return self.refuse(
+                        format!("{key}.points"),
+                        format!("{} in the middle", points[1]),
+                        format!("the joint's own translation {y} there: the difference is central"),
+                    );
+                }
+                Ok(Some(Rotation::Difference {
+                    points,
+                    spacing_m: spacing,
+                }))
+            }
+        }
+    }
+
+    fn beam(&self, key: &str, table: BeamTable) -> Result<Beam, IdentifyError> {
+        let damping = match (table.damping_ratio, table.loss_factor) {
+            (Some(OneOrMore::One(ratio)), None) => Damping::Ratios(vec![ratio]),
+            (Some(OneOrMore::More(ratios)), None) => Damping::Ratios(ratios),
+            (None, Some(eta)) => Damping::LossFactor(eta),
+            (ratio, _) => {
+                return self.refuse(
+                    format!("{key}.beam"),
+                    if ratio.is_some() {
+                        "both damping_ratio and loss_factor"
+                    } else {
+                        "neither damping_ratio nor loss_factor"
+                    },
+                    "exactly one of them",
+                );
+            }
+        };
+        Ok(Beam {
+            length_m: table.length,
+            width_m: table.width,
+            height_m: table.height,
+            youngs_modulus_pa: table.youngs_modulus,
+            density_kg_per_m3: table.density,
+            boundary: table.boundary,
+            damping,
+        })
+    }
+
+    pub(super) fn points(&self, points: Vec<Dof>) -> Result<Vec<Dof>, IdentifyError> {
+        if points.is_empty() {
+            return self.refuse(
+                "assembly.points",
+                "an empty list",
+                "one or more measured points of B, three for the best result",
+            );
+        }
+        for (index, point) in points.iter().enumerate() {
+            let before = &points[..index];
+            if let Some(same) = before.iter().find(|&p| p == point || *p == point.flipped()) {
+                return self.refuse(
+                    "assembly.points",
+                    if same == point {
+                        format!("{point} twice")
+                    } else {
+                        format!("both {same} and {point}, which are one point")
+                    },
+                    "every point once",
+                );
+            }
+        }
+        Ok(points)
+    }
+
+    pub(super) fn bodies(&self, bodies: &Bodies, dofs: usize) -> Result<(), IdentifyError> {
+        for (side, body) in [("a", &bodies.a), ("b", &bodies.b)] {
+            for (name, values) in [
+                ("inertia", &body.inertia),
+                ("stiffness", &body.stiffness),
+                ("damping", &body.damping),
+            ] {
+                let key = format!("bodies.{side}.{name}");
+                if values.len() != dofs {
+                    return self.refuse(
+                        key,
+                        format!("{} entries", values.len()),
+                        format!("{dofs}, one for each DOF of the joint"),
+                    );
+                }
+                let usable = |value: f64| {
+                    value.is_finite() && (value > 0.0 || value == 0.0 && name != "inertia")
+                };
+                if let Some(value) = values.iter().find(|&&value| !usable(value)) {
+                    let expected = if name == "inertia" {
+                        "a mass in kg or moment of inertia in kg·m² above zero"
+                    } else {
+                        "a finite number that is not negative"
+                    };
+                    return self.refuse(key, value.to_string(), expected);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The names of the keys that are there, or `none`.
+fn names_given(none: &str, keys: &[(&str, bool)]) -> String {
+    let given: Vec<&str> = keys
+        .iter()
+        .filter_map(|&(name, there)| there.then_some(name))
+        .collect();
+    if given.is_empty() {
+        none.to_owned()
+    } else {
+        given.join(" and ")
+    }
+}

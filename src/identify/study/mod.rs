@@ -1,0 +1,162 @@
+//! A study: what the user's TOML file asks for, checked before anything is read or computed.
+
+mod check;
+mod tables;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::frf::{Dof, Quantity};
+use crate::joint::Bodies;
+use crate::structure::Beam;
+use crate::text_file;
+
+use super::bands::Bands;
+use super::error::IdentifyError;
+use super::estimator::NoiseLevel;
+use super::model::JointModel;
+use check::Checker;
+use tables::StudyFile;
+
+/// A validated study of method `frf-decoupling`.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The study's own file.
+    pub path: PathBuf,
+    /// Name of the joint.
+    pub name: String,
+    /// Substructure A.
+    pub a: Substructure,
+    /// Substructure B.
+    pub b: Substructure,
+    /// File with the assembly's FRFs.
+    pub assembly: FrfFile,
+    /// Points of B at which the assembly was measured.
+    pub points: Vec<Dof>,
+    /// Joint model to identify.
+    pub model: JointModel,
+    /// Lowest and highest frequency to use, Hz.
+    pub frequency_range_hz: [f64; 2],
+    /// Bands of the averages.
+    pub bands: Bands,
+    /// Noise of the assembly's receptances, if known.
+    pub noise: Option<NoiseLevel>,
+    /// Bodies of a lap model, which go into the joint file.
+    pub bodies: Option<Bodies>,
+    /// Remarks that go into the joint file.
+    pub notes: Vec<String>,
+}
+
+/// One substructure: where its receptances come from, and where its joint is.
+#[derive(Clone, Debug)]
+pub struct Substructure {
+    /// Where its receptances come from.
+    pub source: Source,
+    /// The joint's DOFs on it.
+    pub joint: JointPlace,
+    /// Positions (m) of labelled points on a beam.
+    pub positions_m: BTreeMap<Dof, f64>,
+}
+
+/// Where a substructure's receptances come from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// Measured FRFs.
+    Frf(FrfFile),
+    /// Measured modes.
+    Modal(PathBuf),
+    /// A computed beam.
+    Beam(Beam),
+}
+
+/// A universal file, and what the study says about it.
+#[derive(Clone, Debug)]
+pub struct FrfFile {
+    /// The file.
+    pub path: PathBuf,
+    /// What was measured, where the file contradicts itself or does not say.
+    pub quantity: Option<Quantity>,
+}
+
+/// The joint's DOFs on a substructure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointPlace {
+    /// Measured at labelled points.
+    Labels {
+        /// Translation.
+        y: Dof,
+        /// Rotation, where the joint model has one.
+        theta: Option<Rotation>,
+    },
+    /// On a beam, at this distance from its first end, m.
+    Position(f64),
+}
+
+/// Where rotational receptances come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rotation {
+    /// Measured as such.
+    Measured(Dof),
+    /// Second-order central difference over three translations; θ is positive towards the last point.
+    Difference {
+        /// The three points; the middle one is the joint's.
+        points: [Dof; 3],
+        /// Distance between neighbouring points, m.
+        spacing_m: f64,
+    },
+}
+
+impl Study {
+    /// Reads and checks a study. Paths in it are relative to its own folder.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] that names the file and the key or line.
+    pub fn read(path: &Path) -> Result<Self, IdentifyError> {
+        let text = text_file::read(path, "a study (TOML)")?;
+        Self::from_toml(&text, path)
+    }
+
+    /// A study from the text of its file; `path` tells where that lies.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] that names the file and the key or line.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, IdentifyError> {
+        let file: StudyFile = toml::from_str(text).map_err(|error| IdentifyError::Syntax {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let check = Checker { path };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let model = file.joint.model;
+        let a = check.substructure("a", file.a, folder, model)?;
+        let b = check.substructure("b", file.b, folder, model)?;
+        check.name(&file.name)?;
+        let points = check.points(file.assembly.points)?;
+        if let Source::Beam(_) = b.source {
+            check.points_on_beam(&points, &b)?;
+        }
+        let frequency_range_hz = check.frequency_range(&file.frequency)?;
+        check.bands(&file.bands)?;
+        let noise = file.noise.map(|table| check.noise(&table)).transpose()?;
+        if let Some(bodies) = &file.bodies {
+            check.bodies(bodies, model.dofs())?;
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            name: file.name,
+            a,
+            b,
+            assembly: FrfFile {
+                path: folder.join(file.assembly.frf),
+                quantity: file.assembly.quantity,
+            },
+            points,
+            model,
+            frequency_range_hz,
+            bands: file.bands,
+            noise,
+            bodies: file.bodies,
+            notes: file.notes,
+        })
+    }
+}

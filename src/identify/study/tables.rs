@@ -1,0 +1,153 @@
+//! The tables of a study as they stand in its TOML file, before anything is checked.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use crate::frf::{Dof, Quantity};
+use crate::joint::Bodies;
+use crate::structure::Boundary;
+
+use super::super::bands::Bands;
+use super::super::model::JointModel;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StudyFile {
+    #[expect(
+        dead_code,
+        reason = "the only method there is so far; others are refused when it is read"
+    )]
+    pub(super) method: Method,
+    pub(super) name: String,
+    pub(super) a: SubstructureTable,
+    pub(super) b: SubstructureTable,
+    pub(super) assembly: AssemblyTable,
+    pub(super) joint: JointTable,
+    #[serde(default)]
+    pub(super) frequency: FrequencyTable,
+    #[serde(default)]
+    pub(super) bands: Bands,
+    pub(super) noise: Option<NoiseTable>,
+    pub(super) bodies: Option<Bodies>,
+    #[serde(default)]
+    pub(super) notes: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Method {
+    FrfDecoupling,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SubstructureTable {
+    pub(super) frf: Option<PathBuf>,
+    pub(super) quantity: Option<Quantity>,
+    pub(super) modal: Option<PathBuf>,
+    pub(super) beam: Option<BeamTable>,
+    pub(super) joint: JointPlaceTable,
+    #[serde(default)]
+    pub(super) points: BTreeMap<Dof, f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BeamTable {
+    pub(super) length: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) youngs_modulus: f64,
+    pub(super) density: f64,
+    pub(super) boundary: Boundary,
+    pub(super) damping_ratio: Option<OneOrMore>,
+    pub(super) loss_factor: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+pub(super) enum OneOrMore {
+    One(f64),
+    More(Vec<f64>),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointPlaceTable {
+    pub(super) y: Option<Dof>,
+    pub(super) theta: Option<ThetaTable>,
+    pub(super) x: Option<f64>,
+}
+
+pub(super) enum ThetaTable {
+    Measured(Dof),
+    Difference(DifferenceTable),
+}
+
+/// By hand, since an untagged enum would not say which key of the table is wrong.
+impl<'de> Deserialize<'de> for ThetaTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ThetaVisitor;
+        impl<'de> Visitor<'de> for ThetaVisitor {
+            type Value = ThetaTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a rotation such as \"2:+RZ\", or { points = [three points], spacing = metres }",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<ThetaTable, E> {
+                text.parse().map(ThetaTable::Measured).map_err(E::custom)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ThetaTable, A::Error> {
+                DifferenceTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(ThetaTable::Difference)
+            }
+        }
+        deserializer.deserialize_any(ThetaVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DifferenceTable {
+    pub(super) points: [Dof; 3],
+    pub(super) spacing: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AssemblyTable {
+    pub(super) frf: PathBuf,
+    pub(super) quantity: Option<Quantity>,
+    pub(super) points: Vec<Dof>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointTable {
+    pub(super) model: JointModel,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FrequencyTable {
+    pub(super) from: Option<f64>,
+    pub(super) to: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NoiseTable {
+    #[serde(default)]
+    pub(super) relative: f64,
+    #[serde(default)]
+    pub(super) floor: f64,
+}

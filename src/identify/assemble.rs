@@ -1,25 +1,28 @@
 //! From a study to lines: reads the files, computes the beams, forms rotations, and puts all on one frequency axis.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use num_complex::Complex64;
 
 use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
 use crate::structure::{
-    Beam, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
+    Beam, BeamError, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
 };
 
 use super::error::IdentifyError;
 use super::lines::Lines;
 use super::model::JointMatrices;
-use super::study::{FrfFile, JointPlace, Rotation, Source, Study, Substructure};
+use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
-/// Everything that the study names, line by line.
-pub(super) fn lines(study: &Study) -> Result<Lines, IdentifyError> {
+/// Everything that the study names, line by line, and what the user should know about the files.
+pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError> {
+    let mut reader = Reader::default();
     let [from_hz, to_hz] = study.frequency_range_hz;
     let path = &study.assembly.path;
     let in_file = |source| in_file(path, source);
-    let assembly = read(&study.assembly)?
+    let assembly = reader
+        .read(&study.assembly)?
         .restricted_to(from_hz, to_hz)
         .map_err(in_file)?;
     let axis = Axis {
@@ -51,11 +54,12 @@ pub(super) fn lines(study: &Study) -> Result<Lines, IdentifyError> {
             functions: measured.len(),
         });
     }
-    Ok(Lines {
+    let lines = Lines {
         assembly: matrices(points.len(), axis.frequency_hz.len(), &entries),
         measured,
-        ..substructures(study, &axis)?
-    })
+        ..substructures(study, &axis, &mut reader)?
+    };
+    Ok((lines, reader.warnings))
 }
 
 /// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
@@ -71,7 +75,8 @@ pub fn predict_assembly(
         path: &study.assembly.path,
         frequency_hz,
     };
-    let assembly = substructures(study, &axis)?.regenerated(joint)?;
+    let lines = substructures(study, &axis, &mut Reader::default())?;
+    let assembly = lines.regenerated(joint)?;
     let mut functions = Vec::new();
     for (row, &response) in study.points.iter().enumerate() {
         for (column, &reference) in study.points.iter().enumerate() {
@@ -91,12 +96,16 @@ pub fn predict_assembly(
 }
 
 /// Lines without the assembly: what A and B contribute.
-fn substructures(study: &Study, axis: &Axis<'_>) -> Result<Lines, IdentifyError> {
+fn substructures(
+    study: &Study,
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<Lines, IdentifyError> {
     let points = &study.points;
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
-        a_joint: joint_and_points(study, "a", &study.a, &[], axis)?,
-        b: joint_and_points(study, "b", &study.b, points, axis)?
+        a_joint: joint_and_points(study, "a", &[], axis, reader)?,
+        b: joint_and_points(study, "b", points, axis, reader)?
             .iter()
             .map(|receptance| Partition::of(receptance, study.model.dofs()))
             .collect(),
@@ -119,44 +128,56 @@ fn in_file(path: &Path, source: FrfError) -> IdentifyError {
     })
 }
 
-fn read(file: &FrfFile) -> Result<FrfSet, IdentifyError> {
-    let options = UffOptions {
-        quantity: file.quantity,
-        ..UffOptions::default()
-    };
-    Ok(read_uff58(&file.path, &options)?.into_set()?)
+/// Reads universal files and remembers what it had to assume.
+#[derive(Default)]
+struct Reader {
+    warnings: Vec<String>,
+}
+
+impl Reader {
+    fn read(&mut self, file: &FrfFile) -> Result<FrfSet, IdentifyError> {
+        let options = UffOptions {
+            quantity: file.quantity,
+            ..UffOptions::default()
+        };
+        let reading = read_uff58(&file.path, &options)?;
+        if !reading.units_are_stated() {
+            self.warnings.push(format!(
+                "{}: states no units, so SI units are assumed; add data set 164 if they are others",
+                file.path.display()
+            ));
+        }
+        Ok(reading.into_set()?)
+    }
 }
 
 /// Receptance matrices of a substructure at each line: the joint's DOFs first, then `points`.
 fn joint_and_points(
     study: &Study,
     key: &'static str,
-    substructure: &Substructure,
     points: &[Dof],
     axis: &Axis<'_>,
+    reader: &mut Reader,
 ) -> Result<Vec<ComplexMatrix>, IdentifyError> {
-    match &substructure.joint {
-        JointPlace::Position(x_m) => {
-            let Source::Beam(beam) = &substructure.source else {
-                return Err(IdentifyError::Study {
-                    path: study.path.clone(),
-                    key: format!("{key}.joint"),
-                    found: "a position".to_owned(),
-                    expected: "labels of measured points".to_owned(),
-                });
-            };
-            beam_receptances(study, substructure, beam, *x_m, points, axis).map_err(|source| {
-                IdentifyError::Beam {
-                    path: study.path.clone(),
-                    key,
-                    source,
-                }
+    let joint_dofs = study.model.dofs();
+    let substructure = if key == "a" { &study.a } else { &study.b };
+    match substructure {
+        Substructure::Beam {
+            beam,
+            joint_m,
+            positions_m,
+        } => {
+            let dofs = beam_dofs(joint_dofs, *joint_m, points, positions_m);
+            beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
+                path: study.path.clone(),
+                key,
+                source,
             })
         }
-        JointPlace::Labels { y, theta } => {
-            let (joint, transformation) = joint_labels(*y, theta.as_ref(), study.model.dofs());
+        Substructure::Measured { source, y, theta } => {
+            let (joint, transformation) = joint_labels(*y, theta.as_ref(), joint_dofs);
             let labels: Vec<Dof> = joint.iter().chain(points).copied().collect();
-            let receptances = labelled_receptances(&substructure.source, &labels, axis)?;
+            let receptances = labelled_receptances(source, &labels, axis, reader)?;
             // (joint, points) = T (labels): H = T H_labels Tᵀ   (Tol 3.54)
             let (joint_dofs, joint_labels) = transformation.shape();
             let mut whole =
@@ -192,40 +213,42 @@ fn joint_labels(y: Dof, theta: Option<&Rotation>, joint_dofs: usize) -> (Vec<Dof
     }
 }
 
-fn beam_receptances(
-    study: &Study,
-    substructure: &Substructure,
-    beam: &Beam,
+/// The joint's DOFs on a beam, then its points, each with the sign of its label.
+fn beam_dofs(
+    joint_dofs: usize,
     joint_m: f64,
     points: &[Dof],
-    axis: &Axis<'_>,
-) -> Result<Vec<ComplexMatrix>, crate::structure::BeamError> {
+    positions_m: &BTreeMap<Dof, f64>,
+) -> Vec<(BeamPoint, f64)> {
     let joint = [Motion::Translation, Motion::Rotation]
         .into_iter()
-        .take(study.model.dofs())
-        .map(|motion| (joint_m, motion, 1.0));
-    let labelled = points.iter().map(|point| {
+        .take(joint_dofs)
+        .map(|motion| {
+            let position_m = joint_m;
+            (BeamPoint { position_m, motion }, 1.0)
+        });
+    let labelled = points.iter().filter_map(|point| {
         let motion = if point.direction().is_rotation() {
             Motion::Rotation
         } else {
             Motion::Translation
         };
-        let position_m = substructure.positions_m.get(point).copied();
-        (
-            position_m.unwrap_or(f64::NAN),
-            motion,
-            point.sign().factor(),
-        )
+        let position_m = *positions_m.get(point)?;
+        Some((BeamPoint { position_m, motion }, point.sign().factor()))
     });
-    let dofs: Vec<(f64, Motion, f64)> = joint.chain(labelled).collect();
-    let on_beam: Vec<BeamPoint> = dofs
-        .iter()
-        .map(|&(position_m, motion, _)| BeamPoint { position_m, motion })
-        .collect();
-    let mut receptances = beam.receptances(&on_beam, axis.frequency_hz)?;
+    joint.chain(labelled).collect()
+}
+
+fn beam_receptances(
+    beam: &Beam,
+    dofs: &[(BeamPoint, f64)],
+    axis: &Axis<'_>,
+) -> Result<Vec<ComplexMatrix>, BeamError> {
+    let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
+    let mut receptances = beam.receptances(&points, axis.frequency_hz)?;
     for receptance in &mut receptances {
-        for (p, &(_, _, row_sign)) in dofs.iter().enumerate() {
-            for (q, &(_, _, column_sign)) in dofs.iter().enumerate() {
+        for (p, (_, row_sign)) in dofs.iter().enumerate() {
+            for (q, (_, column_sign)) in dofs.iter().enumerate() {
                 receptance[(p, q)] *= row_sign * column_sign;
             }
         }
@@ -238,11 +261,12 @@ fn labelled_receptances(
     source: &Source,
     labels: &[Dof],
     axis: &Axis<'_>,
+    reader: &mut Reader,
 ) -> Result<Vec<ComplexMatrix>, IdentifyError> {
     let mut entries = Vec::with_capacity(labels.len() * labels.len());
     match source {
         Source::Frf(file) => {
-            let set = read(file)?;
+            let set = reader.read(file)?;
             let (from_hz, to_hz) = axis.ends();
             let set = set
                 .restricted_to(from_hz, to_hz)
@@ -265,8 +289,6 @@ fn labelled_receptances(
                 }
             }
         }
-        // A beam's joint is given by its position, which the study's check has made sure of.
-        Source::Beam(_) => {}
     }
     Ok(matrices(labels.len(), axis.frequency_hz.len(), &entries))
 }

@@ -110,7 +110,7 @@ impl LinesEstimate {
 /// # Errors
 /// [`IdentifyError`] if a file or the study cannot be used, or the data do not lead to an estimate.
 pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
-    let lines = assemble::lines(study)?;
+    let (lines, mut warnings) = assemble::lines(study)?;
     let estimate = identify_lines(&lines, study.model, study.noise, &study.bands)?;
     let regenerated = lines.regenerated(&estimate.joint)?;
     let fits: Vec<FunctionFit> = lines
@@ -126,6 +126,7 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
     let mean_square: f64 =
         fits.iter().map(|fit| fit.relative_rms.powi(2)).sum::<f64>() / fits.len() as f64;
     let provenance = provenance::of(study)?;
+    warnings.extend(estimate.warnings);
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
@@ -138,7 +139,7 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
         relative_rms: mean_square.sqrt(),
         reduced_chi_squared: study.noise.map(|_| estimate.reduced_cost),
         starts: estimate.starts,
-        warnings: estimate.warnings,
+        warnings,
         lines,
         provenance,
         bodies: study.bodies.clone(),

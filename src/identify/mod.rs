@@ -23,4 +23,4 @@ pub use estimator::NoiseLevel;
 pub use identification::{FunctionFit, Identification, LinesEstimate, identify, identify_lines};
 pub use lines::Lines;
 pub use model::{JointMatrices, JointModel};
-pub use study::{FrfFile, JointPlace, Rotation, Source, Study, Substructure};
+pub use study::{FrfFile, Rotation, Source, Study, Substructure};

@@ -13,10 +13,12 @@ use super::study::{Source, Study, Substructure};
 /// Provenance of what is identified from this study.
 pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
     let folder = study.path.parent().unwrap_or(Path::new(""));
-    let file_of = |substructure: &Substructure| match &substructure.source {
-        Source::Frf(file) => Some(file.path.clone()),
-        Source::Modal(path) => Some(path.clone()),
-        Source::Beam(_) => None,
+    let file_of = |substructure: &Substructure| match substructure {
+        Substructure::Measured { source, .. } => Some(match source {
+            Source::Frf(file) => file.path.clone(),
+            Source::Modal(path) => path.clone(),
+        }),
+        Substructure::Beam { .. } => None,
     };
     let named = [
         ("study", Some(study.path.clone())),

@@ -1,5 +1,6 @@
 //! Checks of a study's tables: what passes is complete, physical and without contradiction.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::frf::Dof;
@@ -11,10 +12,10 @@ use super::super::error::IdentifyError;
 use super::super::estimator::NoiseLevel;
 use super::super::model::JointModel;
 use super::tables::{
-    BeamTable, DifferenceTable, FrequencyTable, NoiseTable, OneOrMore, SubstructureTable,
-    ThetaTable,
+    BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, NoiseTable, OneOrMore,
+    SubstructureTable, ThetaTable,
 };
-use super::{FrfFile, JointPlace, Rotation, Source, Substructure};
+use super::{FrfFile, Rotation, Source, Substructure};
 
 /// Makes errors that name the study's file.
 pub(super) struct Checker<'a> {
@@ -96,7 +97,7 @@ impl Checker<'_> {
     pub(super) fn points_on_beam(
         &self,
         points: &[Dof],
-        b: &Substructure,
+        positions_m: &BTreeMap<Dof, f64>,
     ) -> Result<(), IdentifyError> {
         for point in points {
             if !(point.direction().is_translation() || point.direction().is_rotation()) {
@@ -106,7 +107,7 @@ impl Checker<'_> {
                     "a direction such as \"11:+Y\" on a beam",
                 );
             }
-            if !b.positions_m.contains_key(point) {
+            if !positions_m.contains_key(point) {
                 return self.refuse(
                     "b.points",
                     format!("no position of {point}"),
@@ -124,106 +125,92 @@ impl Checker<'_> {
         folder: &Path,
         model: JointModel,
     ) -> Result<Substructure, IdentifyError> {
-        let source = match (table.frf, table.modal, table.beam) {
-            (Some(path), None, None) => Source::Frf(FrfFile {
-                path: folder.join(path),
-                quantity: table.quantity,
-            }),
-            (None, Some(path), None) => Source::Modal(folder.join(path)),
-            (None, None, Some(beam)) => Source::Beam(self.beam(key, beam)?),
-            (frf, modal, beam) => {
-                return self.refuse(
-                    key,
-                    names_given(
-                        "no source",
-                        &[
-                            ("frf", frf.is_some()),
-                            ("modal", modal.is_some()),
-                            ("beam", beam.is_some()),
-                        ],
-                    ),
-                    "exactly one of `frf`, `modal` and `beam`",
-                );
-            }
-        };
-        if table.quantity.is_some() && !matches!(source, Source::Frf(_)) {
+        if table.quantity.is_some() && table.frf.is_none() {
             return self.refuse(
                 format!("{key}.quantity"),
                 "a quantity",
                 "it beside `frf` only",
             );
         }
-        let on_a_beam = matches!(source, Source::Beam(_));
-        if !on_a_beam && !table.points.is_empty() {
+        let source = match (table.frf, table.modal, table.beam) {
+            (Some(path), None, None) => Source::Frf(FrfFile {
+                path: folder.join(path),
+                quantity: table.quantity,
+            }),
+            (None, Some(path), None) => Source::Modal(folder.join(path)),
+            (None, None, Some(beam)) => {
+                let beam = self.beam(key, beam)?;
+                let joint_m = self.position(key, &table.joint)?;
+                let labelled = table
+                    .points
+                    .iter()
+                    .map(|(point, &x_m)| (format!("points.\"{point}\""), x_m));
+                for (place, x_m) in std::iter::once(("joint.x".to_owned(), joint_m)).chain(labelled)
+                {
+                    self.on_the_beam(&format!("{key}.{place}"), x_m, beam.length_m)?;
+                }
+                return Ok(Substructure::Beam {
+                    beam,
+                    joint_m,
+                    positions_m: table.points,
+                });
+            }
+            (frf, modal, beam) => {
+                let given = [
+                    ("frf", frf.is_some()),
+                    ("modal", modal.is_some()),
+                    ("beam", beam.is_some()),
+                ];
+                return self.refuse(
+                    key,
+                    names_given("no source", &given),
+                    "exactly one of `frf`, `modal` and `beam`",
+                );
+            }
+        };
+        if !table.points.is_empty() {
             return self.refuse(
                 format!("{key}.points"),
                 "positions",
                 "them beside `beam` only; measured points have labels",
             );
         }
-        let place_key = format!("{key}.joint");
-        let given = names_given(
-            "no key",
-            &[
-                ("x", table.joint.x.is_some()),
-                ("y", table.joint.y.is_some()),
-                ("theta", table.joint.theta.is_some()),
-            ],
-        );
-        let joint = match (table.joint.x, table.joint.y, table.joint.theta) {
-            (Some(x), None, None) if on_a_beam => JointPlace::Position(x),
-            (None, Some(y), theta) if !on_a_beam => JointPlace::Labels {
-                y,
-                theta: self.rotation(&place_key, y, theta, model)?,
-            },
-            _ if on_a_beam => {
-                return self.refuse(
-                    place_key,
-                    given,
-                    "{ x = distance from the beam's first end in m }",
-                );
-            }
-            _ => {
-                return self.refuse(
-                    place_key,
-                    given,
-                    "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
-                );
-            }
+        let key = format!("{key}.joint");
+        let (None, Some(y)) = (table.joint.x, table.joint.y) else {
+            return self.refuse(
+                key,
+                keys_given(&table.joint),
+                "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
+            );
         };
-        let substructure = Substructure {
+        Ok(Substructure::Measured {
             source,
-            joint,
-            positions_m: table.points,
-        };
-        self.positions(key, &substructure)?;
-        Ok(substructure)
+            y,
+            theta: self.rotation(&key, y, table.joint.theta, model)?,
+        })
     }
 
-    /// Every position on a beam lies on it. A length that is none is left to the beam's own check.
-    fn positions(&self, key: &str, substructure: &Substructure) -> Result<(), IdentifyError> {
-        let Source::Beam(beam) = &substructure.source else {
-            return Ok(());
-        };
-        let joint = match substructure.joint {
-            JointPlace::Position(x_m) => Some((format!("{key}.joint.x"), x_m)),
-            JointPlace::Labels { .. } => None,
-        };
-        let labelled = substructure
-            .positions_m
-            .iter()
-            .map(|(point, &x_m)| (format!("{key}.points.\"{point}\""), x_m));
-        let length_m = beam.length_m;
-        for (key, x_m) in joint.into_iter().chain(labelled) {
-            if !(0.0..=length_m).contains(&x_m) && length_m > 0.0 {
-                return self.refuse(
-                    key,
-                    format!("{x_m}"),
-                    format!("a position on the beam, from 0 to {length_m} m"),
-                );
-            }
+    fn position(&self, key: &str, joint: &JointPlaceTable) -> Result<f64, IdentifyError> {
+        match (joint.x, joint.y, &joint.theta) {
+            (Some(x), None, None) => Ok(x),
+            _ => self.refuse(
+                format!("{key}.joint"),
+                keys_given(joint),
+                "{ x = distance from the beam's first end in m }",
+            ),
         }
-        Ok(())
+    }
+
+    /// A length that is none is left to the beam's own check.
+    fn on_the_beam(&self, key: &str, x_m: f64, length_m: f64) -> Result<(), IdentifyError> {
+        if (0.0..=length_m).contains(&x_m) || length_m.is_nan() || length_m <= 0.0 {
+            return Ok(());
+        }
+        self.refuse(
+            key,
+            x_m.to_string(),
+            format!("a position on the beam, from 0 to {length_m} m"),
+        )
     }
 
     fn rotation(
@@ -354,6 +341,15 @@ impl Checker<'_> {
         }
         Ok(())
     }
+}
+
+fn keys_given(joint: &JointPlaceTable) -> String {
+    let given = [
+        ("x", joint.x.is_some()),
+        ("y", joint.y.is_some()),
+        ("theta", joint.theta.is_some()),
+    ];
+    names_given("no key", &given)
 }
 
 /// The names of the keys that are there, or `none`.

@@ -49,24 +49,34 @@ pub struct Study {
 
 /// One substructure: where its receptances come from, and where its joint is.
 #[derive(Clone, Debug)]
-pub struct Substructure {
-    /// Where its receptances come from.
-    pub source: Source,
-    /// The joint's DOFs on it.
-    pub joint: JointPlace,
-    /// Positions (m) of labelled points on a beam.
-    pub positions_m: BTreeMap<Dof, f64>,
+pub enum Substructure {
+    /// Measured at labelled points.
+    Measured {
+        /// The data.
+        source: Source,
+        /// The joint's translation.
+        y: Dof,
+        /// The joint's rotation, where the joint model has one.
+        theta: Option<Rotation>,
+    },
+    /// A computed beam.
+    Beam {
+        /// The beam.
+        beam: Beam,
+        /// Distance of the joint from the beam's first end, m.
+        joint_m: f64,
+        /// Distance of labelled points from the beam's first end, m.
+        positions_m: BTreeMap<Dof, f64>,
+    },
 }
 
-/// Where a substructure's receptances come from.
+/// Where a measured substructure's receptances come from.
 #[derive(Clone, Debug)]
 pub enum Source {
-    /// Measured FRFs.
+    /// FRFs.
     Frf(FrfFile),
-    /// Measured modes.
+    /// File with modes.
     Modal(PathBuf),
-    /// A computed beam.
-    Beam(Beam),
 }
 
 /// A universal file, and what the study says about it.
@@ -76,20 +86,6 @@ pub struct FrfFile {
     pub path: PathBuf,
     /// What was measured, where the file contradicts itself or does not say.
     pub quantity: Option<Quantity>,
-}
-
-/// The joint's DOFs on a substructure.
-#[derive(Clone, Debug, PartialEq)]
-pub enum JointPlace {
-    /// Measured at labelled points.
-    Labels {
-        /// Translation.
-        y: Dof,
-        /// Rotation, where the joint model has one.
-        theta: Option<Rotation>,
-    },
-    /// On a beam, at this distance from its first end, m.
-    Position(f64),
 }
 
 /// Where rotational receptances come from.
@@ -132,8 +128,8 @@ impl Study {
         let b = check.substructure("b", file.b, folder, model)?;
         check.name(&file.name)?;
         let points = check.points(file.assembly.points)?;
-        if let Source::Beam(_) = b.source {
-            check.points_on_beam(&points, &b)?;
+        if let Substructure::Beam { positions_m, .. } = &b {
+            check.points_on_beam(&points, positions_m)?;
         }
         let frequency_range_hz = check.frequency_range(&file.frequency)?;
         check.bands(&file.bands)?;

@@ -1,5 +1,7 @@
 //! Coupling, then decoupling, returns the joint: all four equations, any passive joint.
 
+use std::sync::LazyLock;
+
 use bolted_joint::identify::{JointMatrices, from_rr, from_rs, from_sr, from_ss};
 use bolted_joint::structure::{ComplexMatrix, couple};
 use nalgebra::{DMatrix, dmatrix};
@@ -8,14 +10,14 @@ use proptest::prelude::*;
 use crate::cases::{Pair, beams_4_2_2, joint_4_2_2};
 
 /// Two or three points a side, as the thesis's approaches 3 and 4.
-fn pairs() -> [Pair; 2] {
+static PAIRS: LazyLock<[Pair; 2]> = LazyLock::new(|| {
     // From 60 Hz on the receptances depend on the joint (Figures 4.33 and 4.34).
     let frequency_hz = vec![60.0, 117.0, 222.0, 300.0, 415.0];
     [
         beams_4_2_2(frequency_hz.clone(), &[0.27, 0.285], &[0.195, 0.225]),
         beams_4_2_2(frequency_hz, &[0.255, 0.27, 0.285], &[0.195, 0.21, 0.225]),
     ]
-}
+});
 
 /// Largest error of an entry of K*, relative to √(K*_ii K*_jj), so that units do not matter.
 fn error(found: &ComplexMatrix, exact: &ComplexMatrix) -> f64 {
@@ -49,14 +51,14 @@ fn largest_error(joint: &JointMatrices, pair: &Pair) -> f64 {
 
 #[test]
 fn the_joint_of_case_4_2_2_returns_from_all_four_equations() {
-    for pair in pairs() {
-        let error = largest_error(&joint_4_2_2(), &pair);
+    for pair in PAIRS.iter() {
+        let error = largest_error(&joint_4_2_2(), pair);
         assert!(error < 1e-9, "{error}");
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn any_passive_joint_returns_from_all_four_equations(
@@ -74,8 +76,8 @@ proptest! {
             stiffness: matrix(k, k_theta, k_coupling),
             damping: matrix(c, c_theta, c_coupling),
         };
-        for pair in pairs() {
-            let error = largest_error(&joint, &pair);
+        for pair in PAIRS.iter() {
+            let error = largest_error(&joint, pair);
             // A joint far stiffer than its neighbours is a small difference of large receptances: rounding grows with
             // the square of the gain K*(H_jj + H_kk).
             let mut gain: f64 = 1.0;
@@ -83,7 +85,7 @@ proptest! {
                 let free = &pair.a[line].joint + &pair.b[line].joint;
                 gain = gain.max((joint.complex_stiffness(frequency_hz) * free).camax());
             }
-            prop_assert!(error < 1e-9_f64.max(1e-13 * gain * gain), "{error} at gain {gain}");
+            prop_assert!(error < 1e-9 + 1e-10 * gain + 1e-13 * gain * gain, "{error} at gain {gain}");
         }
     }
 }

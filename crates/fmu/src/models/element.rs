@@ -3,7 +3,7 @@
 use crate::{
     interface::{Values, reference as vr},
     models::{
-        Model,
+        CommunicationStep, Model,
         sides::{A, B, is_active, joint_law, set_joint_load},
     },
     refusal::{Active, Refusal},
@@ -24,7 +24,7 @@ impl<const D: usize> Model for Element<D> {
         .warning())
     }
 
-    fn advance(&self, _: &mut Values, _: f64, _: f64) -> Result<(), Refusal> {
+    fn advance(&mut self, _: &mut Values, _: CommunicationStep) -> Result<(), Refusal> {
         Ok(())
     }
 

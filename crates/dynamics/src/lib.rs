@@ -14,6 +14,7 @@ mod lap;
 mod propagator;
 mod rk4;
 mod spectrum;
+mod tangent;
 mod vector;
 
 pub use definiteness::is_positive_semidefinite;

@@ -1,5 +1,7 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
+mod derivatives;
+
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
@@ -329,12 +331,16 @@ impl Instance {
 
     #[cold]
     fn not_settable(&self, index: usize) -> Refusal {
-        let variable = self.identity.variables.get(index);
         Refusal::NotSettable {
             name: self.name(index),
-            role: variable.map_or(Role::Output, |variable| variable.role),
+            role: self.role(index),
             mode: self.mode,
         }
+    }
+
+    fn role(&self, index: usize) -> Role {
+        let variable = self.identity.variables.get(index);
+        variable.map_or(Role::Output, |variable| variable.role)
     }
 
     fn name(&self, index: usize) -> &'static str {

@@ -134,6 +134,20 @@ impl<const D: usize> Model for LapModel<D> {
         values[vr::ENERGY_STORED] = lap.stored_energy(&state);
         values[vr::POWER_DISSIPATED] = lap.dissipated_power(&state);
     }
+
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
+        let [lap, lap_change] = [values, &*change].map(lap::<D>);
+        let [state, state_change] = [values, &*change].map(state::<D>);
+        let [relative, relative_change] =
+            [&state, &state_change].map(|state| state.a.relative_to(&state.b));
+        let on_b = lap
+            .joint
+            .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
+        set_joint_load(change, &on_b);
+        change[vr::ENERGY_STORED] = lap.stored_energy_tangent(&lap_change, &state, &state_change);
+        change[vr::POWER_DISSIPATED] =
+            lap.dissipated_power_tangent(&lap_change, &state, &state_change);
+    }
 }
 
 impl<const D: usize> Prepared<D> {

@@ -25,6 +25,10 @@ pub(crate) trait Model: Send {
 
     /// Calculates the outputs from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
+
+    /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
+    /// variables at the point `values`: writes the outputs' to `change`, exactly.
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
 /// One communication step.

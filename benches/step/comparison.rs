@@ -31,6 +31,7 @@ type Run<'a> = Box<dyn FnMut(u64) -> f64 + 'a>;
 /// Two ways to take the same steps.
 pub(crate) struct Comparison<'a> {
     name: &'static str,
+    is_linear: bool,
     fmu: Run<'a>,
     plain: Run<'a>,
 }
@@ -87,6 +88,7 @@ impl<'a> Comparison<'a> {
         };
         Ok(Self {
             name,
+            is_linear: integrator.is_linear(),
             fmu,
             plain: Box::new(plain),
         })
@@ -135,15 +137,18 @@ impl<'a> Comparison<'a> {
         };
         Ok(Self {
             name,
+            is_linear: false,
             fmu,
             plain: Box::new(plain),
         })
     }
 
-    /// Refuses to measure two ways that do not compute the same, bit for bit.
+    /// Refuses to measure two ways that do not compute the same: bit for bit, or, where the FMU takes one product for
+    /// all Runge–Kutta steps, to rounding.
     pub(crate) fn check(&mut self) -> Result<(), String> {
         let (fmu, plain) = ((self.fmu)(1001), (self.plain)(1001));
-        if fmu.is_finite() && fmu.to_bits() == plain.to_bits() {
+        let rounding = if self.is_linear { 1e-9 } else { 0.0 };
+        if (fmu - plain).abs() <= rounding * plain.abs() {
             Ok(())
         } else {
             let name = self.name;
@@ -190,7 +195,7 @@ impl<'a> Comparison<'a> {
 /// Prints the table of times, and a line with the ratios alone.
 pub(crate) fn print_ratios(comparisons: &mut [Comparison<'_>]) {
     println!(
-        "{:<26}{:>10}{:>16}{:>16}{:>8}",
+        "{:<34}{:>10}{:>16}{:>16}{:>8}",
         "communication step", "FMI, ns", "plain loop, ns", "difference, ns", "ratio"
     );
     let mut ratios = Vec::new();
@@ -198,7 +203,7 @@ pub(crate) fn print_ratios(comparisons: &mut [Comparison<'_>]) {
         let [fmi, plain] = comparison.medians_ns();
         let (name, ratio) = (comparison.name, fmi / plain);
         println!(
-            "{name:<26}{fmi:>10.1}{plain:>16.1}{:>16.1}{ratio:>8.3}",
+            "{name:<34}{fmi:>10.1}{plain:>16.1}{:>16.1}{ratio:>8.3}",
             fmi - plain
         );
         ratios.push(format!("{name}: {ratio:.3}"));

@@ -21,11 +21,16 @@ const STEP_SIZE_MAX_S: f64 = 1e-5;
 fn main() -> Result<(), Box<dyn Error>> {
     let library = Library::load()?;
     let (translation, rotation) = (translational_lap(), rotational_lap());
+    let (linear_1, linear_2) = (without_cubic(&translation), without_cubic(&rotation));
     let mut comparisons = [
         Comparison::of_lap("lap, 1 DOF, 1 substep", &library, &translation, 1)?,
         Comparison::of_lap("lap, 1 DOF, 50 substeps", &library, &translation, 50)?,
         Comparison::of_lap("lap, 2 DOF, 1 substep", &library, &rotation, 1)?,
         Comparison::of_lap("lap, 2 DOF, 50 substeps", &library, &rotation, 50)?,
+        Comparison::of_lap("linear lap, 1 DOF, 1 substep", &library, &linear_1, 1)?,
+        Comparison::of_lap("linear lap, 1 DOF, 50 substeps", &library, &linear_1, 50)?,
+        Comparison::of_lap("linear lap, 2 DOF, 1 substep", &library, &linear_2, 1)?,
+        Comparison::of_lap("linear lap, 2 DOF, 50 substeps", &library, &linear_2, 50)?,
         Comparison::of_element("element, 2 DOF", &library, &rotation.joint)?,
     ];
     for comparison in &mut comparisons {
@@ -84,4 +89,13 @@ fn rotational_lap() -> Lap<2> {
         a: body,
         b: body,
     }
+}
+
+/// The same without its cubic springs: the FMU then takes one product for all Runge–Kutta steps of a communication step.
+fn without_cubic<const D: usize>(lap: &Lap<D>) -> Lap<D> {
+    let joint = JointLaw {
+        cubic: [0.0; D],
+        ..lap.joint
+    };
+    Lap { joint, ..*lap }
 }

@@ -47,6 +47,13 @@ impl<const D: usize> LapIntegrator<D> {
         }
     }
 
+    /// Whether the joint has no cubic term, so that the equations of motion are linear.
+    #[inline]
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.lap.joint.cubic.iter().all(|&cubic| cubic == 0.0)
+    }
+
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
     #[inline]
     #[must_use]

@@ -43,6 +43,13 @@ pub struct JointLaw<const D: usize> {
 }
 
 impl<const D: usize> JointLaw<D> {
+    /// Nothing between the sides.
+    pub const NONE: Self = Self {
+        stiffness: [[0.0; D]; D],
+        damping: [[0.0; D]; D],
+        cubic: [0.0; D],
+    };
+
     /// Load on side b (N, N·m) at the relative motion x_a − x_b; the load on side a is its opposite.
     #[inline]
     #[must_use]

@@ -33,6 +33,14 @@ pub struct LapState<const D: usize> {
     pub b: Motion<D>,
 }
 
+impl<const D: usize> LapState<D> {
+    /// Both bodies at rest in the origin.
+    pub const REST: Self = Self {
+        a: Motion::REST,
+        b: Motion::REST,
+    };
+}
+
 /// External loads on the two bodies, N and N·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LapLoads<const D: usize> {

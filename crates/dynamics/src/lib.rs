@@ -11,13 +11,16 @@ mod escape;
 mod integrator;
 mod joint;
 mod lap;
+mod propagator;
 mod rk4;
 mod spectrum;
+mod tangent;
 mod vector;
 
 pub use definiteness::is_positive_semidefinite;
 pub use integrator::LapIntegrator;
 pub use joint::{JointLaw, Motion};
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
+pub use propagator::LapPropagator;
 pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
 pub use spectrum::{Eigenvalue, Spectrum};

@@ -11,6 +11,7 @@
 //! | 1 | degrees of freedom |
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
+//! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of value references, and the values |
 //! | 8 | FNV-1a hash of all bytes before |
 
@@ -19,11 +20,12 @@ use std::{fmt, sync::Arc};
 use crate::{
     interface::{Dofs, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
+    pace::Pace,
     refusal::Refusal,
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +58,8 @@ pub(crate) struct Snapshot {
     pub(crate) mode: Mode,
     /// Stop time, s.
     pub(crate) stop_s: Option<f64>,
+    /// How regular the communication steps were.
+    pub(crate) pace: Pace,
     /// Values of all variables, time among them.
     pub(crate) values: Values,
 }
@@ -100,7 +104,8 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        MAGIC.len() + 4 + 4 + self.identity.token.len() + 4 + 8 + 4 + 8 * REFERENCE_COUNT + 8
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 3;
+        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
     }
 
     /// The state in bytes.
@@ -116,6 +121,7 @@ impl Snapshot {
         bytes.push(self.mode.number());
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
+        bytes.extend(self.pace.to_bytes());
         bytes.extend((REFERENCE_COUNT as u32).to_le_bytes());
         for value in self.values {
             bytes.extend(value.to_le_bytes());
@@ -178,6 +184,9 @@ impl Snapshot {
         if !stop_s.is_finite() {
             return Err(Damage::Field { name: "stop time" }.into());
         }
+        let pace = Pace::from_bytes(reader.array()?).ok_or(Damage::Field {
+            name: "communication step",
+        })?;
         if reader.u32()? as usize != REFERENCE_COUNT {
             return Err(Damage::Field {
                 name: "number of variables",
@@ -207,6 +216,7 @@ impl Snapshot {
             identity: Arc::clone(identity),
             mode,
             stop_s: has_stop.then_some(stop_s),
+            pace,
             values,
         })
     }

@@ -1,12 +1,15 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
+mod derivatives;
+
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
     fmu_state::{Identity, Snapshot},
     interface::{REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
-    models::{self, Model},
+    models::{self, CommunicationStep, Model},
+    pace::Pace,
     refusal::{Active, Refusal},
     start_file::StartFile,
 };
@@ -26,6 +29,7 @@ pub(crate) struct Instance {
     values: Values,
     mode: Mode,
     stop_s: Option<f64>,
+    pace: Pace,
     parameters_changed: bool,
     outputs_stale: bool,
 }
@@ -55,6 +59,7 @@ impl Instance {
             values,
             mode: Mode::Instantiated,
             stop_s: None,
+            pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
         })
@@ -112,6 +117,7 @@ impl Instance {
         self.values = self.start;
         self.mode = Mode::Instantiated;
         self.stop_s = None;
+        self.pace = Pace::NONE;
         self.parameters_changed = true;
         self.outputs_stale = true;
     }
@@ -180,8 +186,14 @@ impl Instance {
         } else {
             None
         };
-        self.model
-            .advance(&mut self.values, current_s, interval_s)?;
+        let pace = self.pace.followed_by(interval_s);
+        let step = CommunicationStep {
+            time_s: current_s,
+            interval_s,
+            is_steady: pace.is_steady(),
+        };
+        self.model.advance(&mut self.values, step)?;
+        self.pace = pace;
         // only now, so that a warning reaches the importer even if this step is refused and the next one is not
         self.parameters_changed = false;
         self.values[TIME] = end_s;
@@ -203,6 +215,7 @@ impl Instance {
             identity: Arc::clone(&self.identity),
             mode: self.mode,
             stop_s: self.stop_s,
+            pace: self.pace,
             values,
         }
     }
@@ -217,6 +230,7 @@ impl Instance {
         }
         self.mode = snapshot.mode;
         self.stop_s = snapshot.stop_s;
+        self.pace = snapshot.pace;
         self.values = snapshot.values;
         self.parameters_changed = true;
         self.outputs_stale = true;
@@ -317,12 +331,16 @@ impl Instance {
 
     #[cold]
     fn not_settable(&self, index: usize) -> Refusal {
-        let variable = self.identity.variables.get(index);
         Refusal::NotSettable {
             name: self.name(index),
-            role: variable.map_or(Role::Output, |variable| variable.role),
+            role: self.role(index),
             mode: self.mode,
         }
+    }
+
+    fn role(&self, index: usize) -> Role {
+        let variable = self.identity.variables.get(index);
+        variable.map_or(Role::Output, |variable| variable.role)
     }
 
     fn name(&self, index: usize) -> &'static str {

@@ -1,5 +1,7 @@
 //! Tables of variables, generated from `modelDescription/*.xml`.
 
+use std::fmt;
+
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
 /// One variable of an FMU.
@@ -31,6 +33,18 @@ pub(crate) enum Role {
     State = 8,
     /// Calculated output.
     Output = 16,
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Independent => "the independent variable",
+            Self::Parameter => "a parameter",
+            Self::Input => "an input",
+            Self::State => "a state",
+            Self::Output => "a calculated output",
+        })
+    }
 }
 
 /// A set of roles; empty for a value reference that the FMU does not have.

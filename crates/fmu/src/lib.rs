@@ -12,6 +12,7 @@ mod library;
 mod logging;
 mod mode;
 mod models;
+mod pace;
 mod refusal;
 mod resources;
 mod start_file;

@@ -30,6 +30,19 @@ impl Mode {
         }
     }
 
+    /// Roles of the variables that partial derivatives are of, and with respect to, in this mode; `None` where there
+    /// are no derivatives (FMI 3.0, 2.2.11).
+    pub(crate) const fn unknowns_and_knowns(self) -> Option<(Roles, Roles)> {
+        const KNOWN: Roles =
+            Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
+        match self {
+            Self::Instantiated => None,
+            // the initial unknowns: a state is given there
+            Self::Initialization => Some((Roles::of(&[Role::Output]), KNOWN)),
+            Self::Step | Self::Terminated => Some((Roles::of(&[Role::State, Role::Output]), KNOWN)),
+        }
+    }
+
     /// Number in a serialised FMU state.
     pub(crate) const fn number(self) -> u8 {
         match self {

@@ -36,6 +36,20 @@ pub(crate) enum Refusal {
         unit: &'static str,
         time_s: f64,
     },
+    /// There are no partial derivatives in this mode.
+    NoDerivatives { mode: Mode },
+    /// The variable is no unknown that can be differentiated in this mode.
+    NotUnknown {
+        name: &'static str,
+        role: Role,
+        mode: Mode,
+    },
+    /// The variable is no known that can be differentiated by.
+    NotKnown { name: &'static str, role: Role },
+    /// A seed is NaN or infinite.
+    SeedNotFinite { name: &'static str, seed: f64 },
+    /// A partial derivative overflows.
+    DerivativeNotFinite { name: &'static str, time_s: f64 },
     /// A pointer argument is null.
     NullPointer { argument: &'static str },
     /// A pointer argument is not aligned, or the array behind it cannot exist.
@@ -147,14 +161,7 @@ impl fmt::Display for Refusal {
                 "variable {name} is of type Float64, not {asked}; use the Float64 function"
             ),
             Self::NotSettable { name, role, mode } => {
-                let kind = match role {
-                    Role::Independent => "the independent variable",
-                    Role::Parameter => "a parameter",
-                    Role::Input => "an input",
-                    Role::State => "a state",
-                    Role::Output => "a calculated output",
-                };
-                write!(f, "variable {name} is {kind} and cannot be set in state {mode}")
+                write!(f, "variable {name} is {role} and cannot be set in state {mode}")
             }
             Self::ValueNotFinite { name, value } => {
                 write!(f, "variable {name} cannot be set to {value}; expected a finite number")
@@ -162,6 +169,25 @@ impl fmt::Display for Refusal {
             Self::OutputNotFinite { name, unit, time_s } => write!(
                 f,
                 "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
+            ),
+            Self::NoDerivatives { mode } => write!(
+                f,
+                "is not allowed in state {mode}; partial derivatives are there from Initialization Mode on"
+            ),
+            Self::NotUnknown { name, role, mode } => write!(
+                f,
+                "variable {name} is {role} and no unknown in state {mode}; ask for the derivative of an output"
+            ),
+            Self::NotKnown { name, role } => write!(
+                f,
+                "variable {name} is {role} and no known; differentiate by inputs, states and parameters"
+            ),
+            Self::SeedNotFinite { name, seed } => {
+                write!(f, "the seed of variable {name} is {seed}; expected a finite number")
+            }
+            Self::DerivativeNotFinite { name, time_s } => write!(
+                f,
+                "the derivative for variable {name} overflows at t = {time_s} s with this seed"
             ),
             Self::NullPointer { argument } => write!(f, "argument {argument} is a null pointer"),
             Self::BadArray { argument } => {

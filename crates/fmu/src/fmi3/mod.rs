@@ -10,6 +10,7 @@
 mod arguments;
 mod co_simulation;
 mod common;
+mod derivatives;
 mod fmu_state;
 mod handle;
 mod lifecycle;

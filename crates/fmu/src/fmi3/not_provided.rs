@@ -9,7 +9,6 @@ use crate::{
 const EVENT_MODE: &str = "modelDescription.xml has no hasEventMode, the model has no events";
 const MODEL_EXCHANGE: &str = "it belongs to Model Exchange, the instance is for Co-Simulation";
 const CONFIGURATION: &str = "there are no structural parameters";
-const DERIVATIVES: &str = "modelDescription.xml claims neither providesDirectionalDerivatives nor providesAdjointDerivatives";
 const OUTPUT_DERIVATIVES: &str = "modelDescription.xml has no maxOutputDerivativeOrder";
 const DEPENDENCIES: &str =
     "modelDescription.xml has no providesPerElementDependencies; it lists all dependencies itself";
@@ -61,17 +60,11 @@ not_provided! {
     fmi3EnterConfigurationMode(CONFIGURATION;);
     fmi3ExitConfigurationMode(CONFIGURATION;);
 
-    // dependencies and derivatives
+    // dependencies and derivatives of outputs with respect to time
     fmi3GetNumberOfVariableDependencies(DEPENDENCIES; _reference: ValueReference, _dependency_count: *mut usize);
     fmi3GetVariableDependencies(DEPENDENCIES;
         _dependent: ValueReference, _element_indices_of_dependent: *mut usize, _independents: *mut ValueReference,
         _element_indices_of_independents: *mut usize, _dependency_kinds: *mut i32, _dependency_count: usize);
-    fmi3GetDirectionalDerivative(DERIVATIVES;
-        _unknowns: *const ValueReference, _unknown_count: usize, _knowns: *const ValueReference, _known_count: usize,
-        _seed: *const f64, _seed_count: usize, _sensitivity: *mut f64, _sensitivity_count: usize);
-    fmi3GetAdjointDerivative(DERIVATIVES;
-        _unknowns: *const ValueReference, _unknown_count: usize, _knowns: *const ValueReference, _known_count: usize,
-        _seed: *const f64, _seed_count: usize, _sensitivity: *mut f64, _sensitivity_count: usize);
     fmi3GetOutputDerivatives(OUTPUT_DERIVATIVES;
         _references: *const ValueReference, _count: usize, _orders: *const i32, _values: *mut f64, _value_count: usize);
 

@@ -28,7 +28,7 @@ unsafe extern "C" fn fmi3GetFloat64(
     // SAFETY: the importer's promise
     unsafe {
         call("fmi3GetFloat64", instance, |instance| {
-            same_count(value_count, value_reference_count)?;
+            same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array_mut(values, value_count, "values")?;
             instance.get(references, values)?;
@@ -53,7 +53,7 @@ unsafe extern "C" fn fmi3SetFloat64(
     // SAFETY: the importer's promise
     unsafe {
         call("fmi3SetFloat64", instance, |instance| {
-            same_count(value_count, value_reference_count)?;
+            same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array(values, value_count, "values")?;
             instance.set(references, values)?;
@@ -62,13 +62,18 @@ unsafe extern "C" fn fmi3SetFloat64(
     }
 }
 
+/// Refuses arrays that belong together but differ in length.
 #[inline]
-fn same_count(found: usize, expected: usize) -> Result<(), Refusal> {
+pub(super) fn same_count(
+    argument: &'static str,
+    found: usize,
+    expected: usize,
+) -> Result<(), Refusal> {
     if found == expected {
         Ok(())
     } else {
         Err(Refusal::Count {
-            argument: "nValues",
+            argument,
             found,
             expected,
         })

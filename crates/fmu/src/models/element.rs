@@ -3,7 +3,7 @@
 use crate::{
     interface::{Values, reference as vr},
     models::{
-        Model,
+        CommunicationStep, Model,
         sides::{A, B, is_active, joint_law, set_joint_load},
     },
     refusal::{Active, Refusal},
@@ -24,7 +24,7 @@ impl<const D: usize> Model for Element<D> {
         .warning())
     }
 
-    fn advance(&self, _: &mut Values, _: f64, _: f64) -> Result<(), Refusal> {
+    fn advance(&mut self, _: &mut Values, _: CommunicationStep) -> Result<(), Refusal> {
         Ok(())
     }
 
@@ -37,5 +37,25 @@ impl<const D: usize> Model for Element<D> {
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
         values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative.velocity);
+    }
+
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
+        let [law, law_change] = [values, &*change].map(joint_law::<D>);
+        let [relative, relative_change] =
+            [values, &*change].map(|values| A.motion::<D>(values).relative_to(&B.motion(values)));
+        let on_b = law.load_on_b_tangent(&law_change, &relative, &relative_change);
+        A.set_load(change, &on_b.map(|load| -load));
+        B.set_load(change, &on_b);
+        set_joint_load(change, &on_b);
+        change[vr::ENERGY_STORED] = law.stored_energy_tangent(
+            &law_change,
+            &relative.displacement,
+            &relative_change.displacement,
+        );
+        change[vr::POWER_DISSIPATED] = law.dissipated_power_tangent(
+            &law_change,
+            &relative.velocity,
+            &relative_change.velocity,
+        );
     }
 }

@@ -3,13 +3,13 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    Defect, Lap, LapIntegrator, LapLoads, LapState, STABILITY_LIMIT_REAL, substeps,
+    Defect, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, STABILITY_LIMIT_REAL, substeps,
 };
 
 use crate::{
     interface::{Dofs, Kind, Values, Variable, Variables, reference as vr},
     models::{
-        Model,
+        CommunicationStep, Model,
         sides::{A, B, is_active, joint_law, set_joint_load},
     },
     refusal::{Active, Refusal},
@@ -17,6 +17,9 @@ use crate::{
 
 /// Most Runge–Kutta steps in one communication step: about a minute's work.
 pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
+
+/// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
+const STEPS_WORTH_PREPARING: u32 = 256;
 
 /// Two bodies and the joint between them, with `D` degrees of freedom a side.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,6 +34,28 @@ struct Prepared<const D: usize> {
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
     amplitude: [f64; D],
+    /// What the latest length of a communication step gives; `None` before the first one.
+    interval: Option<Interval<D>>,
+}
+
+/// One length of communication steps.
+#[derive(Clone, Copy, Debug)]
+struct Interval<const D: usize> {
+    length_s: f64,
+    /// Runge–Kutta steps that it takes.
+    count: NonZeroU32,
+    propagation: Propagation<D>,
+}
+
+/// Whether one product can take the place of the Runge–Kutta steps.
+#[derive(Clone, Copy, Debug)]
+enum Propagation<const D: usize> {
+    /// Nobody has asked yet.
+    Unknown,
+    /// It cannot: the equations are not linear, or a mode grows past all bounds.
+    Impossible,
+    /// It can.
+    Possible(LapPropagator<D>),
 }
 
 impl<const D: usize> Model for LapModel<D> {
@@ -70,6 +95,7 @@ impl<const D: usize> Model for LapModel<D> {
             amplitude: lap
                 .escape_amplitude()
                 .map(|limit| limit.unwrap_or(f64::MAX)),
+            interval: None,
         });
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
         let supports = [&lap.a, &lap.b]
@@ -84,34 +110,16 @@ impl<const D: usize> Model for LapModel<D> {
         .warning())
     }
 
-    fn advance(&self, values: &mut Values, time_s: f64, interval_s: f64) -> Result<(), Refusal> {
-        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
-        let step_size_max_s = prepared.step_size_max_s;
-        // n = ⌈H/h_max⌉
-        let count = substeps(interval_s, step_size_max_s)
-            .filter(|count| count.get() <= SUBSTEPS_MAX)
-            .ok_or(Refusal::TooManySubsteps {
-                interval_s,
-                step_size_max_s,
-            })?;
+    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal> {
+        let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let start = state::<D>(values);
         let loads = LapLoads {
             a: A.load(values),
             b: B.load(values),
         };
-        let end = prepared
-            .integrator
-            .advance(&start, &loads, interval_s, count);
+        let end = prepared.advance(&start, &loads, step)?;
         if !prepared.holds(&end) {
-            return Err(prepared.explain(
-                &start,
-                &loads,
-                Step {
-                    time_s,
-                    interval_s,
-                    count,
-                },
-            ));
+            return Err(prepared.explain(&start, &loads, step));
         }
         A.set_motion(values, &end.a);
         B.set_motion(values, &end.b);
@@ -126,17 +134,52 @@ impl<const D: usize> Model for LapModel<D> {
         values[vr::ENERGY_STORED] = lap.stored_energy(&state);
         values[vr::POWER_DISSIPATED] = lap.dissipated_power(&state);
     }
-}
 
-/// One communication step.
-#[derive(Clone, Copy)]
-struct Step {
-    time_s: f64,
-    interval_s: f64,
-    count: NonZeroU32,
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
+        let [lap, lap_change] = [values, &*change].map(lap::<D>);
+        let [state, state_change] = [values, &*change].map(state::<D>);
+        let [relative, relative_change] =
+            [&state, &state_change].map(|state| state.a.relative_to(&state.b));
+        let on_b = lap
+            .joint
+            .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
+        set_joint_load(change, &on_b);
+        change[vr::ENERGY_STORED] = lap.stored_energy_tangent(&lap_change, &state, &state_change);
+        change[vr::POWER_DISSIPATED] =
+            lap.dissipated_power_tangent(&lap_change, &state, &state_change);
+    }
 }
 
 impl<const D: usize> Prepared<D> {
+    /// State at the end of the step, by one product where that is possible and worth its preparation.
+    #[inline]
+    fn advance(
+        &mut self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        step: CommunicationStep,
+    ) -> Result<LapState<D>, Refusal> {
+        let length_s = step.interval_s;
+        let interval = match &mut self.interval {
+            Some(interval) if interval.length_s == length_s => interval,
+            interval => interval.insert(Interval {
+                length_s,
+                count: count(length_s, self.step_size_max_s)?,
+                propagation: Propagation::Unknown,
+            }),
+        };
+        let count = interval.count;
+        if step.is_steady || count.get() >= STEPS_WORTH_PREPARING {
+            if let Propagation::Unknown = interval.propagation {
+                interval.propagation = propagation(&self.integrator, length_s, count);
+            }
+            if let Propagation::Possible(propagator) = &interval.propagation {
+                return Ok(propagator.advance(start, loads));
+            }
+        }
+        Ok(stepped(&self.integrator, start, loads, length_s, count))
+    }
+
     /// Whether the state is finite and the joint holds.
     #[inline]
     fn holds(&self, state: &LapState<D>) -> bool {
@@ -154,8 +197,13 @@ impl<const D: usize> Prepared<D> {
 
     /// Goes through a failed step again, one Runge–Kutta step at a time, to say what failed first, and when.
     #[cold]
-    fn explain(&self, start: &LapState<D>, loads: &LapLoads<D>, step: Step) -> Refusal {
-        let count = step.count.get();
+    fn explain(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        step: CommunicationStep,
+    ) -> Refusal {
+        let count = self.interval.map_or(1, |interval| interval.count.get());
         let length_s = step.interval_s / f64::from(count);
         let mut state = *start;
         let mut time_s = step.time_s;
@@ -202,6 +250,40 @@ impl<const D: usize> Prepared<D> {
             time_s,
         }
     }
+}
+
+/// The Runge–Kutta steps, apart from all else, so that the optimiser has all registers for them.
+#[inline(never)]
+fn stepped<const D: usize>(
+    integrator: &LapIntegrator<D>,
+    start: &LapState<D>,
+    loads: &LapLoads<D>,
+    interval_s: f64,
+    count: NonZeroU32,
+) -> LapState<D> {
+    integrator.advance(start, loads, interval_s, count)
+}
+
+/// Number of Runge–Kutta steps in a communication step.
+#[cold]
+fn count(interval_s: f64, step_size_max_s: f64) -> Result<NonZeroU32, Refusal> {
+    // n = ⌈H/h_max⌉
+    substeps(interval_s, step_size_max_s)
+        .filter(|count| count.get() <= SUBSTEPS_MAX)
+        .ok_or(Refusal::TooManySubsteps {
+            interval_s,
+            step_size_max_s,
+        })
+}
+
+#[cold]
+fn propagation<const D: usize>(
+    integrator: &LapIntegrator<D>,
+    interval_s: f64,
+    count: NonZeroU32,
+) -> Propagation<D> {
+    LapPropagator::new(integrator, interval_s, count)
+        .map_or(Propagation::Impossible, Propagation::Possible)
 }
 
 fn lap<const D: usize>(values: &Values) -> Lap<D> {

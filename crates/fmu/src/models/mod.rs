@@ -18,12 +18,32 @@ pub(crate) trait Model: Send {
     /// Takes the parameters in `values` into use, or refuses them and keeps those in use before.
     fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal>;
 
-    /// Advances the states from `time_s` by `interval_s`, with the inputs held; on refusal `values` are untouched.
-    fn advance(&self, values: &mut Values, time_s: f64, interval_s: f64) -> Result<(), Refusal>;
+    /// Advances the states over `step`, with the inputs held; on refusal `values` are untouched.
+    ///
+    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls.
+    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal>;
 
     /// Calculates the outputs from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
+
+    /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
+    /// variables at the point `values`: writes the outputs' to `change`, exactly.
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
+
+/// One communication step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CommunicationStep {
+    /// Time at its start, s.
+    pub(crate) time_s: f64,
+    /// Its length, s.
+    pub(crate) interval_s: f64,
+    /// Whether many steps of this length came in a row, so that preparing for more of them pays.
+    pub(crate) is_steady: bool,
+}
+
+// what an instance takes beside its values stays small, whatever is prepared for it
+const _: () = assert!(size_of::<lap::LapModel<2>>() <= 2048);
 
 /// The model of an FMU.
 pub(crate) fn model(variables: Variables) -> Box<dyn Model> {

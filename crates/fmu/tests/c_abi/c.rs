@@ -139,6 +139,28 @@ unsafe extern "C" {
         early: *mut bool,
         last: *mut f64,
     ) -> c_int;
+    pub(crate) fn fmi3GetDirectionalDerivative(
+        i: *mut c_void,
+        unknowns: *const u32,
+        nu: usize,
+        knowns: *const u32,
+        nk: usize,
+        seed: *const f64,
+        ns: usize,
+        sensitivity: *mut f64,
+        nsens: usize,
+    ) -> c_int;
+    pub(crate) fn fmi3GetAdjointDerivative(
+        i: *mut c_void,
+        unknowns: *const u32,
+        nu: usize,
+        knowns: *const u32,
+        nk: usize,
+        seed: *const f64,
+        ns: usize,
+        sensitivity: *mut f64,
+        nsens: usize,
+    ) -> c_int;
 
     // functions that this FMU refuses
     pub(crate) fn fmi3EnterEventMode(i: *mut c_void) -> c_int;
@@ -179,28 +201,6 @@ unsafe extern "C" {
         orders: *const i32,
         v: *mut f64,
         nv: usize,
-    ) -> c_int;
-    pub(crate) fn fmi3GetDirectionalDerivative(
-        i: *mut c_void,
-        unknowns: *const u32,
-        nu: usize,
-        knowns: *const u32,
-        nk: usize,
-        seed: *const f64,
-        ns: usize,
-        sensitivity: *mut f64,
-        nsens: usize,
-    ) -> c_int;
-    pub(crate) fn fmi3GetAdjointDerivative(
-        i: *mut c_void,
-        unknowns: *const u32,
-        nu: usize,
-        knowns: *const u32,
-        nk: usize,
-        seed: *const f64,
-        ns: usize,
-        sensitivity: *mut f64,
-        nsens: usize,
     ) -> c_int;
     pub(crate) fn fmi3GetNumberOfVariableDependencies(
         i: *mut c_void,

@@ -69,6 +69,35 @@ fn continuation_is_exact_to_the_bit() {
 }
 
 #[test]
+fn a_linear_lap_goes_on_to_the_bit_from_every_point() {
+    // after some equal steps the library takes one product in their place: a restored state must do so at once
+    for dofs in [1, 2] {
+        let mut instance = Instance::stepping(Kind::Lap, dofs, &[]);
+        let intervals = |n: u32| if n % 30 < 25 { 3e-4 } else { 1e-4 };
+        let step = |instance: &mut Instance, n: u32| {
+            let load = 100.0 * f64::from(n).sin();
+            assert_eq!(instance.set(&[vr::A_F], &[load]), c::OK);
+            let [t] = instance.get([vr::TIME]);
+            assert_eq!(instance.step(t, intervals(n)).0, c::OK);
+            instance.get(ALL).map(f64::to_bits)
+        };
+        let mut points = Vec::new();
+        for n in 0..60 {
+            points.push((instance.state_bytes(), step(&mut instance, n)));
+        }
+        for first in 0..60 {
+            let mut other = Instance::new(Kind::Lap, dofs, &[]);
+            let state = other.deserialize(&points[first].0).unwrap();
+            assert_eq!(other.restore(state), c::OK);
+            other.free_state(state);
+            for (n, (_, expected)) in points.iter().enumerate().skip(first) {
+                assert_eq!(step(&mut other, n as u32), *expected, "{first} {n}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_state_handle_is_used_again() {
     let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
     let mut state = instance.save();
@@ -181,12 +210,12 @@ fn every_damaged_byte_is_noticed() {
     assert_eq!(instance.deserialize(&longer), Err(c::ERROR));
     instance.error();
     let mut newer = bytes.clone();
-    newer[8] = 2;
+    newer[8] = 3;
     assert_eq!(instance.deserialize(&newer), Err(c::ERROR));
     assert!(
         instance
             .error()
-            .contains("it has layout 2, this library reads layout 1")
+            .contains("it has layout 3, this library reads layout 2")
     );
     assert_eq!(
         instance.deserialize(b"something else altogether, and long enough"),
@@ -237,6 +266,14 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let mode = 8 + 4 + 4 + TOKEN.len() + 2;
     assert_eq!(instance.deserialize(&forge(mode, &[9])), Err(c::ERROR));
     assert!(instance.error().contains("its mode is impossible"));
+    let steps_in_a_row = mode + 1 + 1 + 8 + 8;
+    let forged = forge(steps_in_a_row, &[u8::MAX]);
+    assert_eq!(instance.deserialize(&forged), Err(c::ERROR));
+    let message = instance.error();
+    assert!(
+        message.contains("its communication step is impossible"),
+        "{message}"
+    );
 }
 
 #[test]

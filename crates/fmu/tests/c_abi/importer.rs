@@ -356,6 +356,56 @@ impl Instance {
         self.try_get(&references).unwrap().try_into().unwrap()
     }
 
+    /// Directional derivative, with as many results as there are unknowns.
+    pub(crate) fn directional(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<Vec<f64>, c_int> {
+        let mut sensitivity = vec![f64::NAN; unknowns.len()];
+        // SAFETY: pointers and lengths are those of slices
+        let status = unsafe {
+            c::fmi3GetDirectionalDerivative(
+                self.handle,
+                unknowns.as_ptr(),
+                unknowns.len(),
+                knowns.as_ptr(),
+                knowns.len(),
+                seed.as_ptr(),
+                seed.len(),
+                sensitivity.as_mut_ptr(),
+                sensitivity.len(),
+            )
+        };
+        (status == c::OK).then_some(sensitivity).ok_or(status)
+    }
+
+    /// Adjoint derivative, with as many results as there are knowns.
+    pub(crate) fn adjoint(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<Vec<f64>, c_int> {
+        let mut sensitivity = vec![f64::NAN; knowns.len()];
+        // SAFETY: pointers and lengths are those of slices
+        let status = unsafe {
+            c::fmi3GetAdjointDerivative(
+                self.handle,
+                unknowns.as_ptr(),
+                unknowns.len(),
+                knowns.as_ptr(),
+                knowns.len(),
+                seed.as_ptr(),
+                seed.len(),
+                sensitivity.as_mut_ptr(),
+                sensitivity.len(),
+            )
+        };
+        (status == c::OK).then_some(sensitivity).ok_or(status)
+    }
+
     /// Status of a step, and the time that it reached.
     pub(crate) fn step(&mut self, t: f64, h: f64) -> (c_int, f64) {
         let (mut event, mut terminate, mut early, mut last) = (true, true, true, f64::NAN);

@@ -10,6 +10,7 @@
 extern crate bolted_joint as _;
 
 mod c;
+mod derivatives;
 mod fmu_state;
 mod importer;
 mod instantiation;

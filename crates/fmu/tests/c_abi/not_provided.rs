@@ -36,8 +36,6 @@ fn functions_that_are_not_provided_say_so() {
         fmi3GetNumberOfEventIndicators(null_mut());
         fmi3GetNumberOfContinuousStates(null_mut());
         fmi3GetOutputDerivatives(null(), 0, null(), null_mut(), 0);
-        fmi3GetDirectionalDerivative(null(), 0, null(), 0, null(), 0, null_mut(), 0);
-        fmi3GetAdjointDerivative(null(), 0, null(), 0, null(), 0, null_mut(), 0);
         fmi3GetNumberOfVariableDependencies(0, null_mut());
         fmi3GetVariableDependencies(0, null_mut(), null_mut(), null_mut(), null_mut(), 0);
         fmi3ActivateModelPartition(0, 0.0);

@@ -104,6 +104,61 @@ fn a_step_is_the_right_number_of_runge_kutta_steps() {
 }
 
 #[test]
+fn a_linear_lap_follows_the_runge_kutta_steps_however_long_they_stay_equal() {
+    for count in [1_u32, 50, 1000] {
+        let equations = Equations {
+            k3: 0.0,
+            ..EQUATIONS
+        };
+        let mut instance = Instance::new(Kind::Lap, 1, &[("step_size_max", 2e-5)]);
+        assert_eq!(instance.set(&STATES, &START), c::OK);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        let mut expected = START;
+        let mut t = 0.0;
+        for n in 0..100_u32 {
+            // a step of another length and a tuned parameter on the way
+            let substeps = if n == 40 { 2 * count } else { count };
+            let h = 2e-5 * f64::from(substeps);
+            let equations = Equations {
+                force: [30.0 * f64::from(n).sin(), -20.0],
+                c12: if n < 70 { 8.0 } else { 30.0 },
+                ..equations
+            };
+            if n == 70 {
+                assert_eq!(instance.set(&[vr::C_YY], &[30.0]), c::OK);
+            }
+            let references = [vr::A_F, vr::B_F];
+            assert_eq!(instance.set(&references, &equations.force), c::OK);
+            assert_eq!(instance.step(t, h).0, c::OK);
+            t += h;
+            expected = equations.runge_kutta(expected, 2e-5, substeps as usize);
+            let found = instance.get(STATES);
+            // against the amplitudes of displacement and velocity
+            for ((found, expected), scale) in found.iter().zip(expected).zip([1e-4, 0.1, 1e-4, 0.1])
+            {
+                assert!(
+                    (found - expected).abs() < 1e-10 * scale,
+                    "{count} {n}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mode_that_grows_past_all_bounds_leaves_rest_at_rest() {
+    // e^(ωH) overflows, but what starts at rest without a load stays there
+    let mut instance = Instance::new(Kind::Lap, 1, &[("a.k_y", -1e9), ("b.k_y", -1e9)]);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::WARNING);
+    for n in 0..20 {
+        assert_eq!(instance.step(f64::from(n) * 0.1, 0.1).0, c::OK);
+        assert_eq!(instance.get(STATES), [0.0; 4]);
+    }
+}
+
+#[test]
 fn free_vibration_follows_the_closed_form() {
     // both bodies in phase, no damping: y = y0 cos ωt, ω² = k/m; the joint carries nothing
     let mut instance = Instance::new(

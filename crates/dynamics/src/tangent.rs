@@ -1,0 +1,121 @@
+//! Exact directional derivatives of what the joint and the lap put out: how each result changes with motion and
+//! parameters, to first order.
+//!
+//! A change of parameters has the type of the parameters themselves, so that each function takes the point and the
+//! direction side by side.
+
+use crate::{
+    joint::{JointLaw, Motion},
+    lap::{Body, Lap, LapState},
+    vector::{dot, product},
+};
+
+impl<const D: usize> JointLaw<D> {
+    /// Change of [`JointLaw::load_on_b`] with the law and the relative motion.
+    #[must_use]
+    pub fn load_on_b_tangent(
+        &self,
+        law_change: &Self,
+        relative: &Motion<D>,
+        relative_change: &Motion<D>,
+    ) -> [f64; D] {
+        // dF = dK r + K dr + dC ṙ + C dṙ + dk3 ∘ r³ + 3 k3 ∘ r² ∘ dr
+        let by_law = law_change.load_on_b(relative);
+        let elastic = product(&self.stiffness, &relative_change.displacement);
+        let viscous = product(&self.damping, &relative_change.velocity);
+        std::array::from_fn(|i| {
+            let r = relative.displacement[i];
+            let cubic = 3.0 * self.cubic[i] * r * r * relative_change.displacement[i];
+            by_law[i] + elastic[i] + viscous[i] + cubic
+        })
+    }
+
+    /// Change of [`JointLaw::stored_energy`] with the law and the relative displacement.
+    #[must_use]
+    pub fn stored_energy_tangent(
+        &self,
+        law_change: &Self,
+        r: &[f64; D],
+        displacement_change: &[f64; D],
+    ) -> f64 {
+        // dU = ½ rᵀdK r + ¼ Σ dk3ᵢ rᵢ⁴ + drᵀ(K r + k3 ∘ r³), K symmetric
+        let elastic = product(&self.stiffness, r);
+        let spring = std::array::from_fn(|i| elastic[i] + self.cubic[i] * r[i] * r[i] * r[i]);
+        law_change.stored_energy(r) + dot(displacement_change, &spring)
+    }
+
+    /// Change of [`JointLaw::dissipated_power`] with the law and the relative velocity.
+    #[must_use]
+    pub fn dissipated_power_tangent(
+        &self,
+        law_change: &Self,
+        velocity: &[f64; D],
+        velocity_change: &[f64; D],
+    ) -> f64 {
+        // dP = ṙᵀ dC ṙ + 2 dṙᵀC ṙ, C symmetric
+        law_change.dissipated_power(velocity)
+            + 2.0 * dot(velocity_change, &product(&self.damping, velocity))
+    }
+}
+
+impl<const D: usize> Lap<D> {
+    /// Change of [`Lap::stored_energy`] with the parameters and the state.
+    #[must_use]
+    pub fn stored_energy_tangent(
+        &self,
+        lap_change: &Self,
+        state: &LapState<D>,
+        state_change: &LapState<D>,
+    ) -> f64 {
+        // dE = ½ Σ (dm ẋ² + dk x²) + Σ (m ẋ dẋ + k x dx) + dU
+        let of_body = |body: &Body<D>, motion: &Motion<D>, change: &Motion<D>| {
+            (0..D).fold(0.0, |sum, i| {
+                sum + body.inertia[i] * motion.velocity[i] * change.velocity[i]
+                    + body.stiffness[i] * motion.displacement[i] * change.displacement[i]
+            })
+        };
+        let [relative, relative_change] = [state, state_change].map(|x| x.a.relative_to(&x.b));
+        // the energy is linear in the bodies' parameters: with their change in place of them it is its own change
+        let by_bodies = Self {
+            joint: JointLaw::NONE,
+            ..*lap_change
+        };
+        by_bodies.stored_energy(state)
+            + of_body(&self.a, &state.a, &state_change.a)
+            + of_body(&self.b, &state.b, &state_change.b)
+            + self.joint.stored_energy_tangent(
+                &lap_change.joint,
+                &relative.displacement,
+                &relative_change.displacement,
+            )
+    }
+
+    /// Change of [`Lap::dissipated_power`] with the parameters and the state.
+    #[must_use]
+    pub fn dissipated_power_tangent(
+        &self,
+        lap_change: &Self,
+        state: &LapState<D>,
+        state_change: &LapState<D>,
+    ) -> f64 {
+        // dP = Σ dc ẋ² + 2 Σ c ẋ dẋ + dP_joint
+        let of_body = |body: &Body<D>, motion: &Motion<D>, change: &Motion<D>| {
+            (0..D).fold(0.0, |sum, i| {
+                sum + 2.0 * body.damping[i] * motion.velocity[i] * change.velocity[i]
+            })
+        };
+        let [relative, relative_change] = [state, state_change].map(|x| x.a.relative_to(&x.b));
+        let by_bodies = Self {
+            joint: JointLaw::NONE,
+            ..*lap_change
+        };
+        by_bodies.dissipated_power(state)
+            + of_body(&self.a, &state.a, &state_change.a)
+            + of_body(&self.b, &state.b, &state_change.b)
+            + self.joint.dissipated_power_tangent(
+                &lap_change.joint,
+                &relative.velocity,
+                &relative_change.velocity,
+            )
+    }
+}

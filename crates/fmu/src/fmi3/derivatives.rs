@@ -1,0 +1,59 @@
+//! Partial derivatives: directional and adjoint.
+
+use crate::{
+    fmi3::{
+        Done, Opaque, ValueReference,
+        arguments::{array, array_mut},
+        call,
+        variables::same_count,
+    },
+    logging::Status,
+};
+
+/// Defines the two functions, which differ in whether the seed belongs to the knowns or to the unknowns.
+macro_rules! partial_derivative {
+    ($(#[$doc:meta])* $function:ident, $method:ident, lengths: $lengths:expr) => {
+        $(#[$doc])*
+        ///
+        /// # Safety
+        ///
+        /// `instance` as for every function; the arrays have the lengths that are told.
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $function(
+            instance: Opaque,
+            unknowns: *const ValueReference,
+            unknown_count: usize,
+            knowns: *const ValueReference,
+            known_count: usize,
+            seed: *const f64,
+            seed_count: usize,
+            sensitivity: *mut f64,
+            sensitivity_count: usize,
+        ) -> Status {
+            // SAFETY: the importer's promise
+            unsafe {
+                call(stringify!($function), instance, |instance| {
+                    let [seeds, sensitivities] = $lengths([unknown_count, known_count]);
+                    same_count("nSeed", seed_count, seeds)?;
+                    same_count("nSensitivity", sensitivity_count, sensitivities)?;
+                    let unknowns = array(unknowns, unknown_count, "unknowns")?;
+                    let knowns = array(knowns, known_count, "knowns")?;
+                    let seed = array(seed, seed_count, "seed")?;
+                    let sensitivity = array_mut(sensitivity, sensitivity_count, "sensitivity")?;
+                    instance.$method([unknowns, knowns], seed, sensitivity)?;
+                    Ok(Done::Silently)
+                })
+            }
+        }
+    };
+}
+
+partial_derivative! {
+    /// Change of the unknowns when the knowns change along the seed.
+    fmi3GetDirectionalDerivative, directional_derivative, lengths: |[unknowns, knowns]: [usize; 2]| [knowns, unknowns]
+}
+
+partial_derivative! {
+    /// For each known, the sum over the unknowns of seed times partial derivative.
+    fmi3GetAdjointDerivative, adjoint_derivative, lengths: |[unknowns, knowns]: [usize; 2]| [unknowns, knowns]
+}

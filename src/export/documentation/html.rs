@@ -29,7 +29,16 @@ pub(super) fn capitalised(text: &str) -> String {
 
 /// A number to six significant digits, with a power of ten where it is large or small.
 pub(super) fn number(value: f64) -> String {
-    let rounded = format!("{value:.5e}");
+    shown(value, 6)
+}
+
+/// A standard deviation to two significant digits: it is not known better.
+pub(super) fn spread(value: f64) -> String {
+    shown(value, 2)
+}
+
+fn shown(value: f64, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = rounded.split_once('e') else {
         return rounded;
     };
@@ -43,7 +52,7 @@ pub(super) fn number(value: f64) -> String {
     };
     match exponent.parse::<i32>() {
         Ok(power @ -3..=5) => {
-            let decimals = usize::try_from(5 - power).unwrap_or_default();
+            let decimals = (digits as i32 - 1 - power).max(0) as usize;
             short(&format!("{value:.decimals$}"))
         }
         Ok(_) => format!(
@@ -92,6 +101,17 @@ mod tests {
             escaped("<script>\"&'\u{7}</script>"),
             "&lt;script&gt;&quot;&amp;&#39;\u{fffd}&lt;/script&gt;"
         );
+    }
+
+    #[test]
+    fn deviations_are_shorter() {
+        for (value, expected) in [
+            (268.147, "268"),
+            (0.152_178, "0.15"),
+            (1.381e-4, "1.4 × 10<sup>−4</sup>"),
+        ] {
+            assert_eq!(spread(value), expected);
+        }
     }
 
     #[test]

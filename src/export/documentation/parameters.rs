@@ -2,7 +2,7 @@
 
 use super::super::Interface;
 use super::Page;
-use super::html::{cell, escaped, number, number_cell, table};
+use super::html::{cell, escaped, number, number_cell, spread, table};
 use crate::joint::{Body, DofSet};
 
 /// Symbols and load symbols of the DOFs, in the order of the matrices' rows.
@@ -70,7 +70,7 @@ fn matrix(
                 .map(|(j, value)| {
                     let spread = deviation
                         .and_then(|deviation| deviation.get(i)?.get(j))
-                        .map(|spread| format!(" ± {}", number(*spread)))
+                        .map(|deviation| format!(" ± {}", spread(*deviation)))
                         .unwrap_or_default();
                     number_cell(&format!("{}{spread} {}", number(*value), units[i][j]))
                 })

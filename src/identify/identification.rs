@@ -21,8 +21,18 @@ use super::{assemble, decoupling, provenance};
 /// Lines that are enough to tell which start leads to the best estimate.
 const LINES_FOR_STARTS: usize = 200;
 
-/// Two estimates are the same if their −2 log-likelihoods agree to this.
-const SAME_MISFIT: f64 = 1e-3;
+/// Two estimates are the same if their −2 log-likelihoods agree to this …
+const SAME_MISFIT: f64 = 2e-3;
+
+/// … or each of their unknowns does, relative to its value or to what would change the residual by its assumed standard
+/// deviation: data without noise leave a misfit of rounding alone.
+const SAME_UNKNOWN: f64 = 1e-6;
+
+/// By how much the −2 log-likelihood of an estimate that has not converged must be lower to rank before one that has.
+const DECISIVE_MISFIT: f64 = 20.0;
+
+/// How many different estimates from thinned lines are refined on all lines.
+const FINALISTS: usize = 4;
 
 /// A standard deviation beyond this fraction of the value makes the value unreliable.
 const UNRELIABLE: f64 = 0.5;
@@ -80,7 +90,7 @@ pub struct LinesEstimate {
     band_average: Option<JointMatrices>,
     joint: JointMatrices,
     standard_deviation: JointMatrices,
-    reduced_cost: f64,
+    reduced_cost: Option<f64>,
     starts: (usize, usize),
     warnings: Vec<String>,
 }
@@ -102,6 +112,18 @@ impl LinesEstimate {
     #[must_use]
     pub fn band_average(&self) -> Option<&JointMatrices> {
         self.band_average.as_ref()
+    }
+
+    /// How many starts were tried, and how many of them led to this estimate.
+    #[must_use]
+    pub fn starts(&self) -> (usize, usize) {
+        self.starts
+    }
+
+    /// What the user should know before using the estimate.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 }
 
@@ -137,7 +159,7 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
         regenerated,
         fits,
         relative_rms: mean_square.sqrt(),
-        reduced_chi_squared: study.noise.map(|_| estimate.reduced_cost),
+        reduced_chi_squared: study.noise.and(estimate.reduced_cost),
         starts: estimate.starts,
         warnings,
         lines,
@@ -167,6 +189,9 @@ pub fn identify_lines(
     noise: Option<NoiseLevel>,
     bands: &Bands,
 ) -> Result<LinesEstimate, IdentifyError> {
+    if lines.frequency_hz.is_empty() || lines.measured.is_empty() {
+        return Err(no_estimate(lines, 0));
+    }
     let decoupled = decouple(lines);
     let band_average = bands::average(model, &lines.frequency_hz, &decoupled, bands);
     let weights = noise.unwrap_or(NoiseLevel {
@@ -174,9 +199,19 @@ pub fn identify_lines(
         floor: 0.0,
     });
     let (best, starts) = best_estimate(lines, model, weights, band_average.as_ref())?;
-    let reduced_cost = best.cost / best.degrees_of_freedom.max(1) as f64 * 2.0;
-    let standard_deviation = standard_deviation(model, &best, reduced_cost);
+    // χ²/ν with ν = 2N − dim p: twice the cost, because σ² is the sum of the variances of two parts.
+    let degrees_of_freedom = best.degrees_of_freedom as f64;
+    let reduced_cost = (degrees_of_freedom > 0.0).then(|| 2.0 * best.cost / degrees_of_freedom);
+    // As many numbers as unknowns are always met: such a residual says nothing about the noise.
+    let standard_deviation = standard_deviation(model, &best, reduced_cost.or(noise.map(|_| 1.0)));
     let mut warnings = Vec::new();
+    if reduced_cost.is_none() {
+        warnings.push(format!(
+            "{} measured values for {} unknowns: the residual does not show how well they fit; use more lines",
+            2 * lines.frequency_hz.len() * lines.measured.len(),
+            model.unknowns()
+        ));
+    }
     if lines.points.len() < model.dofs() {
         warnings.push(format!(
             "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
@@ -225,34 +260,83 @@ fn best_estimate(
         .iter()
         .filter_map(|start| estimate(&thinned, model, noise, start))
         .collect();
-    estimates.sort_by(|a, b| {
-        let unconverged = |estimate: &Estimate| !estimate.converged;
-        unconverged(a)
-            .cmp(&unconverged(b))
-            .then(a.misfit.total_cmp(&b.misfit))
-    });
-    let no_estimate = || IdentifyError::NoEstimate {
-        starts: starts.len(),
+    estimates.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    // The best, and other minima; where an iteration came to no rest there is nothing to refine.
+    let mut finalists: Vec<&Estimate> = Vec::new();
+    for candidate in &estimates {
+        let different = !finalists.iter().any(|known| same(model, known, candidate));
+        let worthwhile = finalists.is_empty() || candidate.converged && different;
+        if worthwhile && finalists.len() < FINALISTS {
+            finalists.push(candidate);
+        }
+    }
+    // Thinned lines may have passed over the resonances that tell two minima apart.
+    let refined: Vec<(&Estimate, Estimate)> = finalists
+        .into_iter()
+        .filter_map(|candidate| Some((candidate, estimate(lines, model, noise, &candidate.joint)?)))
+        .collect();
+    let (_, best) = refined
+        .iter()
+        .min_by(|(_, a), (_, b)| rank(a).total_cmp(&rank(b)))
+        .ok_or_else(|| no_estimate(lines, starts.len()))?;
+    let leads_to_best = |estimate: &&Estimate| {
+        let known = |(candidate, end): &(&Estimate, Estimate)| {
+            same(model, candidate, estimate) && same(model, end, best)
+        };
+        refined.iter().any(known)
+    };
+    let agreeing = estimates.iter().filter(leads_to_best).count();
+    Ok((best.clone(), (starts.len(), agreeing)))
+}
+
+fn no_estimate(lines: &Lines, starts: usize) -> IdentifyError {
+    IdentifyError::NoEstimate {
+        starts,
         points: lines
             .points
             .iter()
             .map(Dof::to_string)
             .collect::<Vec<_>>()
             .join(", "),
-    };
-    let lowest = estimates.first().ok_or_else(no_estimate)?;
-    let agreeing = estimates
-        .iter()
-        .filter(|other| other.converged && other.misfit <= lowest.misfit + SAME_MISFIT)
-        .count();
-    let refined = estimate(lines, model, noise, &lowest.joint).ok_or_else(no_estimate)?;
-    Ok((refined, (starts.len(), agreeing)))
+    }
 }
 
-/// Standard deviations from s²(JᵀJ)⁻¹, s² being the residual's own variance.
-fn standard_deviation(model: JointModel, best: &Estimate, reduced_cost: f64) -> JointMatrices {
-    let unknowns: Vec<f64> = match &best.unit_covariance {
-        Some(covariance) => covariance
+/// What estimates are ranked by: the −2 log-likelihood, with a handicap for those that have not converged.
+fn rank(estimate: &Estimate) -> f64 {
+    let handicap = if estimate.converged {
+        0.0
+    } else {
+        DECISIVE_MISFIT
+    };
+    estimate.misfit + handicap
+}
+
+/// Whether two estimates from the same lines are one minimum.
+fn same(model: JointModel, one: &Estimate, other: &Estimate) -> bool {
+    let values = one
+        .joint
+        .unknowns(model)
+        .into_iter()
+        .zip(other.joint.unknowns(model));
+    let close = |(index, (a, b)): (usize, (f64, f64))| {
+        let variance = one
+            .unit_covariance
+            .as_ref()
+            .map_or(0.0, |matrix| matrix[(index, index)]);
+        (a - b).abs() <= SAME_UNKNOWN * a.abs().max(b.abs()).max(variance.sqrt())
+    };
+    (one.misfit - other.misfit).abs() <= SAME_MISFIT || values.enumerate().all(close)
+}
+
+/// Standard deviations from s²(JᵀJ)⁻¹, s² being the residual's own variance in units of the assumed one; infinite where
+/// JᵀJ is singular or s² is not known.
+fn standard_deviation(
+    model: JointModel,
+    best: &Estimate,
+    reduced_cost: Option<f64>,
+) -> JointMatrices {
+    let unknowns: Vec<f64> = match best.unit_covariance.as_ref().zip(reduced_cost) {
+        Some((covariance, reduced_cost)) => covariance
             .diagonal()
             .iter()
             // JᵀJ counts real and imaginary parts with σ² each; together they have σ², so each has half of it.
@@ -276,7 +360,11 @@ fn unreliable(
     for (name, values, deviations) in matrices {
         for &(row, column) in model.entries() {
             let (value, deviation) = (values[(row, column)], deviations[(row, column)]);
-            if deviation.is_nan() || deviation > UNRELIABLE * value.abs() {
+            // A coupling may be zero: it counts beside the largest that a passive joint has, √(K_ii K_jj).
+            let passive = (values[(row, row)] * values[(column, column)])
+                .max(0.0)
+                .sqrt();
+            if deviation.is_nan() || deviation > UNRELIABLE * value.abs().max(passive) {
                 found.push(format!(
                     "{name}[{row}][{column}] = {value:.3e} has a standard deviation of {deviation:.1e}: \
                      the data hardly determine it"

@@ -65,8 +65,12 @@ impl Lines {
         let unit = ComplexMatrix::identity(size, size);
         // P = H_sk Z⁻¹ K*⁻¹ = H_sk (I + K*H)⁻¹,  Q = K*⁻¹ Z⁻¹ H_ks = (I + H K*)⁻¹ H_ks,  H = H_jj + H_kk:
         // dH^C_ss = H_sk Z⁻¹ d(K*⁻¹) Z⁻¹ H_ks with d(K*⁻¹) = −K*⁻¹ dK* K*⁻¹, free of inverses of K*.
-        let left = &b.points_joint * (&unit + &stiffness * &free).try_inverse()?;
-        let right = (&unit + &free * &stiffness).try_inverse()? * &b.joint_points;
+        let left = (&unit + &stiffness * &free)
+            .transpose()
+            .lu()
+            .solve(&b.points_joint.transpose())?
+            .transpose();
+        let right = (&unit + &free * &stiffness).lu().solve(&b.joint_points)?;
         let assembly = &b.points - &left * stiffness * &b.joint_points;
         Some(Linearised {
             assembly,

@@ -11,6 +11,10 @@ use super::spatial::{Modes, SpatialModel};
 /// 8·10⁻⁷ for the third bending mode of a free beam, 6·10⁻⁵ for the tenth.
 const ELEMENTS: f64 = 60.0;
 
+/// Points closer to a node than this part of the length get no node of their own: an element so short (l⁻⁴ in the
+/// eigenvalues) would drown the low modes in rounding. Within it the deflection is the element's own cubic.
+const SHORTEST_ELEMENT: f64 = 1e-4;
+
 /// Why a beam cannot be built.
 #[derive(Debug, Error, PartialEq)]
 pub enum BeamError {
@@ -42,6 +46,18 @@ pub enum BeamError {
         position_m: f64,
         /// Length of the beam, m.
         length_m: f64,
+    },
+    /// The receptance has no value: an undamped resonance, or 0 Hz where a body is free.
+    #[error(
+        "the beam has no finite receptance at {frequency_hz} Hz, {reason}; leave that line out{advice}"
+    )]
+    Resonance {
+        /// Frequency, Hz.
+        frequency_hz: f64,
+        /// Why.
+        reason: &'static str,
+        /// What else helps.
+        advice: &'static str,
     },
     /// The finite-element matrices have no modes.
     #[error("the beam has no modes ({0}); check its dimensions")]
@@ -114,10 +130,11 @@ pub struct BeamPoint {
 
 impl Beam {
     /// Receptances between all `points`, one matrix (points×points) for each frequency: every mode of the
-    /// finite-element model is summed. All points are nodes of the mesh.
+    /// finite-element model is summed. All points are nodes of the mesh, save those within 1e-4 of the length
+    /// of another.
     ///
     /// # Errors
-    /// [`BeamError`] if the beam is not physical or a point is not on it.
+    /// [`BeamError`] if the beam is not physical, a point is not on it or a frequency is that of an undamped mode.
     pub fn receptances(
         &self,
         points: &[BeamPoint],
@@ -126,16 +143,17 @@ impl Beam {
         let nodes = self.mesh(points)?;
         let modes = self.modes_on(&nodes)?;
         let free = self.free_dofs(nodes.len());
-        let rows: Vec<Option<usize>> = points
-            .iter()
-            .map(|point| {
-                let node = nearest(&nodes, point.position_m);
-                let dof = 2 * node + usize::from(point.motion == Motion::Rotation);
-                free.iter().position(|&kept| kept == dof)
-            })
-            .collect();
+        // φ_r at each point: one row a point, one column a mode.
+        let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
+        for (p, point) in points.iter().enumerate() {
+            for (dof, weight) in interpolation(&nodes, point) {
+                if let Some(row) = free.iter().position(|&kept| kept == dof) {
+                    let mut amplitude = amplitudes.row_mut(p);
+                    amplitude += modes.shapes.row(row) * weight;
+                }
+            }
+        }
         let rigid = self.rigid_body_modes();
-        let amplitude = |row: Option<usize>, mode| row.map_or(0.0, |row| modes.shapes[(row, mode)]);
         let receptances = frequency_hz.iter().map(|frequency_hz| {
             let omega = std::f64::consts::TAU * frequency_hz;
             let mut receptance = DMatrix::zeros(points.len(), points.len());
@@ -156,16 +174,19 @@ impl Beam {
                         Damping::LossFactor(eta) => eta * natural * natural,
                     },
                 );
-                for (p, &row) in rows.iter().enumerate() {
-                    let scaled = amplitude(row, mode) / denominator;
-                    for (q, &column) in rows.iter().enumerate() {
-                        receptance[(p, q)] += scaled * amplitude(column, mode);
+                if denominator == Complex64::default() {
+                    return Err(self.resonance(*frequency_hz));
+                }
+                for p in 0..points.len() {
+                    let scaled = amplitudes[(p, mode)] / denominator;
+                    for q in 0..points.len() {
+                        receptance[(p, q)] += scaled * amplitudes[(q, mode)];
                     }
                 }
             }
-            receptance
+            Ok(receptance)
         });
-        Ok(receptances.collect())
+        receptances.collect()
     }
 
     /// Natural frequencies in Hz, ascending, rigid-body modes (as zeros) included.
@@ -177,6 +198,22 @@ impl Beam {
         let mut frequencies = self.modes_on(&nodes)?.frequency_hz();
         frequencies[..self.rigid_body_modes()].fill(0.0);
         Ok(frequencies)
+    }
+
+    fn resonance(&self, frequency_hz: f64) -> BeamError {
+        let (reason, advice) = if frequency_hz == 0.0 {
+            ("where a beam with free ends is not held", "")
+        } else {
+            (
+                "the frequency of an undamped mode",
+                ", or give the beam damping",
+            )
+        };
+        BeamError::Resonance {
+            frequency_hz,
+            reason,
+            advice,
+        }
     }
 
     fn check(&self) -> Result<(), BeamError> {
@@ -207,7 +244,7 @@ impl Beam {
         }
     }
 
-    /// Node positions: both ends, every point, and equal elements between them.
+    /// Node positions: both ends, every point that is not too close to another, and equal elements between them.
     fn mesh(&self, points: &[BeamPoint]) -> Result<Vec<f64>, BeamError> {
         self.check()?;
         let rounding = 1e-9 * self.length_m;
@@ -223,7 +260,12 @@ impl Beam {
             marks.push(position_m.clamp(0.0, self.length_m));
         }
         marks.sort_by(f64::total_cmp);
-        marks.dedup_by(|later, earlier| *later - *earlier <= rounding);
+        let shortest = SHORTEST_ELEMENT * self.length_m;
+        marks.dedup_by(|later, earlier| *later - *earlier < shortest);
+        // The end stays a node, rather than a point just before it.
+        if let [.., last] = marks.as_mut_slice() {
+            *last = self.length_m;
+        }
         let mut nodes = vec![0.0];
         for pair in marks.windows(2) {
             let span = pair[1] - pair[0];
@@ -298,15 +340,29 @@ impl Beam {
     }
 }
 
-fn nearest(nodes: &[f64], position_m: f64) -> usize {
-    let after = nodes.partition_point(|&node| node < position_m);
-    let before = after.saturating_sub(1);
-    let after = after.min(nodes.len() - 1);
-    if (nodes[after] - position_m).abs() < (position_m - nodes[before]).abs() {
-        after
-    } else {
-        before
-    }
+/// The element's DOFs (2 a node: w, ∂w/∂x) and their weights in the motion of a point: a node's own, or cubic Hermite.
+fn interpolation(nodes: &[f64], point: &BeamPoint) -> [(usize, f64); 4] {
+    let after = nodes.partition_point(|&node| node <= point.position_m);
+    let right = after.clamp(1, nodes.len() - 1);
+    let l = nodes[right] - nodes[right - 1];
+    let x = ((point.position_m - nodes[right - 1]) / l).clamp(0.0, 1.0);
+    let weights = match point.motion {
+        // w = (1 − 3x² + 2x³) w₁ + l(x − 2x² + x³) θ₁ + (3x² − 2x³) w₂ + l(x³ − x²) θ₂
+        Motion::Translation => [
+            1.0 - 3.0 * x * x + 2.0 * x.powi(3),
+            l * (x - 2.0 * x * x + x.powi(3)),
+            3.0 * x * x - 2.0 * x.powi(3),
+            l * (x.powi(3) - x * x),
+        ],
+        // its derivative by the position
+        Motion::Rotation => [
+            (6.0 * x * x - 6.0 * x) / l,
+            1.0 - 4.0 * x + 3.0 * x * x,
+            (6.0 * x - 6.0 * x * x) / l,
+            3.0 * x * x - 2.0 * x,
+        ],
+    };
+    std::array::from_fn(|i| (2 * (right - 1) + i, weights[i]))
 }
 
 #[cfg(test)]
@@ -433,6 +489,62 @@ mod tests {
         let omega = std::f64::consts::TAU * resonance;
         let exact = 2.0 / (2700.0 * 0.025 * 0.006 * 0.221 * 0.05 * omega * omega);
         assert!((-found.im / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+    }
+
+    #[test]
+    fn points_that_all_but_coincide_leave_the_modes_alone() {
+        // Exact frequencies do not depend on where the points are; a node of its own for each would.
+        let beam = aluminium(Boundary::FixedFree);
+        let at = |position_m, motion| BeamPoint { position_m, motion };
+        let alone = [
+            at(0.1, Motion::Translation),
+            at(0.1, Motion::Rotation),
+            at(0.221, Motion::Translation),
+        ];
+        let frequency_hz = [0.0, 60.0, 250.0, 900.0];
+        let reference = beam.receptances(&alone, &frequency_hz).unwrap();
+        for gap in [1e-11, 1e-7, 1e-6, 1e-5] {
+            let mut points = alone.to_vec();
+            points.push(at(0.1 + gap, Motion::Translation));
+            points.push(at(0.1 + gap, Motion::Rotation));
+            points.push(at(0.221 - gap, Motion::Translation));
+            let found = beam.receptances(&points, &frequency_hz).unwrap();
+            for (found, reference) in found.iter().zip(&reference) {
+                for p in 0..3 {
+                    for q in 0..3 {
+                        let exact = reference[(p, q)];
+                        let same = (found[(p, q)] - exact).norm() / exact.norm();
+                        assert!(same < 1e-8, "gap {gap}, ({p}, {q}): {same}");
+                    }
+                }
+                // w(x + gap) = w(x) + gap θ(x) + …
+                let taylor = reference[(0, 2)] + gap * reference[(1, 2)];
+                let error = (found[(3, 2)] - taylor).norm() / taylor.norm();
+                assert!(
+                    error < 1e-8 + 100.0 * gap * gap / 0.01,
+                    "gap {gap}: {error}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_receptance_without_a_value_is_an_error() {
+        let end = [BeamPoint {
+            position_m: 0.0,
+            motion: Motion::Translation,
+        }];
+        let free = aluminium(Boundary::FreeFree);
+        let message = free.receptances(&end, &[5.0, 0.0]).unwrap_err().to_string();
+        assert!(
+            message.contains("0 Hz") && message.contains("free ends"),
+            "{message}"
+        );
+        assert!(
+            aluminium(Boundary::FreeFixed)
+                .receptances(&end, &[0.0])
+                .is_ok()
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The refined estimate: exact on exact data, calibrated and near the bound on noisy data.
 
-use bolted_joint::identify::{Bands, JointMatrices, JointModel, NoiseLevel, identify_lines};
+use bolted_joint::identify::{Bands, JointMatrices, JointModel, Lines, NoiseLevel, identify_lines};
 use nalgebra::dmatrix;
 
 use crate::cases::{axis, beams_4_2_2, joint_4_2_2};
@@ -137,4 +137,78 @@ fn one_per_cent_noise_leaves_the_estimate_near_the_bound() {
         (chi_squared - 80.0).abs() < 5.0 * (2.0_f64 * 80.0).sqrt(),
         "{chi_squared}"
     );
+}
+
+#[test]
+fn a_coupling_of_zero_is_a_result_and_not_a_doubt() {
+    let lines = beams_4_2_2(axis(500.0, 1.0), &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1);
+    let found = identify_lines(&lines, JointModel::Full, None, &Bands::default()).unwrap();
+    assert_eq!(found.warnings(), [""; 0]);
+    // √(k_Fy k_Mθ) = 1e4 N is the largest coupling of a passive joint.
+    assert!(found.joint().stiffness[(0, 1)].abs() < 1e-12 * 1e4);
+    // Without noise the minima differ by rounding alone, and still count as one.
+    assert!(found.starts().1 > 1, "{:?}", found.starts());
+}
+
+#[test]
+fn as_many_numbers_as_unknowns_do_not_tell_the_noise() {
+    // Three lines of one point: six real numbers for the six unknowns of the full model.
+    let pair = beams_4_2_2(vec![117.0, 220.0, 300.0], &[], &THREE_POINTS[2..]);
+    let lines = pair.lines(&joint_4_2_2(), 0.01, 1);
+    let identified =
+        |noise| identify_lines(&lines, JointModel::Full, noise, &Bands::default()).unwrap();
+    let unknown = identified(None);
+    assert!(
+        unknown
+            .standard_deviation()
+            .stiffness
+            .iter()
+            .all(|value| *value == f64::INFINITY)
+    );
+    assert!(
+        unknown
+            .warnings()
+            .iter()
+            .any(|warning| warning.starts_with("6 measured values"))
+    );
+    let stated = identified(Some(NoiseLevel {
+        relative: 0.01,
+        floor: 0.0,
+    }));
+    let exact = joint_4_2_2().stiffness;
+    for (i, j) in [(0, 0), (0, 1), (1, 1)] {
+        let deviation = stated.standard_deviation().stiffness[(i, j)];
+        let error = stated.joint().stiffness[(i, j)] - exact[(i, j)];
+        assert!(
+            deviation > 0.0 && (error / deviation).abs() < 4.0,
+            "{error} {deviation}"
+        );
+    }
+}
+
+#[test]
+fn structures_that_are_not_joined_have_a_joint_without_stiffness() {
+    let apart = JointMatrices {
+        stiffness: dmatrix![0.0, 0.0; 0.0, 0.0],
+        damping: dmatrix![0.0, 0.0; 0.0, 0.0],
+    };
+    let lines = beams_4_2_2(axis(500.0, 1.0), &[], &THREE_POINTS).lines(&apart, 0.0, 1);
+    let found = identify_lines(&lines, JointModel::Full, None, &Bands::default()).unwrap();
+    // N/m and N·m/rad, against about 10⁴ N/m and 10² N·m/rad of the beams themselves.
+    assert!(found.joint().stiffness.amax() < 1e-7, "{:?}", found.joint());
+}
+
+#[test]
+fn no_line_is_an_error_and_no_panic() {
+    let mut lines = beams_4_2_2(vec![117.0], &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1);
+    lines.measured.clear();
+    assert!(identify_lines(&lines, JointModel::Full, None, &Bands::default()).is_err());
+    let lines = Lines {
+        frequency_hz: Vec::new(),
+        a_joint: Vec::new(),
+        b: Vec::new(),
+        assembly: Vec::new(),
+        ..beams_4_2_2(vec![117.0], &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1)
+    };
+    assert!(identify_lines(&lines, JointModel::Full, None, &Bands::default()).is_err());
 }

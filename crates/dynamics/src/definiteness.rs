@@ -9,7 +9,8 @@ const ROUNDING: f64 = 1e-12;
 #[must_use]
 pub fn is_positive_semidefinite<const D: usize>(matrix: &[[f64; D]; D]) -> bool {
     let diagonal: [f64; D] = std::array::from_fn(|i| matrix[i][i]);
-    if diagonal.iter().any(|entry| entry.is_nan() || *entry < 0.0) {
+    let finite = matrix.iter().flatten().all(|entry| entry.is_finite());
+    if !finite || diagonal.iter().any(|entry| *entry < 0.0) {
         return false;
     }
     // S_ij = A_ij / √(A_ii A_jj); a row whose diagonal is zero must be zero altogether.
@@ -72,5 +73,13 @@ mod tests {
         ]));
         assert!(!is_positive_semidefinite(&[[-1e-9]]));
         assert!(!is_positive_semidefinite(&[[f64::NAN]]));
+        assert!(!is_positive_semidefinite(&[
+            [1.0, f64::NAN],
+            [f64::NAN, 1.0]
+        ]));
+        assert!(!is_positive_semidefinite(&[
+            [f64::INFINITY, 1.0],
+            [1.0, 1.0]
+        ]));
     }
 }

@@ -239,6 +239,8 @@ fn a_joint_without_rotation_has_no_rotational_variable() {
             "b.k_y",
             "b.c_y",
             "step_size_max",
+            "a.acceleration",
+            "b.acceleration",
         ]
     );
     let xml = text(&fmu, "modelDescription.xml").unwrap();

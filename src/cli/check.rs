@@ -132,7 +132,7 @@ fn fmu(path: &Path) -> Result<Report, CliError> {
         facts.push(format!("RK4 steps of at most {} s", number(step_s, 2)));
     }
     Ok(Report {
-        kind: "FMU (FMI 3.0, co-simulation)",
+        kind: "FMU (FMI 3.0, Co-Simulation and Model Exchange)",
         facts,
         findings: inspection.findings,
     })

@@ -1,4 +1,4 @@
-//! From a joint file to an FMU (FMI 3.0, co-simulation) that any FMI tool can load.
+//! From a joint file to an FMU (FMI 3.0, Co-Simulation and Model Exchange) that any FMI tool can load.
 //!
 //! Nothing is compiled: the FMU's library is the same for every joint and is carried inside this crate. [`fmu_bytes`]
 //! writes the model description, the start values that the library reads, the documentation, and the archive around them.

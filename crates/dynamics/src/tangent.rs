@@ -1,4 +1,4 @@
-//! Exact directional derivatives of what the joint and the lap put out: how each result changes with motion and
+//! Exact directional derivatives of what the joint and the lap put out: how each result changes with motion, loads and
 //! parameters, to first order.
 //!
 //! A change of parameters has the type of the parameters themselves, so that each function takes the point and the
@@ -6,7 +6,7 @@
 
 use crate::{
     joint::{JointLaw, Motion},
-    lap::{Body, Lap, LapState},
+    lap::{Body, Lap, LapLoads, LapState},
     vector::{dot, product},
 };
 
@@ -118,4 +118,71 @@ impl<const D: usize> Lap<D> {
                 &relative_change.velocity,
             )
     }
+
+    /// Accelerations of body a and of body b: m/s², rad/s².
+    #[must_use]
+    pub fn accelerations(&self, state: &LapState<D>, loads: &LapLoads<D>) -> [[f64; D]; 2] {
+        let on_b = self.joint.load_on_b(&state.a.relative_to(&state.b));
+        // m_a ẍ_a = F_a − k_a x_a − c_a ẋ_a − F_joint, m_b ẍ_b = F_b − k_b x_b − c_b ẋ_b + F_joint
+        let of_body = |body: &Body<D>, motion: &Motion<D>, load: &[f64; D], sign: f64| {
+            let held = support(body, motion);
+            std::array::from_fn(|i| (load[i] - held[i] + sign * on_b[i]) / body.inertia[i])
+        };
+        [
+            of_body(&self.a, &state.a, &loads.a, -1.0),
+            of_body(&self.b, &state.b, &loads.b, 1.0),
+        ]
+    }
+
+    /// Change of [`Lap::accelerations`] with the parameters, the state and the loads.
+    #[must_use]
+    pub fn accelerations_tangent(
+        &self,
+        lap_change: &Self,
+        [state, state_change]: [&LapState<D>; 2],
+        [loads, loads_change]: [&LapLoads<D>; 2],
+    ) -> [[f64; D]; 2] {
+        let [relative, relative_change] = [state, state_change].map(|x| x.a.relative_to(&x.b));
+        let on_b = self
+            .joint
+            .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
+        let [of_a, of_b] = self.accelerations(state, loads);
+        // m dẍ = dF − d(k x + c ẋ) ∓ dF_joint − dm ẍ
+        let of_body = |bodies: [&Body<D>; 2],
+                       motions: [&Motion<D>; 2],
+                       load_change: &[f64; D],
+                       sign: f64,
+                       acceleration: &[f64; D]| {
+            let [body, body_change] = bodies;
+            let [motion, motion_change] = motions;
+            let (by_body, by_motion) = (support(body_change, motion), support(body, motion_change));
+            std::array::from_fn(|i| {
+                let force = load_change[i] - by_body[i] - by_motion[i] + sign * on_b[i];
+                (force - body_change.inertia[i] * acceleration[i]) / body.inertia[i]
+            })
+        };
+        [
+            of_body(
+                [&self.a, &lap_change.a],
+                [&state.a, &state_change.a],
+                &loads_change.a,
+                -1.0,
+                &of_a,
+            ),
+            of_body(
+                [&self.b, &lap_change.b],
+                [&state.b, &state_change.b],
+                &loads_change.b,
+                1.0,
+                &of_b,
+            ),
+        ]
+    }
+}
+
+/// Load that the support takes: k x + c ẋ.
+fn support<const D: usize>(body: &Body<D>, motion: &Motion<D>) -> [f64; D] {
+    std::array::from_fn(|i| {
+        body.stiffness[i] * motion.displacement[i] + body.damping[i] * motion.velocity[i]
+    })
 }

@@ -9,6 +9,7 @@
 //! | 4 + n | length of the instantiation token, and the token |
 //! | 1 | kind: 0 element, 1 lap |
 //! | 1 | degrees of freedom |
+//! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
@@ -18,7 +19,7 @@
 use std::{fmt, sync::Arc};
 
 use crate::{
-    interface::{Dofs, Kind, REFERENCE_COUNT, Values, Variables},
+    interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
     refusal::Refusal,
@@ -32,6 +33,8 @@ const VERSION: u32 = 2;
 pub(crate) struct Identity {
     /// Kind and degrees of freedom.
     pub(crate) variables: Variables,
+    /// Who integrates.
+    pub(crate) interface_type: InterfaceType,
     /// Instantiation token.
     pub(crate) token: String,
 }
@@ -41,9 +44,10 @@ impl fmt::Display for Identity {
         let Variables { kind, dofs } = self.variables;
         write!(
             f,
-            "{} with {} DOF a side, token {}",
+            "{} with {} DOF a side for {}, token {}",
             kind.name(),
             dofs.count(),
+            self.interface_type.name(),
             self.token
         )
     }
@@ -104,13 +108,17 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 3;
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 4;
         header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
     }
 
     /// The state in bytes.
     pub(crate) fn serialize(&self) -> Vec<u8> {
-        let Identity { variables, token } = &*self.identity;
+        let Identity {
+            variables,
+            interface_type,
+            token,
+        } = &*self.identity;
         let mut bytes = Vec::with_capacity(self.serialized_size());
         bytes.extend(MAGIC);
         bytes.extend(VERSION.to_le_bytes());
@@ -118,6 +126,10 @@ impl Snapshot {
         bytes.extend(token.as_bytes());
         bytes.push(kind_number(variables.kind));
         bytes.push(variables.dofs.count());
+        bytes.push(match interface_type {
+            InterfaceType::CoSimulation => 0,
+            InterfaceType::ModelExchange => 1,
+        });
         bytes.push(self.mode.number());
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
@@ -168,8 +180,19 @@ impl Snapshot {
                 .into());
             }
         };
+        let interface_type = match reader.u8()? {
+            0 => InterfaceType::CoSimulation,
+            1 => InterfaceType::ModelExchange,
+            _ => {
+                return Err(Damage::Field {
+                    name: "interface type",
+                }
+                .into());
+            }
+        };
         let found = Identity {
             variables: Variables { kind, dofs },
+            interface_type,
             token,
         };
         if found != **identity {
@@ -178,7 +201,9 @@ impl Snapshot {
                 expected: identity.to_string(),
             });
         }
-        let mode = Mode::from_number(reader.u8()?).ok_or(Damage::Field { name: "mode" })?;
+        let mode = Mode::from_number(reader.u8()?)
+            .filter(|mode| mode.belongs_to(interface_type))
+            .ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;
         if !stop_s.is_finite() {

@@ -1,12 +1,13 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
 mod derivatives;
+mod model_exchange;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
     fmu_state::{Identity, Snapshot},
-    interface::{REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
+    interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
     models::{self, CommunicationStep, Model},
     pace::Pace,
@@ -15,7 +16,7 @@ use crate::{
 };
 
 /// Roles whose values are calculated only when somebody asks.
-const CALCULATED: Roles = Roles::of(&[Role::Output]);
+const CALCULATED: Roles = Roles::of(&[Role::Output, Role::Derivative]);
 
 /// Parameters, after a change of which the model has to be prepared again.
 const PARAMETERS: Roles = Roles::of(&[Role::Parameter]);
@@ -36,7 +37,11 @@ pub(crate) struct Instance {
 
 impl Instance {
     /// Instance of the FMU with these start values, if `token` is its token.
-    pub(crate) fn new(file: StartFile, token: &str) -> Result<Self, Refusal> {
+    pub(crate) fn new(
+        file: StartFile,
+        token: &str,
+        interface_type: InterfaceType,
+    ) -> Result<Self, Refusal> {
         let StartFile {
             variables,
             token: expected,
@@ -51,6 +56,7 @@ impl Instance {
         Ok(Self {
             identity: Arc::new(Identity {
                 variables,
+                interface_type,
                 token: expected,
             }),
             roles: variables.roles(),
@@ -76,7 +82,7 @@ impl Instance {
         start_s: f64,
         stop_s: Option<f64>,
     ) -> Result<(), Refusal> {
-        self.require(Mode::Instantiated)?;
+        self.require(&[Mode::Instantiated])?;
         if !start_s.is_finite() {
             return Err(Refusal::StartTime { found_s: start_s });
         }
@@ -93,16 +99,22 @@ impl Instance {
 
     /// Ends initialisation: the parameters take effect. If they cannot, the importer may still set others.
     pub(crate) fn exit_initialization(&mut self) -> Result<Option<Active>, Refusal> {
-        self.require(Mode::Initialization)?;
+        self.require(&[Mode::Initialization])?;
         let warning = self.prepare_model()?;
         self.parameters_changed = false;
-        self.mode = Mode::Step;
+        self.mode = match self.interface_type() {
+            InterfaceType::CoSimulation => Mode::Step,
+            InterfaceType::ModelExchange => Mode::Event,
+        };
         Ok(warning)
     }
 
     /// Ends the simulation.
     pub(crate) fn terminate(&mut self) -> Result<(), Refusal> {
-        self.require(Mode::Step)?;
+        self.require(match self.interface_type() {
+            InterfaceType::CoSimulation => &[Mode::Step],
+            InterfaceType::ModelExchange => &[Mode::Event, Mode::ContinuousTime],
+        })?;
         self.mode = Mode::Terminated;
         Ok(())
     }
@@ -132,10 +144,7 @@ impl Instance {
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if roles.intersects(CALCULATED) {
-                if self.outputs_stale {
-                    self.model.calculate_outputs(&mut self.values);
-                    self.outputs_stale = false;
-                }
+                self.calculate_outputs();
                 if !self.values[index].is_finite() {
                     return Err(self.overflow(index));
                 }
@@ -179,7 +188,10 @@ impl Instance {
         current_s: f64,
         interval_s: f64,
     ) -> Result<Option<Active>, Refusal> {
-        self.require(Mode::Step)?;
+        if self.mode != Mode::Step {
+            self.require_type(InterfaceType::CoSimulation)?;
+            self.require(&[Mode::Step])?;
+        }
         let end_s = self.end_of_step(current_s, interval_s)?;
         let warning = if self.parameters_changed {
             self.prepare_model()?
@@ -260,8 +272,22 @@ impl Instance {
         }
     }
 
-    fn require(&self, expected: Mode) -> Result<(), Refusal> {
-        if self.mode == expected {
+    fn interface_type(&self) -> InterfaceType {
+        self.identity.interface_type
+    }
+
+    /// Refuses functions of another interface type than the instance's.
+    pub(crate) fn require_type(&self, expected: InterfaceType) -> Result<(), Refusal> {
+        let found = self.interface_type();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(Refusal::OtherInterfaceType { found, expected })
+        }
+    }
+
+    fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
+        if expected.contains(&self.mode) {
             Ok(())
         } else {
             Err(Refusal::WrongMode {
@@ -314,9 +340,19 @@ impl Instance {
         Ok(end_s)
     }
 
+    /// Brings outputs and derivatives up to date.
+    #[inline]
+    fn calculate_outputs(&mut self) {
+        if self.outputs_stale {
+            self.model.calculate_outputs(&mut self.values);
+            self.outputs_stale = false;
+        }
+    }
+
     #[cold]
     fn prepare_model(&mut self) -> Result<Option<Active>, Refusal> {
-        self.model.prepare(&self.values)
+        let interface_type = self.interface_type();
+        self.model.prepare(&self.values, interface_type)
     }
 
     #[cold]

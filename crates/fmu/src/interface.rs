@@ -19,6 +19,17 @@ pub(crate) struct Variable {
     pub(crate) rotational: bool,
 }
 
+/// One continuous state of Model Exchange.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ContinuousState {
+    /// Value reference of the state.
+    pub(crate) reference: usize,
+    /// Value reference of its derivative.
+    pub(crate) derivative: usize,
+    /// Typical magnitude, in the state's unit.
+    pub(crate) nominal: f64,
+}
+
 /// What a variable is to the library; each role is one bit of a [`Roles`] set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -33,6 +44,8 @@ pub(crate) enum Role {
     State = 8,
     /// Calculated output.
     Output = 16,
+    /// Derivative of a continuous state, calculated; exposed as a local variable.
+    Derivative = 32,
 }
 
 impl fmt::Display for Role {
@@ -43,6 +56,7 @@ impl fmt::Display for Role {
             Self::Input => "an input",
             Self::State => "a state",
             Self::Output => "a calculated output",
+            Self::Derivative => "a calculated derivative",
         })
     }
 }
@@ -75,6 +89,25 @@ impl Roles {
 
 /// Values of all variables of an FMU, by value reference.
 pub(crate) type Values = [f64; REFERENCE_COUNT];
+
+/// Who integrates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum InterfaceType {
+    /// The library, from one communication point to the next.
+    CoSimulation,
+    /// The importer.
+    ModelExchange,
+}
+
+impl InterfaceType {
+    /// Name for messages.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::CoSimulation => "Co-Simulation",
+            Self::ModelExchange => "Model Exchange",
+        }
+    }
+}
 
 /// Which of the two FMUs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,6 +172,17 @@ impl Variables {
     /// All variables with their value references, in ascending order.
     pub(crate) fn iter(self) -> impl Iterator<Item = (usize, &'static Variable)> {
         (0..REFERENCE_COUNT).filter_map(move |reference| Some((reference, self.get(reference)?)))
+    }
+
+    /// Continuous states, in the order of the model structure.
+    pub(crate) fn continuous_states(self) -> impl Iterator<Item = &'static ContinuousState> {
+        let states = match self.kind {
+            Kind::Element => ELEMENT_STATES,
+            Kind::Lap => LAP_STATES,
+        };
+        states
+            .iter()
+            .filter(move |state| self.get(state.reference).is_some())
     }
 
     /// Name of the variable with this value reference, for messages.

@@ -1,8 +1,8 @@
-//! The state machine of FMI for Co-Simulation without Event Mode (FMI 3.0, 2.3 and 4.2.1).
+//! The state machines of FMI for Model Exchange, and for Co-Simulation without Event Mode (FMI 3.0, 2.3, 3.2.1, 4.2.1).
 
 use std::fmt;
 
-use crate::interface::{Role, Roles};
+use crate::interface::{InterfaceType, Role, Roles};
 
 /// State of the state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,8 +11,12 @@ pub(crate) enum Mode {
     Instantiated,
     /// Between entering and leaving initialisation.
     Initialization,
-    /// Between communication steps.
+    /// Co-Simulation: between communication steps.
     Step,
+    /// Model Exchange: at an event, where parameters and inputs may jump.
+    Event,
+    /// Model Exchange: between events, while the importer integrates.
+    ContinuousTime,
     /// After termination, and after a failed simulation: values can still be read.
     Terminated,
 }
@@ -25,8 +29,20 @@ impl Mode {
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
         match self {
             Self::Instantiated | Self::Initialization => START,
-            Self::Step => TUNABLE,
+            Self::Step | Self::Event => TUNABLE,
+            Self::ContinuousTime => Roles::of(&[Role::Input]),
             Self::Terminated => Roles::NONE,
+        }
+    }
+
+    /// Whether the state machine of this interface type has this mode.
+    pub(crate) const fn belongs_to(self, interface_type: InterfaceType) -> bool {
+        match self {
+            Self::Instantiated | Self::Initialization | Self::Terminated => true,
+            Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
+            Self::Event | Self::ContinuousTime => {
+                matches!(interface_type, InterfaceType::ModelExchange)
+            }
         }
     }
 
@@ -38,8 +54,11 @@ impl Mode {
         match self {
             Self::Instantiated => None,
             // the initial unknowns: a state is given there
-            Self::Initialization => Some((Roles::of(&[Role::Output]), KNOWN)),
-            Self::Step | Self::Terminated => Some((Roles::of(&[Role::State, Role::Output]), KNOWN)),
+            Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
+            Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
+                Roles::of(&[Role::State, Role::Output, Role::Derivative]),
+                KNOWN,
+            )),
         }
     }
 
@@ -50,6 +69,8 @@ impl Mode {
             Self::Initialization => 1,
             Self::Step => 2,
             Self::Terminated => 3,
+            Self::Event => 4,
+            Self::ContinuousTime => 5,
         }
     }
 
@@ -60,6 +81,8 @@ impl Mode {
             1 => Some(Self::Initialization),
             2 => Some(Self::Step),
             3 => Some(Self::Terminated),
+            4 => Some(Self::Event),
+            5 => Some(Self::ContinuousTime),
             _ => None,
         }
     }
@@ -71,6 +94,8 @@ impl fmt::Display for Mode {
             Self::Instantiated => "Instantiated",
             Self::Initialization => "Initialization Mode",
             Self::Step => "Step Mode",
+            Self::Event => "Event Mode",
+            Self::ContinuousTime => "Continuous-Time Mode",
             Self::Terminated => "Terminated",
         })
     }

@@ -3,7 +3,11 @@
 use std::fmt;
 
 use crate::{
-    fmu_state::Damage, interface::Role, mode::Mode, models::SUBSTEPS_MAX, resources::ResourceError,
+    fmu_state::Damage,
+    interface::{InterfaceType, Role},
+    mode::Mode,
+    models::SUBSTEPS_MAX,
+    resources::ResourceError,
     start_file::StartFileError,
 };
 
@@ -14,7 +18,15 @@ use crate::{
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Refusal {
     /// The call is not allowed in this mode.
-    WrongMode { found: Mode, expected: Mode },
+    WrongMode {
+        found: Mode,
+        expected: &'static [Mode],
+    },
+    /// The function belongs to another interface type.
+    OtherInterfaceType {
+        found: InterfaceType,
+        expected: InterfaceType,
+    },
     /// No variable has this value reference.
     UnknownReference { reference: u32 },
     /// The variable exists, but not in this type.
@@ -64,12 +76,18 @@ pub(crate) enum Refusal {
         found: usize,
         expected: usize,
     },
+    /// An array of states has the wrong length.
+    StateCount { found: usize, expected: usize },
+    /// Event indicators are asked for.
+    IndicatorCount { found: usize },
     /// The memory for a serialised FMU state has the wrong size, in bytes.
     Size { found: usize, expected: usize },
     /// The start time is NaN or infinite.
     StartTime { found_s: f64 },
     /// The stop time is not a number after the start time.
     StopTime { start_s: f64, found_s: f64 },
+    /// The time is NaN or infinite.
+    Time { found_s: f64 },
     /// The communication step is not positive and finite.
     StepSize { found_s: f64 },
     /// The communication step is too small to change the time.
@@ -143,14 +161,22 @@ impl Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::WrongMode { found, expected } => write!(
-                f,
-                "is not allowed in state {found}, only in {expected}{}",
-                if *found == Mode::Terminated {
-                    "; reset the instance or restore a saved state to continue"
-                } else {
-                    ""
+            Self::WrongMode { found, expected } => {
+                write!(f, "is not allowed in state {found}, only in ")?;
+                for (index, mode) in expected.iter().enumerate() {
+                    let separator = if index == 0 { "" } else { " or " };
+                    write!(f, "{separator}{mode}")?;
                 }
+                if *found == Mode::Terminated {
+                    f.write_str("; reset the instance or restore a saved state to continue")?;
+                }
+                Ok(())
+            }
+            Self::OtherInterfaceType { found, expected } => write!(
+                f,
+                "is not provided by this FMU: it belongs to {}, the instance is for {}",
+                expected.name(),
+                found.name()
             ),
             Self::UnknownReference { reference } => write!(
                 f,
@@ -199,6 +225,14 @@ impl fmt::Display for Refusal {
                 f,
                 "argument {argument} is {found}, expected {expected}: every variable is a scalar"
             ),
+            Self::StateCount { found, expected } => write!(
+                f,
+                "argument nContinuousStates is {found}, expected {expected}, the number of continuous states"
+            ),
+            Self::IndicatorCount { found } => write!(
+                f,
+                "argument nEventIndicators is {found}, expected 0: there are no event indicators"
+            ),
             Self::Size { found, expected } => write!(
                 f,
                 "argument size is {found}, but the serialised FMU state has {expected} bytes"
@@ -208,6 +242,7 @@ impl fmt::Display for Refusal {
                 f,
                 "stopTime is {found_s}, expected a finite number not before startTime = {start_s} s"
             ),
+            Self::Time { found_s } => write!(f, "time is {found_s}, expected a finite number"),
             Self::StepSize { found_s } => write!(
                 f,
                 "communicationStepSize is {found_s}, expected a finite number greater than zero"

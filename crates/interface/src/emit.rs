@@ -10,7 +10,7 @@ use crate::{
 impl Interfaces {
     /// Rust source of the tables: value references as constants, one array of variables for each FMU.
     ///
-    /// The including module has to offer `Variable` (with the fields written here) and `Role`.
+    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here) and `Role`.
     #[must_use]
     pub fn to_rust(&self) -> String {
         let mut source = String::from(
@@ -47,8 +47,10 @@ impl Interfaces {
             );
         }
         line(&mut source, "}");
-        table(&mut source, "ELEMENT", &self.element, count);
-        table(&mut source, "LAP", &self.lap, count);
+        for (name, interface) in [("ELEMENT", &self.element), ("LAP", &self.lap)] {
+            table(&mut source, name, interface, count);
+            states(&mut source, name, interface);
+        }
         source
     }
 
@@ -90,6 +92,27 @@ fn table(source: &mut String, name: &str, interface: &Interface, count: usize) {
                 ),
             ),
         }
+    }
+    line(source, "];");
+}
+
+fn states(source: &mut String, name: &str, interface: &Interface) {
+    line(
+        source,
+        &format!("/// Continuous states of `{}`.", interface.file),
+    );
+    line(
+        source,
+        &format!("pub(crate) static {name}_STATES: &[ContinuousState] = &["),
+    );
+    for state in &interface.continuous_states {
+        line(
+            source,
+            &format!(
+                "    ContinuousState {{ reference: {}, derivative: {}, nominal: {:?} }},",
+                state.reference, state.derivative, state.nominal
+            ),
+        );
     }
     line(source, "];");
 }

@@ -45,6 +45,19 @@ pub enum Problem {
     /// There is no `CoSimulation` element.
     #[error("has no <CoSimulation> element; the library implements Co-Simulation, so declare it")]
     NoCoSimulation,
+    /// There is no `ModelExchange` element.
+    #[error("has no <ModelExchange> element; the library implements Model Exchange, so declare it")]
+    NoModelExchange,
+    /// The two interface types name different libraries.
+    #[error(
+        "modelIdentifier is \"{model_exchange}\" in <ModelExchange> and \"{co_simulation}\" in <CoSimulation>; one library implements both"
+    )]
+    TwoModelIdentifiers {
+        /// Identifier in `ModelExchange`.
+        model_exchange: String,
+        /// Identifier in `CoSimulation`.
+        co_simulation: String,
+    },
     /// The model identifier cannot name a C function and a library file.
     #[error(
         "modelIdentifier \"{found}\" is not a C identifier; use letters, digits and underscores only"
@@ -225,7 +238,7 @@ pub enum Problem {
     },
     /// Legal in FMI, but nothing that the library implements.
     #[error(
-        "variable \"{variable}\" has causality {causality:?}, variability {variability:?} and initial {initial:?}, which the library does not implement; use a tunable parameter, a continuous input, or a continuous output that is exact (a state) or calculated"
+        "variable \"{variable}\" has causality {causality:?}, variability {variability:?} and initial {initial:?}, which the library does not implement; use a tunable parameter, a continuous input, or a continuous output that is exact (a state) or calculated, or a local derivative"
     )]
     NoRole {
         /// Variable's name.
@@ -302,6 +315,14 @@ pub enum Problem {
         of: String,
         /// That variable's unit.
         of_unit: String,
+    },
+    /// A continuous state has no derivative.
+    #[error(
+        "state \"{variable}\" has no derivative; declare a variable with its valueReference as derivative"
+    )]
+    NoDerivative {
+        /// State's name.
+        variable: String,
     },
     /// A value reference in the model structure points nowhere.
     #[error("<{element}> refers to valueReference {reference}, which no variable has")]

@@ -23,6 +23,8 @@ pub struct Interface {
     pub model_identifier: String,
     /// Variables in the order of their value references.
     pub variables: Vec<Variable>,
+    /// Continuous states, in the order of their derivatives in the model structure.
+    pub continuous_states: Vec<ContinuousState>,
     /// Names of the log categories, in the order of the file.
     pub log_categories: Vec<String>,
     pub(crate) description: Fmi3ModelDescription,
@@ -75,14 +77,28 @@ impl Interface {
         variables.sort_by_key(|variable| variable.reference);
         units::check_derivatives(&variables, &description)?;
         structure::check(&description.model_structure, &variables)?;
+        let continuous_states =
+            structure::continuous_states(&description.model_structure, &variables)?;
         Ok(Self {
             file: file.to_owned(),
             model_identifier,
             variables,
+            continuous_states,
             log_categories,
             description,
         })
     }
+}
+
+/// A continuous state of Model Exchange.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContinuousState {
+    /// Value reference of the state.
+    pub reference: u32,
+    /// Value reference of its derivative.
+    pub derivative: u32,
+    /// Typical magnitude of the state, in its unit.
+    pub nominal: f64,
 }
 
 /// Interfaces of both FMUs, checked against each other.
@@ -151,6 +167,17 @@ fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {
         .as_ref()
         .map(|co_simulation| co_simulation.model_identifier.clone())
         .ok_or(Problem::NoCoSimulation)?;
+    let of_model_exchange = description
+        .model_exchange
+        .as_ref()
+        .map(|model_exchange| &model_exchange.model_identifier)
+        .ok_or(Problem::NoModelExchange)?;
+    if *of_model_exchange != identifier {
+        return Err(Problem::TwoModelIdentifiers {
+            model_exchange: of_model_exchange.clone(),
+            co_simulation: identifier,
+        });
+    }
     let is_c_identifier = identifier.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && identifier
             .chars()

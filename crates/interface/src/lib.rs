@@ -15,6 +15,6 @@ mod units;
 mod variable;
 
 pub use error::{InterfaceError, Problem};
-pub use interface::{Interface, Interfaces};
+pub use interface::{ContinuousState, Interface, Interfaces};
 pub use rotation::requires_rotation;
 pub use variable::{Role, Variable};

@@ -2,14 +2,14 @@
 
 /// Whether a variable of this name exists only where the joint has a rotational degree of freedom.
 ///
-/// The rule: the last part of the structured name, cut at its underscores, contains `omega`, `M`, `J` or a word that
+/// The rule: the last part of the structured name, cut at its underscores, contains `omega`, `alpha`, `M`, `J` or a word that
 /// ends in `theta`. So `a.omega`, `b.M`, `a.J`, `a.c_theta`, `joint.k_ytheta` and `joint.k3_theta` need rotation;
 /// `a.m`, `joint.k_yy` and `step_size_max` do not.
 #[must_use]
 pub fn requires_rotation(name: &str) -> bool {
     let last = name.rsplit('.').next().unwrap_or(name);
     last.split('_')
-        .any(|word| matches!(word, "omega" | "M" | "J") || word.ends_with("theta"))
+        .any(|word| matches!(word, "omega" | "alpha" | "M" | "J") || word.ends_with("theta"))
 }
 
 #[cfg(test)]
@@ -21,6 +21,7 @@ mod tests {
         for name in [
             "a.theta",
             "b.omega",
+            "a.alpha",
             "a.M",
             "joint.M",
             "b.J",
@@ -35,6 +36,7 @@ mod tests {
             "time",
             "a.y",
             "b.v",
+            "b.acceleration",
             "a.F",
             "joint.F",
             "a.m",

@@ -4,6 +4,7 @@ use fmi_schema::fmi3::{DependenciesKind, Fmi3Unknown, ModelStructure};
 
 use crate::{
     error::Problem,
+    interface::ContinuousState,
     variable::{Role, Variable},
 };
 
@@ -16,37 +17,74 @@ pub(crate) fn check(structure: &ModelStructure, variables: &[Variable]) -> Resul
         variables,
     };
     outputs.check_entries(|variable| matches!(variable.role, Role::Output | Role::State))?;
-    outputs.check_dependencies(|known| {
-        matches!(
-            known.role,
-            Role::Input | Role::Parameter | Role::Independent
-        )
-    })?;
-    // Initial unknowns: every output that is not given exactly
+    outputs.check_dependencies(is_known)?;
+    // Initial unknowns: every output and every derivative that is not given exactly
     let initial = List {
         element: "InitialUnknown",
         entries: structure.initial_unknowns().collect(),
         variables,
     };
-    initial.check_entries(|variable| variable.role == Role::Output)?;
-    initial.check_dependencies(|known| known.role != Role::Output)?;
+    initial.check_entries(|variable| matches!(variable.role, Role::Output | Role::Derivative))?;
+    initial.check_dependencies(is_known)?;
     initial.check_initial_kinds()?;
-    // State derivatives: whatever is listed says of which state it is the derivative
+    // State derivatives: that of every state, each once
     let derivatives = List {
         element: "ContinuousStateDerivative",
         entries: structure.continuous_state_derivatives().collect(),
         variables,
     };
-    for entry in &derivatives.entries {
-        let variable = derivatives.variable(entry.value_reference)?;
-        if variable.derivative_of.is_none() {
-            return Err(Problem::UnexpectedUnknown {
-                element: derivatives.element,
-                variable: variable.name.clone(),
+    derivatives.check_entries(|variable| state_of(variable, variables).is_some())?;
+    derivatives.check_dependencies(is_known)
+}
+
+/// The continuous states, in the order of their derivatives.
+pub(crate) fn continuous_states(
+    structure: &ModelStructure,
+    variables: &[Variable],
+) -> Result<Vec<ContinuousState>, Problem> {
+    let mut states = Vec::new();
+    for entry in structure.continuous_state_derivatives() {
+        let derivative = variables
+            .iter()
+            .find(|variable| variable.reference == entry.value_reference);
+        if let Some(state) = derivative.and_then(|derivative| state_of(derivative, variables)) {
+            states.push(ContinuousState {
+                reference: state.reference,
+                derivative: entry.value_reference,
+                nominal: state.nominal,
             });
         }
     }
-    Ok(())
+    let is_listed = |variable: &Variable| {
+        states
+            .iter()
+            .any(|state| state.reference == variable.reference)
+    };
+    match variables
+        .iter()
+        .find(|variable| variable.role == Role::State && !is_listed(variable))
+    {
+        Some(state) => Err(Problem::NoDerivative {
+            variable: state.name.clone(),
+        }),
+        None => Ok(states),
+    }
+}
+
+/// The continuous state that `variable` is the derivative of.
+fn state_of<'a>(variable: &Variable, variables: &'a [Variable]) -> Option<&'a Variable> {
+    let reference = variable.derivative_of?;
+    variables
+        .iter()
+        .find(|candidate| candidate.reference == reference && candidate.role == Role::State)
+}
+
+/// Whether outputs and derivatives may depend on the variable.
+fn is_known(variable: &Variable) -> bool {
+    matches!(
+        variable.role,
+        Role::Input | Role::State | Role::Parameter | Role::Independent
+    )
 }
 
 /// One kind of unknown in the model structure.

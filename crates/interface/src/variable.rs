@@ -21,6 +21,8 @@ pub enum Role {
     State,
     /// Output that is calculated.
     Output,
+    /// Local variable that is calculated, as the derivative of a continuous state.
+    Derivative,
 }
 
 /// A variable of an FMU, checked.
@@ -134,6 +136,11 @@ fn role(declared: &FmiFloat64) -> Result<Role, Problem> {
         (Causality::Input, Variability::Continuous, _) => Ok(Role::Input),
         (Causality::Output, Variability::Continuous, Some(Initial::Exact)) => Ok(Role::State),
         (Causality::Output, Variability::Continuous, Some(Initial::Calculated)) => Ok(Role::Output),
+        (Causality::Local, Variability::Continuous, Some(Initial::Calculated))
+            if declared.derivative.is_some() =>
+        {
+            Ok(Role::Derivative)
+        }
         // legal in FMI, but nothing that the library implements
         _ => Err(Problem::NoRole {
             variable: declared.name.clone(),

@@ -50,8 +50,12 @@ macro_rules! refused {
 }
 
 refused!(version: LAP, r#"fmiVersion="3.0""# => r#"fmiVersion="2.0""#, Problem::Version { found } if found == "2.0");
-refused!(model_identifier: LAP, r#"modelIdentifier="bolted_joint""# => r#"modelIdentifier="bolted-joint""#,
-    Problem::ModelIdentifier { found } if found == "bolted-joint");
+#[test]
+fn model_identifier() {
+    let xml = LAP.replace("\"bolted_joint\"", "\"bolted-joint\"");
+    let found = "bolted-joint".to_owned();
+    assert_eq!(problem(&xml, "", ""), Problem::ModelIdentifier { found });
+}
 refused!(other_type: LAP, r#"<Float64 name="a.y" valueReference="1""# => r#"<Float32 name="x" valueReference="99"/><Float64 name="a.y" valueReference="1""#,
     Problem::NotFloat64 { variable } if variable == "x");
 refused!(array: LAP, r#"start="2e-5" description="Longest Runge-Kutta step, greater than zero; a communication step takes as many equal steps as needed"/>"#
@@ -133,7 +137,7 @@ refused!(output_of_nothing: LAP, r#"<Output valueReference="1" "# => r#"<Output 
     Problem::UndefinedReference { element: "Output", reference: 77 });
 refused!(output_twice: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="2" "#,
     Problem::DuplicateUnknown { element: "Output", variable } if variable == "a.theta");
-refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies=""/>"# => "",
+refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => "",
     Problem::MissingUnknown { element: "Output", variable } if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
     Problem::UnexpectedUnknown { element: "Output", variable } if variable == "a.F");
@@ -143,25 +147,65 @@ refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "
     Problem::UnexpectedUnknown { element: "InitialUnknown", variable } if variable == "a.y");
 refused!(state_derivative_without_state: LAP, r#"<InitialUnknown valueReference="13""# => r#"<ContinuousStateDerivative valueReference="1"/><InitialUnknown valueReference="13""#,
     Problem::UnexpectedUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.y");
-refused!(no_dependencies: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1"/>"#,
+refused!(no_dependencies: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1"/>"#,
     Problem::NoDependencies { element: "Output", variable } if variable == "a.y");
-refused!(dependency_on_nothing: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="77"/>"#,
+refused!(dependency_on_nothing: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="77"/>"#,
     Problem::UndefinedReference { element: "Output", reference: 77 });
-refused!(dependency_on_output: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="13"/>"#,
+refused!(dependency_on_output: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="13"/>"#,
     Problem::NotKnown { element: "Output", variable, dependency } if variable == "a.y" && dependency == "joint.F");
-refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies=""/>"# => r#"<Output valueReference="1" dependencies="9 9"/>"#,
+refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="9 9"/>"#,
     Problem::DuplicateDependency { element: "Output", variable, dependency } if variable == "a.y" && dependency == "a.F");
-refused!(kind_count: LAP, r#"dependenciesKind="dependent dependent dependent dependent dependent""# => r#"dependenciesKind="dependent""#,
-    Problem::KindCount { element: "Output", variable, dependencies: 5, kinds: 1 } if variable == "joint.F");
+refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
+    Problem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 } if variable == "a.y");
 refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="3 4 7 8 20 21 22 29 30 35 36"/>"#
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
     Problem::InitialKind { variable } if variable == "power.dissipated");
 
+refused!(state_derivative_missing: LAP, r#"<ContinuousStateDerivative valueReference="3" dependencies="3" dependenciesKind="constant"/>"# => "",
+    Problem::MissingUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.v");
+refused!(state_derivative_twice: LAP, r#"<ContinuousStateDerivative valueReference="3""# => r#"<ContinuousStateDerivative valueReference="4""#,
+    Problem::DuplicateUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.omega");
+refused!(state_derivative_of_output: LAP, r#"<ContinuousStateDerivative valueReference="3" dependencies="3""# => r#"<ContinuousStateDerivative valueReference="3" dependencies="13""#,
+    Problem::NotKnown { element: "ContinuousStateDerivative", variable, dependency } if variable == "a.v" && dependency == "joint.F");
+refused!(local_that_is_no_derivative: LAP, r#"declaredType="Acceleration" derivative="3""# => r#"declaredType="Acceleration""#,
+    Problem::NoRole { variable, .. } if variable == "a.acceleration");
+refused!(two_libraries: LAP, r#"<ModelExchange modelIdentifier="bolted_joint""# => r#"<ModelExchange modelIdentifier="lap""#,
+    Problem::TwoModelIdentifiers { model_exchange, co_simulation } if model_exchange == "lap" && co_simulation == "bolted_joint");
+
 #[test]
-fn no_co_simulation() {
-    let start = LAP.find("<CoSimulation").unwrap();
-    let end = start + LAP[start..].find("/>").unwrap() + 2;
-    assert_eq!(problem(LAP, &LAP[start..end], ""), Problem::NoCoSimulation);
+fn an_interface_type_is_missing() {
+    for (element, expected) in [
+        ("<CoSimulation", Problem::NoCoSimulation),
+        ("<ModelExchange", Problem::NoModelExchange),
+    ] {
+        let start = LAP.find(element).unwrap();
+        let end = start + LAP[start..].find("/>").unwrap() + 2;
+        assert_eq!(problem(LAP, &LAP[start..end], ""), expected);
+    }
+}
+
+#[test]
+fn a_state_without_a_derivative() {
+    // body a's acceleration goes, with all that is said about it
+    let declaration = LAP.find(r#"<Float64 name="a.acceleration""#).unwrap();
+    let mut xml = LAP.to_owned();
+    xml.replace_range(
+        declaration..declaration + LAP[declaration..].find("/>").unwrap() + 2,
+        "",
+    );
+    for element in ["ContinuousStateDerivative", "InitialUnknown"] {
+        let start = xml
+            .find(&format!(r#"<{element} valueReference="38""#))
+            .unwrap();
+        let end = start + xml[start..].find("/>").unwrap() + 2;
+        xml.replace_range(start..end, "");
+    }
+    assert_eq!(
+        problem(&xml, "", ""),
+        Problem::NoDerivative {
+            variable: "a.v".to_owned()
+        }
+    );
 }
 
 #[test]
@@ -176,7 +220,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="38""#,
+        r#"name="step_size_max" valueReference="42""#,
     );
     assert_eq!(problem, Problem::Gap { reference: 37 });
     // swap two numbers that occur in declarations only
@@ -257,12 +301,36 @@ fn intact_descriptions_are_accepted() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
     let interfaces = Interfaces::read(&folder).unwrap();
     assert_eq!(interfaces.element.variables.len(), 25);
-    assert_eq!(interfaces.lap.variables.len(), 38);
-    assert_eq!(interfaces.reference_count(), 38);
+    assert_eq!(interfaces.lap.variables.len(), 42);
+    assert_eq!(interfaces.reference_count(), 42);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
     assert_eq!(role(&interfaces.lap, "joint.F"), Some(Role::Output));
+    assert_eq!(
+        role(&interfaces.lap, "a.acceleration"),
+        Some(Role::Derivative)
+    );
+    let states = |interface: &Interface| {
+        let states = interface.continuous_states.iter();
+        states
+            .map(|state| (state.reference, state.derivative))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(states(&interfaces.element), []);
+    assert_eq!(
+        states(&interfaces.lap),
+        [
+            (1, 3),
+            (2, 4),
+            (3, 38),
+            (4, 39),
+            (5, 7),
+            (6, 8),
+            (7, 40),
+            (8, 41)
+        ]
+    );
     let rotational = |interface: &Interface| {
         interface
             .variables
@@ -270,7 +338,7 @@ fn intact_descriptions_are_accepted() {
             .filter(|variable| variable.requires_rotation())
             .count()
     };
-    // θ, ω, M of both sides, M of the joint, five joint parameters; J, k_θ, c_θ of both bodies
+    // θ, ω, M of both sides, M of the joint, five joint parameters; J, k_θ, c_θ, α of both bodies
     assert_eq!(rotational(&interfaces.element), 6 + 1 + 5);
-    assert_eq!(rotational(&interfaces.lap), 6 + 1 + 5 + 6);
+    assert_eq!(rotational(&interfaces.lap), 6 + 1 + 5 + 6 + 2);
 }

@@ -47,7 +47,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{name}</title>\n<style>\n{css}</style>\n</head>\n<body>\n<header>\n<h1>{name}</h1>\n\
-         <p>{summary}. FMI 3.0 co-simulation, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
+         <p>{summary}. FMI 3.0 for Co-Simulation and Model Exchange, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
          <main>\n{sections}</main>\n<footer><p>Instantiation token <code>{token}</code></p></footer>\n\
          </body>\n</html>\n",
         css = include_str!("style.css"),

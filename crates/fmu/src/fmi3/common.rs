@@ -12,6 +12,7 @@ use crate::{
         conclude, handle,
     },
     instance::Instance,
+    interface::InterfaceType,
     logging::{Callback, Category, Logger, Status},
     refusal::Refusal,
     resources::read_start_file,
@@ -110,15 +111,75 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
             });
         }
         // SAFETY: the importer's promise
-        let token = unsafe { text(instantiation_token, "instantiationToken") }?;
-        // SAFETY: the importer's promise
-        let resources = unsafe { optional_text(resource_path, "resourcePath") }?;
-        Instance::new(read_start_file(resources)?, token)
+        unsafe {
+            new_instance(
+                instantiation_token,
+                resource_path,
+                InterfaceType::CoSimulation,
+            )
+        }
     });
+    hand_over("fmi3InstantiateCoSimulation", instance, logger)
+}
+
+/// New instance for Model Exchange, or null after a message that says why not.
+///
+/// # Safety
+///
+/// The strings are terminated or null, the callback is callable.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi3InstantiateModelExchange(
+    instance_name: Text,
+    instantiation_token: Text,
+    resource_path: Text,
+    _visible: Boolean,
+    logging_on: Boolean,
+    instance_environment: *mut c_void,
+    log_message: Option<Callback>,
+) -> Opaque {
+    let logger = Logger::new(log_message, instance_environment, logging_on != 0);
+    let instance = catch_unwind(|| {
+        // SAFETY: the importer's promise
+        unsafe {
+            named(instance_name)?;
+            new_instance(
+                instantiation_token,
+                resource_path,
+                InterfaceType::ModelExchange,
+            )
+        }
+    });
+    hand_over("fmi3InstantiateModelExchange", instance, logger)
+}
+
+/// # Safety
+///
+/// The strings are terminated or null.
+unsafe fn new_instance(
+    token: Text,
+    resource_path: Text,
+    interface_type: InterfaceType,
+) -> Result<Instance, Refusal> {
+    // SAFETY: the caller's promise
+    let (token, resources) = unsafe {
+        (
+            text(token, "instantiationToken")?,
+            optional_text(resource_path, "resourcePath")?,
+        )
+    };
+    Instance::new(read_start_file(resources)?, token, interface_type)
+}
+
+/// Hands the new instance to the importer, or says why there is none.
+fn hand_over(
+    function: &str,
+    instance: std::thread::Result<Result<Instance, Refusal>>,
+    logger: Logger,
+) -> Opaque {
     match instance.unwrap_or(Err(Refusal::Internal)) {
         Ok(instance) => handle::to_c(instance, logger),
         Err(refusal) => {
-            logger.error("fmi3InstantiateCoSimulation", &refusal);
+            logger.error(function, &refusal);
             std::ptr::null_mut()
         }
     }
@@ -136,30 +197,6 @@ unsafe fn named(name: Text) -> Result<(), Refusal> {
         });
     }
     Ok(())
-}
-
-/// Null: there is no Model Exchange.
-///
-/// # Safety
-///
-/// The callback is callable.
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3InstantiateModelExchange(
-    _instance_name: Text,
-    _instantiation_token: Text,
-    _resource_path: Text,
-    _visible: Boolean,
-    logging_on: Boolean,
-    instance_environment: *mut c_void,
-    log_message: Option<Callback>,
-) -> Opaque {
-    let logger = Logger::new(log_message, instance_environment, logging_on != 0);
-    let reason = "modelDescription.xml has no <ModelExchange>; use Co-Simulation";
-    logger.error(
-        "fmi3InstantiateModelExchange",
-        &Refusal::NotProvided { reason },
-    );
-    std::ptr::null_mut()
 }
 
 /// Null: there is no Scheduled Execution.
@@ -181,7 +218,8 @@ unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _unlock_preemption: Option<unsafe extern "C" fn()>,
 ) -> Opaque {
     let logger = Logger::new(log_message, instance_environment, logging_on != 0);
-    let reason = "modelDescription.xml has no <ScheduledExecution>; use Co-Simulation";
+    let reason =
+        "modelDescription.xml has no <ScheduledExecution>; use Co-Simulation or Model Exchange";
     logger.error(
         "fmi3InstantiateScheduledExecution",
         &Refusal::NotProvided { reason },

@@ -14,6 +14,7 @@ mod derivatives;
 mod fmu_state;
 mod handle;
 mod lifecycle;
+mod model_exchange;
 mod not_provided;
 mod variables;
 
@@ -81,7 +82,7 @@ impl fmt::Display for Event {
 ///
 /// # Safety
 ///
-/// `handle` is null or was returned by `fmi3InstantiateCoSimulation` and not freed since, and no other thread uses it.
+/// `handle` is null or was returned by an instantiating function and not freed since, and no other thread uses it.
 #[inline]
 unsafe fn call(
     function: &'static str,

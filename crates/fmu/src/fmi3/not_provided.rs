@@ -1,13 +1,15 @@
 //! Functions that the FMU does not offer: they say so, and why.
 
 use crate::{
-    fmi3::{Boolean, Opaque, ValueReference, call},
+    fmi3::{Opaque, ValueReference, call},
     logging::Status,
     refusal::Refusal,
 };
 
-const EVENT_MODE: &str = "modelDescription.xml has no hasEventMode, the model has no events";
-const MODEL_EXCHANGE: &str = "it belongs to Model Exchange, the instance is for Co-Simulation";
+const EVENT_MODE: &str =
+    "modelDescription.xml has no hasEventMode, the model has no events in Co-Simulation";
+const DISCRETE_STATES: &str =
+    "modelDescription.xml has no providesEvaluateDiscreteStates, there are no discrete states";
 const CONFIGURATION: &str = "there are no structural parameters";
 const OUTPUT_DERIVATIVES: &str = "modelDescription.xml has no maxOutputDerivativeOrder";
 const DEPENDENCIES: &str =
@@ -37,13 +39,8 @@ macro_rules! not_provided {
 
 not_provided! {
     // events and clocked partitions
-    fmi3EnterEventMode(EVENT_MODE;);
     fmi3EnterStepMode(EVENT_MODE;);
-    fmi3EvaluateDiscreteStates(EVENT_MODE;);
-    fmi3UpdateDiscreteStates(EVENT_MODE;
-        _discrete_states_need_update: *mut Boolean, _terminate_simulation: *mut Boolean,
-        _nominals_of_continuous_states_changed: *mut Boolean, _values_of_continuous_states_changed: *mut Boolean,
-        _next_event_time_defined: *mut Boolean, _next_event_time: *mut f64);
+    fmi3EvaluateDiscreteStates(DISCRETE_STATES;);
     fmi3ActivateModelPartition(CLOCKS; _clock_reference: ValueReference, _activation_time: f64);
 
     // clocks
@@ -67,18 +64,4 @@ not_provided! {
         _element_indices_of_independents: *mut usize, _dependency_kinds: *mut i32, _dependency_count: usize);
     fmi3GetOutputDerivatives(OUTPUT_DERIVATIVES;
         _references: *const ValueReference, _count: usize, _orders: *const i32, _values: *mut f64, _value_count: usize);
-
-    // Model Exchange
-    fmi3EnterContinuousTimeMode(MODEL_EXCHANGE;);
-    fmi3CompletedIntegratorStep(MODEL_EXCHANGE;
-        _no_set_fmu_state_prior_to_current_point: Boolean, _enter_event_mode: *mut Boolean,
-        _terminate_simulation: *mut Boolean);
-    fmi3SetTime(MODEL_EXCHANGE; _time: f64);
-    fmi3SetContinuousStates(MODEL_EXCHANGE; _states: *const f64, _count: usize);
-    fmi3GetContinuousStateDerivatives(MODEL_EXCHANGE; _derivatives: *mut f64, _count: usize);
-    fmi3GetEventIndicators(MODEL_EXCHANGE; _indicators: *mut f64, _count: usize);
-    fmi3GetContinuousStates(MODEL_EXCHANGE; _states: *mut f64, _count: usize);
-    fmi3GetNominalsOfContinuousStates(MODEL_EXCHANGE; _nominals: *mut f64, _count: usize);
-    fmi3GetNumberOfEventIndicators(MODEL_EXCHANGE; _count: *mut usize);
-    fmi3GetNumberOfContinuousStates(MODEL_EXCHANGE; _count: *mut usize);
 }

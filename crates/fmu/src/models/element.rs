@@ -1,7 +1,7 @@
 //! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
 
 use crate::{
-    interface::{Values, reference as vr},
+    interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
         sides::{A, B, is_active, joint_law, set_joint_load},
@@ -14,7 +14,7 @@ use crate::{
 pub(super) struct Element<const D: usize>;
 
 impl<const D: usize> Model for Element<D> {
-    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal> {
+    fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
         let [joint_stiffness, joint_damping] = is_active::<D>(&joint_law(values));
         Ok(Active {
             joint_stiffness,
@@ -22,6 +22,10 @@ impl<const D: usize> Model for Element<D> {
             supports: false,
         }
         .warning())
+    }
+
+    fn check_states(&self, _: &Values) -> Result<(), Refusal> {
+        Ok(())
     }
 
     fn advance(&mut self, _: &mut Values, _: CommunicationStep) -> Result<(), Refusal> {

@@ -7,7 +7,7 @@ use bolted_joint_dynamics::{
 };
 
 use crate::{
-    interface::{Dofs, Kind, Values, Variable, Variables, reference as vr},
+    interface::{Dofs, InterfaceType, Kind, Values, Variable, Variables, reference as vr},
     models::{
         CommunicationStep, Model,
         sides::{A, B, is_active, joint_law, set_joint_load},
@@ -59,13 +59,11 @@ enum Propagation<const D: usize> {
 }
 
 impl<const D: usize> Model for LapModel<D> {
-    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal> {
-        let step_size_max_s = values[vr::STEP_SIZE_MAX];
-        if !(step_size_max_s.is_finite() && step_size_max_s > 0.0) {
-            return Err(Refusal::StepSizeMax {
-                found_s: step_size_max_s,
-            });
-        }
+    fn prepare(
+        &mut self,
+        values: &Values,
+        interface_type: InterfaceType,
+    ) -> Result<Option<Active>, Refusal> {
         let lap = lap::<D>(values);
         match lap.defect() {
             Some(Defect::Inertia { on_a, dof, value }) => {
@@ -80,14 +78,9 @@ impl<const D: usize> Model for LapModel<D> {
             Some(Defect::NotFinite) => return Err(Refusal::NotUsable),
             None => {}
         }
-        let spectrum = lap.spectrum().ok_or(Refusal::NotUsable)?;
-        if !spectrum.is_stable_with(step_size_max_s) {
-            // on the whole left half plane RK4 is stable for |hλ| up to about 2.6; stay clear of that
-            let advised_s = 0.9 * STABILITY_LIMIT_REAL / spectrum.largest_modulus();
-            return Err(Refusal::UnstableStep {
-                step_s: step_size_max_s,
-                advised_s,
-            });
+        let step_size_max_s = values[vr::STEP_SIZE_MAX];
+        if interface_type == InterfaceType::CoSimulation {
+            check_step(&lap, step_size_max_s)?;
         }
         self.prepared = Some(Prepared {
             integrator: LapIntegrator::new(&lap),
@@ -110,13 +103,20 @@ impl<const D: usize> Model for LapModel<D> {
         .warning())
     }
 
+    fn check_states(&self, values: &Values) -> Result<(), Refusal> {
+        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
+        let state = state(values);
+        if prepared.holds(&state) {
+            Ok(())
+        } else {
+            Err(prepared.fault(&state, values[vr::TIME]))
+        }
+    }
+
     fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal> {
         let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let start = state::<D>(values);
-        let loads = LapLoads {
-            a: A.load(values),
-            b: B.load(values),
-        };
+        let loads = loads(values);
         let end = prepared.advance(&start, &loads, step)?;
         if !prepared.holds(&end) {
             return Err(prepared.explain(&start, &loads, step));
@@ -133,6 +133,9 @@ impl<const D: usize> Model for LapModel<D> {
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = lap.stored_energy(&state);
         values[vr::POWER_DISSIPATED] = lap.dissipated_power(&state);
+        let [of_a, of_b] = lap.accelerations(&state, &loads(values));
+        A.set_acceleration(values, &of_a);
+        B.set_acceleration(values, &of_b);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -147,6 +150,13 @@ impl<const D: usize> Model for LapModel<D> {
         change[vr::ENERGY_STORED] = lap.stored_energy_tangent(&lap_change, &state, &state_change);
         change[vr::POWER_DISSIPATED] =
             lap.dissipated_power_tangent(&lap_change, &state, &state_change);
+        let [of_a, of_b] = lap.accelerations_tangent(
+            &lap_change,
+            [&state, &state_change],
+            [&loads(values), &loads(change)],
+        );
+        A.set_acceleration(change, &of_a);
+        B.set_acceleration(change, &of_b);
     }
 }
 
@@ -264,6 +274,25 @@ fn stepped<const D: usize>(
     integrator.advance(start, loads, interval_s, count)
 }
 
+/// Whether Runge–Kutta steps of this length follow the lap.
+fn check_step<const D: usize>(lap: &Lap<D>, step_size_max_s: f64) -> Result<(), Refusal> {
+    if !(step_size_max_s.is_finite() && step_size_max_s > 0.0) {
+        return Err(Refusal::StepSizeMax {
+            found_s: step_size_max_s,
+        });
+    }
+    let spectrum = lap.spectrum().ok_or(Refusal::NotUsable)?;
+    if spectrum.is_stable_with(step_size_max_s) {
+        return Ok(());
+    }
+    // on the whole left half plane RK4 is stable for |hλ| up to about 2.6; stay clear of that
+    let advised_s = 0.9 * STABILITY_LIMIT_REAL / spectrum.largest_modulus();
+    Err(Refusal::UnstableStep {
+        step_s: step_size_max_s,
+        advised_s,
+    })
+}
+
 /// Number of Runge–Kutta steps in a communication step.
 #[cold]
 fn count(interval_s: f64, step_size_max_s: f64) -> Result<NonZeroU32, Refusal> {
@@ -299,6 +328,14 @@ fn state<const D: usize>(values: &Values) -> LapState<D> {
     LapState {
         a: A.motion(values),
         b: B.motion(values),
+    }
+}
+
+#[inline]
+fn loads<const D: usize>(values: &Values) -> LapLoads<D> {
+    LapLoads {
+        a: A.load(values),
+        b: B.load(values),
     }
 }
 

@@ -7,7 +7,7 @@ mod sides;
 pub(crate) use lap::SUBSTEPS_MAX;
 
 use crate::{
-    interface::{Dofs, Kind, Values, Variables},
+    interface::{Dofs, InterfaceType, Kind, Values, Variables},
     refusal::{Active, Refusal},
 };
 
@@ -16,18 +16,27 @@ use crate::{
 /// Parameters, inputs and states live in the table of values. A model keeps only what it derives from the parameters.
 pub(crate) trait Model: Send {
     /// Takes the parameters in `values` into use, or refuses them and keeps those in use before.
-    fn prepare(&mut self, values: &Values) -> Result<Option<Active>, Refusal>;
+    ///
+    /// Where the importer integrates, how long its steps may be is its own affair.
+    fn prepare(
+        &mut self,
+        values: &Values,
+        interface_type: InterfaceType,
+    ) -> Result<Option<Active>, Refusal>;
+
+    /// Whether the states in `values` are such that the simulation can go on.
+    fn check_states(&self, values: &Values) -> Result<(), Refusal>;
 
     /// Advances the states over `step`, with the inputs held; on refusal `values` are untouched.
     ///
     /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls.
     fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal>;
 
-    /// Calculates the outputs from parameters, inputs and states.
+    /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
 
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
-    /// variables at the point `values`: writes the outputs' to `change`, exactly.
+    /// variables at the point `values`: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 

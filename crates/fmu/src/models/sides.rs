@@ -9,6 +9,7 @@ pub(super) struct Side {
     pub(super) displacement: [usize; 2],
     velocity: [usize; 2],
     load: [usize; 2],
+    acceleration: [usize; 2],
     pub(super) inertia: [usize; 2],
     stiffness: [usize; 2],
     damping: [usize; 2],
@@ -19,6 +20,7 @@ pub(super) const A: Side = Side {
     displacement: [vr::A_Y, vr::A_THETA],
     velocity: [vr::A_V, vr::A_OMEGA],
     load: [vr::A_FORCE, vr::A_MOMENT],
+    acceleration: [vr::A_ACCELERATION, vr::A_ALPHA],
     inertia: [vr::A_MASS, vr::A_MOMENT_OF_INERTIA],
     stiffness: [vr::A_K_Y, vr::A_K_THETA],
     damping: [vr::A_C_Y, vr::A_C_THETA],
@@ -29,6 +31,7 @@ pub(super) const B: Side = Side {
     displacement: [vr::B_Y, vr::B_THETA],
     velocity: [vr::B_V, vr::B_OMEGA],
     load: [vr::B_FORCE, vr::B_MOMENT],
+    acceleration: [vr::B_ACCELERATION, vr::B_ALPHA],
     inertia: [vr::B_MASS, vr::B_MOMENT_OF_INERTIA],
     stiffness: [vr::B_K_Y, vr::B_K_THETA],
     damping: [vr::B_C_Y, vr::B_C_THETA],
@@ -65,6 +68,14 @@ impl Side {
     #[inline]
     pub(super) fn set_load<const D: usize>(&self, values: &mut Values, load: &[f64; D]) {
         scatter(values, &self.load, load);
+    }
+
+    pub(super) fn set_acceleration<const D: usize>(
+        &self,
+        values: &mut Values,
+        acceleration: &[f64; D],
+    ) {
+        scatter(values, &self.acceleration, acceleration);
     }
 
     pub(super) fn body<const D: usize>(&self, values: &Values) -> Body<D> {

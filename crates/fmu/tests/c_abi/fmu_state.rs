@@ -234,7 +234,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let saved = instance.save();
     let bytes = instance.serialize(saved);
     instance.free_state(saved);
-    // the values end 8 bytes before the end, the last is step_size_max
+    // the values end 8 bytes before the end; step_size_max comes before four accelerations
     let forge = |position: usize, content: &[u8]| {
         let mut forged = bytes.clone();
         forged[position..position + content.len()].copy_from_slice(content);
@@ -247,15 +247,15 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         forged[end..].copy_from_slice(&hash.to_le_bytes());
         forged
     };
-    let last = bytes.len() - 16;
+    let step_size_max = bytes.len() - 8 - 8 * 5;
     assert!(
         instance
-            .deserialize(&forge(last, &1e-6_f64.to_le_bytes()))
+            .deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()))
             .map(|state| instance.free_state(state))
             .is_ok()
     );
     assert_eq!(
-        instance.deserialize(&forge(last, &f64::NAN.to_le_bytes())),
+        instance.deserialize(&forge(step_size_max, &f64::NAN.to_le_bytes())),
         Err(c::ERROR)
     );
     assert!(
@@ -263,7 +263,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
             .error()
             .contains("its value of step_size_max is impossible")
     );
-    let mode = 8 + 4 + 4 + TOKEN.len() + 2;
+    let mode = 8 + 4 + 4 + TOKEN.len() + 3;
     assert_eq!(instance.deserialize(&forge(mode, &[9])), Err(c::ERROR));
     assert!(instance.error().contains("its mode is impossible"));
     let steps_in_a_row = mode + 1 + 1 + 8 + 8;

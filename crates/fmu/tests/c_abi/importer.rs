@@ -37,7 +37,11 @@ pub(crate) mod vr {
     pub(crate) const A_MASS: u32 = 25;
     pub(crate) const B_C_Y: u32 = 35;
     pub(crate) const STEP_SIZE_MAX: u32 = 37;
-    pub(crate) const NONE: u32 = 38;
+    pub(crate) const A_ACCELERATION: u32 = 38;
+    pub(crate) const A_ALPHA: u32 = 39;
+    pub(crate) const B_ACCELERATION: u32 = 40;
+    pub(crate) const B_ALPHA: u32 = 41;
+    pub(crate) const NONE: u32 = 42;
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -176,28 +180,52 @@ impl Default for Request<'_> {
 impl Request<'_> {
     /// The instance, or the messages that say why there is none.
     pub(crate) fn instantiate(&self) -> Result<Instance, Vec<Message>> {
-        let text = |text: Option<&str>| text.map(|text| CString::new(text).unwrap());
-        let pointer =
-            |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
-        let (name, token, resources) = (text(self.name), text(self.token), text(self.resources));
-        let log: *mut Vec<Message> = Box::into_raw(Box::default());
         // SAFETY: all strings are terminated and live through the call, the log lives until the instance is freed
-        let handle = unsafe {
+        self.instantiate_by(|[name, token, resources], log| unsafe {
             c::fmi3InstantiateCoSimulation(
-                pointer(&name),
-                pointer(&token),
-                pointer(&resources),
+                name,
+                token,
+                resources,
                 false,
                 self.logging,
                 self.event_mode,
                 false,
                 self.intermediate.as_ptr(),
                 self.intermediate.len(),
-                log.cast(),
+                log,
                 Some(record),
                 None,
             )
-        };
+        })
+    }
+
+    /// The instance for Model Exchange, or the messages that say why there is none.
+    pub(crate) fn instantiate_model_exchange(&self) -> Result<Instance, Vec<Message>> {
+        // SAFETY: all strings are terminated and live through the call, the log lives until the instance is freed
+        self.instantiate_by(|[name, token, resources], log| unsafe {
+            c::fmi3InstantiateModelExchange(
+                name,
+                token,
+                resources,
+                false,
+                self.logging,
+                log,
+                Some(record),
+            )
+        })
+    }
+
+    fn instantiate_by(
+        &self,
+        function: impl FnOnce([*const c_char; 3], *mut c_void) -> *mut c_void,
+    ) -> Result<Instance, Vec<Message>> {
+        let texts = [self.name, self.token, self.resources]
+            .map(|text| text.map(|text| CString::new(text).unwrap()));
+        let pointers = texts
+            .each_ref()
+            .map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+        let log: *mut Vec<Message> = Box::into_raw(Box::default());
+        let handle = function(pointers, log.cast());
         if handle.is_null() {
             // SAFETY: nobody else has the log any more
             return Err(unsafe { *Box::from_raw(log) });
@@ -239,6 +267,16 @@ impl Instance {
             ..Request::default()
         };
         request.instantiate().unwrap()
+    }
+
+    /// Instance for Model Exchange in state Instantiated.
+    pub(crate) fn exchanging(kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Self {
+        let folder = Folder::with_start(&start_text(kind, dofs, changes));
+        let request = Request {
+            resources: folder.0.to_str(),
+            ..Request::default()
+        };
+        request.instantiate_model_exchange().unwrap()
     }
 
     /// Instance in Step Mode at t = 0.

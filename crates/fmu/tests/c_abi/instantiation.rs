@@ -369,47 +369,81 @@ fn without_a_callback_nothing_is_logged_and_all_works() {
 }
 
 #[test]
-fn other_interface_types_are_refused() {
+fn scheduled_execution_is_refused() {
     let mut log: Vec<Message> = Vec::new();
-    // SAFETY: strings are terminated, the log outlives the calls
+    // SAFETY: strings are terminated, the log outlives the call
     unsafe {
-        let environment = (&raw mut log).cast();
-        let record = Some(crate::importer::record as c::LogMessage);
-        let (name, token) = (c"joint".as_ptr(), c"token".as_ptr());
-        let none = ptr::null();
-        assert!(
-            c::fmi3InstantiateModelExchange(name, token, none, false, false, environment, record)
-                .is_null()
+        let handle = c::fmi3InstantiateScheduledExecution(
+            c"joint".as_ptr(),
+            c"token".as_ptr(),
+            ptr::null(),
+            false,
+            false,
+            (&raw mut log).cast(),
+            Some(crate::importer::record),
+            None,
+            None,
+            None,
         );
-        assert!(
-            c::fmi3InstantiateScheduledExecution(
-                name,
-                token,
-                none,
-                false,
-                false,
-                environment,
-                record,
-                None,
-                None,
-                None
-            )
-            .is_null()
-        );
+        assert!(handle.is_null());
     }
-    assert_eq!(log.len(), 2);
+    assert_eq!(log.len(), 1);
     assert!(
         log[0]
-            .text
-            .starts_with("fmi3InstantiateModelExchange: is not provided"),
-        "{log:?}"
-    );
-    assert!(
-        log[1]
             .text
             .starts_with("fmi3InstantiateScheduledExecution: is not provided"),
         "{log:?}"
     );
+}
+
+#[test]
+fn model_exchange_checks_the_same() {
+    let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[]));
+    let path = text(&folder.0);
+    let good = || Request {
+        resources: Some(&path),
+        ..Request::default()
+    };
+    assert!(good().instantiate_model_exchange().is_ok());
+    for (request, expected) in [
+        (
+            Request {
+                name: None,
+                ..good()
+            },
+            "argument instanceName is a null pointer",
+        ),
+        (
+            Request {
+                name: Some(" "),
+                ..good()
+            },
+            "argument instanceName is an empty string",
+        ),
+        (
+            Request {
+                token: Some("other"),
+                ..good()
+            },
+            "instantiationToken is \"other\"",
+        ),
+        (
+            Request {
+                resources: Some("/nowhere"),
+                ..good()
+            },
+            "cannot be read",
+        ),
+    ] {
+        let log = request.instantiate_model_exchange().err().unwrap();
+        assert_eq!(log.len(), 1);
+        let message = &log[0].text;
+        assert!(
+            message.starts_with("fmi3InstantiateModelExchange: "),
+            "{message}"
+        );
+        assert!(message.contains(expected), "{message}");
+    }
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod derivatives;
 mod fmu_state;
 mod importer;
 mod instantiation;
+mod model_exchange;
 mod not_provided;
 mod own_folder;
 mod random_calls;

@@ -1,0 +1,150 @@
+//! What Model Exchange adds: the importer integrates, the instance gives the derivatives of its states.
+
+use std::mem::MaybeUninit;
+
+use super::Instance;
+use crate::{
+    interface::{ContinuousState, InterfaceType, reference::TIME},
+    mode::Mode,
+    refusal::{Active, Refusal},
+};
+
+/// Modes in which the states and what follows from them can be read.
+const READABLE: &[Mode] = &[
+    Mode::Initialization,
+    Mode::Event,
+    Mode::ContinuousTime,
+    Mode::Terminated,
+];
+
+impl Instance {
+    /// From Continuous-Time Mode to an event.
+    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
+        self.require(&[Mode::ContinuousTime])?;
+        self.mode = Mode::Event;
+        Ok(())
+    }
+
+    /// Nothing changes by itself at an event; this only tells whether the call is allowed.
+    pub(crate) fn update_discrete_states(&self) -> Result<(), Refusal> {
+        self.require(&[Mode::Event])
+    }
+
+    /// From an event on to continuous time: parameters that were changed take effect.
+    pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<Option<Active>, Refusal> {
+        self.require(&[Mode::Event])?;
+        let warning = self.use_parameters()?;
+        self.mode = Mode::ContinuousTime;
+        Ok(warning)
+    }
+
+    /// Sets the time; the importer's solver may also go back.
+    pub(crate) fn set_time(&mut self, time_s: f64) -> Result<(), Refusal> {
+        self.require(&[Mode::ContinuousTime])?;
+        if !time_s.is_finite() {
+            return Err(Refusal::Time { found_s: time_s });
+        }
+        // nothing but the time itself depends on it
+        self.values[TIME] = time_s;
+        Ok(())
+    }
+
+    /// Sets all states, or none.
+    pub(crate) fn set_continuous_states(&mut self, states: &[f64]) -> Result<(), Refusal> {
+        self.require(&[Mode::ContinuousTime])?;
+        self.check_count(states.len())?;
+        let variables = self.identity.variables;
+        for (state, &value) in variables.continuous_states().zip(states) {
+            if !value.is_finite() {
+                let name = self.name(state.reference);
+                return Err(Refusal::ValueNotFinite { name, value });
+            }
+        }
+        for (state, &value) in variables.continuous_states().zip(states) {
+            self.values[state.reference] = value;
+        }
+        self.outputs_stale = true;
+        Ok(())
+    }
+
+    /// Reads all states.
+    pub(crate) fn continuous_states(&self, states: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
+        self.require(READABLE)?;
+        self.fill(states, |state| Ok(self.values[state.reference]))
+    }
+
+    /// Reads the derivatives of all states.
+    pub(crate) fn derivatives(
+        &mut self,
+        derivatives: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Refusal> {
+        self.require(READABLE)?;
+        self.calculate_outputs();
+        self.fill(derivatives, |state| {
+            let derivative = self.values[state.derivative];
+            if derivative.is_finite() {
+                Ok(derivative)
+            } else {
+                Err(self.overflow(state.derivative))
+            }
+        })
+    }
+
+    /// Reads typical magnitudes of all states.
+    pub(crate) fn nominals(&self, nominals: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
+        self.require(READABLE)?;
+        self.fill(nominals, |state| Ok(state.nominal))
+    }
+
+    /// Checks what a step of the importer's solver has led to.
+    pub(crate) fn complete_integrator_step(&mut self) -> Result<Option<Active>, Refusal> {
+        self.require(&[Mode::ContinuousTime])?;
+        // a restored state may have brought other parameters
+        let warning = self.use_parameters()?;
+        self.model.check_states(&self.values)?;
+        Ok(warning)
+    }
+
+    /// Number of continuous states.
+    pub(crate) fn state_count(&self) -> usize {
+        self.identity.variables.continuous_states().count()
+    }
+
+    /// Refuses functions of Model Exchange on an instance for Co-Simulation.
+    pub(crate) fn require_model_exchange(&self) -> Result<(), Refusal> {
+        self.require_type(InterfaceType::ModelExchange)
+    }
+
+    /// Takes parameters that were changed into use.
+    fn use_parameters(&mut self) -> Result<Option<Active>, Refusal> {
+        if !self.parameters_changed {
+            return Ok(None);
+        }
+        let warning = self.prepare_model()?;
+        self.parameters_changed = false;
+        Ok(warning)
+    }
+
+    fn check_count(&self, found: usize) -> Result<(), Refusal> {
+        let expected = self.state_count();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(Refusal::StateCount { found, expected })
+        }
+    }
+
+    /// Writes one number for each state.
+    fn fill(
+        &self,
+        numbers: &mut [MaybeUninit<f64>],
+        number_of: impl Fn(&ContinuousState) -> Result<f64, Refusal>,
+    ) -> Result<(), Refusal> {
+        self.check_count(numbers.len())?;
+        let states = self.identity.variables.continuous_states();
+        for (number, state) in numbers.iter_mut().zip(states) {
+            number.write(number_of(state)?);
+        }
+        Ok(())
+    }
+}

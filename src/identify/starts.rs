@@ -11,7 +11,7 @@ const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// Loss of a start's joint at the middle of the frequency range, ωc/k.
 const LOSS: f64 = 1e-2;
 
-/// `first` (the band average, where there is one) and a grid of diagonal joints.
+/// `first` (the band average, where there is one), no joint at all, and a grid of diagonal joints.
 pub(super) fn starts(
     lines: &Lines,
     model: JointModel,
@@ -21,7 +21,11 @@ pub(super) fn starts(
     let typical: Vec<f64> = (0..size).map(|dof| dynamic_stiffness(lines, dof)).collect();
     let middle = lines.frequency_hz[lines.frequency_hz.len() / 2];
     let omega = std::f64::consts::TAU * middle;
-    let mut starts: Vec<JointMatrices> = first.cloned().into_iter().collect();
+    let none = JointMatrices {
+        stiffness: DMatrix::zeros(size, size),
+        damping: DMatrix::zeros(size, size),
+    };
+    let mut starts: Vec<JointMatrices> = first.cloned().into_iter().chain([none]).collect();
     for combination in 0..MULTIPLES.len().pow(size as u32) {
         let multiple =
             |dof: usize| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()];

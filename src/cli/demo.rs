@@ -11,14 +11,14 @@ use nalgebra::dmatrix;
 
 use crate::export::Interface;
 use crate::frf::{polluted, resonances, write_uff58};
-use crate::identify::{Identification, JointMatrices, Study, identify, predict_assembly};
+use crate::identify::{Identification, JointMatrices, Study, Unknown, identify, predict_assembly};
 
 use super::DemoArguments;
 use super::error::CliError;
 use super::export::{self, export_to};
 use super::identify::{basis, figure, fit, warnings};
 use super::output::{message, print, write_file};
-use super::table::{Table, Unknown, number};
+use super::table::{Table, number};
 
 const STUDY: &str = include_str!("../../examples/tol-m10x16/study.toml");
 const MODES: &str = include_str!("../../examples/tol-m10x16/a-modes.toml");

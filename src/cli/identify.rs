@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use num_complex::Complex64;
 use serde_json::json;
 
-use crate::identify::{Identification, Study, identify};
+use crate::identify::{Identification, Study, Unknown, identify};
 use crate::report::{FrfFigure, FrfPanel};
 
 use super::IdentifyArguments;
 use super::error::CliError;
 use super::output::{check_output, message, print, write_file};
-use super::table::{Table, Unknown, number};
+use super::table::{Table, number};
 
 /// At most so many functions are drawn.
 const PANELS: usize = 3;
@@ -98,12 +98,16 @@ fn summary(found: &Identification) -> String {
 /// What the result rests on, in one line.
 pub(super) fn basis(found: &Identification) -> String {
     let frequency_hz = &found.lines.frequency_hz;
+    let counted = |count: usize, thing: &str| {
+        let ending = if count == 1 { "" } else { "s" };
+        format!("{count} {thing}{ending}")
+    };
     format!(
-        "joint model \"{}\" from {} functions at {} points, {} lines from {} to {} Hz",
+        "joint model \"{}\" from {} at {}, {} from {} to {} Hz",
         found.model,
-        found.fits.len(),
-        found.lines.points.len(),
-        frequency_hz.len(),
+        counted(found.fits.len(), "function"),
+        counted(found.lines.points.len(), "point"),
+        counted(frequency_hz.len(), "line"),
         number(frequency_hz[0], 4),
         number(frequency_hz[frequency_hz.len() - 1], 4),
     )

@@ -2,8 +2,6 @@
 
 use std::fmt::Write as _;
 
-use crate::identify::{JointMatrices, JointModel};
-
 /// Rows of text under a header, columns aligned: the first to the left, the others to the right.
 pub(super) struct Table {
     rows: Vec<Vec<String>>,
@@ -43,59 +41,6 @@ impl Table {
             let _ = writeln!(text, "{}", line.trim_end());
         }
         text
-    }
-}
-
-/// One unknown of a joint, by its name in the FMU.
-pub(super) struct Unknown {
-    pub(super) name: &'static str,
-    pub(super) unit: &'static str,
-    matrix: Matrix,
-    place: (usize, usize),
-}
-
-#[derive(Clone, Copy)]
-enum Matrix {
-    Stiffness,
-    Damping,
-}
-
-impl Unknown {
-    /// The unknowns of a joint model: stiffnesses, then dampings.
-    pub(super) fn of(model: JointModel) -> Vec<Self> {
-        let named = |matrix: Matrix, place: (usize, usize)| {
-            let (name, unit) = match (matrix, place) {
-                (Matrix::Stiffness, (0, 0)) => ("k_yy", "N/m"),
-                (Matrix::Stiffness, (1, 1)) => ("k_thetatheta", "N·m/rad"),
-                (Matrix::Stiffness, _) => ("k_ytheta", "N/rad"),
-                (Matrix::Damping, (0, 0)) => ("c_yy", "N·s/m"),
-                (Matrix::Damping, (1, 1)) => ("c_thetatheta", "N·m·s/rad"),
-                (Matrix::Damping, _) => ("c_ytheta", "N·s/rad"),
-            };
-            Self {
-                name,
-                unit,
-                matrix,
-                place,
-            }
-        };
-        [Matrix::Stiffness, Matrix::Damping]
-            .into_iter()
-            .flat_map(|matrix| {
-                model
-                    .entries()
-                    .iter()
-                    .map(move |&place| named(matrix, place))
-            })
-            .collect()
-    }
-
-    /// Its value in these matrices.
-    pub(super) fn value(&self, joint: &JointMatrices) -> f64 {
-        match self.matrix {
-            Matrix::Stiffness => joint.stiffness[self.place],
-            Matrix::Damping => joint.damping[self.place],
-        }
     }
 }
 

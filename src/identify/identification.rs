@@ -16,6 +16,7 @@ use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::starts::starts;
 use super::study::Study;
+use super::unknown::Unknown;
 use super::{assemble, decoupling, provenance};
 
 /// Lines that are enough to tell which start leads to the best estimate.
@@ -352,27 +353,18 @@ fn unreliable(
     joint: &JointMatrices,
     deviation: &JointMatrices,
 ) -> impl Iterator<Item = String> {
-    let matrices = [
-        ("stiffness", &joint.stiffness, &deviation.stiffness),
-        ("damping", &joint.damping, &deviation.damping),
-    ];
-    let mut found = Vec::new();
-    for (name, values, deviations) in matrices {
-        for &(row, column) in model.entries() {
-            let (value, deviation) = (values[(row, column)], deviations[(row, column)]);
-            // A coupling may be zero: it counts beside the largest that a passive joint has, √(K_ii K_jj).
-            let passive = (values[(row, row)] * values[(column, column)])
-                .max(0.0)
-                .sqrt();
-            if deviation.is_nan() || deviation > UNRELIABLE * value.abs().max(passive) {
-                found.push(format!(
-                    "{name}[{row}][{column}] = {value:.3e} has a standard deviation of {deviation:.1e}: \
-                     the data hardly determine it"
-                ));
-            }
-        }
-    }
-    found.into_iter()
+    Unknown::of(model).into_iter().filter_map(move |unknown| {
+        let (value, deviation) = (unknown.value(joint), unknown.value(deviation));
+        // A coupling may be zero: it counts beside the largest that a passive joint has.
+        let size = value.abs().max(unknown.passive_bound(joint));
+        (deviation.is_nan() || deviation > UNRELIABLE * size).then(|| {
+            format!(
+                "{} = {value:.3e} {unit} has a standard deviation of {deviation:.1e} {unit}: the data hardly determine it",
+                unknown.name,
+                unit = unknown.unit
+            )
+        })
+    })
 }
 
 impl Identification {

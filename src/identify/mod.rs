@@ -14,6 +14,7 @@ mod model;
 mod provenance;
 mod starts;
 mod study;
+mod unknown;
 
 pub use assemble::predict_assembly;
 pub use bands::Bands;
@@ -24,3 +25,4 @@ pub use identification::{FunctionFit, Identification, LinesEstimate, identify, i
 pub use lines::Lines;
 pub use model::{JointMatrices, JointModel};
 pub use study::{FrfFile, Rotation, Source, Study, Substructure};
+pub use unknown::Unknown;

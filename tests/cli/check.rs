@@ -72,8 +72,11 @@ fn sound_files_are_said_to_be_sound() {
     let bench = bench();
     for (file, kind) in [
         ("j.joint.json", "joint file"),
-        ("element.fmu", "FMU (FMI 3.0, co-simulation)"),
-        ("lap.fmu", "FMU (FMI 3.0, co-simulation)"),
+        (
+            "element.fmu",
+            "FMU (FMI 3.0, Co-Simulation and Model Exchange)",
+        ),
+        ("lap.fmu", "FMU (FMI 3.0, Co-Simulation and Model Exchange)"),
     ] {
         let outcome = bench.done(&["check", file]);
         assert!(outcome.stdout.starts_with(&format!("{file}: {kind}\n")));

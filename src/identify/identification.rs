@@ -262,12 +262,11 @@ fn best_estimate(
         .filter_map(|start| estimate(&thinned, model, noise, start))
         .collect();
     estimates.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-    // The best, and other minima; where an iteration came to no rest there is nothing to refine.
     let mut finalists: Vec<&Estimate> = Vec::new();
     for candidate in &estimates {
-        let different = !finalists.iter().any(|known| same(model, known, candidate));
-        let worthwhile = finalists.is_empty() || candidate.converged && different;
-        if worthwhile && finalists.len() < FINALISTS {
+        if finalists.len() < FINALISTS
+            && !finalists.iter().any(|known| same(model, known, candidate))
+        {
             finalists.push(candidate);
         }
     }

@@ -8,10 +8,14 @@ use super::model::{JointMatrices, JointModel};
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 
+/// The same for a start that all but leaves the substructures apart: a loose joint has minima of its own beside zero, in
+/// which a single spring acts where the measured points hardly move.
+const LOOSE: f64 = 1e-6;
+
 /// Loss of a start's joint at the middle of the frequency range, ωc/k.
 const LOSS: f64 = 1e-2;
 
-/// `first` (the band average, where there is one), no joint at all, and a grid of diagonal joints.
+/// `first` (the band average, where there is one), a grid of diagonal joints, and one that all but does not join.
 pub(super) fn starts(
     lines: &Lines,
     model: JointModel,
@@ -21,14 +25,8 @@ pub(super) fn starts(
     let typical: Vec<f64> = (0..size).map(|dof| dynamic_stiffness(lines, dof)).collect();
     let middle = lines.frequency_hz[lines.frequency_hz.len() / 2];
     let omega = std::f64::consts::TAU * middle;
-    let none = JointMatrices {
-        stiffness: DMatrix::zeros(size, size),
-        damping: DMatrix::zeros(size, size),
-    };
-    let mut starts: Vec<JointMatrices> = first.cloned().into_iter().chain([none]).collect();
-    for combination in 0..MULTIPLES.len().pow(size as u32) {
-        let multiple =
-            |dof: usize| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()];
+    let mut starts: Vec<JointMatrices> = first.cloned().into_iter().collect();
+    let mut push = |multiple: &dyn Fn(usize) -> f64| {
         let stiffness = DMatrix::from_fn(size, size, |i, j| {
             if i == j {
                 typical[i] * multiple(i)
@@ -40,7 +38,11 @@ pub(super) fn starts(
             damping: &stiffness * (LOSS / omega),
             stiffness,
         });
+    };
+    for combination in 0..MULTIPLES.len().pow(size as u32) {
+        push(&|dof| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()]);
     }
+    push(&|_| LOOSE);
     starts
 }
 

@@ -35,6 +35,10 @@ const DECISIVE_MISFIT: f64 = 20.0;
 /// How many different estimates from thinned lines are refined on all lines.
 const FINALISTS: usize = 4;
 
+/// A minimum whose weighted mean square residual is so many times that of the best is not refined: no resonance between
+/// the thinned lines makes up for it.
+const COMPARABLE: f64 = 10.0;
+
 /// A standard deviation beyond this fraction of the value makes the value unreliable.
 const UNRELIABLE: f64 = 0.5;
 
@@ -262,9 +266,16 @@ fn best_estimate(
         .filter_map(|start| estimate(&thinned, model, noise, start))
         .collect();
     estimates.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    let residuals = 2.0 * (thinned.frequency_hz.len() * lines.measured.len()) as f64;
+    let comparable = |candidate: &Estimate, best: &Estimate| {
+        candidate.misfit <= best.misfit + residuals * COMPARABLE.ln()
+    };
     let mut finalists: Vec<&Estimate> = Vec::new();
     for candidate in &estimates {
         if finalists.len() < FINALISTS
+            && finalists
+                .first()
+                .is_none_or(|best| comparable(candidate, best))
             && !finalists.iter().any(|known| same(model, known, candidate))
         {
             finalists.push(candidate);

@@ -149,14 +149,14 @@ fn text_that_is_no_json() {
     }
     assert_eq!(
         refusal("[10.83, -0.83]", "[10.83 -0.83]"),
-        "m10.joint.json:7:24: is not JSON: expected `,` or `]`, in joint.damping[0]"
+        "m10.joint.json:7:24: is not JSON: expected `,` or `]`, in joint.damping[0]; expected a joint file (format \"bolted-joint/1\"): mend the text there, or give the NAME.joint.json that `identify` wrote"
     );
     let message = JointFile::from_json(&format!("{GOOD}\n{{}}"), "two.json")
         .unwrap_err()
         .to_string();
     assert_eq!(
         message,
-        "two.json:10:1: is not JSON: trailing characters, in the file as a whole"
+        "two.json:10:1: is not JSON: trailing characters, in the file as a whole; expected a joint file (format \"bolted-joint/1\"): mend the text there, or give the NAME.joint.json that `identify` wrote"
     );
 }
 

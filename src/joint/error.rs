@@ -64,7 +64,12 @@ pub enum JointFileError {
         path: String,
     },
     /// The text is not JSON.
-    #[error("{origin}:{line}:{column}: is not JSON: {message}, in {}", place(path))]
+    #[error(
+        "{origin}:{line}:{column}: is not JSON: {message}, in {}; expected a joint file (format \"{}\"): mend the text \
+         there, or give the NAME.joint.json that `identify` wrote",
+        place(path),
+        Format::NAME
+    )]
     NotJson {
         /// Origin.
         origin: String,

@@ -56,7 +56,7 @@ fn what_is_no_joint_file_is_said_to_be_none() {
         ),
         (
             b"method = 1\n",
-            ["j.joint.json:1:1: is not JSON", "expected"],
+            ["j.joint.json:1:1: is not JSON", "give the NAME.joint.json"],
         ),
         (b"[]", ["j.joint.json", "expected an object"]),
         (b"{}", ["j.joint.json:1:2: format: not found", "add it"]),

@@ -7,6 +7,7 @@
 //! | 8 | `bjstate` and a zero |
 //! | 4 | version of this layout |
 //! | 4 + n | length of the instantiation token, and the token |
+//! | 1 | FMI version: 2 or 3 |
 //! | 1 | kind: 0 element, 1 lap |
 //! | 1 | degrees of freedom |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
@@ -19,6 +20,7 @@
 use std::{fmt, sync::Arc};
 
 use crate::{
+    abi::Abi,
     interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
@@ -26,13 +28,15 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Identity {
     /// Kind and degrees of freedom.
     pub(crate) variables: Variables,
+    /// FMI version.
+    pub(crate) abi: Abi,
     /// Who integrates.
     pub(crate) interface_type: InterfaceType,
     /// Instantiation token.
@@ -44,10 +48,11 @@ impl fmt::Display for Identity {
         let Variables { kind, dofs } = self.variables;
         write!(
             f,
-            "{} with {} DOF a side for {}, token {}",
+            "{} with {} DOF a side for {} of {}, token {}",
             kind.name(),
             dofs.count(),
             self.interface_type.name(),
+            self.abi.name(),
             self.token
         )
     }
@@ -108,7 +113,7 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 4;
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 5;
         header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
     }
 
@@ -116,6 +121,7 @@ impl Snapshot {
     pub(crate) fn serialize(&self) -> Vec<u8> {
         let Identity {
             variables,
+            abi,
             interface_type,
             token,
         } = &*self.identity;
@@ -124,6 +130,10 @@ impl Snapshot {
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((token.len() as u32).to_le_bytes());
         bytes.extend(token.as_bytes());
+        bytes.push(match abi {
+            Abi::Fmi2 => 2,
+            Abi::Fmi3 => 3,
+        });
         bytes.push(kind_number(variables.kind));
         bytes.push(variables.dofs.count());
         bytes.push(match interface_type {
@@ -165,6 +175,16 @@ impl Snapshot {
         let length = reader.u32()? as usize;
         let token = String::from_utf8(reader.take(length)?.to_vec())
             .map_err(|_| Damage::Field { name: "token" })?;
+        let abi = match reader.u8()? {
+            2 => Abi::Fmi2,
+            3 => Abi::Fmi3,
+            _ => {
+                return Err(Damage::Field {
+                    name: "FMI version",
+                }
+                .into());
+            }
+        };
         let kind = match reader.u8()? {
             0 => Kind::Element,
             1 => Kind::Lap,
@@ -192,6 +212,7 @@ impl Snapshot {
         };
         let found = Identity {
             variables: Variables { kind, dofs },
+            abi,
             interface_type,
             token,
         };

@@ -6,6 +6,7 @@ mod model_exchange;
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
+    abi::Abi,
     fmu_state::{Identity, Snapshot},
     interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
@@ -40,6 +41,7 @@ impl Instance {
     pub(crate) fn new(
         file: StartFile,
         token: &str,
+        abi: Abi,
         interface_type: InterfaceType,
     ) -> Result<Self, Refusal> {
         let StartFile {
@@ -49,6 +51,7 @@ impl Instance {
         } = file;
         if token != expected {
             return Err(Refusal::Token {
+                argument: abi.token_argument(),
                 found: token.to_owned(),
                 expected,
             });
@@ -56,6 +59,7 @@ impl Instance {
         Ok(Self {
             identity: Arc::new(Identity {
                 variables,
+                abi,
                 interface_type,
                 token: expected,
             }),
@@ -266,13 +270,15 @@ impl Instance {
                 let (index, _) = self.known(reference)?;
                 Err(Refusal::NotOfType {
                     name: self.name(index),
+                    own: self.identity.abi.real(),
                     asked,
                 })
             }
         }
     }
 
-    fn interface_type(&self) -> InterfaceType {
+    /// Who integrates.
+    pub(crate) fn interface_type(&self) -> InterfaceType {
         self.identity.interface_type
     }
 

@@ -4,6 +4,7 @@
 //! `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe Rust;
 //! `fmi3` turns C pointers and arrays into slices, and refusals into statuses and log messages.
 
+mod abi;
 mod fmi3;
 mod fmu_state;
 mod instance;

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::{
+    abi::Abi,
     fmu_state::Damage,
     interface::{InterfaceType, Role},
     mode::Mode,
@@ -22,6 +23,8 @@ pub(crate) enum Refusal {
         found: Mode,
         expected: &'static [Mode],
     },
+    /// The function belongs to another FMI version.
+    OtherAbi { found: Abi, expected: Abi },
     /// The function belongs to another interface type.
     OtherInterfaceType {
         found: InterfaceType,
@@ -32,6 +35,7 @@ pub(crate) enum Refusal {
     /// The variable exists, but not in this type.
     NotOfType {
         name: &'static str,
+        own: &'static str,
         asked: &'static str,
     },
     /// The variable must not be set, or not in this mode.
@@ -77,9 +81,16 @@ pub(crate) enum Refusal {
         expected: usize,
     },
     /// An array of states has the wrong length.
-    StateCount { found: usize, expected: usize },
+    StateCount {
+        argument: &'static str,
+        found: usize,
+        expected: usize,
+    },
     /// Event indicators are asked for.
-    IndicatorCount { found: usize },
+    IndicatorCount {
+        argument: &'static str,
+        found: usize,
+    },
     /// The memory for a serialised FMU state has the wrong size, in bytes.
     Size { found: usize, expected: usize },
     /// The start time is NaN or infinite.
@@ -133,7 +144,11 @@ pub(crate) enum Refusal {
     /// Serialised bytes that are no FMU state.
     Damaged(Damage),
     /// The importer's token is not that of the FMU's resources.
-    Token { found: String, expected: String },
+    Token {
+        argument: &'static str,
+        found: String,
+        expected: String,
+    },
     /// A function or an option that this FMU does not offer.
     NotProvided { reason: &'static str },
     /// The FMU's resources cannot be found.
@@ -156,6 +171,15 @@ impl Refusal {
             Self::Escape { .. } | Self::StateNotFinite { .. } | Self::Internal
         )
     }
+
+    /// Whether the call was right, but numbers in it or numbers that follow from it are not finite. Another state, of a
+    /// shorter step of the importer's solver, may be better.
+    pub(crate) const fn is_out_of_bounds(&self) -> bool {
+        matches!(
+            self,
+            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. }
+        )
+    }
 }
 
 impl fmt::Display for Refusal {
@@ -172,6 +196,12 @@ impl fmt::Display for Refusal {
                 }
                 Ok(())
             }
+            Self::OtherAbi { found, expected } => write!(
+                f,
+                "belongs to {}, but the instance was made by the functions of {}; use only one of them",
+                expected.name(),
+                found.name()
+            ),
             Self::OtherInterfaceType { found, expected } => write!(
                 f,
                 "is not provided by this FMU: it belongs to {}, the instance is for {}",
@@ -182,9 +212,9 @@ impl fmt::Display for Refusal {
                 f,
                 "value reference {reference} does not exist; take it from modelDescription.xml"
             ),
-            Self::NotOfType { name, asked } => write!(
+            Self::NotOfType { name, own, asked } => write!(
                 f,
-                "variable {name} is of type Float64, not {asked}; use the Float64 function"
+                "variable {name} is of type {own}, not {asked}; use the {own} function"
             ),
             Self::NotSettable { name, role, mode } => {
                 write!(f, "variable {name} is {role} and cannot be set in state {mode}")
@@ -225,13 +255,13 @@ impl fmt::Display for Refusal {
                 f,
                 "argument {argument} is {found}, expected {expected}: every variable is a scalar"
             ),
-            Self::StateCount { found, expected } => write!(
+            Self::StateCount { argument, found, expected } => write!(
                 f,
-                "argument nContinuousStates is {found}, expected {expected}, the number of continuous states"
+                "argument {argument} is {found}, expected {expected}, the number of continuous states"
             ),
-            Self::IndicatorCount { found } => write!(
+            Self::IndicatorCount { argument, found } => write!(
                 f,
-                "argument nEventIndicators is {found}, expected 0: there are no event indicators"
+                "argument {argument} is {found}, expected 0: there are no event indicators"
             ),
             Self::Size { found, expected } => write!(
                 f,
@@ -300,9 +330,9 @@ impl fmt::Display for Refusal {
                 "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
             ),
             Self::Damaged(damage) => write!(f, "the serialised FMU state cannot be used: {damage}"),
-            Self::Token { found, expected } => write!(
+            Self::Token { argument, found, expected } => write!(
                 f,
-                "instantiationToken is \"{found}\", but the FMU's resources have \"{expected}\"; \
+                "{argument} is \"{found}\", but the FMU's resources have \"{expected}\"; \
                  pass the token of the same FMU's modelDescription.xml"
             ),
             Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),

@@ -130,7 +130,11 @@ impl Instance {
         if found == expected {
             Ok(())
         } else {
-            Err(Refusal::StateCount { found, expected })
+            Err(Refusal::StateCount {
+                argument: self.identity.abi.state_count_argument(),
+                found,
+                expected,
+            })
         }
     }
 

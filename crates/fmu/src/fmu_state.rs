@@ -14,11 +14,13 @@
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of value references, and the values |
+//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by value reference |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
 
 use crate::{
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
@@ -26,7 +28,7 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +68,8 @@ pub(crate) struct Snapshot {
     pub(crate) pace: Pace,
     /// Values of all variables, time among them.
     pub(crate) values: Values,
+    /// How the inputs go on.
+    pub(crate) inputs: InputCourse,
 }
 
 /// Why bytes are no FMU state.
@@ -109,7 +113,7 @@ impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
         let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 4;
-        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
+        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + InputCourse::SIZE + 8
     }
 
     /// The state in bytes.
@@ -138,6 +142,7 @@ impl Snapshot {
         for value in self.values {
             bytes.extend(value.to_le_bytes());
         }
+        bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
     }
@@ -228,6 +233,9 @@ impl Snapshot {
                 .into());
             }
         }
+        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(Damage::Field {
+            name: "course of the inputs",
+        })?;
         reader.array::<8>()?;
         if !reader.rest.is_empty() {
             let expected = bytes.len() - reader.rest.len();
@@ -243,6 +251,7 @@ impl Snapshot {
             stop_s: has_stop.then_some(stop_s),
             pace,
             values,
+            inputs,
         })
     }
 }

@@ -6,6 +6,7 @@
 
 mod fmi3;
 mod fmu_state;
+mod input_course;
 mod instance;
 mod interface;
 mod library;

@@ -15,12 +15,14 @@
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of value references, and the values |
+//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by value reference |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
 
 use crate::{
     abi::Abi,
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
@@ -71,6 +73,8 @@ pub(crate) struct Snapshot {
     pub(crate) pace: Pace,
     /// Values of all variables, time among them.
     pub(crate) values: Values,
+    /// How the inputs go on.
+    pub(crate) inputs: InputCourse,
 }
 
 /// Why bytes are no FMU state.
@@ -114,7 +118,7 @@ impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
         let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 5;
-        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
+        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + InputCourse::SIZE + 8
     }
 
     /// The state in bytes.
@@ -148,6 +152,7 @@ impl Snapshot {
         for value in self.values {
             bytes.extend(value.to_le_bytes());
         }
+        bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
     }
@@ -249,6 +254,9 @@ impl Snapshot {
                 .into());
             }
         }
+        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(Damage::Field {
+            name: "course of the inputs",
+        })?;
         reader.array::<8>()?;
         if !reader.rest.is_empty() {
             let expected = bytes.len() - reader.rest.len();
@@ -264,6 +272,7 @@ impl Snapshot {
             stop_s: has_stop.then_some(stop_s),
             pace,
             values,
+            inputs,
         })
     }
 }

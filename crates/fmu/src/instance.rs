@@ -2,12 +2,14 @@
 
 mod derivatives;
 mod model_exchange;
+mod time_derivatives;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
     abi::Abi,
     fmu_state::{Identity, Snapshot},
+    input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
     models::{self, CommunicationStep, Model},
@@ -29,6 +31,7 @@ pub(crate) struct Instance {
     model: Box<dyn Model>,
     start: Values,
     values: Values,
+    inputs: InputCourse,
     mode: Mode,
     stop_s: Option<f64>,
     pace: Pace,
@@ -67,6 +70,7 @@ impl Instance {
             model: models::model(variables),
             start: values,
             values,
+            inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
             stop_s: None,
             pace: Pace::NONE,
@@ -131,6 +135,7 @@ impl Instance {
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
         self.values = self.start;
+        self.inputs = InputCourse::HELD;
         self.mode = Mode::Instantiated;
         self.stop_s = None;
         self.pace = Pace::NONE;
@@ -181,11 +186,14 @@ impl Instance {
                 roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
             self.values[index] = value;
         }
+        if self.inputs.is_past() {
+            self.forget_inputs(references);
+        }
         self.outputs_stale = true;
         Ok(())
     }
 
-    /// Advances from `current_s` by `interval_s`, with the inputs held.
+    /// Advances from `current_s` by `interval_s`, with the inputs held or along the derivatives that were given.
     #[inline]
     pub(crate) fn step(
         &mut self,
@@ -208,7 +216,12 @@ impl Instance {
             interval_s,
             is_steady: pace.is_steady(),
         };
-        self.model.advance(&mut self.values, step)?;
+        let inputs = self.inputs_after(interval_s, end_s)?;
+        self.model.advance(&mut self.values, step, &self.inputs)?;
+        if let Some(values) = inputs {
+            self.set_inputs(&values);
+        }
+        self.inputs = self.inputs.after(interval_s);
         self.pace = pace;
         // only now, so that a warning reaches the importer even if this step is refused and the next one is not
         self.parameters_changed = false;
@@ -233,6 +246,7 @@ impl Instance {
             stop_s: self.stop_s,
             pace: self.pace,
             values,
+            inputs: self.inputs,
         }
     }
 
@@ -248,6 +262,7 @@ impl Instance {
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
         self.values = snapshot.values;
+        self.inputs = snapshot.inputs;
         self.parameters_changed = true;
         self.outputs_stale = true;
         Ok(())

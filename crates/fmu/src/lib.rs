@@ -7,6 +7,7 @@
 mod abi;
 mod fmi3;
 mod fmu_state;
+mod input_course;
 mod instance;
 mod interface;
 mod library;

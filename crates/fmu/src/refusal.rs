@@ -52,6 +52,18 @@ pub(crate) enum Refusal {
         unit: &'static str,
         time_s: f64,
     },
+    /// A derivative with respect to time is asked of a variable that has none to give.
+    NoOutputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time is given for a variable that is no input.
+    NoInputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time has an order that is not offered.
+    DerivativeOrder {
+        name: &'static str,
+        found: i32,
+        highest: usize,
+    },
+    /// The derivatives of an input take it past what is finite within a step.
+    InputNotFinite { name: &'static str, time_s: f64 },
     /// There are no partial derivatives in this mode.
     NoDerivatives { mode: Mode },
     /// The variable is no unknown that can be differentiated in this mode.
@@ -225,6 +237,27 @@ impl fmt::Display for Refusal {
             Self::OutputNotFinite { name, unit, time_s } => write!(
                 f,
                 "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
+            ),
+            Self::NoOutputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no output; ask for the derivative of an output"
+            ),
+            Self::NoInputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no input; derivatives can be given for inputs alone"
+            ),
+            Self::DerivativeOrder { name, found, highest: 1 } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1"
+            ),
+            Self::DerivativeOrder { name, found, highest } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1 to {highest}"
+            ),
+            Self::InputNotFinite { name, time_s } => write!(
+                f,
+                "input {name} overflows before t = {time_s} s with the derivatives that were given; give others or \
+                 take a shorter step"
             ),
             Self::NoDerivatives { mode } => write!(
                 f,

@@ -1,8 +1,11 @@
-//! The state machines of FMI for Model Exchange, and for Co-Simulation without Event Mode (FMI 3.0, 2.3, 3.2.1, 4.2.1).
+//! The state machines of FMI for Model Exchange and for Co-Simulation (FMI 3.0, 2.3, 3.2.1, 4.2.1).
 
 use std::fmt;
 
-use crate::interface::{InterfaceType, Role, Roles};
+use crate::{
+    abi::Abi,
+    interface::{InterfaceType, Role, Roles},
+};
 
 /// State of the state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +16,10 @@ pub(crate) enum Mode {
     Initialization,
     /// Co-Simulation: between communication steps.
     Step,
-    /// Model Exchange: at an event, where parameters and inputs may jump.
+    /// Co-Simulation: within a communication step, while the importer's callback has the word.
+    IntermediateUpdate,
+    /// At an event, where parameters and inputs may jump: in Model Exchange, and in Co-Simulation if the importer
+    /// handles events.
     Event,
     /// Model Exchange: between events, while the importer integrates.
     ContinuousTime,
@@ -22,39 +28,52 @@ pub(crate) enum Mode {
 }
 
 impl Mode {
-    /// Roles of the variables that the importer may set in this mode.
+    /// Roles of the variables that the importer may set in this mode; whether it handles events decides where
+    /// parameters are tuned (FMI 3.0, 2.4.7.4).
     #[inline]
-    pub(crate) const fn settable(self) -> Roles {
-        const START: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
+    pub(crate) const fn settable(self, abi: Abi, event_mode_used: bool) -> Roles {
+        const ALL: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
+        const INPUT: Roles = Roles::of(&[Role::Input]);
         match self {
-            Self::Instantiated | Self::Initialization => START,
-            Self::Step | Self::Event => TUNABLE,
-            Self::ContinuousTime => Roles::of(&[Role::Input]),
+            Self::Instantiated | Self::Initialization => ALL,
+            Self::Step if event_mode_used => INPUT,
+            Self::Step => TUNABLE,
+            Self::IntermediateUpdate => INPUT,
+            // FMI 3.0 lets states be set one by one, too; FMI 2.0 has fmi2SetContinuousStates alone for that
+            Self::Event => match abi {
+                Abi::Fmi2 => TUNABLE,
+                Abi::Fmi3 => ALL,
+            },
+            Self::ContinuousTime => match abi {
+                Abi::Fmi2 => INPUT,
+                Abi::Fmi3 => Roles::of(&[Role::Input, Role::State]),
+            },
             Self::Terminated => Roles::NONE,
         }
     }
 
-    /// Whether the state machine of this interface type has this mode.
+    /// Whether an instance of this interface type can be saved in this mode.
     pub(crate) const fn belongs_to(self, interface_type: InterfaceType) -> bool {
         match self {
-            Self::Instantiated | Self::Initialization | Self::Terminated => true,
+            Self::Instantiated | Self::Initialization | Self::Event | Self::Terminated => true,
             Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
-            Self::Event | Self::ContinuousTime => {
-                matches!(interface_type, InterfaceType::ModelExchange)
-            }
+            Self::IntermediateUpdate => false,
+            Self::ContinuousTime => matches!(interface_type, InterfaceType::ModelExchange),
         }
     }
 
     /// Roles of the variables that partial derivatives are of, and with respect to, in this mode; `None` where there
-    /// are no derivatives (FMI 3.0, 2.2.11).
+    /// are no derivatives (FMI 3.0, 2.2.12 for the unknowns, 2.4.8 for the knowns).
     pub(crate) const fn unknowns_and_knowns(self) -> Option<(Roles, Roles)> {
         const KNOWN: Roles =
             Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
         match self {
-            Self::Instantiated => None,
-            // the initial unknowns: a state is given there
+            // within a communication step there are none: they belong to communication points
+            Self::Instantiated | Self::IntermediateUpdate => None,
+            // the initial unknowns: what is calculated; a state is given there
             Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
+            // outputs, among them the states, and derivatives of states
             Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
                 Roles::of(&[Role::State, Role::Output, Role::Derivative]),
                 KNOWN,
@@ -71,6 +90,7 @@ impl Mode {
             Self::Terminated => 3,
             Self::Event => 4,
             Self::ContinuousTime => 5,
+            Self::IntermediateUpdate => 6,
         }
     }
 
@@ -94,6 +114,7 @@ impl fmt::Display for Mode {
             Self::Instantiated => "Instantiated",
             Self::Initialization => "Initialization Mode",
             Self::Step => "Step Mode",
+            Self::IntermediateUpdate => "Intermediate Update Mode",
             Self::Event => "Event Mode",
             Self::ContinuousTime => "Continuous-Time Mode",
             Self::Terminated => "Terminated",

@@ -1,6 +1,7 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
 mod derivatives;
+mod experiment;
 mod model_exchange;
 mod time_derivatives;
 
@@ -79,6 +80,11 @@ impl Instance {
         })
     }
 
+    /// State of the state machine.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
+    }
+
     /// Current time, s.
     pub(crate) fn time_s(&self) -> f64 {
         self.values[TIME]
@@ -91,6 +97,12 @@ impl Instance {
         stop_s: Option<f64>,
     ) -> Result<(), Refusal> {
         self.require(&[Mode::Instantiated])?;
+        self.set_time_span(start_s, stop_s)?;
+        self.mode = Mode::Initialization;
+        Ok(())
+    }
+
+    fn set_time_span(&mut self, start_s: f64, stop_s: Option<f64>) -> Result<(), Refusal> {
         if !start_s.is_finite() {
             return Err(Refusal::StartTime { found_s: start_s });
         }
@@ -101,7 +113,6 @@ impl Instance {
         }
         self.values[TIME] = start_s;
         self.stop_s = stop_s;
-        self.mode = Mode::Initialization;
         Ok(())
     }
 
@@ -307,7 +318,9 @@ impl Instance {
         }
     }
 
-    fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
+    /// Refuses calls in other modes.
+    #[inline]
+    pub(crate) fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
         if expected.contains(&self.mode) {
             Ok(())
         } else {

@@ -94,8 +94,8 @@ pub(crate) struct Function {
     pub(crate) abi: Abi,
     /// Its name.
     pub(crate) name: &'static str,
-    /// Whether it answers numbers that are out of all bounds with a status that asks the importer's solver for a
-    /// shorter step (FMI 2.0, 2.1.3).
+    /// Whether in Model Exchange it answers numbers that are not finite with a status that asks the importer's solver
+    /// for a shorter step (FMI 2.0, 2.1.3).
     pub(crate) discards: bool,
 }
 
@@ -187,9 +187,8 @@ pub(crate) fn conclude(
     if outcome.as_ref().is_err_and(Refusal::ends_the_simulation) {
         handle.instance.fail();
     }
-    let shorter_step_may_help = function.discards
-        && handle.instance.interface_type() == InterfaceType::ModelExchange
-        && outcome.as_ref().is_err_and(Refusal::is_out_of_bounds);
+    let solver_at_work =
+        function.discards && handle.instance.interface_type() == InterfaceType::ModelExchange;
     // a copy: the callback may use the instance
     let logger = handle.logger.clone();
     match outcome {
@@ -202,7 +201,7 @@ pub(crate) fn conclude(
             logger.warning(function.name, &warning);
             Status::Warning
         }
-        Err(refusal) if shorter_step_may_help => {
+        Err(refusal) if refusal.is_discarded(solver_at_work) => {
             logger.discard(function.name, &refusal);
             Status::Discard
         }

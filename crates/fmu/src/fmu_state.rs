@@ -228,7 +228,7 @@ impl Snapshot {
             });
         }
         let mode = Mode::from_number(reader.u8()?)
-            .filter(|mode| mode.belongs_to(interface_type))
+            .filter(|mode| mode.belongs_to(identity.abi, interface_type))
             .ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;

@@ -2,12 +2,13 @@
 
 mod derivatives;
 mod events;
+mod experiment;
 mod intermediate;
 mod model_exchange;
 mod stepping;
 mod time_derivatives;
 
-pub(crate) use intermediate::{IntermediateStep, Update};
+pub(crate) use intermediate::Update;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
@@ -90,6 +91,11 @@ impl Instance {
         })
     }
 
+    /// State of the state machine.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
+    }
+
     /// Current time, s.
     pub(crate) fn time_s(&self) -> f64 {
         self.values[TIME]
@@ -102,6 +108,12 @@ impl Instance {
         stop_s: Option<f64>,
     ) -> Result<(), Refusal> {
         self.require(&[Mode::Instantiated])?;
+        self.set_time_span(start_s, stop_s)?;
+        self.mode = Mode::Initialization;
+        Ok(())
+    }
+
+    fn set_time_span(&mut self, start_s: f64, stop_s: Option<f64>) -> Result<(), Refusal> {
         if !start_s.is_finite() {
             return Err(Refusal::StartTime { found_s: start_s });
         }
@@ -112,7 +124,6 @@ impl Instance {
         }
         self.values[TIME] = start_s;
         self.stop_s = stop_s;
-        self.mode = Mode::Initialization;
         Ok(())
     }
 
@@ -289,7 +300,9 @@ impl Instance {
         }
     }
 
-    fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
+    /// Refuses calls in other modes.
+    #[inline]
+    pub(crate) fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
         if expected.contains(&self.mode) {
             Ok(())
         } else {

@@ -5,6 +5,7 @@
 //! `fmi3` turns C pointers and arrays into slices, and refusals into statuses and log messages.
 
 mod abi;
+mod fmi2;
 mod fmi3;
 mod fmu_state;
 mod input_course;

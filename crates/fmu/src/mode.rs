@@ -12,6 +12,8 @@ use crate::{
 pub(crate) enum Mode {
     /// After instantiation or reset.
     Instantiated,
+    /// FMI 2.0: still instantiated, and the time span is known.
+    SetUp,
     /// Between entering and leaving initialisation.
     Initialization,
     /// Co-Simulation: between communication steps.
@@ -36,27 +38,28 @@ impl Mode {
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
         const INPUT: Roles = Roles::of(&[Role::Input]);
         match self {
-            Self::Instantiated | Self::Initialization => ALL,
+            Self::Instantiated | Self::SetUp | Self::Initialization => ALL,
             Self::Step if event_mode_used => INPUT,
             Self::Step => TUNABLE,
             Self::IntermediateUpdate => INPUT,
-            // FMI 3.0 lets states be set one by one, too; FMI 2.0 has fmi2SetContinuousStates alone for that
+            // only FMI 3.0 lets states be set at an event
             Self::Event => match abi {
                 Abi::Fmi2 => TUNABLE,
                 Abi::Fmi3 => ALL,
             },
-            Self::ContinuousTime => match abi {
-                Abi::Fmi2 => INPUT,
-                Abi::Fmi3 => Roles::of(&[Role::Input, Role::State]),
-            },
+            Self::ContinuousTime => Roles::of(&[Role::Input, Role::State]),
             Self::Terminated => Roles::NONE,
         }
     }
 
-    /// Whether an instance of this interface type can be saved in this mode.
-    pub(crate) const fn belongs_to(self, interface_type: InterfaceType) -> bool {
+    /// Whether an instance of this FMI version and interface type can be saved in this mode.
+    pub(crate) const fn belongs_to(self, abi: Abi, interface_type: InterfaceType) -> bool {
         match self {
-            Self::Instantiated | Self::Initialization | Self::Event | Self::Terminated => true,
+            Self::Instantiated | Self::Initialization | Self::Terminated => true,
+            Self::SetUp => matches!(abi, Abi::Fmi2),
+            Self::Event => {
+                matches!(abi, Abi::Fmi3) || matches!(interface_type, InterfaceType::ModelExchange)
+            }
             Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
             Self::IntermediateUpdate => false,
             Self::ContinuousTime => matches!(interface_type, InterfaceType::ModelExchange),
@@ -70,7 +73,7 @@ impl Mode {
             Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
         match self {
             // within a communication step there are none: they belong to communication points
-            Self::Instantiated | Self::IntermediateUpdate => None,
+            Self::Instantiated | Self::SetUp | Self::IntermediateUpdate => None,
             // the initial unknowns: what is calculated; a state is given there
             Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
             // outputs, among them the states, and derivatives of states
@@ -90,7 +93,8 @@ impl Mode {
             Self::Terminated => 3,
             Self::Event => 4,
             Self::ContinuousTime => 5,
-            Self::IntermediateUpdate => 6,
+            Self::SetUp => 6,
+            Self::IntermediateUpdate => 7,
         }
     }
 
@@ -103,6 +107,7 @@ impl Mode {
             3 => Some(Self::Terminated),
             4 => Some(Self::Event),
             5 => Some(Self::ContinuousTime),
+            6 => Some(Self::SetUp),
             _ => None,
         }
     }
@@ -112,6 +117,7 @@ impl fmt::Display for Mode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Instantiated => "Instantiated",
+            Self::SetUp => "Instantiated after fmi2SetupExperiment",
             Self::Initialization => "Initialization Mode",
             Self::Step => "Step Mode",
             Self::IntermediateUpdate => "Intermediate Update Mode",

@@ -25,6 +25,8 @@ pub(crate) enum Refusal {
     },
     /// The function belongs to another FMI version.
     OtherAbi { found: Abi, expected: Abi },
+    /// The importer's callback calls what is not allowed within a communication step.
+    InsideStep,
     /// The importer handles events though it has said that it does not.
     EventModeNotUsed,
     /// The function belongs to another interface type.
@@ -178,6 +180,12 @@ pub(crate) enum Refusal {
         found: String,
         expected: String,
     },
+    /// An instance is asked for that is neither for Model Exchange nor for Co-Simulation.
+    FmuType { found: i32 },
+    /// A communication step shall be cancelled, but none is under way.
+    NoStepUnderWay { mode: Mode },
+    /// A status of the communication step that cannot be told.
+    NoStatus { kind: i32 },
     /// A function or an option that this FMU does not offer.
     NotProvided { reason: &'static str },
     /// The FMU's resources cannot be found.
@@ -227,13 +235,14 @@ impl Refusal {
         )
     }
 
-    /// Whether the call was right, but numbers in it or numbers that follow from it are not finite. Another state, of a
-    /// shorter step of the importer's solver, may be better.
-    pub(crate) const fn is_out_of_bounds(&self) -> bool {
-        matches!(
-            self,
-            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. }
-        )
+    /// Whether FMI 2.0 answers this with `fmi2Discard` (2.1.3, 4.2.3): a status that there is not; and, if the importer's
+    /// solver is at work, numbers that are not finite, for which a shorter step may help.
+    pub(crate) const fn is_discarded(&self, solver_at_work: bool) -> bool {
+        match self {
+            Self::NoStatus { .. } => true,
+            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. } => solver_at_work,
+            _ => false,
+        }
     }
 }
 
@@ -256,6 +265,9 @@ impl fmt::Display for Refusal {
                 "belongs to {}, but the instance was made by the functions of {}; use only one of them",
                 expected.name(),
                 found.name()
+            ),
+            Self::InsideStep => f.write_str(
+                "is not allowed in state Intermediate Update Mode, only when the communication step has ended",
             ),
             Self::EventModeNotUsed => f.write_str(
                 "is not allowed: the instance was made with eventModeUsed = fmi3False",
@@ -434,6 +446,19 @@ impl fmt::Display for Refusal {
                 f,
                 "{argument} is \"{found}\", but the FMU's resources have \"{expected}\"; \
                  pass the token of the same FMU's modelDescription.xml"
+            ),
+            Self::FmuType { found } => write!(
+                f,
+                "fmuType is {found}, expected 0 (fmi2ModelExchange) or 1 (fmi2CoSimulation)"
+            ),
+            Self::NoStepUnderWay { mode } => write!(
+                f,
+                "is not allowed in state {mode}: a step is done when fmi2DoStep returns, there is none to cancel"
+            ),
+            Self::NoStatus { kind } => write!(
+                f,
+                "has no status of kind {kind}; no step is ever pending, so that there are fmi2LastSuccessfulTime (of \
+                 type Real) and fmi2Terminated (of type Boolean) only"
             ),
             Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),
             Self::Resource(error) => error.fmt(f),

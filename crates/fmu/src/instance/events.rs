@@ -2,6 +2,7 @@
 
 use super::Instance;
 use crate::{
+    abi::Abi,
     interface::InterfaceType,
     mode::Mode,
     refusal::{Active, Refusal},
@@ -16,7 +17,11 @@ impl Instance {
     /// To an event, from Continuous-Time Mode or Step Mode.
     pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
         match self.interface_type() {
-            InterfaceType::ModelExchange => self.require(&[Mode::ContinuousTime])?,
+            // FMI 2.0 lets an event follow an event
+            InterfaceType::ModelExchange => self.require(match self.identity.abi {
+                Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
+                Abi::Fmi3 => &[Mode::ContinuousTime],
+            })?,
             InterfaceType::CoSimulation => {
                 self.require_event_mode()?;
                 self.require(&[Mode::Step])?;

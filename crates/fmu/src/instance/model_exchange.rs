@@ -4,6 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
+    abi::Abi,
     interface::{ContinuousState, InterfaceType, reference::TIME},
     mode::Mode,
     refusal::{Active, Refusal},
@@ -78,9 +79,11 @@ impl Instance {
         })
     }
 
-    /// Reads typical magnitudes of all states.
+    /// Reads typical magnitudes of all states; in FMI 2.0 in every state.
     pub(crate) fn nominals(&self, nominals: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
-        self.require(READABLE)?;
+        if self.identity.abi == Abi::Fmi3 {
+            self.require(READABLE)?;
+        }
         self.fill(nominals, |state| Ok(state.nominal))
     }
 

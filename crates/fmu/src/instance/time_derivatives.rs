@@ -23,7 +23,12 @@ impl Instance {
         values: &[f64],
     ) -> Result<(), Refusal> {
         self.require_type(InterfaceType::CoSimulation)?;
-        self.require(&[Mode::Instantiated, Mode::Initialization, Mode::Step])?;
+        self.require(&[
+            Mode::Instantiated,
+            Mode::SetUp,
+            Mode::Initialization,
+            Mode::Step,
+        ])?;
         let mut inputs = self.inputs;
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let (index, roles) = self.known(reference)?;

@@ -67,8 +67,10 @@ pub(crate) struct CommunicationStep {
     pub(crate) is_steady: bool,
 }
 
-// what an instance takes beside its values stays small, whatever is prepared for it
-const _: () = assert!(size_of::<lap::LapModel<2>>() <= 2048);
+/// Most bytes that a model takes, whatever is prepared for it.
+pub(crate) const MODEL_SIZE_MAX: usize = 2048;
+
+const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 
 /// The model of an FMU.
 pub(crate) fn model(variables: Variables) -> Box<dyn Model> {

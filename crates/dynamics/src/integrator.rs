@@ -82,7 +82,9 @@ impl<const D: usize> LapIntegrator<D> {
         interval_s: f64,
         substeps: NonZeroU32,
     ) -> LapState<D> {
-        let (x, v) = if substeps == NonZeroU32::MIN {
+        // A single step in place spares the way through memory; with one DOF the bodies then fall apart into single
+        // numbers, which costs more than that way.
+        let (x, v) = if D > 1 && substeps == NonZeroU32::MIN {
             let load = self.accelerations_by(loads);
             let (x, v) = split(state);
             self.take(&self.step(interval_s), &x, &v, [&load; 3])

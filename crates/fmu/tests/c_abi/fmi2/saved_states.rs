@@ -130,10 +130,8 @@ fn a_state_is_overwritten_in_place() {
     assert_eq!(instance.step(0.0, 1e-3), c::OK);
     let mut same = saved;
     // SAFETY: the instance and the state live
-    assert_eq!(
-        unsafe { c::fmi2GetFMUstate(instance.handle, &raw mut same) },
-        c::OK
-    );
+    let status = unsafe { c::fmi2GetFMUstate(instance.handle, &raw mut same) };
+    assert_eq!(status, c::OK);
     assert_eq!(same, saved);
     assert_eq!(instance.reset(), c::OK);
     assert_eq!(instance.restore(saved), c::OK);

@@ -98,10 +98,8 @@ fn model_exchange_is_the_same_to_the_bit() {
     assert_eq!(fmi3.enter_initialization(0.0, None), fmi3::OK);
     assert_eq!(fmi3.exit_initialization(), fmi3::OK);
     // SAFETY: the instance lives
-    assert_eq!(
-        unsafe { fmi3::fmi3EnterContinuousTimeMode(fmi3.handle) },
-        fmi3::OK
-    );
+    let status = unsafe { fmi3::fmi3EnterContinuousTimeMode(fmi3.handle) };
+    assert_eq!(status, fmi3::OK);
     let mut states = vec![1e-4, 1e-3, 0.1, 1.0, 2e-4, 2e-3, 0.2, 2.0];
     for n in 0..200 {
         let t = 1e-6 * f64::from(n);

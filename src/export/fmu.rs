@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use bolted_joint_dynamics::{Eigenvalue, Spectrum};
 
 use super::archive::{File, archive};
+use super::assets::pictures;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
 use super::start_file::{parameter_lines, start_file};
 use super::step::{Experiment, StepSize};
+use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
 use crate::joint::{DofSet, JointFile, LawError, Passivity};
@@ -168,6 +170,11 @@ pub fn fmu_bytes(
         File::text("documentation/index.html", page),
     ];
     files.extend(documentation::licences());
+    files.push(File::text(
+        terminals::FILE,
+        terminals_and_icons(&declared, dofs),
+    ));
+    files.extend(pictures(options.version, options.interface, dofs));
     let mut libraries = Vec::new();
     for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
         libraries.push(binary.library);

@@ -4,6 +4,7 @@
 //! writes the model description, the start values that the library reads, the documentation, and the archive around them.
 
 mod archive;
+mod assets;
 mod description;
 mod documentation;
 mod error;
@@ -16,6 +17,7 @@ mod parameters;
 mod platforms;
 mod start_file;
 mod step;
+mod terminals;
 mod timestamp;
 mod token;
 mod xml;

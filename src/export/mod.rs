@@ -15,6 +15,7 @@ mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
+mod reference_run;
 mod start_file;
 mod step;
 mod terminals;

@@ -13,6 +13,7 @@ mod c;
 mod derivatives;
 mod equations;
 mod events;
+mod fmi2;
 mod fmu_state;
 mod importer;
 mod instantiation;

@@ -36,6 +36,8 @@ struct Prepared<const D: usize> {
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
     amplitude: [f64; D],
+    /// Whether the joint holds only so far.
+    softens: bool,
     /// What the latest length of a communication step gives; `None` before the first one.
     interval: Option<Interval<D>>,
 }
@@ -84,12 +86,12 @@ impl<const D: usize> Model for LapModel<D> {
         if interface_type == InterfaceType::CoSimulation {
             check_step(&lap, step_size_max_s)?;
         }
+        let limits = lap.escape_amplitude();
         self.prepared = Some(Prepared {
             integrator: LapIntegrator::new(&lap),
             step_size_max_s,
-            amplitude: lap
-                .escape_amplitude()
-                .map(|limit| limit.unwrap_or(f64::MAX)),
+            amplitude: limits.map(|limit| limit.unwrap_or(f64::MAX)),
+            softens: limits.iter().any(Option::is_some),
             interval: None,
         });
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
@@ -252,7 +254,30 @@ impl<const D: usize> Prepared<D> {
                 return Ok(propagator.advance(start, loads));
             }
         }
+        if self.softens && count != NonZeroU32::MIN {
+            return Ok(self.stepped_while_held(start, loads, length_s, count));
+        }
         Ok(stepped(&self.integrator, start, loads, length_s, count))
+    }
+
+    /// State after the Runge–Kutta steps under held loads, or after the first one that takes a softening joint too far:
+    /// what a load brings back from there was torn before.
+    fn stepped_while_held(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        count: NonZeroU32,
+    ) -> LapState<D> {
+        let length_s = interval_s / f64::from(count.get());
+        let mut state = *start;
+        for _ in 0..count.get() {
+            state = stepped(&self.integrator, &state, loads, length_s, NonZeroU32::MIN);
+            if !self.holds(&state) {
+                break;
+            }
+        }
+        state
     }
 
     /// State at the end of the step under loads that change, by Runge–Kutta steps.
@@ -269,6 +294,9 @@ impl<const D: usize> Prepared<D> {
         for index in 0..count {
             let loads = loads.at_stages(index, length_s);
             state = self.integrator.step_with_loads(&state, &loads, length_s);
+            if !self.holds(&state) {
+                break;
+            }
         }
         Ok(state)
     }

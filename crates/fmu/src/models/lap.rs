@@ -23,6 +23,10 @@ pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
 /// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
 const STEPS_WORTH_PREPARING: u32 = 256;
 
+/// Runge–Kutta steps after which it is checked whether a softening joint still holds: a tenth of the fastest period where
+/// the export has chosen the step. Checking after every one takes half as long again.
+const STEPS_BETWEEN_CHECKS: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
 /// Two bodies and the joint between them, with `D` degrees of freedom a side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LapModel<const D: usize> {
@@ -254,14 +258,14 @@ impl<const D: usize> Prepared<D> {
                 return Ok(propagator.advance(start, loads));
             }
         }
-        if self.softens && count != NonZeroU32::MIN {
+        if self.softens && count > STEPS_BETWEEN_CHECKS {
             return Ok(self.stepped_while_held(start, loads, length_s, count));
         }
         Ok(stepped(&self.integrator, start, loads, length_s, count))
     }
 
-    /// State after the Runge–Kutta steps under held loads, or after the first one that takes a softening joint too far:
-    /// what a load brings back from there was torn before.
+    /// State after the Runge–Kutta steps under held loads, or, of a softening joint, at the first check that finds it
+    /// torn: what a load brings back from there cannot become whole again.
     fn stepped_while_held(
         &self,
         start: &LapState<D>,
@@ -271,11 +275,20 @@ impl<const D: usize> Prepared<D> {
     ) -> LapState<D> {
         let length_s = interval_s / f64::from(count.get());
         let mut state = *start;
-        for _ in 0..count.get() {
-            state = stepped(&self.integrator, &state, loads, length_s, NonZeroU32::MIN);
+        let mut rest = count.get();
+        while rest > 0 {
+            // so many steps have the length of one to the last bit, because it is a power of two
+            let next = if rest >= STEPS_BETWEEN_CHECKS.get() {
+                STEPS_BETWEEN_CHECKS
+            } else {
+                NonZeroU32::MIN
+            };
+            let span_s = length_s * f64::from(next.get());
+            state = stepped(&self.integrator, &state, loads, span_s, next);
             if !self.holds(&state) {
                 break;
             }
+            rest -= next.get();
         }
         state
     }

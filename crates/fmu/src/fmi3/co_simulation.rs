@@ -211,5 +211,5 @@ fn guarded<T>(
     instance: &mut Instance,
     body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or(Err(Refusal::Internal))
+    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or_else(|_| Err(Refusal::Internal))
 }

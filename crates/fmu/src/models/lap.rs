@@ -151,6 +151,21 @@ impl<const D: usize> Model for LapModel<D> {
         Ok(())
     }
 
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
+        let Some(prepared) = &self.prepared else {
+            return false;
+        };
+        let (start, loads) = (state(values), loads(values));
+        match prepared.steady_end(&start, &loads, interval_s) {
+            Some(end) if prepared.holds(&end) => {
+                A.set_motion(values, &end.a);
+                B.set_motion(values, &end.b);
+                true
+            }
+            _ => false,
+        }
+    }
+
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
         for side in [A, B] {
             // ẋ = v, v̇ as calculated from the equations of motion
@@ -293,6 +308,33 @@ impl<const D: usize> Prepared<D> {
         state
     }
 
+    /// State at the end of one of many equal steps, if all is prepared for it.
+    #[inline]
+    fn steady_end(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+    ) -> Option<LapState<D>> {
+        let interval = self.interval.as_ref()?;
+        if interval.length_s != interval_s {
+            return None;
+        }
+        match &interval.propagation {
+            Propagation::Unknown => None,
+            Propagation::Possible(propagator) => Some(propagator.advance(start, loads)),
+            Propagation::Impossible if self.softens && interval.count > STEPS_BETWEEN_CHECKS => {
+                None
+            }
+            Propagation::Impossible => {
+                Some(
+                    self.integrator
+                        .advance(start, loads, interval_s, interval.count),
+                )
+            }
+        }
+    }
+
     /// State at the end of the step under loads that change, by Runge–Kutta steps.
     #[cold]
     fn advance_along(
@@ -386,8 +428,8 @@ impl<const D: usize> Prepared<D> {
     }
 }
 
-/// The Runge–Kutta steps, apart from all else, so that the optimiser has all registers for them.
-#[inline(never)]
+/// The Runge–Kutta steps where time does not matter.
+#[cold]
 fn stepped<const D: usize>(
     integrator: &LapIntegrator<D>,
     start: &LapState<D>,

@@ -6,8 +6,37 @@ use crate::{
     integrator::LapIntegrator,
     joint::Motion,
     lap::{LapLoads, LapState},
-    rk4::Linear,
 };
+
+impl<const D: usize> LapState<D> {
+    /// `factor · self`
+    #[inline]
+    fn times(&self, factor: f64) -> Self {
+        let scaled = |motion: &Motion<D>| Motion {
+            displacement: motion.displacement.map(|x| factor * x),
+            velocity: motion.velocity.map(|v| factor * v),
+        };
+        Self {
+            a: scaled(&self.a),
+            b: scaled(&self.b),
+        }
+    }
+
+    /// `self + factor · rate`
+    #[inline]
+    fn plus(&self, factor: f64, rate: &Self) -> Self {
+        let sum =
+            |of: &[f64; D], rate: &[f64; D]| std::array::from_fn(|i| of[i] + factor * rate[i]);
+        let moved = |motion: &Motion<D>, rate: &Motion<D>| Motion {
+            displacement: sum(&motion.displacement, &rate.displacement),
+            velocity: sum(&motion.velocity, &rate.velocity),
+        };
+        Self {
+            a: moved(&self.a, &rate.a),
+            b: moved(&self.b, &rate.b),
+        }
+    }
+}
 
 /// Change of a linear lap's state over a fixed interval, for any state at its start and any held loads.
 ///
@@ -51,14 +80,9 @@ impl<const D: usize> LapPropagator<D> {
     #[inline]
     #[must_use]
     pub fn advance(&self, state: &LapState<D>, loads: &LapLoads<D>) -> LapState<D> {
-        // x(t+H) = x + P x + Q F; two sums, so that neither waits for the other
-        let of_state = self.change.of_state(state);
-        let mut of_loads = LapState::REST;
-        for i in 0..D {
-            of_loads = of_loads.plus(loads.a[i], &self.change.per_load[0][i]);
-            of_loads = of_loads.plus(loads.b[i], &self.change.per_load[1][i]);
-        }
-        state.plus(1.0, &of_state.plus(1.0, &of_loads))
+        // x(t+H) = x + (P x + Q F); the state last, because the rest is small beside it
+        let change = self.change.of_state(state);
+        state.plus(1.0, &change.plus(1.0, &self.change.of_loads(loads)))
     }
 }
 
@@ -78,7 +102,7 @@ impl<const D: usize> Change<D> {
             }
             sum
         };
-        let scaled = |x: &LapState<D>| LapState::REST.plus(step_s, x);
+        let scaled = |x: &LapState<D>| x.times(step_s);
         // P = R(hA) − I = hA φ(hA)
         let per_state = |unit: LapState<D>| scaled(&rate(&averaged(&unit)));
         // Q F = h φ(hA) M⁻¹F, with M⁻¹F the accelerations from rest
@@ -157,15 +181,18 @@ impl<const D: usize> Change<D> {
     /// P x
     #[inline]
     fn of_state(&self, state: &LapState<D>) -> LapState<D> {
-        let mut of_a = LapState::REST;
-        let mut of_b = LapState::REST;
-        for i in 0..D {
-            of_a = of_a.plus(state.a.displacement[i], &self.per_state[0][i]);
-            of_a = of_a.plus(state.a.velocity[i], &self.per_state[1][i]);
-            of_b = of_b.plus(state.b.displacement[i], &self.per_state[2][i]);
-            of_b = of_b.plus(state.b.velocity[i], &self.per_state[3][i]);
-        }
+        let [x_a, v_a, x_b, v_b] = &self.per_state;
+        // two sums, so that neither waits for the other
+        let of_a = of_two([x_a, v_a], [&state.a.displacement, &state.a.velocity]);
+        let of_b = of_two([x_b, v_b], [&state.b.displacement, &state.b.velocity]);
         of_a.plus(1.0, &of_b)
+    }
+
+    /// Q F
+    #[inline]
+    fn of_loads(&self, loads: &LapLoads<D>) -> LapState<D> {
+        let [on_a, on_b] = &self.per_load;
+        of_two([on_a, on_b], [&loads.a, &loads.b])
     }
 
     fn is_finite(&self) -> bool {
@@ -177,6 +204,19 @@ impl<const D: usize> Change<D> {
                 numbers.all(|number| number.is_finite())
             })
     }
+}
+
+/// Sum of columns times numbers, for two groups of both.
+#[inline]
+fn of_two<const D: usize>(columns: [&[LapState<D>; D]; 2], numbers: [&[f64; D]; 2]) -> LapState<D> {
+    let mut sum = columns[0][0].times(numbers[0][0]);
+    for i in 0..D {
+        if i > 0 {
+            sum = sum.plus(numbers[0][i], &columns[0][i]);
+        }
+        sum = sum.plus(numbers[1][i], &columns[1][i]);
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -1,15 +1,24 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
 mod derivatives;
+mod events;
+mod experiment;
+mod intermediate;
 mod model_exchange;
+mod stepping;
+mod time_derivatives;
+
+pub(crate) use intermediate::Update;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
+    abi::Abi,
     fmu_state::{Identity, Snapshot},
+    input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
-    models::{self, CommunicationStep, Model},
+    models::{self, Model},
     pace::Pace,
     refusal::{Active, Refusal},
     start_file::StartFile,
@@ -18,8 +27,16 @@ use crate::{
 /// Roles whose values are calculated only when somebody asks.
 const CALCULATED: Roles = Roles::of(&[Role::Output, Role::Derivative]);
 
+/// Roles whose values are always there.
+const AT_HAND: Roles = Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
+
+/// What may be set in every Step Mode.
+const INPUTS: Roles = Roles::of(&[Role::Input]);
+
 /// Parameters, after a change of which the model has to be prepared again.
 const PARAMETERS: Roles = Roles::of(&[Role::Parameter]);
+
+use intermediate::Access;
 
 /// One instance of an FMU.
 pub(crate) struct Instance {
@@ -28,11 +45,14 @@ pub(crate) struct Instance {
     model: Box<dyn Model>,
     start: Values,
     values: Values,
+    inputs: InputCourse,
     mode: Mode,
     stop_s: Option<f64>,
     pace: Pace,
     parameters_changed: bool,
     outputs_stale: bool,
+    event_mode_used: bool,
+    access: Access,
 }
 
 impl Instance {
@@ -40,6 +60,7 @@ impl Instance {
     pub(crate) fn new(
         file: StartFile,
         token: &str,
+        abi: Abi,
         interface_type: InterfaceType,
     ) -> Result<Self, Refusal> {
         let StartFile {
@@ -49,6 +70,7 @@ impl Instance {
         } = file;
         if token != expected {
             return Err(Refusal::Token {
+                argument: abi.token_argument(),
                 found: token.to_owned(),
                 expected,
             });
@@ -56,6 +78,7 @@ impl Instance {
         Ok(Self {
             identity: Arc::new(Identity {
                 variables,
+                abi,
                 interface_type,
                 token: expected,
             }),
@@ -63,12 +86,20 @@ impl Instance {
             model: models::model(variables),
             start: values,
             values,
+            inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
             stop_s: None,
             pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
+            event_mode_used: false,
+            access: Access::NONE,
         })
+    }
+
+    /// State of the state machine.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
     }
 
     /// Current time, s.
@@ -83,6 +114,12 @@ impl Instance {
         stop_s: Option<f64>,
     ) -> Result<(), Refusal> {
         self.require(&[Mode::Instantiated])?;
+        self.set_time_span(start_s, stop_s)?;
+        self.mode = Mode::Initialization;
+        Ok(())
+    }
+
+    fn set_time_span(&mut self, start_s: f64, stop_s: Option<f64>) -> Result<(), Refusal> {
         if !start_s.is_finite() {
             return Err(Refusal::StartTime { found_s: start_s });
         }
@@ -93,7 +130,6 @@ impl Instance {
         }
         self.values[TIME] = start_s;
         self.stop_s = stop_s;
-        self.mode = Mode::Initialization;
         Ok(())
     }
 
@@ -103,6 +139,7 @@ impl Instance {
         let warning = self.prepare_model()?;
         self.parameters_changed = false;
         self.mode = match self.interface_type() {
+            InterfaceType::CoSimulation if self.event_mode_used => Mode::Event,
             InterfaceType::CoSimulation => Mode::Step,
             InterfaceType::ModelExchange => Mode::Event,
         };
@@ -112,6 +149,7 @@ impl Instance {
     /// Ends the simulation.
     pub(crate) fn terminate(&mut self) -> Result<(), Refusal> {
         self.require(match self.interface_type() {
+            InterfaceType::CoSimulation if self.event_mode_used => &[Mode::Step, Mode::Event],
             InterfaceType::CoSimulation => &[Mode::Step],
             InterfaceType::ModelExchange => &[Mode::Event, Mode::ContinuousTime],
         })?;
@@ -127,6 +165,7 @@ impl Instance {
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
         self.values = self.start;
+        self.inputs = InputCourse::HELD;
         self.mode = Mode::Instantiated;
         self.stop_s = None;
         self.pace = Pace::NONE;
@@ -141,6 +180,37 @@ impl Instance {
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
+        if self.read_at_hand(references, values) {
+            Ok(())
+        } else {
+            self.get_any(references, values)
+        }
+    }
+
+    /// Reads variables of which none has to be calculated or asked for; tells whether all were such.
+    #[inline]
+    fn read_at_hand(&self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> bool {
+        if self.mode == Mode::IntermediateUpdate {
+            return false;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            let index = reference as usize;
+            match self.roles.get(index) {
+                Some(roles) if roles.intersects(AT_HAND) => value.write(self.values[index]),
+                _ => return false,
+            };
+        }
+        true
+    }
+
+    fn get_any(
+        &mut self,
+        references: &[u32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Refusal> {
+        if self.mode == Mode::IntermediateUpdate {
+            self.check_readable(references)?;
+        }
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if roles.intersects(CALCULATED) {
@@ -157,7 +227,37 @@ impl Instance {
     /// Sets the variables with these value references, all or none; `values` has the same length.
     #[inline]
     pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
-        let settable = self.mode.settable();
+        if self.set_inputs_between_steps(references, values) {
+            Ok(())
+        } else {
+            self.set_any(references, values)
+        }
+    }
+
+    /// Sets variables in the most common case: inputs that are held, between communication steps. Tells whether it was
+    /// that and nothing is wrong; otherwise nothing is set.
+    #[inline]
+    fn set_inputs_between_steps(&mut self, references: &[u32], values: &[f64]) -> bool {
+        if self.mode != Mode::Step || self.inputs.is_past() {
+            return false;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            let roles = self.roles.get(reference as usize);
+            if !(roles.is_some_and(|roles| roles.intersects(INPUTS)) && value.is_finite()) {
+                return false;
+            }
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            if let Some(input) = self.values.get_mut(reference as usize) {
+                *input = value;
+            }
+        }
+        self.outputs_stale = true;
+        true
+    }
+
+    fn set_any(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
+        let settable = self.mode.settable(self.identity.abi, self.event_mode_used);
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if !roles.intersects(settable) {
@@ -170,6 +270,9 @@ impl Instance {
                 });
             }
         }
+        if self.mode == Mode::IntermediateUpdate {
+            self.check_settable(references)?;
+        }
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             // importers that set every parameter before every step pay only for those that change
@@ -177,40 +280,11 @@ impl Instance {
                 roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
             self.values[index] = value;
         }
+        if self.inputs.is_past() {
+            self.forget_inputs(references);
+        }
         self.outputs_stale = true;
         Ok(())
-    }
-
-    /// Advances from `current_s` by `interval_s`, with the inputs held.
-    #[inline]
-    pub(crate) fn step(
-        &mut self,
-        current_s: f64,
-        interval_s: f64,
-    ) -> Result<Option<Active>, Refusal> {
-        if self.mode != Mode::Step {
-            self.require_type(InterfaceType::CoSimulation)?;
-            self.require(&[Mode::Step])?;
-        }
-        let end_s = self.end_of_step(current_s, interval_s)?;
-        let warning = if self.parameters_changed {
-            self.prepare_model()?
-        } else {
-            None
-        };
-        let pace = self.pace.followed_by(interval_s);
-        let step = CommunicationStep {
-            time_s: current_s,
-            interval_s,
-            is_steady: pace.is_steady(),
-        };
-        self.model.advance(&mut self.values, step)?;
-        self.pace = pace;
-        // only now, so that a warning reaches the importer even if this step is refused and the next one is not
-        self.parameters_changed = false;
-        self.values[TIME] = end_s;
-        self.outputs_stale = true;
-        Ok(warning)
     }
 
     /// Everything that this instance has to remember.
@@ -229,6 +303,7 @@ impl Instance {
             stop_s: self.stop_s,
             pace: self.pace,
             values,
+            inputs: self.inputs,
         }
     }
 
@@ -244,6 +319,7 @@ impl Instance {
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
         self.values = snapshot.values;
+        self.inputs = snapshot.inputs;
         self.parameters_changed = true;
         self.outputs_stale = true;
         Ok(())
@@ -266,13 +342,15 @@ impl Instance {
                 let (index, _) = self.known(reference)?;
                 Err(Refusal::NotOfType {
                     name: self.name(index),
+                    own: self.identity.abi.real(),
                     asked,
                 })
             }
         }
     }
 
-    fn interface_type(&self) -> InterfaceType {
+    /// Who integrates.
+    pub(crate) fn interface_type(&self) -> InterfaceType {
         self.identity.interface_type
     }
 
@@ -286,7 +364,9 @@ impl Instance {
         }
     }
 
-    fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
+    /// Refuses calls in other modes.
+    #[inline]
+    pub(crate) fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
         if expected.contains(&self.mode) {
             Ok(())
         } else {
@@ -305,39 +385,6 @@ impl Instance {
             Some(&roles) if roles != Roles::NONE => Ok((index, roles)),
             _ => Err(Refusal::UnknownReference { reference }),
         }
-    }
-
-    /// End of the step, if the importer's and the FMU's times agree but for rounding.
-    #[inline]
-    fn end_of_step(&self, current_s: f64, interval_s: f64) -> Result<f64, Refusal> {
-        if !(interval_s.is_finite() && interval_s > 0.0) {
-            return Err(Refusal::StepSize {
-                found_s: interval_s,
-            });
-        }
-        // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
-        let expected_s = self.time_s();
-        let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
-        let agrees = (current_s - expected_s).abs() <= rounding_s;
-        if !agrees {
-            return Err(Refusal::CommunicationPoint {
-                found_s: current_s,
-                expected_s,
-            });
-        }
-        let end_s = current_s + interval_s;
-        if !(end_s > expected_s && end_s.is_finite()) {
-            return Err(Refusal::StepVanishes {
-                current_s,
-                interval_s,
-            });
-        }
-        if let Some(stop_s) = self.stop_s
-            && end_s - stop_s > 1e-6 * interval_s + 1e-9 * stop_s.abs()
-        {
-            return Err(Refusal::PastStop { end_s, stop_s });
-        }
-        Ok(end_s)
     }
 
     /// Brings outputs and derivatives up to date.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::{
+    abi::Abi,
     fmu_state::Damage,
     interface::{InterfaceType, Role},
     mode::Mode,
@@ -22,6 +23,12 @@ pub(crate) enum Refusal {
         found: Mode,
         expected: &'static [Mode],
     },
+    /// The function belongs to another FMI version.
+    OtherAbi { found: Abi, expected: Abi },
+    /// The importer's callback calls what is not allowed within a communication step.
+    InsideStep,
+    /// The importer handles events though it has said that it does not.
+    EventModeNotUsed,
     /// The function belongs to another interface type.
     OtherInterfaceType {
         found: InterfaceType,
@@ -32,6 +39,7 @@ pub(crate) enum Refusal {
     /// The variable exists, but not in this type.
     NotOfType {
         name: &'static str,
+        own: &'static str,
         asked: &'static str,
     },
     /// The variable must not be set, or not in this mode.
@@ -40,6 +48,21 @@ pub(crate) enum Refusal {
         role: Role,
         mode: Mode,
     },
+    /// The variable is out of reach within a communication step.
+    NotIntermediate {
+        name: &'static str,
+        reason: NotIntermediate,
+    },
+    /// The importer asks for an early return that it was not offered.
+    EarlyReturnNotAllowed,
+    /// The importer asks for an early return outside of the step.
+    EarlyReturnTime {
+        found_s: f64,
+        start_s: f64,
+        end_s: f64,
+    },
+    /// Variables are required within communication steps, but there is no callback.
+    NoIntermediateUpdate,
     /// A value to set is NaN or infinite.
     ValueNotFinite { name: &'static str, value: f64 },
     /// A calculated output is NaN or infinite.
@@ -48,6 +71,18 @@ pub(crate) enum Refusal {
         unit: &'static str,
         time_s: f64,
     },
+    /// A derivative with respect to time is asked of a variable that has none to give.
+    NoOutputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time is given for a variable that is no input.
+    NoInputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time has an order that is not offered.
+    DerivativeOrder {
+        name: &'static str,
+        found: i32,
+        highest: usize,
+    },
+    /// The derivatives of an input take it past what is finite within a step.
+    InputNotFinite { name: &'static str, time_s: f64 },
     /// There are no partial derivatives in this mode.
     NoDerivatives { mode: Mode },
     /// The variable is no unknown that can be differentiated in this mode.
@@ -77,9 +112,16 @@ pub(crate) enum Refusal {
         expected: usize,
     },
     /// An array of states has the wrong length.
-    StateCount { found: usize, expected: usize },
+    StateCount {
+        argument: &'static str,
+        found: usize,
+        expected: usize,
+    },
     /// Event indicators are asked for.
-    IndicatorCount { found: usize },
+    IndicatorCount {
+        argument: &'static str,
+        found: usize,
+    },
     /// The memory for a serialised FMU state has the wrong size, in bytes.
     Size { found: usize, expected: usize },
     /// The start time is NaN or infinite.
@@ -133,7 +175,17 @@ pub(crate) enum Refusal {
     /// Serialised bytes that are no FMU state.
     Damaged(Damage),
     /// The importer's token is not that of the FMU's resources.
-    Token { found: String, expected: String },
+    Token {
+        argument: &'static str,
+        found: String,
+        expected: String,
+    },
+    /// An instance is asked for that is neither for Model Exchange nor for Co-Simulation.
+    FmuType { found: i32 },
+    /// A communication step shall be cancelled, but none is under way.
+    NoStepUnderWay { mode: Mode },
+    /// A status of the communication step that cannot be told.
+    NoStatus { kind: i32 },
     /// A function or an option that this FMU does not offer.
     NotProvided { reason: &'static str },
     /// The FMU's resources cannot be found.
@@ -142,6 +194,32 @@ pub(crate) enum Refusal {
     StartFile(StartFileError),
     /// A defect of the library itself.
     Internal,
+}
+
+/// Why a variable is out of reach within a communication step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NotIntermediate {
+    /// The model description does not offer it.
+    NotOffered,
+    /// It was not among those that the importer said it would use.
+    NotRequired,
+    /// The callback was not told that it may read.
+    NoGet,
+    /// The callback was not asked to set inputs.
+    NoSet,
+}
+
+impl fmt::Display for NotIntermediate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotOffered => "has no intermediateUpdate in modelDescription.xml",
+            Self::NotRequired => {
+                "cannot be accessed within a communication step: it is not among the requiredIntermediateVariables"
+            }
+            Self::NoGet => "cannot be read now: intermediateVariableGetAllowed is fmi3False",
+            Self::NoSet => "cannot be set now: intermediateVariableSetRequested is fmi3False",
+        })
+    }
 }
 
 impl Refusal {
@@ -155,6 +233,16 @@ impl Refusal {
             self,
             Self::Escape { .. } | Self::StateNotFinite { .. } | Self::Internal
         )
+    }
+
+    /// Whether FMI 2.0 answers this with `fmi2Discard` (2.1.3, 4.2.3): a status that there is not; and, if the importer's
+    /// solver is at work, numbers that are not finite, for which a shorter step may help.
+    pub(crate) const fn is_discarded(&self, solver_at_work: bool) -> bool {
+        match self {
+            Self::NoStatus { .. } => true,
+            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. } => solver_at_work,
+            _ => false,
+        }
     }
 }
 
@@ -172,6 +260,18 @@ impl fmt::Display for Refusal {
                 }
                 Ok(())
             }
+            Self::OtherAbi { found, expected } => write!(
+                f,
+                "belongs to {}, but the instance was made by the functions of {}; use only one of them",
+                expected.name(),
+                found.name()
+            ),
+            Self::InsideStep => f.write_str(
+                "is not allowed in state Intermediate Update Mode, only when the communication step has ended",
+            ),
+            Self::EventModeNotUsed => f.write_str(
+                "is not allowed: the instance was made with eventModeUsed = fmi3False",
+            ),
             Self::OtherInterfaceType { found, expected } => write!(
                 f,
                 "is not provided by this FMU: it belongs to {}, the instance is for {}",
@@ -182,13 +282,33 @@ impl fmt::Display for Refusal {
                 f,
                 "value reference {reference} does not exist; take it from modelDescription.xml"
             ),
-            Self::NotOfType { name, asked } => write!(
+            Self::NotOfType { name, own, asked } => write!(
                 f,
-                "variable {name} is of type Float64, not {asked}; use the Float64 function"
+                "variable {name} is of type {own}, not {asked}; use the {own} function"
             ),
             Self::NotSettable { name, role, mode } => {
-                write!(f, "variable {name} is {role} and cannot be set in state {mode}")
+                write!(f, "variable {name} is {role} and cannot be set in state {mode}")?;
+                match (role, mode) {
+                    (Role::Parameter, Mode::Step | Mode::ContinuousTime) => {
+                        f.write_str("; enter Event Mode first")
+                    }
+                    _ => Ok(()),
+                }
             }
+            Self::NotIntermediate { name, reason } => {
+                write!(f, "variable {name} {reason}")
+            }
+            Self::EarlyReturnNotAllowed => f.write_str(
+                "earlyReturnRequested was set by the callback though canReturnEarly was fmi3False: the instance was \
+                 made with earlyReturnAllowed = fmi3False",
+            ),
+            Self::EarlyReturnTime { found_s, start_s, end_s } => write!(
+                f,
+                "earlyReturnTime is {found_s} s, expected a time within the step from {start_s} s to {end_s} s"
+            ),
+            Self::NoIntermediateUpdate => f.write_str(
+                "requiredIntermediateVariables is not empty, but the callback intermediateUpdate is a null pointer",
+            ),
             Self::ValueNotFinite { name, value } => {
                 write!(f, "variable {name} cannot be set to {value}; expected a finite number")
             }
@@ -196,9 +316,31 @@ impl fmt::Display for Refusal {
                 f,
                 "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
             ),
+            Self::NoOutputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no output; ask for the derivative of an output"
+            ),
+            Self::NoInputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no input; derivatives can be given for inputs alone"
+            ),
+            Self::DerivativeOrder { name, found, highest: 1 } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1"
+            ),
+            Self::DerivativeOrder { name, found, highest } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1 to {highest}"
+            ),
+            Self::InputNotFinite { name, time_s } => write!(
+                f,
+                "input {name} overflows before t = {time_s} s with the derivatives that were given; give others or \
+                 take a shorter step"
+            ),
             Self::NoDerivatives { mode } => write!(
                 f,
-                "is not allowed in state {mode}; partial derivatives are there from Initialization Mode on"
+                "is not allowed in state {mode}; partial derivatives are there from Initialization Mode on, at \
+                 communication points"
             ),
             Self::NotUnknown { name, role, mode } => write!(
                 f,
@@ -225,13 +367,13 @@ impl fmt::Display for Refusal {
                 f,
                 "argument {argument} is {found}, expected {expected}: every variable is a scalar"
             ),
-            Self::StateCount { found, expected } => write!(
+            Self::StateCount { argument, found, expected } => write!(
                 f,
-                "argument nContinuousStates is {found}, expected {expected}, the number of continuous states"
+                "argument {argument} is {found}, expected {expected}, the number of continuous states"
             ),
-            Self::IndicatorCount { found } => write!(
+            Self::IndicatorCount { argument, found } => write!(
                 f,
-                "argument nEventIndicators is {found}, expected 0: there are no event indicators"
+                "argument {argument} is {found}, expected 0: there are no event indicators"
             ),
             Self::Size { found, expected } => write!(
                 f,
@@ -300,10 +442,23 @@ impl fmt::Display for Refusal {
                 "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
             ),
             Self::Damaged(damage) => write!(f, "the serialised FMU state cannot be used: {damage}"),
-            Self::Token { found, expected } => write!(
+            Self::Token { argument, found, expected } => write!(
                 f,
-                "instantiationToken is \"{found}\", but the FMU's resources have \"{expected}\"; \
+                "{argument} is \"{found}\", but the FMU's resources have \"{expected}\"; \
                  pass the token of the same FMU's modelDescription.xml"
+            ),
+            Self::FmuType { found } => write!(
+                f,
+                "fmuType is {found}, expected 0 (fmi2ModelExchange) or 1 (fmi2CoSimulation)"
+            ),
+            Self::NoStepUnderWay { mode } => write!(
+                f,
+                "is not allowed in state {mode}: a step is done when fmi2DoStep returns, there is none to cancel"
+            ),
+            Self::NoStatus { kind } => write!(
+                f,
+                "has no status of kind {kind}; no step is ever pending, so that there are fmi2LastSuccessfulTime (of \
+                 type Real) and fmi2Terminated (of type Boolean) only"
             ),
             Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),
             Self::Resource(error) => error.fmt(f),

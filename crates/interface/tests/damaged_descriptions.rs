@@ -61,6 +61,8 @@ refused!(other_type: LAP, r#"<Float64 name="a.y" valueReference="1""# => r#"<Flo
 refused!(array: LAP, r#"start="2e-5" description="Longest Runge-Kutta step, greater than zero; a communication step takes as many equal steps as needed"/>"#
     => r#"start="2e-5" description="d"><Dimension start="2"/></Float64>"#,
     Problem::NotScalar { variable } if variable == "step_size_max");
+refused!(intermediate_parameter: LAP, r#"<Float64 name="a.m""# => r#"<Float64 intermediateUpdate="true" name="a.m""#,
+    Problem::IntermediateUpdate { variable } if variable == "a.m");
 refused!(illegal_name: LAP, r#"name="a.y""# => r#"name="a.2y""#, Problem::IllegalName { variable } if variable == "a.2y");
 refused!(illegal_character: LAP, r#"name="a.y""# => r#"name="a y""#, Problem::IllegalName { variable } if variable == "a y");
 refused!(duplicate_name: LAP, r#"name="a.theta""# => r#"name="a.y""#, Problem::DuplicateName { variable } if variable == "a.y");
@@ -94,7 +96,7 @@ refused!(display_factor: LAP, r#"name="mm" factor="1000""# => r#"name="mm" facto
 refused!(nominal: LAP, r#"nominal="100""# => r#"nominal="-100""#,
     Problem::Nominal { declared_type, nominal: -100.0 } if declared_type == "Force");
 refused!(zero_nominal: LAP, r#"nominal="100""# => r#"nominal="0""#, Problem::Nominal { nominal: 0.0, .. });
-refused!(range: LAP, r#"min="0" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
+refused!(range: LAP, r#"min="2.2250738585072014e-308" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
     Problem::Range { declared_type, min: 1.0, max: 0.0 } if declared_type == "StepSize");
 refused!(combination: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="continuous""#,
     Problem::Combination { variable, .. } if variable == "joint.k_yy");
@@ -121,7 +123,7 @@ refused!(several_starts: LAP, r#"start="1.41""# => r#"start="1.41 1.42""#,
     Problem::IllegalStart { variable, found } if variable == "a.m" && *found == [1.41, 1.42]);
 refused!(infinite_start: LAP, r#"start="1.41""# => r#"start="inf""#, Problem::IllegalStart { variable, .. } if variable == "a.m");
 refused!(start_out_of_range: LAP, r#"start="1.41""# => r#"start="-1.41""#,
-    Problem::StartOutOfRange { variable, start: -1.41, min: 0.0, .. } if variable == "a.m");
+    Problem::StartOutOfRange { variable, start: -1.41, min: f64::MIN_POSITIVE, .. } if variable == "a.m");
 refused!(no_independent: LAP, r#"causality="independent" variability="continuous" declaredType="Time""# => r#"causality="input" variability="continuous" declaredType="Time" start="0""#,
     Problem::Independent { found } if found.is_empty());
 refused!(independent_name: LAP, r#"name="time""# => r#"name="t""#, Problem::Independent { found } if found[0].0 == "t");

@@ -5,11 +5,10 @@ use std::ffi::c_char;
 use crate::{
     fmi3::{
         Boolean, Done, Opaque, ValueReference,
-        arguments::{array, array_mut},
-        call,
+        arguments::{array, array_mut, same_count},
+        call, call_inside,
     },
     logging::Status,
-    refusal::Refusal,
 };
 
 /// Reads variables of type Float64, which is that of all variables.
@@ -27,7 +26,7 @@ unsafe extern "C" fn fmi3GetFloat64(
 ) -> Status {
     // SAFETY: the importer's promise
     unsafe {
-        call("fmi3GetFloat64", instance, |instance| {
+        call_inside("fmi3GetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array_mut(values, value_count, "values")?;
@@ -52,30 +51,12 @@ unsafe extern "C" fn fmi3SetFloat64(
 ) -> Status {
     // SAFETY: the importer's promise
     unsafe {
-        call("fmi3SetFloat64", instance, |instance| {
+        call_inside("fmi3SetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array(values, value_count, "values")?;
             instance.set(references, values)?;
             Ok(Done::Silently)
-        })
-    }
-}
-
-/// Refuses arrays that belong together but differ in length.
-#[inline]
-pub(super) fn same_count(
-    argument: &'static str,
-    found: usize,
-    expected: usize,
-) -> Result<(), Refusal> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(Refusal::Count {
-            argument,
-            found,
-            expected,
         })
     }
 }

@@ -4,6 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
+    abi::Abi,
     interface::{ContinuousState, InterfaceType, reference::TIME},
     mode::Mode,
     refusal::{Active, Refusal},
@@ -18,18 +19,6 @@ const READABLE: &[Mode] = &[
 ];
 
 impl Instance {
-    /// From Continuous-Time Mode to an event.
-    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
-        self.require(&[Mode::ContinuousTime])?;
-        self.mode = Mode::Event;
-        Ok(())
-    }
-
-    /// Nothing changes by itself at an event; this only tells whether the call is allowed.
-    pub(crate) fn update_discrete_states(&self) -> Result<(), Refusal> {
-        self.require(&[Mode::Event])
-    }
-
     /// From an event on to continuous time: parameters that were changed take effect.
     pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<Option<Active>, Refusal> {
         self.require(&[Mode::Event])?;
@@ -90,9 +79,11 @@ impl Instance {
         })
     }
 
-    /// Reads typical magnitudes of all states.
+    /// Reads typical magnitudes of all states; in FMI 2.0 in every state.
     pub(crate) fn nominals(&self, nominals: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
-        self.require(READABLE)?;
+        if self.identity.abi == Abi::Fmi3 {
+            self.require(READABLE)?;
+        }
         self.fill(nominals, |state| Ok(state.nominal))
     }
 
@@ -115,22 +106,16 @@ impl Instance {
         self.require_type(InterfaceType::ModelExchange)
     }
 
-    /// Takes parameters that were changed into use.
-    fn use_parameters(&mut self) -> Result<Option<Active>, Refusal> {
-        if !self.parameters_changed {
-            return Ok(None);
-        }
-        let warning = self.prepare_model()?;
-        self.parameters_changed = false;
-        Ok(warning)
-    }
-
     fn check_count(&self, found: usize) -> Result<(), Refusal> {
         let expected = self.state_count();
         if found == expected {
             Ok(())
         } else {
-            Err(Refusal::StateCount { found, expected })
+            Err(Refusal::StateCount {
+                argument: self.identity.abi.state_count_argument(),
+                found,
+                expected,
+            })
         }
     }
 

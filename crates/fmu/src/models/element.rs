@@ -1,6 +1,11 @@
 //! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
 
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::Motion;
+
 use crate::{
+    input_course::InputCourse,
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
@@ -28,15 +33,46 @@ impl<const D: usize> Model for Element<D> {
         Ok(())
     }
 
-    fn advance(&mut self, _: &mut Values, _: CommunicationStep) -> Result<(), Refusal> {
+    fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
+        Ok(NonZeroU32::MIN)
+    }
+
+    fn advance(
+        &mut self,
+        _: &mut Values,
+        _: CommunicationStep,
+        _: &InputCourse,
+    ) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
+        true
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
+        for side in [A, B] {
+            let Motion { velocity, .. } = side.motion::<D>(values);
+            let [displacements, velocities] = side.motion_references::<D>();
+            // the velocity that is put in is the displacement's derivative, unless another one was given
+            side.set_motion(
+                rates,
+                &Motion {
+                    displacement: std::array::from_fn(|dof| {
+                        inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
+                    }),
+                    velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
+                },
+            );
+        }
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
         let law = joint_law::<D>(values);
         let relative = A.motion::<D>(values).relative_to(&B.motion(values));
         let on_b = law.load_on_b(&relative);
-        A.set_load(values, &on_b.map(|load| -load));
+        // 0 − F is −F but for F = 0, which stays without a sign
+        A.set_load(values, &on_b.map(|load| 0.0 - load));
         B.set_load(values, &on_b);
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);

@@ -3,14 +3,16 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    Defect, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, STABILITY_LIMIT_REAL, substeps,
+    Defect, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, Motion, STABILITY_LIMIT_REAL,
+    substeps,
 };
 
 use crate::{
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variable, Variables, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_joint_load},
+        sides::{A, B, Side, is_active, joint_law, set_joint_load},
     },
     refusal::{Active, Refusal},
 };
@@ -20,6 +22,10 @@ pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
 
 /// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
 const STEPS_WORTH_PREPARING: u32 = 256;
+
+/// Runge–Kutta steps after which it is checked whether a softening joint still holds: a tenth of the fastest period where
+/// the export has chosen the step. Checking after every one takes half as long again.
+const STEPS_BETWEEN_CHECKS: NonZeroU32 = NonZeroU32::new(8).unwrap();
 
 /// Two bodies and the joint between them, with `D` degrees of freedom a side.
 #[derive(Clone, Copy, Debug, Default)]
@@ -34,6 +40,8 @@ struct Prepared<const D: usize> {
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
     amplitude: [f64; D],
+    /// Whether the joint holds only so far.
+    softens: bool,
     /// What the latest length of a communication step gives; `None` before the first one.
     interval: Option<Interval<D>>,
 }
@@ -82,12 +90,12 @@ impl<const D: usize> Model for LapModel<D> {
         if interface_type == InterfaceType::CoSimulation {
             check_step(&lap, step_size_max_s)?;
         }
+        let limits = lap.escape_amplitude();
         self.prepared = Some(Prepared {
             integrator: LapIntegrator::new(&lap),
             step_size_max_s,
-            amplitude: lap
-                .escape_amplitude()
-                .map(|limit| limit.unwrap_or(f64::MAX)),
+            amplitude: limits.map(|limit| limit.unwrap_or(f64::MAX)),
+            softens: limits.iter().any(Option::is_some),
             interval: None,
         });
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
@@ -113,17 +121,68 @@ impl<const D: usize> Model for LapModel<D> {
         }
     }
 
-    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal> {
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
+        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
+        count(interval_s, prepared.step_size_max_s)
+    }
+
+    fn advance(
+        &mut self,
+        values: &mut Values,
+        step: CommunicationStep,
+        inputs: &InputCourse,
+    ) -> Result<(), Refusal> {
         let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let start = state::<D>(values);
-        let loads = loads(values);
-        let end = prepared.advance(&start, &loads, step)?;
+        let loads = Loads {
+            start: loads(values),
+            course: inputs,
+        };
+        let end = if inputs.is_held() {
+            prepared.advance(&start, &loads.start, step)?
+        } else {
+            prepared.advance_along(&start, &loads, step)?
+        };
         if !prepared.holds(&end) {
             return Err(prepared.explain(&start, &loads, step));
         }
         A.set_motion(values, &end.a);
         B.set_motion(values, &end.b);
         Ok(())
+    }
+
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
+        let Some(prepared) = &self.prepared else {
+            return false;
+        };
+        let (start, loads) = (state(values), loads(values));
+        match prepared.steady_end(&start, &loads, interval_s) {
+            Some(end) if prepared.holds(&end) => {
+                A.set_motion(values, &end.a);
+                B.set_motion(values, &end.b);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
+        for side in [A, B] {
+            // ẋ = v, v̇ as calculated from the equations of motion
+            let Motion { velocity, .. } = side.motion::<D>(values);
+            side.set_motion(
+                rates,
+                &Motion {
+                    displacement: velocity,
+                    velocity: side.acceleration(values),
+                },
+            );
+            let of_loads = side.load_references::<D>();
+            side.set_load(
+                rates,
+                &of_loads.map(|load| inputs.rate(load).unwrap_or(0.0)),
+            );
+        }
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
@@ -160,6 +219,33 @@ impl<const D: usize> Model for LapModel<D> {
     }
 }
 
+/// The loads over a step.
+struct Loads<'a, const D: usize> {
+    /// At its beginning.
+    start: LapLoads<D>,
+    /// How they go on.
+    course: &'a InputCourse,
+}
+
+impl<const D: usize> Loads<'_, D> {
+    /// Loads `after_s` (s) from the beginning.
+    fn after(&self, after_s: f64) -> LapLoads<D> {
+        let of_side = |side: Side, start: &[f64; D]| {
+            let inputs = side.load_references::<D>();
+            std::array::from_fn(|dof| self.course.value(inputs[dof], start[dof], after_s))
+        };
+        LapLoads {
+            a: of_side(A, &self.start.a),
+            b: of_side(B, &self.start.b),
+        }
+    }
+
+    /// Loads at the stages of the Runge–Kutta step of `length_s` (s) that has the number `index`, from 0.
+    fn at_stages(&self, index: u32, length_s: f64) -> [LapLoads<D>; 3] {
+        [0.0, 0.5, 1.0].map(|part| self.after((f64::from(index) + part) * length_s))
+    }
+}
+
 impl<const D: usize> Prepared<D> {
     /// State at the end of the step, by one product where that is possible and worth its preparation.
     #[inline]
@@ -187,7 +273,87 @@ impl<const D: usize> Prepared<D> {
                 return Ok(propagator.advance(start, loads));
             }
         }
+        if self.softens && count > STEPS_BETWEEN_CHECKS {
+            return Ok(self.stepped_while_held(start, loads, length_s, count));
+        }
         Ok(stepped(&self.integrator, start, loads, length_s, count))
+    }
+
+    /// State after the Runge–Kutta steps under held loads, or, of a softening joint, at the first check that finds it
+    /// torn: what a load brings back from there cannot become whole again.
+    fn stepped_while_held(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        count: NonZeroU32,
+    ) -> LapState<D> {
+        let length_s = interval_s / f64::from(count.get());
+        let mut state = *start;
+        let mut rest = count.get();
+        while rest > 0 {
+            // so many steps have the length of one to the last bit, because it is a power of two
+            let next = if rest >= STEPS_BETWEEN_CHECKS.get() {
+                STEPS_BETWEEN_CHECKS
+            } else {
+                NonZeroU32::MIN
+            };
+            let span_s = length_s * f64::from(next.get());
+            state = stepped(&self.integrator, &state, loads, span_s, next);
+            if !self.holds(&state) {
+                break;
+            }
+            rest -= next.get();
+        }
+        state
+    }
+
+    /// State at the end of one of many equal steps, if all is prepared for it.
+    #[inline]
+    fn steady_end(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+    ) -> Option<LapState<D>> {
+        let interval = self.interval.as_ref()?;
+        if interval.length_s != interval_s {
+            return None;
+        }
+        match &interval.propagation {
+            Propagation::Unknown => None,
+            Propagation::Possible(propagator) => Some(propagator.advance(start, loads)),
+            Propagation::Impossible if self.softens && interval.count > STEPS_BETWEEN_CHECKS => {
+                None
+            }
+            Propagation::Impossible => {
+                Some(
+                    self.integrator
+                        .advance(start, loads, interval_s, interval.count),
+                )
+            }
+        }
+    }
+
+    /// State at the end of the step under loads that change, by Runge–Kutta steps.
+    #[cold]
+    fn advance_along(
+        &self,
+        start: &LapState<D>,
+        loads: &Loads<'_, D>,
+        step: CommunicationStep,
+    ) -> Result<LapState<D>, Refusal> {
+        let count = count(step.interval_s, self.step_size_max_s)?.get();
+        let length_s = step.interval_s / f64::from(count);
+        let mut state = *start;
+        for index in 0..count {
+            let loads = loads.at_stages(index, length_s);
+            state = self.integrator.step_with_loads(&state, &loads, length_s);
+            if !self.holds(&state) {
+                break;
+            }
+        }
+        Ok(state)
     }
 
     /// Whether the state is finite and the joint holds.
@@ -210,18 +376,17 @@ impl<const D: usize> Prepared<D> {
     fn explain(
         &self,
         start: &LapState<D>,
-        loads: &LapLoads<D>,
+        loads: &Loads<'_, D>,
         step: CommunicationStep,
     ) -> Refusal {
-        let count = self.interval.map_or(1, |interval| interval.count.get());
+        let count = count(step.interval_s, self.step_size_max_s).map_or(1, NonZeroU32::get);
         let length_s = step.interval_s / f64::from(count);
         let mut state = *start;
         let mut time_s = step.time_s;
-        for index in 1..=count {
-            state = self
-                .integrator
-                .advance(&state, loads, length_s, NonZeroU32::MIN);
-            time_s = step.time_s + length_s * f64::from(index);
+        for index in 0..count {
+            let loads = loads.at_stages(index, length_s);
+            state = self.integrator.step_with_loads(&state, &loads, length_s);
+            time_s = step.time_s + length_s * f64::from(index + 1);
             if !self.holds(&state) {
                 break;
             }
@@ -232,7 +397,8 @@ impl<const D: usize> Prepared<D> {
     fn fault(&self, state: &LapState<D>, time_s: f64) -> Refusal {
         for (side, motion) in [(A, &state.a), (B, &state.b)] {
             let numbers = motion.displacement.iter().chain(&motion.velocity);
-            for (reference, number) in side.motion_references::<D>().zip(numbers) {
+            let references = side.motion_references::<D>();
+            for (&reference, number) in references.iter().flatten().zip(numbers) {
                 if !number.is_finite() {
                     return Refusal::StateNotFinite {
                         name: name(reference),
@@ -262,8 +428,8 @@ impl<const D: usize> Prepared<D> {
     }
 }
 
-/// The Runge–Kutta steps, apart from all else, so that the optimiser has all registers for them.
-#[inline(never)]
+/// The Runge–Kutta steps where time does not matter.
+#[cold]
 fn stepped<const D: usize>(
     integrator: &LapIntegrator<D>,
     start: &LapState<D>,

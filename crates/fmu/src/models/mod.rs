@@ -6,7 +6,10 @@ mod sides;
 
 pub(crate) use lap::SUBSTEPS_MAX;
 
+use std::num::NonZeroU32;
+
 use crate::{
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
     refusal::{Active, Refusal},
 };
@@ -27,20 +30,37 @@ pub(crate) trait Model: Send {
     /// Whether the states in `values` are such that the simulation can go on.
     fn check_states(&self, values: &Values) -> Result<(), Refusal>;
 
-    /// Advances the states over `step`, with the inputs held; on refusal `values` are untouched.
+    /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal>;
+
+    /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
-    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls.
-    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal>;
+    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls. The inputs in `values`
+    /// stay those at the step's beginning.
+    fn advance(
+        &mut self,
+        values: &mut Values,
+        step: CommunicationStep,
+        inputs: &InputCourse,
+    ) -> Result<(), Refusal>;
+
+    /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
+    /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool;
 
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
+
+    /// Writes the derivatives of inputs and states with respect to time to `rates`, at the point `values`, of which the
+    /// outputs are up to date.
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values);
 
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
     /// variables at the point `values`: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
-/// One communication step.
+/// One communication step, or one internal step of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommunicationStep {
     /// Time at its start, s.
@@ -51,8 +71,10 @@ pub(crate) struct CommunicationStep {
     pub(crate) is_steady: bool,
 }
 
-// what an instance takes beside its values stays small, whatever is prepared for it
-const _: () = assert!(size_of::<lap::LapModel<2>>() <= 2048);
+/// Most bytes that a model takes, whatever is prepared for it.
+pub(crate) const MODEL_SIZE_MAX: usize = 2048;
+
+const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 
 /// The model of an FMU.
 pub(crate) fn model(variables: Variables) -> Box<dyn Model> {

@@ -9,6 +9,8 @@ use super::text;
 const WIDTH: f64 = 640.0;
 const STRIP_HEIGHT: f64 = 240.0;
 const MARGIN: f64 = 14.0;
+/// Room for the half of the last label that goes beyond the strip.
+const RIGHT: f64 = 24.0;
 const LEGEND: f64 = 30.0;
 const LABELS_BELOW: f64 = 46.0;
 const FONT: f64 = 12.5;
@@ -63,7 +65,7 @@ impl LineFigure<'_> {
             // Half a pixel off, thin lines are sharp.
             left: MARGIN + VALUE_LABELS + 0.5,
             top: LEGEND + 0.5,
-            width: WIDTH - 2.0 * MARGIN - VALUE_LABELS,
+            width: WIDTH - MARGIN - RIGHT - VALUE_LABELS,
             height: STRIP_HEIGHT,
             frequency: axis(self.across.1, points().map(|point| point.0))?,
             value: Some(axis(self.up.1, points().map(|point| point.1))?),
@@ -171,7 +173,7 @@ mod tests {
             .and_then(|path| path.split('l').next())
             .expect("a curve");
         let (x, y) = start.split_once(' ').expect("a point");
-        let width = WIDTH - 2.0 * MARGIN - VALUE_LABELS;
+        let width = WIDTH - MARGIN - RIGHT - VALUE_LABELS;
         let expected = width * 2_f64.log10() / 400_f64.log10();
         assert!(
             (x.parse::<f64>().expect("x") - expected).abs() < 0.01,

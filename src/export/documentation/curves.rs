@@ -265,8 +265,6 @@ fn load_curve<const D: usize>(
         large = number(three_digits(
             per_si * reach / PART_OF_CUBIC * 0.1_f64.sqrt()
         )),
-        load = dof.load,
-        load_unit = dof.load_unit,
     );
     Some((figure, caption))
 }

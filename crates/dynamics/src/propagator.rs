@@ -51,6 +51,8 @@ pub struct LapPropagator<const D: usize> {
 ///
 /// The identity is left out, because P is small for short steps and keeps its digits on its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// so that two numbers at a time can be read without a load of their own
+#[repr(align(16))]
 struct Change<const D: usize> {
     /// Columns of P: displacements of a, velocities of a, displacements of b, velocities of b.
     per_state: [[LapState<D>; D]; 4],

@@ -26,7 +26,7 @@ impl Instance {
     /// Takes the step in the most common case: one of many equal ones, with the inputs held and nothing wrong. Tells
     /// whether it was that; otherwise nothing has moved.
     #[inline]
-    fn step_steadily(&mut self, current_s: f64, interval_s: f64) -> bool {
+    pub(crate) fn step_steadily(&mut self, current_s: f64, interval_s: f64) -> bool {
         let is_as_usual = self.mode == Mode::Step
             && self.pace.is_kept_by(interval_s)
             && !self.parameters_changed
@@ -46,7 +46,12 @@ impl Instance {
         true
     }
 
-    fn step_any(&mut self, current_s: f64, interval_s: f64) -> Result<Option<Active>, Refusal> {
+    /// Takes any step that can be taken, or says why it cannot.
+    pub(crate) fn step_any(
+        &mut self,
+        current_s: f64,
+        interval_s: f64,
+    ) -> Result<Option<Active>, Refusal> {
         let end_s = self.end_of_step(current_s, interval_s)?;
         let warning = if self.parameters_changed {
             self.prepare_model()?

@@ -1,0 +1,130 @@
+//! Random sequences of calls: no crash, no leak, no broken promise, whatever the host does.
+//!
+//! `BOLTED_JOINT_CALLS` sets how many calls are made; `BOLTED_JOINT_SEED` the seed of the first sequence. A failure
+//! names its seed: run that one sequence again with `BOLTED_JOINT_CALLS=1 BOLTED_JOINT_SEED=…`, which prints every call.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that cannot go on has failed"
+)]
+
+// the functions come from the library's symbols
+extern crate bolted_joint as _;
+
+mod calls;
+
+use std::{env, panic, path::Path, thread};
+
+use calls::{Choices, Tally, World};
+
+/// Turns in a sequence, which starts without instances and ends without any.
+const TURNS: u64 = 1000;
+/// Seed of the first sequence, if none is given.
+const FIRST_SEED: u64 = 0xb017_0000;
+
+fn number(variable: &str, otherwise: u64) -> u64 {
+    let Ok(text) = env::var(variable) else {
+        return otherwise;
+    };
+    let parsed = match text.strip_prefix("0x") {
+        Some(digits) => u64::from_str_radix(digits, 16),
+        None => text.parse(),
+    };
+    parsed.unwrap_or_else(|_| panic!("{variable} is \"{text}\", expected a whole number"))
+}
+
+fn prepare() {
+    calls::write_resources(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("random calls"));
+}
+
+fn sequence(seed: u64, trace: bool) -> Tally {
+    let outcome = panic::catch_unwind(|| {
+        let mut choices = Choices::seeded(seed);
+        let mut world = World::new(trace);
+        for _ in 0..TURNS {
+            world.turn(&mut choices);
+        }
+        world.finish()
+    });
+    outcome
+        .unwrap_or_else(|_| panic!("repeat with BOLTED_JOINT_CALLS=1 BOLTED_JOINT_SEED={seed:#x}"))
+}
+
+fn sequences(first_seed: u64, calls: u64) -> Tally {
+    let trace = calls == 1;
+    let mut tally = Tally::default();
+    let mut seed = first_seed;
+    while tally.calls() < calls {
+        tally.add(&sequence(seed, trace));
+        seed += 1;
+    }
+    tally
+}
+
+#[test]
+fn a_million_random_calls_keep_every_promise() {
+    prepare();
+    let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
+    let tally = sequences(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
+    println!(
+        "{} calls, {} failed simulations",
+        tally.calls(),
+        tally.failures
+    );
+    for (name, [successes, warnings, refusals]) in &tally.by_function {
+        println!("{name:45} {successes:8} ok {warnings:6} warnings {refusals:8} refused");
+    }
+    // the sequences are worth something only if they get everywhere
+    if calls >= 100_000 {
+        for name in calls::function_names() {
+            let [successes, warnings, refusals] = tally.by_function[name];
+            assert!(
+                successes + warnings + refusals > 50,
+                "{name} is hardly called"
+            );
+        }
+        assert!(
+            tally.failures > 100,
+            "{} simulations failed",
+            tally.failures
+        );
+    }
+}
+
+#[test]
+fn sixteen_threads_get_the_bits_of_one() {
+    prepare();
+    let of_seed = |seed| sequences(seed, 5_000);
+    let one_by_one: Vec<Tally> = (0..16).map(of_seed).collect();
+    let together: Vec<Tally> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..16)
+            .map(|seed| scope.spawn(move || of_seed(seed)))
+            .collect();
+        threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap())
+            .collect()
+    });
+    assert_eq!(one_by_one, together);
+    assert!(
+        one_by_one
+            .windows(2)
+            .all(|pair| pair[0].digest != pair[1].digest)
+    );
+}
+
+#[test]
+fn bytes_from_a_fuzzer_make_calls_too() {
+    prepare();
+    let mut tally = Tally::default();
+    for seed in 0..50 {
+        let mut choices = Choices::seeded(seed);
+        let bytes: Vec<u8> = (0..500)
+            .flat_map(|_| choices.bits().to_le_bytes())
+            .collect();
+        tally.add(&World::new(false).exhaust(Choices::from_bytes(&bytes)));
+    }
+    assert!(tally.calls() > 5_000, "{} calls", tally.calls());
+}

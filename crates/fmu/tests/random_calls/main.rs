@@ -128,3 +128,23 @@ fn bytes_from_a_fuzzer_make_calls_too() {
     }
     assert!(tally.calls() > 5_000, "{} calls", tally.calls());
 }
+
+/// No test of the library but of the tool that watches it: must fail under valgrind and AddressSanitizer.
+#[test]
+#[ignore = "does what must not be done, to see whether anybody notices"]
+fn planted_read_beyond_an_array() {
+    let array = vec![1_u8; 24].into_boxed_slice();
+    // SAFETY: none: this is the fault that the tool must report
+    let beyond = unsafe { array.as_ptr().add(array.len()).read_volatile() };
+    println!("{beyond}");
+}
+
+/// As above.
+#[test]
+#[ignore = "does what must not be done, to see whether anybody notices"]
+fn planted_leak() {
+    // many, because the stack may still hold the last address
+    for n in 0..100_u64 {
+        std::hint::black_box(Box::leak(Box::new([n; 100])));
+    }
+}

@@ -12,7 +12,7 @@ use super::platforms::{Library, binaries};
 use super::start_file::{parameter_lines, start_file};
 use super::step::{Experiment, StepSize};
 use super::token::token;
-use super::{ExportError, Interface, Timestamp};
+use super::{ExportError, FmiVersion, Interface, Timestamp};
 use crate::joint::{DofSet, JointFile, LawError, Passivity};
 use crate::whole_file;
 
@@ -21,6 +21,8 @@ use crate::whole_file;
 pub struct ExportOptions {
     /// Which of the two FMUs.
     pub interface: Interface,
+    /// Version of the FMI standard.
+    pub version: FmiVersion,
     /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
     pub step_size_max_s: Option<f64>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
@@ -36,6 +38,8 @@ pub struct ExportOptions {
 pub struct Exported {
     /// Which of the two FMUs it is.
     pub interface: Interface,
+    /// Version of the FMI standard that it follows.
+    pub version: FmiVersion,
     /// Name of its model, which is the joint's.
     pub model_name: String,
     /// Instantiation token.
@@ -131,6 +135,7 @@ pub fn fmu_bytes(
 
     let dofs = file.joint.dofs;
     let mut description = Description::new(options.interface, dofs)?;
+    description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
     if let Some(experiment) = experiment(file, lap.as_ref()) {
@@ -146,6 +151,7 @@ pub fn fmu_bytes(
     let page = documentation::html(&Page {
         file,
         interface: options.interface,
+        version: options.version,
         declared: &declared,
         lap: lap.as_ref(),
         passivity: &passivity,
@@ -163,7 +169,7 @@ pub fn fmu_bytes(
     ];
     files.extend(documentation::licences());
     let mut libraries = Vec::new();
-    for binary in binaries(options.platforms.as_deref(), &library_name)? {
+    for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
         libraries.push(binary.library);
         files.push(File {
             path: binary.path,
@@ -173,6 +179,7 @@ pub fn fmu_bytes(
     }
     Ok(Exported {
         interface: options.interface,
+        version: options.version,
         model_name: file.name.clone(),
         token,
         step,

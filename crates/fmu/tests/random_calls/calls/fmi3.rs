@@ -214,7 +214,7 @@ pub(crate) fn sensible(mode: Option<Mode>) -> &'static [&'static str] {
             "fmi3GetContinuousStateDerivatives",
             "fmi3CompletedIntegratorStep",
         ],
-        Some(Terminated) | None => &["fmi3Reset", "fmi3SetFMUState", "fmi3GetFloat64"],
+        _ => &["fmi3Reset", "fmi3SetFMUState", "fmi3GetFloat64"],
     }
 }
 

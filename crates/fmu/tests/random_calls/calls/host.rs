@@ -137,6 +137,7 @@ pub(crate) fn resources(model: usize) -> &'static CStr {
 /// Statuses of both versions have the same numbers.
 pub(crate) const OK: c_int = 0;
 pub(crate) const WARNING: c_int = 1;
+pub(crate) const DISCARD: c_int = 2;
 pub(crate) const ERROR: c_int = 3;
 pub(crate) const PENDING: c_int = 5;
 

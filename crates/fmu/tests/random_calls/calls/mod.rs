@@ -6,6 +6,8 @@
 
 mod arrays;
 mod choices;
+mod fmi2;
+mod fmi2_abi;
 mod fmi3;
 mod fmi3_abi;
 mod host;
@@ -18,5 +20,6 @@ pub(crate) use world::{Tally, World};
 
 /// Names of all functions that are called.
 pub(crate) fn function_names() -> impl Iterator<Item = &'static str> {
-    fmi3::FUNCTIONS.iter().map(|function| function.name)
+    let all = fmi2::FUNCTIONS.iter().chain(&fmi3::FUNCTIONS);
+    all.map(|function| function.name)
 }

@@ -13,6 +13,7 @@ use super::{
 /// Version of FMI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Version {
+    Fmi2,
     Fmi3,
 }
 
@@ -27,6 +28,8 @@ pub(crate) enum Interface {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mode {
     Instantiated,
+    /// FMI 2.0: instantiated, and the time span is known.
+    SetUp,
     Initialization,
     /// Co-Simulation, between steps.
     Step,

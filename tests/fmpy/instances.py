@@ -30,6 +30,9 @@ class Instance:
         )
         if resources is not None:
             self.replace_resources(resources)
+        self.instantiate()
+
+    def instantiate(self):
         if self.is_fmi2:
             self.instantiate_fmi2()
         else:

@@ -5,12 +5,15 @@ use std::path::{Path, PathBuf};
 use bolted_joint_dynamics::{Eigenvalue, Spectrum};
 
 use super::archive::{File, archive};
+use super::assets::pictures;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
+use super::reference_run::ReferenceRun;
 use super::start_file::{parameter_lines, start_file};
 use super::step::{Experiment, StepSize};
+use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
 use crate::joint::{DofSet, JointFile, LawError, Passivity};
@@ -138,7 +141,8 @@ pub fn fmu_bytes(
     description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
-    if let Some(experiment) = experiment(file, lap.as_ref()) {
+    let experiment = experiment(file, lap.as_ref());
+    if let Some(experiment) = experiment {
         description.set_experiment(experiment);
     }
     let longest_step_s = step.map(|step| step.longest_s);
@@ -168,6 +172,17 @@ pub fn fmu_bytes(
         File::text("documentation/index.html", page),
     ];
     files.extend(documentation::licences());
+    files.push(File::text(
+        terminals::FILE,
+        terminals_and_icons(&declared, dofs),
+    ));
+    let step_s = experiment.map(|experiment| experiment.communication_step_s);
+    let reference_run =
+        ReferenceRun::new(file, &declared, options.interface, lap.as_ref(), step_s)?;
+    if let Some(run) = &reference_run {
+        files.extend(run.files(&file.name));
+    }
+    files.extend(pictures(options.version, options.interface, dofs));
     let mut libraries = Vec::new();
     for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
         libraries.push(binary.library);

@@ -4,6 +4,7 @@
 //! writes the model description, the start values that the library reads, the documentation, and the archive around them.
 
 mod archive;
+mod assets;
 mod description;
 mod documentation;
 mod error;
@@ -14,8 +15,10 @@ mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
+mod reference_run;
 mod start_file;
 mod step;
+mod terminals;
 mod timestamp;
 mod token;
 mod xml;

@@ -6,7 +6,6 @@ mod model;
 mod origin;
 mod parameters;
 mod running;
-mod sketch;
 mod variables;
 
 use bolted_joint_interface::Interface as Declared;

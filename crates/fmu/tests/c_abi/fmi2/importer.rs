@@ -98,13 +98,13 @@ impl Request<'_> {
             .each_ref()
             .map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
         let log: *mut Vec<Message> = Box::into_raw(Box::default());
-        let mut functions = c::CallbackFunctions {
+        let functions = Box::new(c::CallbackFunctions {
             logger: Some(recorder()),
             allocate_memory: None,
             free_memory: None,
             step_finished: None,
             environment: log.cast(),
-        };
+        });
         let logging = c_int::from(self.logging);
         // SAFETY: all pointers are to what lives through the call, the log lives until the instance is freed
         let handle = unsafe {
@@ -113,14 +113,12 @@ impl Request<'_> {
                 self.fmu_type,
                 guid,
                 resources,
-                &raw const functions,
+                &raw const *functions,
                 0,
                 logging,
             )
         };
-        // the structure is the importer's again: nobody may look at it any more
-        functions.logger = None;
-        functions.environment = ptr::dangling_mut();
+        // the structure is only there during the call
         drop(functions);
         if handle.is_null() {
             // SAFETY: nobody else has the log any more
@@ -486,10 +484,8 @@ impl Instance {
     pub(crate) fn save(&mut self) -> *mut c_void {
         let mut state = ptr::null_mut();
         // SAFETY: the instance lives, the pointer is to a local
-        assert_eq!(
-            unsafe { c::fmi2GetFMUstate(self.handle, &raw mut state) },
-            c::OK
-        );
+        let status = unsafe { c::fmi2GetFMUstate(self.handle, &raw mut state) };
+        assert_eq!(status, c::OK);
         assert!(!state.is_null());
         state
     }
@@ -501,10 +497,8 @@ impl Instance {
 
     pub(crate) fn free_state(&mut self, mut state: *mut c_void) {
         // SAFETY: the instance lives, the tests pass living states
-        assert_eq!(
-            unsafe { c::fmi2FreeFMUstate(self.handle, &raw mut state) },
-            c::OK
-        );
+        let status = unsafe { c::fmi2FreeFMUstate(self.handle, &raw mut state) };
+        assert_eq!(status, c::OK);
         assert!(state.is_null());
     }
 

@@ -37,6 +37,9 @@ enum Command {
     Export(ExportArguments),
     /// Check a joint file or an FMU
     Check(CheckArguments),
+    /// Run the library of an FMU for `check`, in a process of its own
+    #[command(name = check::RUN_LIBRARY, hide = true)]
+    RunLibrary(RunLibraryArguments),
 }
 
 /// `demo`
@@ -112,9 +115,21 @@ struct ExportArguments {
 struct CheckArguments {
     /// Joint file or FMU
     file: PathBuf,
+    /// Only look into the FMU: run none of its code
+    #[arg(long)]
+    no_run: bool,
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,
+}
+
+/// The child process of `check`
+#[derive(Debug, Args)]
+struct RunLibraryArguments {
+    /// What to do
+    script: PathBuf,
+    /// What was done
+    journal: PathBuf,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -150,6 +165,7 @@ pub fn main() -> ExitCode {
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::RunLibrary(arguments) => check::run_library(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

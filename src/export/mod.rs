@@ -4,11 +4,11 @@
 //! writes the model description, the start values that the library reads, the documentation, and the archive around them.
 
 mod archive;
+mod declared;
 mod description;
 mod documentation;
 mod error;
 mod fmu;
-mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
@@ -17,10 +17,13 @@ mod step;
 mod timestamp;
 mod token;
 
+pub(crate) use declared::declared;
 pub use error::ExportError;
 pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
-pub use inspect::{InspectError, Inspection, inspect};
 pub use interface::Interface;
+pub(crate) use parameters::start_value;
+pub(crate) use platforms::EMBEDDED_PLATFORM;
 pub use platforms::{Library, LibrarySource};
+pub(crate) use start_file::{StartFile, parameter_lines};
 pub use step::{StepChoice, StepSize};
 pub use timestamp::Timestamp;

@@ -7,6 +7,7 @@
 
 pub mod check;
 pub mod cli;
+pub mod cosimulation;
 pub mod export;
 pub mod frf;
 pub mod identify;

@@ -9,8 +9,10 @@ use bolted_joint_importer::FmiVersion;
 use serde_json::{Map, Value, json};
 
 use crate::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
+use crate::export::Interface;
 use crate::joint::{DofSet, JointFile};
 
+use super::communication_step::communication_step;
 use super::error::CliError;
 use super::output::print;
 use super::table::number;
@@ -38,7 +40,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let report = if is_zip(path) {
         fmu(path, arguments)?
     } else {
-        joint_file(path)?
+        joint_file(path, arguments)?
     };
     if arguments.json {
         let mut value = json!({
@@ -89,7 +91,7 @@ fn is_zip(path: &Path) -> bool {
         .is_ok_and(|()| magic == *b"PK")
 }
 
-fn joint_file(path: &Path) -> Result<Report, CliError> {
+fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
     let file = JointFile::read(path)?;
     let passivity = file.passivity();
     let mut facts = vec![
@@ -107,12 +109,18 @@ fn joint_file(path: &Path) -> Result<Report, CliError> {
         .active()
         .map(|matrix| format!("{matrix}; expected it positive semidefinite: this joint can feed energy into a simulation"))
         .collect();
+    let mut details = Map::new();
+    let neighbours = &arguments.neighbours;
+    if let Some(step) = communication_step(&file, Interface::Element, neighbours, None, None)? {
+        facts.extend(step.facts);
+        details.insert("communication_step".to_owned(), step.details);
+    }
     Ok(Report {
         kind: "joint file".to_owned(),
         facts,
         findings,
         messages: Vec::new(),
-        details: Map::new(),
+        details,
     })
 }
 
@@ -179,6 +187,16 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         details.insert("run".to_owned(), run_details(&report));
         findings.extend(report.findings);
         messages = report.messages;
+    }
+    if let Some(step) = communication_step(
+        &inspection.joint,
+        inspection.interface,
+        &arguments.neighbours,
+        inspection.step_size_max_s,
+        inspection.suggested_step_s,
+    )? {
+        facts.extend(step.facts);
+        details.insert("communication_step".to_owned(), step.details);
     }
     let version = match inspection.version {
         FmiVersion::Two => "2.0",

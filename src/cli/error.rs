@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::check::{InspectError, RunError};
+use crate::cosimulation::CouplingError;
 use crate::export::ExportError;
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
@@ -28,6 +29,8 @@ pub(super) enum CliError {
     Inspect(#[from] InspectError),
     #[error(transparent)]
     Run(#[from] RunError),
+    #[error("communication step: {0}")]
+    Coupling(CouplingError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]

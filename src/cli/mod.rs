@@ -1,6 +1,7 @@
 //! The command line: arguments become a plan, the plan is run, results go to stdout, messages to stderr.
 
 mod check;
+mod communication_step;
 mod demo;
 mod error;
 mod export;
@@ -35,7 +36,7 @@ enum Command {
     Identify(IdentifyArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
-    /// Check a joint file or an FMU
+    /// Check a joint file or an FMU, and run the FMU's library for a moment
     Check(CheckArguments),
     /// Run the library of an FMU for `check`, in a process of its own
     #[command(name = check::RUN_LIBRARY, hide = true)]
@@ -118,6 +119,8 @@ struct CheckArguments {
     /// Only look into the FMU: run none of its code
     #[arg(long)]
     no_run: bool,
+    #[command(flatten)]
+    neighbours: communication_step::NeighbourArguments,
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,

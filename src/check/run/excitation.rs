@@ -13,6 +13,8 @@ use crate::joint::{DofSet, JointFile};
 const SPANS: usize = 200;
 /// Displacement (m) and rotation (rad) of a linear joint: usual magnitudes, the scale does not matter.
 const LINEAR_AMPLITUDE: [f64; 2] = [1e-5, 1e-4];
+/// Largest displacement (m) and rotation (rad) of a cubic joint.
+const LARGEST_AMPLITUDE: [f64; 2] = [1e-3, 1e-2];
 /// Amplitude of a cubic joint by √(k/|k3|), where the cubic load would be as large as the linear one.
 const CUBIC_AMPLITUDE: f64 = 0.02;
 /// Period of a motion by c/k, so that the damper takes a fair part of the energy.
@@ -193,7 +195,9 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
             let k = file.joint.stiffness.get(i).and_then(|row| row.get(i));
             let k3 = file.joint.cubic.get(i).copied().unwrap_or(0.0).abs();
             let by_cubic = match k {
-                Some(&k) if k > 0.0 && k3 > 0.0 => CUBIC_AMPLITUDE * (k / k3).sqrt(),
+                Some(&k) if k > 0.0 && k3 > 0.0 => {
+                    (CUBIC_AMPLITUDE * (k / k3).sqrt()).min(LARGEST_AMPLITUDE[i.min(1)])
+                }
                 _ => LINEAR_AMPLITUDE[i.min(1)],
             };
             let escape = escape.get(i).copied().flatten();

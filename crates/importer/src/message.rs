@@ -135,7 +135,7 @@ pub(crate) unsafe extern "C" fn log_fmi3(
     text: Text,
 ) {
     // SAFETY: the caller's promise
-    unsafe { add(environment, status, category, text) };
+    unsafe { add(environment, status, category, owned(text)) };
 }
 
 /// The log callback of FMI 2.0; the environment is the [`Log`].
@@ -159,27 +159,42 @@ pub(crate) unsafe extern "C" fn log_fmi2(
     // SAFETY: the caller's promise; a format of `%s` has a string after it
     unsafe {
         let is_text = !format.is_null() && CStr::from_ptr(format) == c"%s";
-        let text = if is_text && !on_stack { first } else { format };
-        add(environment, status, category, text);
+        if is_text && !on_stack {
+            add(environment, status, category, owned(first));
+        } else {
+            add(
+                environment,
+                status,
+                category,
+                owned(format).replace("%%", "%"),
+            );
+        }
     }
 }
 
 /// # Safety
 ///
-/// `environment` is the log of an instance that lives, the strings are terminated or null.
-unsafe fn add(environment: Opaque, status: StatusCode, category: Text, text: Text) {
+/// `text` is a terminated string or null.
+unsafe fn owned(text: Text) -> String {
+    if text.is_null() {
+        return String::new();
+    }
     // SAFETY: the caller's promise
-    let owned = |text: Text| unsafe {
-        if text.is_null() {
-            String::new()
-        } else {
-            CStr::from_ptr(text).to_string_lossy().into_owned()
-        }
-    };
+    unsafe { CStr::from_ptr(text) }
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// # Safety
+///
+/// `environment` is the log of an instance that lives, `category` is a terminated string or null.
+unsafe fn add(environment: Opaque, status: StatusCode, category: Text, text: String) {
     let message = Message {
         status: Status::of(status),
-        category: owned(category),
-        text: owned(text),
+        // SAFETY: the caller's promise
+        category: unsafe { owned(category) },
+        // a literal '#' is doubled in messages (FMI 2.0, 2.1.5; FMI 3.0, 2.3.1)
+        text: text.replace("##", "#"),
     };
     // SAFETY: the caller's promise; null only from a library that loses its environment
     if let Some(log) = unsafe { environment.cast::<Log>().as_ref() } {

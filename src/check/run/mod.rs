@@ -21,7 +21,7 @@ pub use supervisor::Runner;
 use super::archive::Archive;
 use super::described::Described;
 use super::{InspectError, Inspection};
-use crate::export::EMBEDDED_PLATFORM;
+use crate::export::{self, EMBEDDED_PLATFORM, Interface};
 use balance::Integral;
 use excitation::{Excitation, moved};
 use names::References;
@@ -150,16 +150,13 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
     Ok(report)
 }
 
-/// This platform, as the version of the standard names its folder.
+/// Folder of this platform below `binaries`.
 fn platform(version: FmiVersion) -> &'static str {
-    match (version, EMBEDDED_PLATFORM) {
-        (FmiVersion::Two, "x86_64-linux") => "linux64",
-        (FmiVersion::Two, "x86-linux") => "linux32",
-        (FmiVersion::Two, "x86_64-windows") => "win64",
-        (FmiVersion::Two, "x86-windows") => "win32",
-        (FmiVersion::Two, "x86_64-darwin") => "darwin64",
-        (_, platform) => platform,
+    match version {
+        FmiVersion::Two => export::FmiVersion::V2,
+        FmiVersion::Three => export::FmiVersion::V3,
     }
+    .platform_folder(EMBEDDED_PLATFORM)
 }
 
 fn library_entry(names: &[String], platform: &str, described: &Described) -> Option<PathBuf> {
@@ -235,10 +232,8 @@ impl Plan {
             tentative: true,
         };
         let input = |index: usize| match self.excitation.interface {
-            crate::export::Interface::Lap => {
-                self.excitation.set_loads(&self.references, 60 + index)
-            }
-            crate::export::Interface::Element => self
+            Interface::Lap => self.excitation.set_loads(&self.references, 60 + index),
+            Interface::Element => self
                 .excitation
                 .set_motion(&self.references, index as f64 * interval_s),
         };

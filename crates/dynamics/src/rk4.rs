@@ -17,15 +17,26 @@ pub(crate) trait Linear: Copy {
     fn plus(&self, factor: f64, rate: &Self) -> Self;
 }
 
-/// One step of length `step_s` of the classical RK4 for ẋ = f(x) with f autonomous over the step.
+/// Where in a step a stage of RK4 lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// t
+    Start,
+    /// t + h/2
+    Middle,
+    /// t + h
+    End,
+}
+
+/// One step of length `step_s` of the classical RK4 for ẋ = f(t, x).
 #[inline]
-pub(crate) fn step<S: Linear>(rate_of: impl Fn(&S) -> S, state: &S, step_s: f64) -> S {
-    // k₁ = f(x), k₂ = f(x + h/2 k₁), k₃ = f(x + h/2 k₂), k₄ = f(x + h k₃)
+pub(crate) fn step<S: Linear>(rate_of: impl Fn(Stage, &S) -> S, state: &S, step_s: f64) -> S {
+    // k₁ = f(t, x), k₂ = f(t + h/2, x + h/2 k₁), k₃ = f(t + h/2, x + h/2 k₂), k₄ = f(t + h, x + h k₃)
     let half = 0.5 * step_s;
-    let k1 = rate_of(state);
-    let k2 = rate_of(&state.plus(half, &k1));
-    let k3 = rate_of(&state.plus(half, &k2));
-    let k4 = rate_of(&state.plus(step_s, &k3));
+    let k1 = rate_of(Stage::Start, state);
+    let k2 = rate_of(Stage::Middle, &state.plus(half, &k1));
+    let k3 = rate_of(Stage::Middle, &state.plus(half, &k2));
+    let k4 = rate_of(Stage::End, &state.plus(step_s, &k3));
     // x(t+h) = x + h/6 (k₁ + 2k₂ + 2k₃ + k₄)
     let inner = k2.plus(1.0, &k3);
     state.plus(step_s / 6.0, &k1.plus(2.0, &inner).plus(1.0, &k4))
@@ -83,7 +94,7 @@ mod tests {
     #[test]
     fn one_step_of_a_linear_equation_is_the_fourth_order_taylor_polynomial() {
         let z: f64 = -0.3;
-        let advanced = step(|x: &f64| z * x, &1.0, 1.0);
+        let advanced = step(|_, x: &f64| z * x, &1.0, 1.0);
         let taylor = 1.0 + z + z * z / 2.0 + z.powi(3) / 6.0 + z.powi(4) / 24.0;
         assert!((advanced - taylor).abs() < 1e-15);
         assert!((amplification_squared(z, 0.0) - taylor * taylor).abs() < 1e-15);

@@ -7,6 +7,7 @@
 //! | 8 | `bjstate` and a zero |
 //! | 4 | version of this layout |
 //! | 4 + n | length of the instantiation token, and the token |
+//! | 1 | FMI version: 2 or 3 |
 //! | 1 | kind: 0 element, 1 lap |
 //! | 1 | degrees of freedom |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
@@ -14,11 +15,14 @@
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of value references, and the values |
+//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by value reference |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
 
 use crate::{
+    abi::Abi,
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
@@ -26,13 +30,15 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Identity {
     /// Kind and degrees of freedom.
     pub(crate) variables: Variables,
+    /// FMI version.
+    pub(crate) abi: Abi,
     /// Who integrates.
     pub(crate) interface_type: InterfaceType,
     /// Instantiation token.
@@ -44,10 +50,11 @@ impl fmt::Display for Identity {
         let Variables { kind, dofs } = self.variables;
         write!(
             f,
-            "{} with {} DOF a side for {}, token {}",
+            "{} with {} DOF a side for {} of {}, token {}",
             kind.name(),
             dofs.count(),
             self.interface_type.name(),
+            self.abi.name(),
             self.token
         )
     }
@@ -66,6 +73,8 @@ pub(crate) struct Snapshot {
     pub(crate) pace: Pace,
     /// Values of all variables, time among them.
     pub(crate) values: Values,
+    /// How the inputs go on.
+    pub(crate) inputs: InputCourse,
 }
 
 /// Why bytes are no FMU state.
@@ -108,14 +117,15 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 4;
-        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + 8
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 5;
+        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + InputCourse::SIZE + 8
     }
 
     /// The state in bytes.
     pub(crate) fn serialize(&self) -> Vec<u8> {
         let Identity {
             variables,
+            abi,
             interface_type,
             token,
         } = &*self.identity;
@@ -124,6 +134,10 @@ impl Snapshot {
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((token.len() as u32).to_le_bytes());
         bytes.extend(token.as_bytes());
+        bytes.push(match abi {
+            Abi::Fmi2 => 2,
+            Abi::Fmi3 => 3,
+        });
         bytes.push(kind_number(variables.kind));
         bytes.push(variables.dofs.count());
         bytes.push(match interface_type {
@@ -138,6 +152,7 @@ impl Snapshot {
         for value in self.values {
             bytes.extend(value.to_le_bytes());
         }
+        bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
     }
@@ -165,6 +180,16 @@ impl Snapshot {
         let length = reader.u32()? as usize;
         let token = String::from_utf8(reader.take(length)?.to_vec())
             .map_err(|_| Damage::Field { name: "token" })?;
+        let abi = match reader.u8()? {
+            2 => Abi::Fmi2,
+            3 => Abi::Fmi3,
+            _ => {
+                return Err(Damage::Field {
+                    name: "FMI version",
+                }
+                .into());
+            }
+        };
         let kind = match reader.u8()? {
             0 => Kind::Element,
             1 => Kind::Lap,
@@ -192,6 +217,7 @@ impl Snapshot {
         };
         let found = Identity {
             variables: Variables { kind, dofs },
+            abi,
             interface_type,
             token,
         };
@@ -202,7 +228,7 @@ impl Snapshot {
             });
         }
         let mode = Mode::from_number(reader.u8()?)
-            .filter(|mode| mode.belongs_to(interface_type))
+            .filter(|mode| mode.belongs_to(identity.abi, interface_type))
             .ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;
@@ -228,6 +254,9 @@ impl Snapshot {
                 .into());
             }
         }
+        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(Damage::Field {
+            name: "course of the inputs",
+        })?;
         reader.array::<8>()?;
         if !reader.rest.is_empty() {
             let expected = bytes.len() - reader.rest.len();
@@ -243,6 +272,7 @@ impl Snapshot {
             stop_s: has_stop.then_some(stop_s),
             pace,
             values,
+            inputs,
         })
     }
 }

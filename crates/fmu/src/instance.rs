@@ -1,12 +1,16 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
 mod derivatives;
+mod experiment;
 mod model_exchange;
+mod time_derivatives;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
 use crate::{
+    abi::Abi,
     fmu_state::{Identity, Snapshot},
+    input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
     models::{self, CommunicationStep, Model},
@@ -28,6 +32,7 @@ pub(crate) struct Instance {
     model: Box<dyn Model>,
     start: Values,
     values: Values,
+    inputs: InputCourse,
     mode: Mode,
     stop_s: Option<f64>,
     pace: Pace,
@@ -40,6 +45,7 @@ impl Instance {
     pub(crate) fn new(
         file: StartFile,
         token: &str,
+        abi: Abi,
         interface_type: InterfaceType,
     ) -> Result<Self, Refusal> {
         let StartFile {
@@ -49,6 +55,7 @@ impl Instance {
         } = file;
         if token != expected {
             return Err(Refusal::Token {
+                argument: abi.token_argument(),
                 found: token.to_owned(),
                 expected,
             });
@@ -56,6 +63,7 @@ impl Instance {
         Ok(Self {
             identity: Arc::new(Identity {
                 variables,
+                abi,
                 interface_type,
                 token: expected,
             }),
@@ -63,12 +71,18 @@ impl Instance {
             model: models::model(variables),
             start: values,
             values,
+            inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
             stop_s: None,
             pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
         })
+    }
+
+    /// State of the state machine.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
     }
 
     /// Current time, s.
@@ -83,6 +97,12 @@ impl Instance {
         stop_s: Option<f64>,
     ) -> Result<(), Refusal> {
         self.require(&[Mode::Instantiated])?;
+        self.set_time_span(start_s, stop_s)?;
+        self.mode = Mode::Initialization;
+        Ok(())
+    }
+
+    fn set_time_span(&mut self, start_s: f64, stop_s: Option<f64>) -> Result<(), Refusal> {
         if !start_s.is_finite() {
             return Err(Refusal::StartTime { found_s: start_s });
         }
@@ -93,7 +113,6 @@ impl Instance {
         }
         self.values[TIME] = start_s;
         self.stop_s = stop_s;
-        self.mode = Mode::Initialization;
         Ok(())
     }
 
@@ -127,6 +146,7 @@ impl Instance {
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
         self.values = self.start;
+        self.inputs = InputCourse::HELD;
         self.mode = Mode::Instantiated;
         self.stop_s = None;
         self.pace = Pace::NONE;
@@ -177,11 +197,14 @@ impl Instance {
                 roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
             self.values[index] = value;
         }
+        if self.inputs.is_past() {
+            self.forget_inputs(references);
+        }
         self.outputs_stale = true;
         Ok(())
     }
 
-    /// Advances from `current_s` by `interval_s`, with the inputs held.
+    /// Advances from `current_s` by `interval_s`, with the inputs held or along the derivatives that were given.
     #[inline]
     pub(crate) fn step(
         &mut self,
@@ -204,7 +227,12 @@ impl Instance {
             interval_s,
             is_steady: pace.is_steady(),
         };
-        self.model.advance(&mut self.values, step)?;
+        let inputs = self.inputs_after(interval_s, end_s)?;
+        self.model.advance(&mut self.values, step, &self.inputs)?;
+        if let Some(values) = inputs {
+            self.set_inputs(&values);
+        }
+        self.inputs = self.inputs.after(interval_s);
         self.pace = pace;
         // only now, so that a warning reaches the importer even if this step is refused and the next one is not
         self.parameters_changed = false;
@@ -229,6 +257,7 @@ impl Instance {
             stop_s: self.stop_s,
             pace: self.pace,
             values,
+            inputs: self.inputs,
         }
     }
 
@@ -244,6 +273,7 @@ impl Instance {
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
         self.values = snapshot.values;
+        self.inputs = snapshot.inputs;
         self.parameters_changed = true;
         self.outputs_stale = true;
         Ok(())
@@ -266,13 +296,15 @@ impl Instance {
                 let (index, _) = self.known(reference)?;
                 Err(Refusal::NotOfType {
                     name: self.name(index),
+                    own: self.identity.abi.real(),
                     asked,
                 })
             }
         }
     }
 
-    fn interface_type(&self) -> InterfaceType {
+    /// Who integrates.
+    pub(crate) fn interface_type(&self) -> InterfaceType {
         self.identity.interface_type
     }
 
@@ -286,7 +318,9 @@ impl Instance {
         }
     }
 
-    fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
+    /// Refuses calls in other modes.
+    #[inline]
+    pub(crate) fn require(&self, expected: &'static [Mode]) -> Result<(), Refusal> {
         if expected.contains(&self.mode) {
             Ok(())
         } else {

@@ -17,6 +17,8 @@ pub(crate) struct Variable {
     pub(crate) start: f64,
     /// Whether it exists only where the joint rotates.
     pub(crate) rotational: bool,
+    /// Whether the importer may access it inside a communication step.
+    pub(crate) intermediate: bool,
 }
 
 /// One continuous state of Model Exchange.

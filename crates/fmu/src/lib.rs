@@ -4,8 +4,11 @@
 //! `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe Rust;
 //! `fmi3` turns C pointers and arrays into slices, and refusals into statuses and log messages.
 
+mod abi;
+mod fmi2;
 mod fmi3;
 mod fmu_state;
+mod input_course;
 mod instance;
 mod interface;
 mod library;

@@ -1,13 +1,14 @@
 //! The importer's log: categories, what is switched on, and the callback. Nothing is ever written anywhere else.
 
 use std::{
-    ffi::{CString, c_char, c_int, c_void},
+    ffi::{CStr, CString, c_char, c_int, c_void},
     fmt,
+    sync::Arc,
 };
 
 use crate::interface::LOG_CATEGORIES;
 
-/// Status of an FMI call, with the numbers of `fmi3Status`.
+/// Status of an FMI call, with the numbers of `fmi2Status` and `fmi3Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub(crate) enum Status {
@@ -15,6 +16,8 @@ pub(crate) enum Status {
     Ok = 0,
     /// Done, with a remark.
     Warning = 1,
+    /// Not done; a shorter step of the importer may help, or what was asked for cannot be told.
+    Discard = 2,
     /// Refused, with the instance as it was, or failed, with the instance terminated.
     Error = 3,
 }
@@ -35,7 +38,7 @@ impl Category {
     pub(crate) const ALL: [Self; 3] = [Self::Events, Self::Warning, Self::Error];
 
     /// Name in the model description, for C.
-    const fn c_name(self) -> &'static std::ffi::CStr {
+    const fn c_name(self) -> &'static CStr {
         match self {
             Self::Events => c"logEvents",
             Self::Warning => c"logStatusWarning",
@@ -65,35 +68,81 @@ const _: () = assert!(
     "the model descriptions define other log categories"
 );
 
-/// The importer's callback, `fmi3LogMessageCallback`.
-pub(crate) type Callback = unsafe extern "C" fn(
+/// The importer's callback of FMI 3.0, `fmi3LogMessageCallback`.
+pub(crate) type Fmi3Callback = unsafe extern "C" fn(
     environment: *mut c_void,
     status: c_int,
     category: *const c_char,
     message: *const c_char,
 );
 
-/// Where messages of one instance go, and which.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Logger {
-    callback: Option<Callback>,
+/// The importer's callback of FMI 2.0, `fmi2CallbackLogger`. The message is a format of `printf`.
+pub(crate) type Fmi2Callback = unsafe extern "C" fn(
     environment: *mut c_void,
+    instance_name: *const c_char,
+    status: c_int,
+    category: *const c_char,
+    message: *const c_char,
+    ...
+);
+
+/// Where messages of one instance go, and which.
+#[derive(Clone, Debug)]
+pub(crate) struct Logger {
+    sink: Sink,
     enabled: u8,
 }
 
+/// The importer's callback, with what is handed back to it.
+#[derive(Clone, Debug)]
+enum Sink {
+    /// The importer does not want messages.
+    Nowhere,
+    /// A callback of FMI 2.0. The name outlives the instance, which the callback may free.
+    Fmi2 {
+        callback: Fmi2Callback,
+        environment: *mut c_void,
+        instance_name: Arc<CStr>,
+    },
+    /// A callback of FMI 3.0.
+    Fmi3 {
+        callback: Fmi3Callback,
+        environment: *mut c_void,
+    },
+}
+
 impl Logger {
-    /// Logger with all categories on or off.
-    pub(crate) fn new(callback: Option<Callback>, environment: *mut c_void, on: bool) -> Self {
-        let mut logger = Self {
+    /// Logger of FMI 2.0 with all categories on or off.
+    pub(crate) fn fmi2(
+        callback: Option<Fmi2Callback>,
+        environment: *mut c_void,
+        instance_name: &CStr,
+        on: bool,
+    ) -> Self {
+        let sink = callback.map_or(Sink::Nowhere, |callback| Sink::Fmi2 {
             callback,
             environment,
-            enabled: 0,
-        };
+            instance_name: Arc::from(instance_name),
+        });
+        Self::new(sink, on)
+    }
+
+    /// Logger of FMI 3.0 with all categories on or off.
+    pub(crate) fn fmi3(callback: Option<Fmi3Callback>, environment: *mut c_void, on: bool) -> Self {
+        let sink = callback.map_or(Sink::Nowhere, |callback| Sink::Fmi3 {
+            callback,
+            environment,
+        });
+        Self::new(sink, on)
+    }
+
+    fn new(sink: Sink, on: bool) -> Self {
+        let mut logger = Self { sink, enabled: 0 };
         logger.switch(&Category::ALL, on);
         logger
     }
 
-    /// Switches categories on or off; errors are reported in any case, as FMI 3.0 advises.
+    /// Switches categories on or off; errors are reported in any case, as both standards advise.
     pub(crate) fn switch(&mut self, categories: &[Category], on: bool) {
         for category in categories {
             if on {
@@ -109,40 +158,74 @@ impl Logger {
         self.send(Status::Error, Category::Error, function, reason);
     }
 
+    /// Reports why `function` asks for a shorter step, if errors are on: a solver that only tries needs no message
+    /// (FMI 2.0, 2.1.3).
+    pub(crate) fn discard(&self, function: &str, reason: &dyn fmt::Display) {
+        if self.is_on(Category::Error) {
+            self.send(Status::Discard, Category::Error, function, reason);
+        }
+    }
+
     /// Reports a warning of `function`, if warnings are on.
     pub(crate) fn warning(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.enabled & Category::Warning.bit() != 0 {
+        if self.is_on(Category::Warning) {
             self.send(Status::Warning, Category::Warning, function, reason);
         }
     }
 
     /// Reports what `function` did, if events are on.
     pub(crate) fn event(&self, function: &str, event: &dyn fmt::Display) {
-        if self.enabled & Category::Events.bit() != 0 {
+        if self.is_on(Category::Events) {
             self.send(Status::Ok, Category::Events, function, event);
         }
     }
 
+    const fn is_on(&self, category: Category) -> bool {
+        self.enabled & category.bit() != 0
+    }
+
     fn send(&self, status: Status, category: Category, function: &str, text: &dyn fmt::Display) {
-        let Some(callback) = self.callback else {
-            return;
+        // '#' starts a reference to a variable in a message (FMI 2.0, 2.1.5; FMI 3.0, 2.3.1): a literal one is doubled
+        let escaped = |format: fmt::Arguments<'_>| {
+            CString::new(format.to_string().replace('#', "##").replace('\0', " "))
         };
-        // '#' starts a reference to a variable in a message (FMI 3.0, 2.3.1): a literal one is doubled
-        let message = format!("{function}: {text}")
-            .replace('#', "##")
-            .replace('\0', " ");
-        let Ok(message) = CString::new(message) else {
-            return;
-        };
-        // SAFETY: the importer promises that the callback it gave is callable with the environment it gave for as
-        // long as the instance lives; both strings are terminated and outlive the call.
-        unsafe {
-            callback(
-                self.environment,
-                status as c_int,
-                category.c_name().as_ptr(),
-                message.as_ptr(),
-            );
+        let category = category.c_name().as_ptr();
+        match &self.sink {
+            Sink::Nowhere => {}
+            Sink::Fmi2 {
+                callback,
+                environment,
+                instance_name,
+            } => {
+                // '%' starts a conversion of printf, and importers that do not format show it as it is
+                let text = text.to_string().replace('%', "%%");
+                let Ok(message) = escaped(format_args!("{function}: {text}")) else {
+                    return;
+                };
+                // SAFETY: the importer promises that the callback it gave is callable with the environment it gave for
+                // as long as the instance lives; the strings are terminated and outlive the call; the message has no
+                // conversions, so that there are no further arguments.
+                unsafe {
+                    callback(
+                        *environment,
+                        instance_name.as_ptr(),
+                        status as c_int,
+                        category,
+                        message.as_ptr(),
+                    );
+                }
+            }
+            Sink::Fmi3 {
+                callback,
+                environment,
+            } => {
+                let Ok(message) = escaped(format_args!("{function}: {text}")) else {
+                    return;
+                };
+                // SAFETY: the importer promises that the callback it gave is callable with the environment it gave for
+                // as long as the instance lives; both strings are terminated and outlive the call.
+                unsafe { callback(*environment, status as c_int, category, message.as_ptr()) };
+            }
         }
     }
 }

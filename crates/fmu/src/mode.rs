@@ -2,13 +2,18 @@
 
 use std::fmt;
 
-use crate::interface::{InterfaceType, Role, Roles};
+use crate::{
+    abi::Abi,
+    interface::{InterfaceType, Role, Roles},
+};
 
 /// State of the state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     /// After instantiation or reset.
     Instantiated,
+    /// FMI 2.0: still instantiated, and the time span is known.
+    SetUp,
     /// Between entering and leaving initialisation.
     Initialization,
     /// Co-Simulation: between communication steps.
@@ -28,17 +33,18 @@ impl Mode {
         const START: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
         match self {
-            Self::Instantiated | Self::Initialization => START,
+            Self::Instantiated | Self::SetUp | Self::Initialization => START,
             Self::Step | Self::Event => TUNABLE,
-            Self::ContinuousTime => Roles::of(&[Role::Input]),
+            Self::ContinuousTime => Roles::of(&[Role::Input, Role::State]),
             Self::Terminated => Roles::NONE,
         }
     }
 
-    /// Whether the state machine of this interface type has this mode.
-    pub(crate) const fn belongs_to(self, interface_type: InterfaceType) -> bool {
+    /// Whether the state machine of this FMI version and interface type has this mode.
+    pub(crate) const fn belongs_to(self, abi: Abi, interface_type: InterfaceType) -> bool {
         match self {
             Self::Instantiated | Self::Initialization | Self::Terminated => true,
+            Self::SetUp => matches!(abi, Abi::Fmi2),
             Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
             Self::Event | Self::ContinuousTime => {
                 matches!(interface_type, InterfaceType::ModelExchange)
@@ -52,7 +58,7 @@ impl Mode {
         const KNOWN: Roles =
             Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
         match self {
-            Self::Instantiated => None,
+            Self::Instantiated | Self::SetUp => None,
             // the initial unknowns: a state is given there
             Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
             Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
@@ -71,6 +77,7 @@ impl Mode {
             Self::Terminated => 3,
             Self::Event => 4,
             Self::ContinuousTime => 5,
+            Self::SetUp => 6,
         }
     }
 
@@ -83,6 +90,7 @@ impl Mode {
             3 => Some(Self::Terminated),
             4 => Some(Self::Event),
             5 => Some(Self::ContinuousTime),
+            6 => Some(Self::SetUp),
             _ => None,
         }
     }
@@ -92,6 +100,7 @@ impl fmt::Display for Mode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Instantiated => "Instantiated",
+            Self::SetUp => "Instantiated after fmi2SetupExperiment",
             Self::Initialization => "Initialization Mode",
             Self::Step => "Step Mode",
             Self::Event => "Event Mode",

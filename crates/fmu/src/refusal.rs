@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::{
+    abi::Abi,
     fmu_state::Damage,
     interface::{InterfaceType, Role},
     mode::Mode,
@@ -22,6 +23,8 @@ pub(crate) enum Refusal {
         found: Mode,
         expected: &'static [Mode],
     },
+    /// The function belongs to another FMI version.
+    OtherAbi { found: Abi, expected: Abi },
     /// The function belongs to another interface type.
     OtherInterfaceType {
         found: InterfaceType,
@@ -32,6 +35,7 @@ pub(crate) enum Refusal {
     /// The variable exists, but not in this type.
     NotOfType {
         name: &'static str,
+        own: &'static str,
         asked: &'static str,
     },
     /// The variable must not be set, or not in this mode.
@@ -48,6 +52,18 @@ pub(crate) enum Refusal {
         unit: &'static str,
         time_s: f64,
     },
+    /// A derivative with respect to time is asked of a variable that has none to give.
+    NoOutputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time is given for a variable that is no input.
+    NoInputDerivative { name: &'static str, role: Role },
+    /// A derivative with respect to time has an order that is not offered.
+    DerivativeOrder {
+        name: &'static str,
+        found: i32,
+        highest: usize,
+    },
+    /// The derivatives of an input take it past what is finite within a step.
+    InputNotFinite { name: &'static str, time_s: f64 },
     /// There are no partial derivatives in this mode.
     NoDerivatives { mode: Mode },
     /// The variable is no unknown that can be differentiated in this mode.
@@ -77,9 +93,16 @@ pub(crate) enum Refusal {
         expected: usize,
     },
     /// An array of states has the wrong length.
-    StateCount { found: usize, expected: usize },
+    StateCount {
+        argument: &'static str,
+        found: usize,
+        expected: usize,
+    },
     /// Event indicators are asked for.
-    IndicatorCount { found: usize },
+    IndicatorCount {
+        argument: &'static str,
+        found: usize,
+    },
     /// The memory for a serialised FMU state has the wrong size, in bytes.
     Size { found: usize, expected: usize },
     /// The start time is NaN or infinite.
@@ -133,7 +156,17 @@ pub(crate) enum Refusal {
     /// Serialised bytes that are no FMU state.
     Damaged(Damage),
     /// The importer's token is not that of the FMU's resources.
-    Token { found: String, expected: String },
+    Token {
+        argument: &'static str,
+        found: String,
+        expected: String,
+    },
+    /// An instance is asked for that is neither for Model Exchange nor for Co-Simulation.
+    FmuType { found: i32 },
+    /// A communication step shall be cancelled, but none is under way.
+    NoStepUnderWay { mode: Mode },
+    /// A status of the communication step that cannot be told.
+    NoStatus { kind: i32 },
     /// A function or an option that this FMU does not offer.
     NotProvided { reason: &'static str },
     /// The FMU's resources cannot be found.
@@ -156,6 +189,16 @@ impl Refusal {
             Self::Escape { .. } | Self::StateNotFinite { .. } | Self::Internal
         )
     }
+
+    /// Whether FMI 2.0 answers this with `fmi2Discard` (2.1.3, 4.2.3): a status that there is not; and, if the importer's
+    /// solver is at work, numbers that are not finite, for which a shorter step may help.
+    pub(crate) const fn is_discarded(&self, solver_at_work: bool) -> bool {
+        match self {
+            Self::NoStatus { .. } => true,
+            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. } => solver_at_work,
+            _ => false,
+        }
+    }
 }
 
 impl fmt::Display for Refusal {
@@ -172,6 +215,12 @@ impl fmt::Display for Refusal {
                 }
                 Ok(())
             }
+            Self::OtherAbi { found, expected } => write!(
+                f,
+                "belongs to {}, but the instance was made by the functions of {}; use only one of them",
+                expected.name(),
+                found.name()
+            ),
             Self::OtherInterfaceType { found, expected } => write!(
                 f,
                 "is not provided by this FMU: it belongs to {}, the instance is for {}",
@@ -182,9 +231,9 @@ impl fmt::Display for Refusal {
                 f,
                 "value reference {reference} does not exist; take it from modelDescription.xml"
             ),
-            Self::NotOfType { name, asked } => write!(
+            Self::NotOfType { name, own, asked } => write!(
                 f,
-                "variable {name} is of type Float64, not {asked}; use the Float64 function"
+                "variable {name} is of type {own}, not {asked}; use the {own} function"
             ),
             Self::NotSettable { name, role, mode } => {
                 write!(f, "variable {name} is {role} and cannot be set in state {mode}")
@@ -195,6 +244,27 @@ impl fmt::Display for Refusal {
             Self::OutputNotFinite { name, unit, time_s } => write!(
                 f,
                 "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
+            ),
+            Self::NoOutputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no output; ask for the derivative of an output"
+            ),
+            Self::NoInputDerivative { name, role } => write!(
+                f,
+                "variable {name} is {role} and no input; derivatives can be given for inputs alone"
+            ),
+            Self::DerivativeOrder { name, found, highest: 1 } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1"
+            ),
+            Self::DerivativeOrder { name, found, highest } => write!(
+                f,
+                "the order of the derivative of variable {name} is {found}, expected 1 to {highest}"
+            ),
+            Self::InputNotFinite { name, time_s } => write!(
+                f,
+                "input {name} overflows before t = {time_s} s with the derivatives that were given; give others or \
+                 take a shorter step"
             ),
             Self::NoDerivatives { mode } => write!(
                 f,
@@ -225,13 +295,13 @@ impl fmt::Display for Refusal {
                 f,
                 "argument {argument} is {found}, expected {expected}: every variable is a scalar"
             ),
-            Self::StateCount { found, expected } => write!(
+            Self::StateCount { argument, found, expected } => write!(
                 f,
-                "argument nContinuousStates is {found}, expected {expected}, the number of continuous states"
+                "argument {argument} is {found}, expected {expected}, the number of continuous states"
             ),
-            Self::IndicatorCount { found } => write!(
+            Self::IndicatorCount { argument, found } => write!(
                 f,
-                "argument nEventIndicators is {found}, expected 0: there are no event indicators"
+                "argument {argument} is {found}, expected 0: there are no event indicators"
             ),
             Self::Size { found, expected } => write!(
                 f,
@@ -300,10 +370,23 @@ impl fmt::Display for Refusal {
                 "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
             ),
             Self::Damaged(damage) => write!(f, "the serialised FMU state cannot be used: {damage}"),
-            Self::Token { found, expected } => write!(
+            Self::Token { argument, found, expected } => write!(
                 f,
-                "instantiationToken is \"{found}\", but the FMU's resources have \"{expected}\"; \
+                "{argument} is \"{found}\", but the FMU's resources have \"{expected}\"; \
                  pass the token of the same FMU's modelDescription.xml"
+            ),
+            Self::FmuType { found } => write!(
+                f,
+                "fmuType is {found}, expected 0 (fmi2ModelExchange) or 1 (fmi2CoSimulation)"
+            ),
+            Self::NoStepUnderWay { mode } => write!(
+                f,
+                "is not allowed in state {mode}: a step is done when fmi2DoStep returns, there is none to cancel"
+            ),
+            Self::NoStatus { kind } => write!(
+                f,
+                "has no status of kind {kind}; no step is ever pending, so that there are fmi2LastSuccessfulTime (of \
+                 type Real) and fmi2Terminated (of type Boolean) only"
             ),
             Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),
             Self::Resource(error) => error.fmt(f),

@@ -22,6 +22,15 @@ impl Interfaces {
             &mut source,
             &format!("pub(crate) const REFERENCE_COUNT: usize = {count};"),
         );
+        line(
+            &mut source,
+            "/// Number of value references up to that of the last input.",
+        );
+        let inputs = self.input_reference_count();
+        line(
+            &mut source,
+            &format!("pub(crate) const INPUT_REFERENCE_COUNT: usize = {inputs};"),
+        );
         line(&mut source, "/// Names of the log categories.");
         line(
             &mut source,
@@ -83,12 +92,13 @@ fn table(source: &mut String, name: &str, interface: &Interface, count: usize) {
             Some(variable) => line(
                 source,
                 &format!(
-                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rotational: {} }}),",
+                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rotational: {}, intermediate: {} }}),",
                     variable.name,
                     variable.unit,
                     variable.role,
                     variable.start.unwrap_or(0.0),
                     variable.requires_rotation(),
+                    variable.intermediate_update,
                 ),
             ),
         }

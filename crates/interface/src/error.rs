@@ -42,6 +42,14 @@ pub enum Problem {
         /// Version found.
         found: String,
     },
+    /// A variable that does not change continuously claims intermediate updates.
+    #[error(
+        "variable {variable} has intermediateUpdate=\"true\", which only continuous inputs, outputs and local variables can have"
+    )]
+    IntermediateUpdate {
+        /// Name of the variable.
+        variable: String,
+    },
     /// There is no `CoSimulation` element.
     #[error("has no <CoSimulation> element; the library implements Co-Simulation, so declare it")]
     NoCoSimulation,

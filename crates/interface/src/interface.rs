@@ -154,6 +154,18 @@ impl Interfaces {
             .max()
             .unwrap_or(0)
     }
+
+    /// Number of value references up to that of the last input: one more than the largest of an input.
+    #[must_use]
+    pub fn input_reference_count(&self) -> usize {
+        [&self.element, &self.lap]
+            .iter()
+            .flat_map(|interface| &interface.variables)
+            .filter(|variable| variable.role == Role::Input)
+            .map(|variable| variable.reference as usize + 1)
+            .max()
+            .unwrap_or(0)
+    }
 }
 
 fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {

@@ -42,6 +42,8 @@ pub struct Variable {
     pub nominal: f64,
     /// Value reference of the variable that this one is the time derivative of.
     pub derivative_of: Option<u32>,
+    /// Whether it can be accessed in Intermediate Update Mode.
+    pub intermediate_update: bool,
     /// One line for people.
     pub description: String,
 }
@@ -96,6 +98,7 @@ impl Variable {
             unit: declared_type.unit.clone().unwrap_or_default(),
             nominal: declared_type.nominal.unwrap_or(1.0),
             derivative_of: declared.derivative,
+            intermediate_update: intermediate_update(declared, role)?,
             description,
         })
     }
@@ -158,6 +161,18 @@ fn default_variability(causality: Causality) -> Variability {
             Variability::Fixed
         }
         _ => Variability::Continuous,
+    }
+}
+
+/// FMI 3.0, 2.4.7: only continuous-time variables can have `intermediateUpdate`. Parameters are tunable here, and the
+/// time is told by the callback itself.
+fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, Problem> {
+    let found = declared.intermediate_update.unwrap_or(false);
+    match role {
+        Role::Independent | Role::Parameter if found => Err(Problem::IntermediateUpdate {
+            variable: declared.name.clone(),
+        }),
+        _ => Ok(found),
     }
 }
 

@@ -6,16 +6,14 @@ use std::{
 };
 
 use crate::{
-    fmi3::{
-        Boolean, Opaque, Text, ValueReference,
-        arguments::{array, optional_text, text},
-        conclude, handle,
+    abi::{
+        Abi,
+        instantiation::{check_name, free, hand_over, new_instance, switch_logging},
     },
-    instance::Instance,
+    fmi3::{Boolean, Opaque, Text, ValueReference, function},
     interface::InterfaceType,
-    logging::{Callback, Category, Logger, Status},
+    logging::{Fmi3Callback, Logger, Status},
     refusal::Refusal,
-    resources::read_start_file,
 };
 
 /// Version of the FMI header that this library implements.
@@ -36,43 +34,17 @@ unsafe extern "C" fn fmi3SetDebugLogging(
     category_count: usize,
     categories: *const Text,
 ) -> Status {
+    let function = function("fmi3SetDebugLogging");
     // SAFETY: the importer's promise
-    let Some(handle) = (unsafe { handle::from_c(instance) }) else {
-        return Status::Error;
-    };
-    // SAFETY: the importer's promise
-    let named = catch_unwind(|| unsafe { named_categories(category_count, categories) })
-        .unwrap_or(Err(Refusal::Internal));
-    match named {
-        Ok(categories) => {
-            handle.logger.switch(&categories, logging_on != 0);
-            Status::Ok
-        }
-        Err(refusal) => conclude("fmi3SetDebugLogging", handle, Err(refusal)),
+    unsafe {
+        switch_logging(
+            function,
+            instance,
+            logging_on != 0,
+            category_count,
+            categories,
+        )
     }
-}
-
-/// # Safety
-///
-/// `categories` points to `count` strings.
-unsafe fn named_categories(
-    count: usize,
-    categories: *const Text,
-) -> Result<Vec<Category>, Refusal> {
-    if count == 0 {
-        return Ok(Category::ALL.to_vec());
-    }
-    // SAFETY: the caller's promise
-    unsafe { array(categories, count, "categories") }?
-        .iter()
-        .map(|&name| {
-            // SAFETY: the caller's promise
-            let name = unsafe { text(name, "categories") }?;
-            Category::named(name).ok_or_else(|| Refusal::UnknownCategory {
-                found: name.to_owned(),
-            })
-        })
-        .collect()
 }
 
 /// New instance for Co-Simulation, or null after a message that says why not.
@@ -92,13 +64,13 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _required_intermediate_variables: *const ValueReference,
     required_intermediate_variable_count: usize,
     instance_environment: *mut c_void,
-    log_message: Option<Callback>,
+    log_message: Option<Fmi3Callback>,
     _intermediate_update: Option<unsafe extern "C" fn()>,
 ) -> Opaque {
-    let logger = Logger::new(log_message, instance_environment, logging_on != 0);
+    let logger = Logger::fmi3(log_message, instance_environment, logging_on != 0);
     let instance = catch_unwind(|| {
         // SAFETY: the importer's promise
-        unsafe { named(instance_name) }?;
+        unsafe { check_name(instance_name) }?;
         if event_mode_used != 0 {
             return Err(Refusal::NotProvided {
                 reason: "eventModeUsed is true, but the model has no events and modelDescription.xml has no hasEventMode",
@@ -113,13 +85,14 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
         // SAFETY: the importer's promise
         unsafe {
             new_instance(
+                Abi::Fmi3,
+                InterfaceType::CoSimulation,
                 instantiation_token,
                 resource_path,
-                InterfaceType::CoSimulation,
             )
         }
     });
-    hand_over("fmi3InstantiateCoSimulation", instance, logger)
+    hand_over(Abi::Fmi3, "fmi3InstantiateCoSimulation", instance, logger)
 }
 
 /// New instance for Model Exchange, or null after a message that says why not.
@@ -135,68 +108,22 @@ unsafe extern "C" fn fmi3InstantiateModelExchange(
     _visible: Boolean,
     logging_on: Boolean,
     instance_environment: *mut c_void,
-    log_message: Option<Callback>,
+    log_message: Option<Fmi3Callback>,
 ) -> Opaque {
-    let logger = Logger::new(log_message, instance_environment, logging_on != 0);
+    let logger = Logger::fmi3(log_message, instance_environment, logging_on != 0);
     let instance = catch_unwind(|| {
         // SAFETY: the importer's promise
         unsafe {
-            named(instance_name)?;
+            check_name(instance_name)?;
             new_instance(
+                Abi::Fmi3,
+                InterfaceType::ModelExchange,
                 instantiation_token,
                 resource_path,
-                InterfaceType::ModelExchange,
             )
         }
     });
-    hand_over("fmi3InstantiateModelExchange", instance, logger)
-}
-
-/// # Safety
-///
-/// The strings are terminated or null.
-unsafe fn new_instance(
-    token: Text,
-    resource_path: Text,
-    interface_type: InterfaceType,
-) -> Result<Instance, Refusal> {
-    // SAFETY: the caller's promise
-    let (token, resources) = unsafe {
-        (
-            text(token, "instantiationToken")?,
-            optional_text(resource_path, "resourcePath")?,
-        )
-    };
-    Instance::new(read_start_file(resources)?, token, interface_type)
-}
-
-/// Hands the new instance to the importer, or says why there is none.
-fn hand_over(
-    function: &str,
-    instance: std::thread::Result<Result<Instance, Refusal>>,
-    logger: Logger,
-) -> Opaque {
-    match instance.unwrap_or(Err(Refusal::Internal)) {
-        Ok(instance) => handle::to_c(instance, logger),
-        Err(refusal) => {
-            logger.error(function, &refusal);
-            std::ptr::null_mut()
-        }
-    }
-}
-
-/// # Safety
-///
-/// `name` is a terminated string or null.
-unsafe fn named(name: Text) -> Result<(), Refusal> {
-    // SAFETY: the caller's promise
-    let name = unsafe { text(name, "instanceName") }?;
-    if name.trim().is_empty() {
-        return Err(Refusal::Empty {
-            argument: "instanceName",
-        });
-    }
-    Ok(())
+    hand_over(Abi::Fmi3, "fmi3InstantiateModelExchange", instance, logger)
 }
 
 /// Null: there is no Scheduled Execution.
@@ -212,12 +139,12 @@ unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _visible: Boolean,
     logging_on: Boolean,
     instance_environment: *mut c_void,
-    log_message: Option<Callback>,
+    log_message: Option<Fmi3Callback>,
     _clock_update: Option<unsafe extern "C" fn()>,
     _lock_preemption: Option<unsafe extern "C" fn()>,
     _unlock_preemption: Option<unsafe extern "C" fn()>,
 ) -> Opaque {
-    let logger = Logger::new(log_message, instance_environment, logging_on != 0);
+    let logger = Logger::fmi3(log_message, instance_environment, logging_on != 0);
     let reason =
         "modelDescription.xml has no <ScheduledExecution>; use Co-Simulation or Model Exchange";
     logger.error(
@@ -235,7 +162,5 @@ unsafe extern "C" fn fmi3InstantiateScheduledExecution(
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi3FreeInstance(instance: Opaque) {
     // SAFETY: the importer's promise
-    let freed = catch_unwind(|| unsafe { handle::free(instance) });
-    // nothing can be told after the instance is gone
-    drop(freed);
+    unsafe { free(function("fmi3FreeInstance"), instance) }
 }

@@ -3,9 +3,8 @@
 use crate::{
     fmi3::{
         Done, Opaque, ValueReference,
-        arguments::{array, array_mut},
+        arguments::{array, array_mut, same_count},
         call,
-        variables::same_count,
     },
     logging::Status,
 };

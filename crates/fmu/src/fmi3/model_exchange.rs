@@ -238,7 +238,10 @@ unsafe extern "C" fn fmi3GetEventIndicators(
     unsafe {
         call_exchange("fmi3GetEventIndicators", instance, |_| match count {
             0 => Ok(Done::Silently),
-            found => Err(Refusal::IndicatorCount { found }),
+            found => Err(Refusal::IndicatorCount {
+                argument: "nEventIndicators",
+                found,
+            }),
         })
     }
 }

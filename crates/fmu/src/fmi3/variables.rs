@@ -5,11 +5,10 @@ use std::ffi::c_char;
 use crate::{
     fmi3::{
         Boolean, Done, Opaque, ValueReference,
-        arguments::{array, array_mut},
+        arguments::{array, array_mut, same_count},
         call,
     },
     logging::Status,
-    refusal::Refusal,
 };
 
 /// Reads variables of type Float64, which is that of all variables.
@@ -58,24 +57,6 @@ unsafe extern "C" fn fmi3SetFloat64(
             let values = array(values, value_count, "values")?;
             instance.set(references, values)?;
             Ok(Done::Silently)
-        })
-    }
-}
-
-/// Refuses arrays that belong together but differ in length.
-#[inline]
-pub(super) fn same_count(
-    argument: &'static str,
-    found: usize,
-    expected: usize,
-) -> Result<(), Refusal> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(Refusal::Count {
-            argument,
-            found,
-            expected,
         })
     }
 }

@@ -4,6 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
+    abi::Abi,
     interface::{ContinuousState, InterfaceType, reference::TIME},
     mode::Mode,
     refusal::{Active, Refusal},
@@ -18,9 +19,12 @@ const READABLE: &[Mode] = &[
 ];
 
 impl Instance {
-    /// From Continuous-Time Mode to an event.
+    /// From Continuous-Time Mode to an event; in FMI 2.0 also from one event to the next.
     pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
-        self.require(&[Mode::ContinuousTime])?;
+        self.require(match self.identity.abi {
+            Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
+            Abi::Fmi3 => &[Mode::ContinuousTime],
+        })?;
         self.mode = Mode::Event;
         Ok(())
     }
@@ -90,9 +94,11 @@ impl Instance {
         })
     }
 
-    /// Reads typical magnitudes of all states.
+    /// Reads typical magnitudes of all states; in FMI 2.0 in every state.
     pub(crate) fn nominals(&self, nominals: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
-        self.require(READABLE)?;
+        if self.identity.abi == Abi::Fmi3 {
+            self.require(READABLE)?;
+        }
         self.fill(nominals, |state| Ok(state.nominal))
     }
 
@@ -130,7 +136,11 @@ impl Instance {
         if found == expected {
             Ok(())
         } else {
-            Err(Refusal::StateCount { found, expected })
+            Err(Refusal::StateCount {
+                argument: self.identity.abi.state_count_argument(),
+                found,
+                expected,
+            })
         }
     }
 

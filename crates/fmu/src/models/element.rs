@@ -1,6 +1,9 @@
 //! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
 
+use bolted_joint_dynamics::Motion;
+
 use crate::{
+    input_course::InputCourse,
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
@@ -28,8 +31,30 @@ impl<const D: usize> Model for Element<D> {
         Ok(())
     }
 
-    fn advance(&mut self, _: &mut Values, _: CommunicationStep) -> Result<(), Refusal> {
+    fn advance(
+        &mut self,
+        _: &mut Values,
+        _: CommunicationStep,
+        _: &InputCourse,
+    ) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
+        for side in [A, B] {
+            let Motion { velocity, .. } = side.motion::<D>(values);
+            let [displacements, velocities] = side.motion_references::<D>();
+            // the velocity that is put in is the displacement's derivative, unless another one was given
+            side.set_motion(
+                rates,
+                &Motion {
+                    displacement: std::array::from_fn(|dof| {
+                        inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
+                    }),
+                    velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
+                },
+            );
+        }
     }
 
     fn calculate_outputs(&self, values: &mut Values) {

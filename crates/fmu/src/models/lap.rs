@@ -3,14 +3,16 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    Defect, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, STABILITY_LIMIT_REAL, substeps,
+    Defect, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, Motion, STABILITY_LIMIT_REAL,
+    substeps,
 };
 
 use crate::{
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variable, Variables, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_joint_load},
+        sides::{A, B, Side, is_active, joint_law, set_joint_load},
     },
     refusal::{Active, Refusal},
 };
@@ -113,17 +115,48 @@ impl<const D: usize> Model for LapModel<D> {
         }
     }
 
-    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal> {
+    fn advance(
+        &mut self,
+        values: &mut Values,
+        step: CommunicationStep,
+        inputs: &InputCourse,
+    ) -> Result<(), Refusal> {
         let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let start = state::<D>(values);
-        let loads = loads(values);
-        let end = prepared.advance(&start, &loads, step)?;
+        let loads = Loads {
+            start: loads(values),
+            course: inputs,
+        };
+        let end = if inputs.is_held() {
+            prepared.advance(&start, &loads.start, step)?
+        } else {
+            prepared.advance_along(&start, &loads, step)?
+        };
         if !prepared.holds(&end) {
             return Err(prepared.explain(&start, &loads, step));
         }
         A.set_motion(values, &end.a);
         B.set_motion(values, &end.b);
         Ok(())
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
+        for side in [A, B] {
+            // ẋ = v, v̇ as calculated from the equations of motion
+            let Motion { velocity, .. } = side.motion::<D>(values);
+            side.set_motion(
+                rates,
+                &Motion {
+                    displacement: velocity,
+                    velocity: side.acceleration(values),
+                },
+            );
+            let of_loads = side.load_references::<D>();
+            side.set_load(
+                rates,
+                &of_loads.map(|load| inputs.rate(load).unwrap_or(0.0)),
+            );
+        }
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
@@ -160,6 +193,33 @@ impl<const D: usize> Model for LapModel<D> {
     }
 }
 
+/// The loads over a step.
+struct Loads<'a, const D: usize> {
+    /// At its beginning.
+    start: LapLoads<D>,
+    /// How they go on.
+    course: &'a InputCourse,
+}
+
+impl<const D: usize> Loads<'_, D> {
+    /// Loads `after_s` (s) from the beginning.
+    fn after(&self, after_s: f64) -> LapLoads<D> {
+        let of_side = |side: Side, start: &[f64; D]| {
+            let inputs = side.load_references::<D>();
+            std::array::from_fn(|dof| self.course.value(inputs[dof], start[dof], after_s))
+        };
+        LapLoads {
+            a: of_side(A, &self.start.a),
+            b: of_side(B, &self.start.b),
+        }
+    }
+
+    /// Loads at the stages of the Runge–Kutta step of `length_s` (s) that has the number `index`, from 0.
+    fn at_stages(&self, index: u32, length_s: f64) -> [LapLoads<D>; 3] {
+        [0.0, 0.5, 1.0].map(|part| self.after((f64::from(index) + part) * length_s))
+    }
+}
+
 impl<const D: usize> Prepared<D> {
     /// State at the end of the step, by one product where that is possible and worth its preparation.
     #[inline]
@@ -190,6 +250,24 @@ impl<const D: usize> Prepared<D> {
         Ok(stepped(&self.integrator, start, loads, length_s, count))
     }
 
+    /// State at the end of the step under loads that change, by Runge–Kutta steps.
+    #[cold]
+    fn advance_along(
+        &self,
+        start: &LapState<D>,
+        loads: &Loads<'_, D>,
+        step: CommunicationStep,
+    ) -> Result<LapState<D>, Refusal> {
+        let count = count(step.interval_s, self.step_size_max_s)?.get();
+        let length_s = step.interval_s / f64::from(count);
+        let mut state = *start;
+        for index in 0..count {
+            let loads = loads.at_stages(index, length_s);
+            state = self.integrator.step_with_loads(&state, &loads, length_s);
+        }
+        Ok(state)
+    }
+
     /// Whether the state is finite and the joint holds.
     #[inline]
     fn holds(&self, state: &LapState<D>) -> bool {
@@ -210,18 +288,17 @@ impl<const D: usize> Prepared<D> {
     fn explain(
         &self,
         start: &LapState<D>,
-        loads: &LapLoads<D>,
+        loads: &Loads<'_, D>,
         step: CommunicationStep,
     ) -> Refusal {
-        let count = self.interval.map_or(1, |interval| interval.count.get());
+        let count = count(step.interval_s, self.step_size_max_s).map_or(1, NonZeroU32::get);
         let length_s = step.interval_s / f64::from(count);
         let mut state = *start;
         let mut time_s = step.time_s;
-        for index in 1..=count {
-            state = self
-                .integrator
-                .advance(&state, loads, length_s, NonZeroU32::MIN);
-            time_s = step.time_s + length_s * f64::from(index);
+        for index in 0..count {
+            let loads = loads.at_stages(index, length_s);
+            state = self.integrator.step_with_loads(&state, &loads, length_s);
+            time_s = step.time_s + length_s * f64::from(index + 1);
             if !self.holds(&state) {
                 break;
             }
@@ -232,7 +309,8 @@ impl<const D: usize> Prepared<D> {
     fn fault(&self, state: &LapState<D>, time_s: f64) -> Refusal {
         for (side, motion) in [(A, &state.a), (B, &state.b)] {
             let numbers = motion.displacement.iter().chain(&motion.velocity);
-            for (reference, number) in side.motion_references::<D>().zip(numbers) {
+            let references = side.motion_references::<D>();
+            for (&reference, number) in references.iter().flatten().zip(numbers) {
                 if !number.is_finite() {
                     return Refusal::StateNotFinite {
                         name: name(reference),

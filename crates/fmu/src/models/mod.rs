@@ -7,6 +7,7 @@ mod sides;
 pub(crate) use lap::SUBSTEPS_MAX;
 
 use crate::{
+    input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
     refusal::{Active, Refusal},
 };
@@ -27,13 +28,23 @@ pub(crate) trait Model: Send {
     /// Whether the states in `values` are such that the simulation can go on.
     fn check_states(&self, values: &Values) -> Result<(), Refusal>;
 
-    /// Advances the states over `step`, with the inputs held; on refusal `values` are untouched.
+    /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
-    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls.
-    fn advance(&mut self, values: &mut Values, step: CommunicationStep) -> Result<(), Refusal>;
+    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls. The inputs in `values`
+    /// stay those at the step's beginning.
+    fn advance(
+        &mut self,
+        values: &mut Values,
+        step: CommunicationStep,
+        inputs: &InputCourse,
+    ) -> Result<(), Refusal>;
 
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
+
+    /// Writes the derivatives of inputs and states with respect to time to `rates`, at the point `values`, of which the
+    /// outputs are up to date.
+    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values);
 
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
     /// variables at the point `values`: writes those of outputs and derivatives to `change`, exactly.

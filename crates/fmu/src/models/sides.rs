@@ -38,12 +38,15 @@ pub(super) const B: Side = Side {
 };
 
 impl Side {
-    /// Value references of displacement and velocity.
-    pub(super) fn motion_references<const D: usize>(&self) -> impl Iterator<Item = usize> {
-        self.displacement
-            .into_iter()
-            .take(D)
-            .chain(self.velocity.into_iter().take(D))
+    /// Value references of displacements and of velocities.
+    pub(super) fn motion_references<const D: usize>(&self) -> [[usize; D]; 2] {
+        [&self.displacement, &self.velocity].map(|all| std::array::from_fn(|dof| all[dof]))
+    }
+
+    /// Value references of the loads.
+    #[inline]
+    pub(super) fn load_references<const D: usize>(&self) -> [usize; D] {
+        std::array::from_fn(|dof| self.load[dof])
     }
 
     #[inline]
@@ -68,6 +71,10 @@ impl Side {
     #[inline]
     pub(super) fn set_load<const D: usize>(&self, values: &mut Values, load: &[f64; D]) {
         scatter(values, &self.load, load);
+    }
+
+    pub(super) fn acceleration<const D: usize>(&self, values: &Values) -> [f64; D] {
+        gather(values, &self.acceleration)
     }
 
     pub(super) fn set_acceleration<const D: usize>(

@@ -210,12 +210,12 @@ fn every_damaged_byte_is_noticed() {
     assert_eq!(instance.deserialize(&longer), Err(c::ERROR));
     instance.error();
     let mut newer = bytes.clone();
-    newer[8] = 3;
+    newer[8] = 4;
     assert_eq!(instance.deserialize(&newer), Err(c::ERROR));
     assert!(
         instance
             .error()
-            .contains("it has layout 3, this library reads layout 2")
+            .contains("it has layout 4, this library reads layout 3")
     );
     assert_eq!(
         instance.deserialize(b"something else altogether, and long enough"),
@@ -263,7 +263,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
             .error()
             .contains("its value of step_size_max is impossible")
     );
-    let mode = 8 + 4 + 4 + TOKEN.len() + 3;
+    let mode = 8 + 4 + 4 + TOKEN.len() + 4;
     assert_eq!(instance.deserialize(&forge(mode, &[9])), Err(c::ERROR));
     assert!(instance.error().contains("its mode is impossible"));
     let steps_in_a_row = mode + 1 + 1 + 8 + 8;

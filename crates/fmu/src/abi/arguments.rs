@@ -2,7 +2,7 @@
 
 use std::{ffi::CStr, mem::MaybeUninit, slice};
 
-use crate::{fmi3::Text, refusal::Refusal};
+use crate::{abi::Text, refusal::Refusal};
 
 /// The array that a pointer and a length stand for.
 ///
@@ -10,7 +10,7 @@ use crate::{fmi3::Text, refusal::Refusal};
 ///
 /// If `pointer` is not null it points to `length` values that nobody changes for as long as the slice is used.
 #[inline]
-pub(super) unsafe fn array<'a, T>(
+pub(crate) unsafe fn array<'a, T>(
     pointer: *const T,
     length: usize,
     argument: &'static str,
@@ -29,7 +29,7 @@ pub(super) unsafe fn array<'a, T>(
 ///
 /// If `pointer` is not null it points to writable memory for `length` values that nobody else uses meanwhile.
 #[inline]
-pub(super) unsafe fn array_mut<'a, T>(
+pub(crate) unsafe fn array_mut<'a, T>(
     pointer: *mut T,
     length: usize,
     argument: &'static str,
@@ -48,7 +48,7 @@ pub(super) unsafe fn array_mut<'a, T>(
 ///
 /// As for [`array_mut`].
 #[inline]
-pub(super) unsafe fn output<'a, T>(
+pub(crate) unsafe fn output<'a, T>(
     pointer: *mut T,
     argument: &'static str,
 ) -> Result<&'a mut MaybeUninit<T>, Refusal> {
@@ -62,7 +62,7 @@ pub(super) unsafe fn output<'a, T>(
 /// # Safety
 ///
 /// If `text` is not null it points to a terminated string that nobody changes for as long as it is used.
-pub(super) unsafe fn optional_text<'a>(
+pub(crate) unsafe fn optional_text<'a>(
     text: Text,
     argument: &'static str,
 ) -> Result<Option<&'a str>, Refusal> {
@@ -81,7 +81,7 @@ pub(super) unsafe fn optional_text<'a>(
 /// # Safety
 ///
 /// As for [`optional_text`].
-pub(super) unsafe fn text<'a>(text: Text, argument: &'static str) -> Result<&'a str, Refusal> {
+pub(crate) unsafe fn text<'a>(text: Text, argument: &'static str) -> Result<&'a str, Refusal> {
     // SAFETY: the caller's promise
     unsafe { optional_text(text, argument) }?.ok_or(Refusal::NullPointer { argument })
 }
@@ -96,4 +96,22 @@ fn check<T>(pointer: *const T, length: usize, argument: &'static str) -> Result<
         return Err(Refusal::BadArray { argument });
     }
     Ok(())
+}
+
+/// Refuses arrays that belong together but differ in length.
+#[inline]
+pub(crate) fn same_count(
+    argument: &'static str,
+    found: usize,
+    expected: usize,
+) -> Result<(), Refusal> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(Refusal::Count {
+            argument,
+            found,
+            expected,
+        })
+    }
 }

@@ -1,74 +1,91 @@
-//! What an `fmi3Instance` and an `fmi3FMUState` point to.
+//! What an instance and an FMU state of the importer point to.
 
-use crate::{fmi3::Opaque, fmu_state::Snapshot, instance::Instance, logging::Logger};
+use crate::{
+    abi::{Abi, Opaque},
+    fmu_state::Snapshot,
+    instance::Instance,
+    logging::Logger,
+};
 
-/// Marks a living instance: "bjinst" and a version.
-const INSTANCE: u64 = 0x626a_696e_7374_0003;
 /// Marks a living FMU state: "bjstat" and a version.
 const STATE: u64 = 0x626a_7374_6174_0003;
 /// Left behind in what was freed.
 const FREED: u64 = 0;
 
-/// What an `fmi3Instance` points to.
-#[repr(C)]
-pub(super) struct Handle {
-    mark: u64,
-    pub(super) instance: Instance,
-    pub(super) logger: Logger,
+impl Abi {
+    /// Marks a living instance that was made by this version's functions: "bjinst" and the version.
+    #[inline]
+    const fn mark(self) -> u64 {
+        match self {
+            Self::Fmi2 => 0x626a_696e_7374_0002,
+            Self::Fmi3 => 0x626a_696e_7374_0003,
+        }
+    }
 }
 
-/// What an `fmi3FMUState` points to.
+/// What an `fmi2Component` or `fmi3Instance` points to.
 #[repr(C)]
-pub(super) struct StateHandle {
+pub(crate) struct Handle {
     mark: u64,
-    pub(super) snapshot: Snapshot,
+    pub(crate) instance: Instance,
+    pub(crate) logger: Logger,
+}
+
+/// What an `fmi2FMUstate` or `fmi3FMUState` points to.
+#[repr(C)]
+pub(crate) struct StateHandle {
+    mark: u64,
+    pub(crate) snapshot: Snapshot,
 }
 
 /// Hands an instance over to the importer.
-pub(super) fn to_c(instance: Instance, logger: Logger) -> Opaque {
+pub(crate) fn to_c(abi: Abi, instance: Instance, logger: Logger) -> Opaque {
     Box::into_raw(Box::new(Handle {
-        mark: INSTANCE,
+        mark: abi.mark(),
         instance,
         logger,
     }))
     .cast()
 }
 
-/// The instance behind the importer's pointer, or `None` for a null pointer and for what is not an instance.
+/// The instance behind the importer's pointer, or `None` for a null pointer and for what is not an instance that was
+/// made by functions of this version.
 ///
 /// # Safety
 ///
 /// `handle` is null or points to readable memory; if that is an instance, nothing else refers to it.
 #[inline]
-pub(super) unsafe fn from_c<'a>(handle: Opaque) -> Option<&'a mut Handle> {
+pub(crate) unsafe fn from_c<'a>(abi: Abi, handle: Opaque) -> Option<&'a mut Handle> {
     let handle = handle.cast::<Handle>();
     if handle.is_null() || !handle.is_aligned() {
         return None;
     }
     // SAFETY: the mark comes first (repr(C)) and is readable, by the caller's promise
-    if unsafe { (&raw const (*handle).mark).read() } != INSTANCE {
+    if unsafe { (&raw const (*handle).mark).read() } != abi.mark() {
         return None;
     }
     // SAFETY: the mark says that this is an instance, to which the caller has the only pointer
     Some(unsafe { &mut *handle })
 }
 
-/// Frees an instance; nothing happens to a null pointer and to what is not an instance.
+/// Frees an instance; nothing happens to a null pointer and to what is not an instance of this version.
 ///
 /// # Safety
 ///
 /// As for [`from_c`]; the pointer must not be used again.
-pub(super) unsafe fn free(handle: Opaque) {
+pub(crate) unsafe fn free(abi: Abi, handle: Opaque) -> bool {
     // SAFETY: the caller's promise
-    if let Some(handle) = unsafe { from_c(handle) } {
-        handle.mark = FREED;
-        // SAFETY: made by Box::into_raw in `to_c`
-        drop(unsafe { Box::from_raw(handle) });
-    }
+    let Some(handle) = (unsafe { from_c(abi, handle) }) else {
+        return false;
+    };
+    handle.mark = FREED;
+    // SAFETY: made by Box::into_raw in `to_c`
+    drop(unsafe { Box::from_raw(handle) });
+    true
 }
 
 /// Hands an FMU state over to the importer.
-pub(super) fn state_to_c(snapshot: Snapshot) -> Opaque {
+pub(crate) fn state_to_c(snapshot: Snapshot) -> Opaque {
     Box::into_raw(Box::new(StateHandle {
         mark: STATE,
         snapshot,
@@ -81,7 +98,7 @@ pub(super) fn state_to_c(snapshot: Snapshot) -> Opaque {
 /// # Safety
 ///
 /// `state` is null or points to readable memory; if that is an FMU state, nothing else refers to it.
-pub(super) unsafe fn state_from_c<'a>(state: Opaque) -> Option<&'a mut StateHandle> {
+pub(crate) unsafe fn state_from_c<'a>(state: Opaque) -> Option<&'a mut StateHandle> {
     let state = state.cast::<StateHandle>();
     if state.is_null() || !state.is_aligned() {
         return None;
@@ -99,7 +116,7 @@ pub(super) unsafe fn state_from_c<'a>(state: Opaque) -> Option<&'a mut StateHand
 /// # Safety
 ///
 /// As for [`state_from_c`]; the pointer must not be used again.
-pub(super) unsafe fn free_state(state: Opaque) -> bool {
+pub(crate) unsafe fn free_state(state: Opaque) -> bool {
     // SAFETY: the caller's promise
     let Some(state) = (unsafe { state_from_c(state) }) else {
         return false;

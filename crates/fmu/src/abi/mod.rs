@@ -1,0 +1,213 @@
+//! What the C functions of all FMI versions share: handles, checked arguments, and the way from a refusal to a status.
+//!
+//! Every C function takes its arguments apart with [`arguments`], lets [`call`] run the body against the instance, and
+//! turns the outcome into a status. The importer's callbacks are called only when no reference to the instance is
+//! alive, so that a callback may call back into the FMU.
+
+pub(crate) mod arguments;
+pub(crate) mod handle;
+pub(crate) mod instantiation;
+pub(crate) mod saved_states;
+
+use std::{
+    ffi::{c_char, c_void},
+    fmt,
+    panic::{AssertUnwindSafe, catch_unwind},
+};
+
+use crate::{
+    instance::Instance,
+    interface::InterfaceType,
+    logging::Status,
+    refusal::{Active, Refusal},
+};
+
+/// Pointers to what the other side keeps to itself: instances, FMU states, the importer's environments.
+pub(crate) type Opaque = *mut c_void;
+/// `fmi2ValueReference`, `fmi3ValueReference`.
+pub(crate) type ValueReference = u32;
+/// `fmi2String`, `fmi3String`.
+pub(crate) type Text = *const c_char;
+
+/// Which functions an instance was made by, and is used through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Abi {
+    /// FMI 2.0.
+    Fmi2,
+    /// FMI 3.0.
+    Fmi3,
+}
+
+impl Abi {
+    /// Name for messages.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "FMI 2.0",
+            Self::Fmi3 => "FMI 3.0",
+        }
+    }
+
+    /// The importer's name of the type that all variables have.
+    pub(crate) const fn real(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "Real",
+            Self::Fmi3 => "Float64",
+        }
+    }
+
+    /// Argument that holds the token.
+    pub(crate) const fn token_argument(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "fmuGUID",
+            Self::Fmi3 => "instantiationToken",
+        }
+    }
+
+    /// Argument that tells where the resources are.
+    pub(crate) const fn resource_argument(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "fmuResourceLocation",
+            Self::Fmi3 => "resourcePath",
+        }
+    }
+
+    /// Argument that counts continuous states.
+    pub(crate) const fn state_count_argument(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "nx",
+            Self::Fmi3 => "nContinuousStates",
+        }
+    }
+
+    const fn other(self) -> Self {
+        match self {
+            Self::Fmi2 => Self::Fmi3,
+            Self::Fmi3 => Self::Fmi2,
+        }
+    }
+}
+
+/// A C function that works on an instance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Function {
+    /// Version that it belongs to.
+    pub(crate) abi: Abi,
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Whether in Model Exchange it answers numbers that are not finite with a status that asks the importer's solver
+    /// for a shorter step (FMI 2.0, 2.1.3).
+    pub(crate) discards: bool,
+}
+
+/// What a function did, where that is worth a message.
+pub(crate) enum Done {
+    /// What was asked, nothing to say.
+    Silently,
+    /// What was asked; worth an entry in the log of events.
+    Event(Event),
+    /// What was asked, but with a warning.
+    Warning(Active),
+}
+
+impl From<Option<Active>> for Done {
+    fn from(warning: Option<Active>) -> Self {
+        warning.map_or(Self::Silently, Self::Warning)
+    }
+}
+
+/// An entry in the log of events.
+pub(crate) enum Event {
+    /// The simulation starts.
+    Initializing { start_s: f64 },
+    /// The simulation ends.
+    Terminated { time_s: f64 },
+    /// Back to the start values.
+    Reset,
+    /// An earlier state was restored.
+    Restored { time_s: f64 },
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Initializing { start_s } => write!(f, "initialising at t = {start_s} s"),
+            Self::Terminated { time_s } => write!(f, "terminated at t = {time_s} s"),
+            Self::Reset => f.write_str("reset to the start values"),
+            Self::Restored { time_s } => write!(f, "restored the state at t = {time_s} s"),
+        }
+    }
+}
+
+/// Runs `body` on the instance behind `handle`: no panic leaves, every refusal is logged, and a failed simulation ends.
+///
+/// # Safety
+///
+/// `handle` is null or was returned by an instantiating function and not freed since, and no other thread uses it.
+#[inline]
+pub(crate) unsafe fn call(
+    function: Function,
+    handle: Opaque,
+    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
+) -> Status {
+    // SAFETY: the caller's promise
+    let Some(handle) = (unsafe { handle::from_c(function.abi, handle) }) else {
+        // SAFETY: the caller's promise
+        return unsafe { refuse_handle(function, handle) };
+    };
+    match catch_unwind(AssertUnwindSafe(|| body(&mut handle.instance))) {
+        Ok(Ok(Done::Silently)) => Status::Ok,
+        outcome => conclude(function, handle, outcome.unwrap_or(Err(Refusal::Internal))),
+    }
+}
+
+/// Says of an instance of another FMI version why this function does not work on it.
+///
+/// # Safety
+///
+/// As for [`call`].
+#[cold]
+pub(crate) unsafe fn refuse_handle(function: Function, handle: Opaque) -> Status {
+    let found = function.abi.other();
+    // SAFETY: the caller's promise
+    if let Some(handle) = unsafe { handle::from_c(found, handle) } {
+        let logger = handle.logger.clone();
+        let expected = function.abi;
+        logger.error(function.name, &Refusal::OtherAbi { found, expected });
+    }
+    Status::Error
+}
+
+/// Logs what came out of a call, and ends a simulation that failed.
+#[cold]
+pub(crate) fn conclude(
+    function: Function,
+    handle: &mut handle::Handle,
+    outcome: Result<Done, Refusal>,
+) -> Status {
+    if outcome.as_ref().is_err_and(Refusal::ends_the_simulation) {
+        handle.instance.fail();
+    }
+    let solver_at_work =
+        function.discards && handle.instance.interface_type() == InterfaceType::ModelExchange;
+    // a copy: the callback may use the instance
+    let logger = handle.logger.clone();
+    match outcome {
+        Ok(Done::Silently) => Status::Ok,
+        Ok(Done::Event(event)) => {
+            logger.event(function.name, &event);
+            Status::Ok
+        }
+        Ok(Done::Warning(warning)) => {
+            logger.warning(function.name, &warning);
+            Status::Warning
+        }
+        Err(refusal) if refusal.is_discarded(solver_at_work) => {
+            logger.discard(function.name, &refusal);
+            Status::Discard
+        }
+        Err(refusal) => {
+            logger.error(function.name, &refusal);
+            Status::Error
+        }
+    }
+}

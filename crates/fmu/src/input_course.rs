@@ -1,0 +1,183 @@
+//! How the inputs go on from the present point: the derivatives with respect to time that the importer has given.
+
+use crate::interface::INPUT_REFERENCE_COUNT;
+
+/// Highest order of an input's derivative.
+pub(crate) const ORDER_MAX: usize = 3;
+
+/// Taylor polynomials of the inputs, without their values, which are among the values of the variables.
+///
+/// FMI 2.0, 4.2.1: derivatives are given for the beginning of a communication step. They hold for that step. What they
+/// have become at its end is still known there, for the derivatives of outputs, but the next step begins with inputs
+/// that are held, unless new derivatives are given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct InputCourse {
+    /// Derivatives of first to third order, by value reference of the input.
+    derivatives: [[f64; ORDER_MAX]; INPUT_REFERENCE_COUNT],
+    /// One bit for each input whose derivatives the importer has given, be they zero.
+    given: u16,
+    phase: Phase,
+}
+
+/// For which time the derivatives are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// There are none but zeros: the inputs are held.
+    Held,
+    /// For the step that comes next.
+    Next,
+    /// For the step that has been taken: they are those at its end.
+    Past,
+}
+
+const _: () = assert!(
+    INPUT_REFERENCE_COUNT <= u16::BITS as usize,
+    "an input has no bit"
+);
+
+impl InputCourse {
+    /// All inputs held.
+    pub(crate) const HELD: Self = Self {
+        derivatives: [[0.0; ORDER_MAX]; INPUT_REFERENCE_COUNT],
+        given: 0,
+        phase: Phase::Held,
+    };
+
+    /// Number of bytes of a serialised course.
+    pub(crate) const SIZE: usize = 3 + 8 * ORDER_MAX * INPUT_REFERENCE_COUNT;
+
+    /// Whether the inputs are held over the step that comes next.
+    #[inline]
+    pub(crate) fn is_held(&self) -> bool {
+        self.phase != Phase::Next
+    }
+
+    /// Whether a step was taken along this course.
+    #[inline]
+    pub(crate) fn is_past(&self) -> bool {
+        self.phase == Phase::Past
+    }
+
+    /// Gives the derivative of `order` (1 to 3) of an input for the next step.
+    pub(crate) fn give(&mut self, input: usize, order: usize, derivative: f64) {
+        if self.is_past() {
+            *self = Self::HELD;
+        }
+        let of_input = self.derivatives.get_mut(input);
+        if let Some(stored) = of_input.and_then(|orders| orders.get_mut(order.checked_sub(1)?)) {
+            *stored = derivative;
+            self.given |= Self::bit(input);
+            self.phase = self.phase_to_come();
+        }
+    }
+
+    /// Lets an input go through `middle` and `end` at half and full `interval_s` (s), from `start` at present.
+    pub(crate) fn fit(&mut self, input: usize, [start, middle, end]: [f64; 3], interval_s: f64) {
+        if let Some(derivatives) = self.derivatives.get_mut(input) {
+            // u̇ = (−3 u₀ + 4 u₁ − u₂)/h, ü = 4 (u₀ − 2 u₁ + u₂)/h², from the differences so that a held input stays so
+            let (first, second) = (middle - start, end - middle);
+            *derivatives = [
+                (3.0 * first - second) / interval_s,
+                4.0 * (second - first) / (interval_s * interval_s),
+                0.0,
+            ];
+            self.phase = self.phase_to_come();
+        }
+    }
+
+    /// Forgets what an input did in the step that was taken, because it has jumped since.
+    pub(crate) fn forget(&mut self, input: usize) {
+        if let Some(derivatives) = self.derivatives.get_mut(input) {
+            *derivatives = [0.0; ORDER_MAX];
+            self.given &= !Self::bit(input);
+        }
+    }
+
+    /// Value of an input `after_s` (s) from now, when it is `start` at present.
+    #[inline]
+    pub(crate) fn value(&self, input: usize, start: f64, after_s: f64) -> f64 {
+        let [first, second, third] = self.of(input);
+        // u(t + τ) = u + τ (u̇ + τ/2 (ü + τ/3 u⃛))
+        start + after_s * (first + after_s / 2.0 * (second + after_s / 3.0 * third))
+    }
+
+    /// First derivative of an input at present, if it is known to change.
+    pub(crate) fn rate(&self, input: usize) -> Option<f64> {
+        let [first, ..] = self.of(input);
+        let known = self.given & Self::bit(input) != 0 || first != 0.0;
+        known.then_some(first)
+    }
+
+    /// The course at the end of a step of `interval_s` (s).
+    pub(crate) fn after(&self, interval_s: f64) -> Self {
+        if self.phase != Phase::Next {
+            return Self::HELD;
+        }
+        let derivatives = self.derivatives.map(|[first, second, third]| {
+            [
+                first + interval_s * (second + interval_s / 2.0 * third),
+                second + interval_s * third,
+                third,
+            ]
+        });
+        Self {
+            derivatives,
+            given: self.given,
+            phase: Phase::Past,
+        }
+    }
+
+    fn of(&self, input: usize) -> [f64; ORDER_MAX] {
+        self.derivatives.get(input).copied().unwrap_or_default()
+    }
+
+    fn bit(input: usize) -> u16 {
+        1_u16.unbounded_shl(input as u32)
+    }
+
+    fn phase_to_come(&self) -> Phase {
+        let held = self.derivatives.iter().flatten().all(|&x| x == 0.0);
+        if held { Phase::Held } else { Phase::Next }
+    }
+
+    /// The course in bytes, little endian.
+    pub(crate) fn to_bytes(self) -> [u8; Self::SIZE] {
+        let mut bytes = [0; Self::SIZE];
+        let (head, tail) = bytes.split_at_mut(3);
+        let [low, high] = self.given.to_le_bytes();
+        let phase = match self.phase {
+            Phase::Held => 0,
+            Phase::Next => 1,
+            Phase::Past => 2,
+        };
+        head.copy_from_slice(&[low, high, phase]);
+        let numbers = self.derivatives.iter().flatten();
+        for (field, number) in tail.chunks_exact_mut(8).zip(numbers) {
+            field.copy_from_slice(&number.to_le_bytes());
+        }
+        bytes
+    }
+
+    /// Inverse of [`InputCourse::to_bytes`]; `None` for what no course can be.
+    pub(crate) fn from_bytes(bytes: [u8; Self::SIZE]) -> Option<Self> {
+        let (&[low, high, phase], rest) = bytes.split_first_chunk()?;
+        let mut course = Self {
+            given: u16::from_le_bytes([low, high]),
+            phase: match phase {
+                0 => Phase::Held,
+                1 => Phase::Next,
+                2 => Phase::Past,
+                _ => return None,
+            },
+            ..Self::HELD
+        };
+        let numbers = course.derivatives.iter_mut().flatten();
+        for (number, field) in numbers.zip(rest.as_chunks::<8>().0) {
+            *number = f64::from_le_bytes(*field);
+        }
+        let finite = course.derivatives.iter().flatten().all(|x| x.is_finite());
+        let consistent = course.phase != Phase::Held || course.phase_to_come() == Phase::Held;
+        let known = course.given >> INPUT_REFERENCE_COUNT == 0;
+        (finite && consistent && known).then_some(course)
+    }
+}

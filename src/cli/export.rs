@@ -5,7 +5,8 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::export::{
-    ExportError, ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp, fmu_bytes,
+    ExportError, ExportOptions, Exported, FmiVersion, Interface, StepChoice, StepSize, Timestamp,
+    fmu_bytes,
 };
 use crate::joint::JointFile;
 
@@ -16,6 +17,7 @@ use super::table::number;
 
 pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let options = ExportOptions {
+        version: arguments.fmi.into(),
         step_size_max_s: arguments.step_size_max,
         platforms: arguments.platforms.clone(),
         allow_active: arguments.allow_active,
@@ -41,6 +43,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
 pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
     Ok(ExportOptions {
         interface,
+        version: FmiVersion::default(),
         step_size_max_s: None,
         platforms: None,
         allow_active: false,
@@ -77,12 +80,13 @@ fn summary(exported: &Exported, fmu: &Path) -> String {
         .map(|library| library.platform.as_str())
         .collect();
     format!(
-        "wrote {} ({} files, {} kB)\n\
+        "wrote {} ({}, {} files, {} kB)\n\
          model: {}, {}\n\
          steps: {}\n\
          platforms: {}\n\
          token: {}\n",
         fmu.display(),
+        exported.version,
         exported.entries.len(),
         exported.bytes().len().div_ceil(1000),
         exported.model_name,
@@ -121,6 +125,7 @@ fn steps(step: &StepSize) -> String {
 fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
     json!({
         "output": fmu.display().to_string(),
+        "fmi_version": exported.version.number(),
         "interface": exported.interface.name(),
         "model_name": exported.model_name,
         "token": exported.token,

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::export::Interface;
+use crate::export::{self as fmu, Interface};
 
 /// Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #[derive(Debug, Parser)]
@@ -130,6 +130,18 @@ enum FmiVersion {
     /// FMI 3.0
     #[value(name = "3")]
     Three,
+    /// FMI 2.0
+    #[value(name = "2")]
+    Two,
+}
+
+impl From<FmiVersion> for fmu::FmiVersion {
+    fn from(argument: FmiVersion) -> Self {
+        match argument {
+            FmiVersion::Three => Self::V3,
+            FmiVersion::Two => Self::V2,
+        }
+    }
 }
 
 impl From<InterfaceArgument> for Interface {

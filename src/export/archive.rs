@@ -17,9 +17,13 @@ pub(super) struct File {
 
 impl File {
     pub(super) fn text(path: &str, text: impl Into<String>) -> Self {
+        Self::bytes(path, text.into().into_bytes())
+    }
+
+    pub(super) fn bytes(path: &str, bytes: impl Into<Vec<u8>>) -> Self {
         Self {
             path: path.to_owned(),
-            bytes: text.into().into_bytes(),
+            bytes: bytes.into(),
             executable: false,
         }
     }

@@ -9,7 +9,7 @@ use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
 
 use super::step::Experiment;
-use super::{ExportError, Interface, Timestamp};
+use super::{ExportError, FmiVersion, Interface, Timestamp, fmi2, xml};
 use crate::joint::DofSet;
 
 /// File name of the model description in an FMU.
@@ -18,6 +18,7 @@ pub(super) const FILE: &str = "modelDescription.xml";
 /// A model description in the making.
 pub(super) struct Description {
     tree: Fmi3ModelDescription,
+    version: FmiVersion,
 }
 
 impl Description {
@@ -31,7 +32,15 @@ impl Description {
         // Set last, by `finish`.
         tree.instantiation_token.clear();
         tree.generation_date_and_time = None;
-        Ok(Self { tree })
+        Ok(Self {
+            tree,
+            version: FmiVersion::default(),
+        })
+    }
+
+    /// The version of FMI that the text is written for; without this, 3.0.
+    pub(super) fn set_version(&mut self, version: FmiVersion) {
+        self.version = version;
     }
 
     /// Name of the model and one line about it.
@@ -82,10 +91,17 @@ impl Description {
 
     /// The text so far, which the token is made from.
     pub(super) fn text(&self) -> Result<String, ExportError> {
+        match self.version {
+            FmiVersion::V2 => Ok(fmi2::model_description(&self.tree)),
+            FmiVersion::V3 => self.fmi3_text(),
+        }
+    }
+
+    fn fmi3_text(&self) -> Result<String, ExportError> {
         Ok(indented(&self.tree.serialize()?))
     }
 
-    /// The finished text, and what it declares, checked as the hand-written files are.
+    /// The finished text, and what it declares, checked in its FMI 3.0 form as the hand-written files are.
     pub(super) fn finish(
         mut self,
         token: &str,
@@ -93,10 +109,9 @@ impl Description {
     ) -> Result<(String, Checked), ExportError> {
         self.tree.instantiation_token = token.to_owned();
         self.tree.generation_date_and_time = Some(date.to_string());
-        let text = self.text()?;
-        let checked = Checked::from_xml(FILE, &text)
+        let checked = Checked::from_xml(FILE, &self.fmi3_text()?)
             .map_err(|refused| ExportError::Interface(Box::new(refused)))?;
-        Ok((text, checked))
+        Ok((self.text()?, checked))
     }
 }
 
@@ -178,9 +193,24 @@ fn drop_unused_types(tree: &mut Fmi3ModelDescription) {
     }
 }
 
+/// Attributes whose value is one floating-point number.
+const NUMBERS: [&str; 10] = [
+    "start",
+    "min",
+    "max",
+    "nominal",
+    "factor",
+    "offset",
+    "startTime",
+    "stopTime",
+    "tolerance",
+    "stepSize",
+];
+
 /// One element on each line, indented by its depth, under the XML declaration.
 ///
-/// The writer escapes `<` and `>` in attribute values and writes no text, so each `<…>` is a tag.
+/// The writer escapes `<`, `>` and `"` in attribute values and writes no text, so each `<…>` is a tag. It writes
+/// out all digits of a number, hundreds of them for the smallest, which are shortened here.
 fn indented(xml: &str) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let mut depth = 0_usize;
@@ -189,13 +219,32 @@ fn indented(xml: &str) -> String {
             depth = depth.saturating_sub(1);
         }
         text.extend(std::iter::repeat_n("  ", depth));
-        text.push_str(tag);
+        push_tag(&mut text, tag);
         text.push('\n');
         if !tag.starts_with("</") && !tag.ends_with("/>") {
             depth += 1;
         }
     }
     text
+}
+
+/// `tag` with the shortest decimal for each of its numbers.
+fn push_tag(text: &mut String, tag: &str) {
+    let mut rest = tag;
+    while let Some((name, after)) = rest.split_once("=\"")
+        && let Some((value, after)) = after.split_once('"')
+    {
+        text.push_str(name);
+        text.push_str("=\"");
+        let is_number = NUMBERS.contains(&name.rsplit(' ').next().unwrap_or(name));
+        match value.parse() {
+            Ok(parsed) if is_number => text.push_str(&xml::number(parsed)),
+            _ => text.push_str(value),
+        }
+        text.push('"');
+        rest = after;
+    }
+    text.push_str(rest);
 }
 
 #[cfg(test)]

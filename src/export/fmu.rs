@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 use bolted_joint_dynamics::{Eigenvalue, Spectrum};
 
 use super::archive::{File, archive};
+use super::assets::pictures;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
+use super::reference_run::ReferenceRun;
 use super::start_file::{parameter_lines, start_file};
 use super::step::{Experiment, StepSize};
+use super::terminals::{self, terminals_and_icons};
 use super::token::token;
-use super::{ExportError, Interface, Timestamp};
+use super::{ExportError, FmiVersion, Interface, Timestamp};
 use crate::joint::{DofSet, JointFile, LawError, Passivity};
 use crate::whole_file;
 
@@ -21,6 +24,8 @@ use crate::whole_file;
 pub struct ExportOptions {
     /// Which of the two FMUs.
     pub interface: Interface,
+    /// Version of the FMI standard.
+    pub version: FmiVersion,
     /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
     pub step_size_max_s: Option<f64>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
@@ -36,6 +41,8 @@ pub struct ExportOptions {
 pub struct Exported {
     /// Which of the two FMUs it is.
     pub interface: Interface,
+    /// Version of the FMI standard that it follows.
+    pub version: FmiVersion,
     /// Name of its model, which is the joint's.
     pub model_name: String,
     /// Instantiation token.
@@ -131,9 +138,11 @@ pub fn fmu_bytes(
 
     let dofs = file.joint.dofs;
     let mut description = Description::new(options.interface, dofs)?;
+    description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
-    if let Some(experiment) = experiment(file, lap.as_ref()) {
+    let experiment = experiment(file, lap.as_ref());
+    if let Some(experiment) = experiment {
         description.set_experiment(experiment);
     }
     let longest_step_s = step.map(|step| step.longest_s);
@@ -146,6 +155,7 @@ pub fn fmu_bytes(
     let page = documentation::html(&Page {
         file,
         interface: options.interface,
+        version: options.version,
         declared: &declared,
         lap: lap.as_ref(),
         passivity: &passivity,
@@ -162,8 +172,19 @@ pub fn fmu_bytes(
         File::text("documentation/index.html", page),
     ];
     files.extend(documentation::licences());
+    files.push(File::text(
+        terminals::FILE,
+        terminals_and_icons(&declared, dofs),
+    ));
+    let step_s = experiment.map(|experiment| experiment.communication_step_s);
+    let reference_run =
+        ReferenceRun::new(file, &declared, options.interface, lap.as_ref(), step_s)?;
+    if let Some(run) = &reference_run {
+        files.extend(run.files(&file.name));
+    }
+    files.extend(pictures(options.version, options.interface, dofs));
     let mut libraries = Vec::new();
-    for binary in binaries(options.platforms.as_deref(), &library_name)? {
+    for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
         libraries.push(binary.library);
         files.push(File {
             path: binary.path,
@@ -173,6 +194,7 @@ pub fn fmu_bytes(
     }
     Ok(Exported {
         interface: options.interface,
+        version: options.version,
         model_name: file.name.clone(),
         token,
         step,

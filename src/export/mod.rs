@@ -1,23 +1,30 @@
-//! From a joint file to an FMU (FMI 3.0, Co-Simulation and Model Exchange) that any FMI tool can load.
+//! From a joint file to an FMU (FMI 3.0 or 2.0, Co-Simulation and Model Exchange) that any FMI tool can load.
 //!
 //! Nothing is compiled: the FMU's library is the same for every joint and is carried inside this crate. [`fmu_bytes`]
 //! writes the model description, the start values that the library reads, the documentation, and the archive around them.
 
 mod archive;
+mod assets;
 mod description;
 mod documentation;
 mod error;
+mod fmi2;
+mod fmi_version;
 mod fmu;
 mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
+mod reference_run;
 mod start_file;
 mod step;
+mod terminals;
 mod timestamp;
 mod token;
+mod xml;
 
 pub use error::ExportError;
+pub use fmi_version::FmiVersion;
 pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
 pub use inspect::{InspectError, Inspection, inspect};
 pub use interface::Interface;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::ExportError;
+use super::{ExportError, FmiVersion};
 
 /// The FMU library of the platform that this program was built for.
 const EMBEDDED: &[u8] = include_bytes!(env!("BOLTED_JOINT_LIBRARY"));
@@ -54,7 +54,7 @@ const SYSTEMS: [System; 3] = [
 /// A shared library in an FMU.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Library {
-    /// Platform as FMI 3.0 names it, such as `x86_64-windows`.
+    /// Platform's folder in the FMU, such as `x86_64-windows`, or `win64` in FMI 2.0.
     pub platform: String,
     /// Where the library was taken from.
     pub source: LibrarySource,
@@ -78,31 +78,35 @@ pub(super) struct Binary {
 
 /// The embedded library and those in `folder`, by platform; a library in the folder comes before the embedded one.
 ///
-/// `name` is the libraries' name without extension. Files and hidden folders beside the platforms' are left alone.
-pub(super) fn binaries(folder: Option<&Path>, name: &str) -> Result<Vec<Binary>, ExportError> {
+/// `name` is the libraries' name without extension. The folders in `folder` have the names of FMI 3.0 whatever the
+/// `version` that the FMU follows. Files and hidden folders beside the platforms' are left alone.
+pub(super) fn binaries(
+    folder: Option<&Path>,
+    name: &str,
+    version: FmiVersion,
+) -> Result<Vec<Binary>, ExportError> {
     let mut found = match folder {
-        Some(folder) => from_folder(folder, name)?,
+        Some(folder) => from_folder(folder, name, version)?,
         None => Vec::new(),
     };
-    if !found
-        .iter()
-        .any(|binary| binary.library.platform == EMBEDDED_PLATFORM)
-        && let Some(system) = system_of(EMBEDDED_PLATFORM)
-    {
-        found.push(Binary {
-            library: Library {
-                platform: EMBEDDED_PLATFORM.to_owned(),
-                source: LibrarySource::Embedded,
-            },
-            path: entry_path(EMBEDDED_PLATFORM, name, system),
-            bytes: EMBEDDED.to_vec(),
-        });
+    if let Some(system) = system_of(EMBEDDED_PLATFORM) {
+        let path = entry_path(EMBEDDED_PLATFORM, name, system, version);
+        if !found.iter().any(|binary| binary.path == path) {
+            found.push(Binary {
+                library: Library {
+                    platform: version.platform_folder(EMBEDDED_PLATFORM).to_owned(),
+                    source: LibrarySource::Embedded,
+                },
+                path,
+                bytes: EMBEDDED.to_vec(),
+            });
+        }
     }
     found.sort_by(|one, other| one.path.cmp(&other.path));
     Ok(found)
 }
 
-fn from_folder(folder: &Path, name: &str) -> Result<Vec<Binary>, ExportError> {
+fn from_folder(folder: &Path, name: &str, version: FmiVersion) -> Result<Vec<Binary>, ExportError> {
     let unreadable = |path: &Path, source: io::Error| ExportError::UnreadablePlatforms {
         path: path.to_path_buf(),
         source,
@@ -133,9 +137,9 @@ fn from_folder(folder: &Path, name: &str) -> Result<Vec<Binary>, ExportError> {
             });
         }
         found.push(Binary {
-            path: entry_path(&platform, name, system),
+            path: entry_path(&platform, name, system, version),
             library: Library {
-                platform: platform.into_owned(),
+                platform: version.platform_folder(&platform).to_owned(),
                 source: LibrarySource::File(library),
             },
             bytes,
@@ -156,8 +160,9 @@ fn system_of(platform: &str) -> Option<&'static System> {
     })
 }
 
-fn entry_path(platform: &str, name: &str, system: &System) -> String {
-    format!("binaries/{platform}/{name}.{}", system.extension)
+fn entry_path(platform: &str, name: &str, system: &System, version: FmiVersion) -> String {
+    let folder = version.platform_folder(platform);
+    format!("binaries/{folder}/{name}.{}", system.extension)
 }
 
 #[cfg(test)]
@@ -176,7 +181,7 @@ mod tests {
 
     fn refusal(files: &[(&str, &[u8])]) -> String {
         let folder = folder_with(files);
-        match binaries(Some(folder.path()), "bolted_joint") {
+        match binaries(Some(folder.path()), "bolted_joint", FmiVersion::V3) {
             Ok(_) => "accepted".to_owned(),
             Err(refused) => refused.to_string(),
         }
@@ -184,7 +189,7 @@ mod tests {
 
     #[test]
     fn the_embedded_library_is_one_for_this_platform() {
-        let found = binaries(None, "bolted_joint").unwrap();
+        let found = binaries(None, "bolted_joint", FmiVersion::V3).unwrap();
         assert_eq!(found.len(), 1);
         let system = system_of(&found[0].library.platform).unwrap();
         assert!(found[0].bytes.starts_with(system.magic[0]) || cfg!(target_os = "macos"));
@@ -199,7 +204,7 @@ mod tests {
             ("README.md", b"left alone"),
             (".git/config", b"left alone"),
         ]);
-        let found = binaries(Some(folder.path()), "bolted_joint").unwrap();
+        let found = binaries(Some(folder.path()), "bolted_joint", FmiVersion::V3).unwrap();
         let mut expected = vec![
             "binaries/aarch64-darwin/bolted_joint.dylib".to_owned(),
             "binaries/x86_64-windows/bolted_joint.dll".to_owned(),
@@ -213,12 +218,12 @@ mod tests {
         let paths: Vec<&str> = found.iter().map(|binary| binary.path.as_str()).collect();
         assert_eq!(paths, expected);
 
-        let own = &binaries(None, "bolted_joint").unwrap()[0];
+        let own = &binaries(None, "bolted_joint", FmiVersion::V3).unwrap()[0];
         let file = own.path.strip_prefix("binaries/").unwrap();
         let mut other = own.bytes[..4].to_vec();
         other.extend(b" another build");
         let folder = folder_with(&[(file, &other)]);
-        let found = binaries(Some(folder.path()), "bolted_joint").unwrap();
+        let found = binaries(Some(folder.path()), "bolted_joint", FmiVersion::V3).unwrap();
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].bytes, other);
     }
@@ -246,7 +251,11 @@ mod tests {
             let message = refusal(files);
             assert!(message.contains(fragment), "{message}");
         }
-        let message = match binaries(Some(Path::new("no such folder")), "bolted_joint") {
+        let message = match binaries(
+            Some(Path::new("no such folder")),
+            "bolted_joint",
+            FmiVersion::V3,
+        ) {
             Ok(_) => "accepted".to_owned(),
             Err(refused) => refused.to_string(),
         };

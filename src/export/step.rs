@@ -138,7 +138,7 @@ fn stability_limit_s(spectrum: &Spectrum) -> Option<f64> {
 }
 
 /// The largest number of so many significant decimal digits that does not exceed `value`, which is positive.
-fn rounded_down(value: f64, digits: i32) -> f64 {
+pub(super) fn rounded_down(value: f64, digits: i32) -> f64 {
     let exponent = value.log10().floor() as i32 + 1 - digits;
     // A quotient just below a whole number is that number, rounded.
     let mantissa = (value / 10_f64.powi(exponent) * (1.0 + 1e-14)).floor();

@@ -6,14 +6,13 @@ mod model;
 mod origin;
 mod parameters;
 mod running;
-mod sketch;
 mod variables;
 
 use bolted_joint_interface::Interface as Declared;
 
 use super::description::generation_tool;
 use super::fmu::LapFacts;
-use super::{Interface, Timestamp};
+use super::{FmiVersion, Interface, Timestamp};
 use crate::joint::{JointFile, Passivity};
 use html::escaped;
 
@@ -23,6 +22,7 @@ pub(super) use licences::licences;
 pub(super) struct Page<'a> {
     pub(super) file: &'a JointFile,
     pub(super) interface: Interface,
+    pub(super) version: FmiVersion,
     pub(super) declared: &'a Declared,
     /// `None` for the element.
     pub(super) lap: Option<&'a LapFacts>,
@@ -47,13 +47,18 @@ pub(super) fn html(page: &Page<'_>) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{name}</title>\n<style>\n{css}</style>\n</head>\n<body>\n<header>\n<h1>{name}</h1>\n\
-         <p>{summary}. FMI 3.0 for Co-Simulation and Model Exchange, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
-         <main>\n{sections}</main>\n<footer><p>Instantiation token <code>{token}</code></p></footer>\n\
+         <p>{summary}. {version} for Co-Simulation and Model Exchange, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
+         <main>\n{sections}</main>\n<footer><p>{token_name} <code>{token}</code></p></footer>\n\
          </body>\n</html>\n",
         css = include_str!("style.css"),
         summary = html::capitalised(page.interface.summary()),
+        version = page.version,
         tool = escaped(&generation_tool()),
         date = page.date,
+        token_name = match page.version {
+            FmiVersion::V2 => "GUID",
+            FmiVersion::V3 => "Instantiation token",
+        },
         token = page.token,
     )
 }

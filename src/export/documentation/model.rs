@@ -1,7 +1,7 @@
 //! What the FMU computes: a drawing and its equations.
 
-use super::super::Interface;
-use super::{Page, sketch};
+use super::super::{Interface, assets};
+use super::Page;
 use crate::joint::DofSet;
 
 pub(super) fn section(page: &Page<'_>) -> String {
@@ -15,7 +15,7 @@ pub(super) fn section(page: &Page<'_>) -> String {
     format!(
         "<h2>Model</h2>\n<figure>\n{}<figcaption>The arrows point the way that counts as positive, for loads as for \
          motions.</figcaption>\n</figure>\n<p>{motion}. All quantities are in SI units.</p>\n{}",
-        sketch::svg(page.interface, dofs),
+        assets::inline_diagram(page.interface, dofs),
         equations(page.interface),
     )
 }

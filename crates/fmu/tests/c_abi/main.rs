@@ -11,6 +11,7 @@ extern crate bolted_joint as _;
 
 mod c;
 mod derivatives;
+mod fmi2;
 mod fmu_state;
 mod importer;
 mod instantiation;

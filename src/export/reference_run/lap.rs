@@ -1,0 +1,234 @@
+//! The reference run of a lap: steps of load on both bodies, then free vibration.
+
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::{Lap, LapIntegrator, LapLoads, LapState, substeps};
+
+use super::super::fmu::LapFacts;
+use super::super::step::rounded_down;
+use super::{Names, ReferenceRun, entry, stimulus, table};
+
+const COMMUNICATION_STEPS: usize = 200;
+/// Communication steps at each level of load.
+const STEPS_A_LEVEL: usize = 5;
+/// Levels of load; the bodies are free for the rest of the run.
+const LOADED_LEVELS: usize = 32;
+
+/// Length of the run in periods of the slowest mode …
+const PERIODS: f64 = 8.0;
+/// … as far as these many of the FMU's Runge–Kutta steps go.
+const MOST_STEPS: f64 = 2e4;
+/// Runge–Kutta steps in a communication step where nothing moves by itself.
+const STEPS_WITHOUT_MODES: f64 = 5.0;
+
+/// Steps of the reference in one step of the FMU: its error is smaller by the fourth power of this, 65536.
+const REFINEMENT: NonZeroU32 = NonZeroU32::MIN.saturating_add(15);
+
+/// The FMU may differ by this many times what its Runge–Kutta steps make it differ.
+const MARGIN: f64 = 10.0;
+/// Differences that rounding in files and sums makes at most.
+const ROUNDING: f64 = 1e-9;
+
+/// How often the loads are scaled until the joint opens as far as wanted.
+const SCALINGS: usize = 40;
+/// How far the joint may open beyond what is wanted.
+const EXCESS: f64 = 1.2;
+/// Loads of the first try: those that open the joint by these parts of the wanted motion if nothing moves but it.
+const FIRST_PART: f64 = 0.1;
+
+pub(super) fn run<const D: usize>(
+    lap: &Lap<D>,
+    facts: &LapFacts,
+    names: Names,
+) -> Option<ReferenceRun> {
+    let plan = Plan::new(facts)?;
+    let integrator = LapIntegrator::new(lap);
+    let levels = plan.levels(lap, &integrator)?;
+    let of_fmu = plan.states(&integrator, &levels, NonZeroU32::MIN)?;
+    let states = plan.states(&integrator, &levels, REFINEMENT)?;
+
+    let time = |step: usize| step as f64 * plan.step_s;
+    let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {
+        // Constant from one level's beginning to the next.
+        [level, level + 1].map(move |edge| {
+            (time(STEPS_A_LEVEL * edge), move |name: &str| {
+                input(loads, name)
+            })
+        })
+    });
+    let outputs = |states: Vec<LapState<D>>| {
+        let rows = states.into_iter().enumerate();
+        table(
+            names.outputs.clone(),
+            rows.map(|(step, state)| (time(step), move |name: &str| output(lap, &state, name))),
+        )
+    };
+    let (found, reference) = (outputs(of_fmu), outputs(states));
+    let deviation = (0..names.outputs.len())
+        .map(|column| {
+            let both = || found.rows.iter().zip(&reference.rows);
+            let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+            let difference = largest(&mut both().map(|(f, r)| (f.1[column] - r.1[column]).abs()));
+            match largest(&mut both().map(|(_, r)| r.1[column].abs())) {
+                0.0 => 0.0,
+                magnitude => difference / magnitude,
+            }
+        })
+        .fold(0.0, f64::max);
+    Some(ReferenceRun {
+        step_s: plan.step_s,
+        steps: COMMUNICATION_STEPS,
+        inputs: table(names.inputs.clone(), inputs),
+        outputs: reference,
+        tolerance: rounded_up((MARGIN * deviation).max(ROUNDING)),
+    })
+}
+
+/// Communication steps of the run.
+struct Plan {
+    step_s: f64,
+    substeps: NonZeroU32,
+}
+
+impl Plan {
+    fn new(facts: &LapFacts) -> Option<Self> {
+        let longest_s = facts.step.longest_s;
+        let most_s = MOST_STEPS * longest_s;
+        let duration_s = match facts.modes.first() {
+            Some(slowest) => (PERIODS / slowest.frequency_hz).min(most_s),
+            None => STEPS_WITHOUT_MODES * longest_s * COMMUNICATION_STEPS as f64,
+        };
+        let step_s = rounded_down(duration_s / COMMUNICATION_STEPS as f64, 2);
+        let substeps = substeps(step_s, longest_s)?;
+        Some(Self { step_s, substeps })
+    }
+
+    /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
+    fn levels<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        integrator: &LapIntegrator<D>,
+    ) -> Option<Vec<LapLoads<D>>> {
+        let wanted = stimulus::relative_motion(&lap.joint);
+        let mut amplitude: [f64; D] = std::array::from_fn(|i| {
+            let load = FIRST_PART * lap.joint.stiffness[i][i] * wanted[i];
+            if load > 0.0 { load } else { wanted[i] }
+        });
+        for _ in 0..SCALINGS {
+            let levels = levels_of(&amplitude);
+            let opening = self
+                .states(integrator, &levels, NonZeroU32::MIN)
+                .map(|states| opening(&states, &wanted));
+            let factor = match opening {
+                Some(opening) if (1.0 / EXCESS..=EXCESS).contains(&opening) => return Some(levels),
+                Some(opening) if opening > 0.0 => (1.0 / opening).clamp(0.1, 1e6),
+                Some(_) => return None,
+                None => 0.1,
+            };
+            amplitude = amplitude.map(|load| factor * load);
+        }
+        None
+    }
+
+    /// States at the communication points, from rest; `None` if they do not stay finite.
+    fn states<const D: usize>(
+        &self,
+        integrator: &LapIntegrator<D>,
+        levels: &[LapLoads<D>],
+        refinement: NonZeroU32,
+    ) -> Option<Vec<LapState<D>>> {
+        let substeps = self.substeps.checked_mul(refinement)?;
+        let mut states = vec![LapState::REST];
+        let mut state = LapState::REST;
+        for loads in levels {
+            for _ in 0..STEPS_A_LEVEL {
+                state = integrator.advance(&state, loads, self.step_s, substeps);
+                states.push(state);
+            }
+        }
+        let finite = [state.a, state.b].iter().all(|motion| {
+            let mut values = motion.displacement.iter().chain(&motion.velocity);
+            values.all(|value| value.is_finite())
+        });
+        finite.then_some(states)
+    }
+}
+
+fn levels_of<const D: usize>(amplitude: &[f64; D]) -> Vec<LapLoads<D>> {
+    let side = |on_b, level| {
+        std::array::from_fn(|i| {
+            stimulus::rounded(amplitude[i] * stimulus::shape(i, on_b, (level + 1) as f64).0)
+        })
+    };
+    (0..COMMUNICATION_STEPS / STEPS_A_LEVEL)
+        .map(|level| match level {
+            0..LOADED_LEVELS => LapLoads {
+                a: side(false, level),
+                b: side(true, level),
+            },
+            _ => LapLoads {
+                a: [0.0; D],
+                b: [0.0; D],
+            },
+        })
+        .collect()
+}
+
+/// Largest relative motion as a part of what is wanted.
+fn opening<const D: usize>(states: &[LapState<D>], wanted: &[f64; D]) -> f64 {
+    states
+        .iter()
+        .flat_map(|state| {
+            let relative = state.a.relative_to(&state.b);
+            std::array::from_fn::<f64, D, _>(|i| relative.displacement[i].abs() / wanted[i])
+        })
+        .fold(0.0, f64::max)
+}
+
+fn input<const D: usize>(loads: &LapLoads<D>, name: &str) -> f64 {
+    [("a", &loads.a), ("b", &loads.b)]
+        .iter()
+        .find_map(|(side, load)| entry(name, side, [("F", "M", load), ("F", "M", load)]))
+        .unwrap_or_default()
+}
+
+fn output<const D: usize>(lap: &Lap<D>, state: &LapState<D>, name: &str) -> f64 {
+    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
+    match name {
+        "energy.stored" => lap.stored_energy(state),
+        "power.dissipated" => lap.dissipated_power(state),
+        _ => [("a", &state.a), ("b", &state.b)]
+            .iter()
+            .find_map(|(side, motion)| {
+                let quantities = [
+                    ("y", "theta", &motion.displacement),
+                    ("v", "omega", &motion.velocity),
+                ];
+                entry(name, side, quantities)
+            })
+            .or_else(|| entry(name, "joint", [("F", "M", &on_b), ("F", "M", &on_b)]))
+            .unwrap_or_default(),
+    }
+}
+
+/// To one significant digit, never down.
+fn rounded_up(value: f64) -> f64 {
+    let down = rounded_down(value, 1);
+    if down >= value {
+        return down;
+    }
+    let power = 10_f64.powi(down.log10().floor() as i32);
+    format!("{:.0e}", down + power).parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_up;
+
+    #[test]
+    fn rounding_up_keeps_one_digit() {
+        for (value, expected) in [(1.01e-5, 2e-5), (9.2e-7, 1e-6), (3e-4, 3e-4), (1e-9, 1e-9)] {
+            assert_eq!(rounded_up(value), expected, "{value}");
+        }
+    }
+}

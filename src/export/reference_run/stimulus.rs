@@ -1,0 +1,54 @@
+//! Levels that excite every degree of freedom in its own way.
+
+use std::f64::consts::TAU;
+
+use bolted_joint_dynamics::JointLaw;
+
+/// Two tones sampled at the levels: frequency in cycles a level, share of the amplitude.
+///
+/// No two inputs have a tone in common, so that no output is zero or twice another by symmetry.
+const TONES: [[(f64, f64); 2]; 4] = [
+    [(0.170, 0.6), (0.410, 0.4)],
+    [(0.190, 0.6), (0.380, 0.4)],
+    [(0.130, 0.6), (0.350, 0.4)],
+    [(0.210, 0.6), (0.290, 0.4)],
+];
+
+/// Largest relative motion where nothing else limits it, m and rad: that of small vibration.
+const SMALL_MOTION: [f64; 2] = [1e-4, 1e-3];
+
+/// Part of √(K/|k3|) that the relative motion reaches: the cubic load is its square of the linear one.
+const PART_OF_CUBIC: f64 = 0.3;
+
+/// Significant digits of a level.
+const DIGITS: usize = 6;
+
+/// Values of both sides, a then b, y before theta, from −1 to 1, and their derivatives by the level's number.
+pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
+    let tones = TONES[(2 * usize::from(on_b) + dof) % TONES.len()];
+    let mut value = (0.0, 0.0);
+    for (frequency, share) in tones {
+        let (sin, cos) = (TAU * frequency * level).sin_cos();
+        value.0 += share * sin;
+        value.1 += share * TAU * frequency * cos;
+    }
+    value
+}
+
+/// Largest relative motion of each DOF in the run, m and rad.
+pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>) -> [f64; D] {
+    std::array::from_fn(|i| {
+        // |k3| x³ = p² K x at x = p √(K/|k3|)
+        let cubic = PART_OF_CUBIC * (law.stiffness[i][i] / law.cubic[i].abs()).sqrt();
+        if cubic.is_finite() && cubic > 0.0 {
+            cubic.min(SMALL_MOTION[i])
+        } else {
+            SMALL_MOTION[i]
+        }
+    })
+}
+
+/// `value` with so few digits that the files stay short; what is rounded is what is integrated.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
+}

@@ -69,9 +69,11 @@ fn a_million_random_calls_keep_every_promise() {
     let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
     let tally = sequences(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
     println!(
-        "{} calls, {} failed simulations",
+        "{} calls, {} failed simulations, {} forged states accepted, {} intermediate updates",
         tally.calls(),
-        tally.failures
+        tally.failures,
+        tally.forged,
+        tally.updates
     );
     for (name, [successes, warnings, refusals]) in &tally.by_function {
         println!("{name:45} {successes:8} ok {warnings:6} warnings {refusals:8} refused");
@@ -85,6 +87,8 @@ fn a_million_random_calls_keep_every_promise() {
                 "{name} is hardly called"
             );
         }
+        assert!(tally.forged > 100, "{} states", tally.forged);
+        assert!(tally.updates > 1000, "{} updates", tally.updates);
         assert!(
             tally.failures > 100,
             "{} simulations failed",

@@ -689,3 +689,37 @@ fn do_step(turn: &mut Turn<'_, '_>) -> Outcome {
         values,
     }
 }
+
+/// Restores these bytes, if they are accepted, steps, and resets.
+pub(crate) fn go_on_from(instance: *mut c_void, bytes: &[u8]) -> Vec<f64> {
+    let mut state = ptr::null_mut();
+    let references = [0_u32, 1, 3, 5, 7];
+    let mut values = vec![0.0; references.len()];
+    // SAFETY: the instance lives, the arrays have the lengths that are told, the other pointers are to locals
+    unsafe {
+        let status =
+            abi::fmi2DeSerializeFMUstate(instance, bytes.as_ptr(), bytes.len(), &raw mut state);
+        if status != OK {
+            assert!(state.is_null());
+            return Vec::new();
+        }
+        assert_eq!(abi::fmi2SetFMUstate(instance, state), OK);
+        free_state(instance, state);
+        for _ in 0..3 {
+            let status = abi::fmi2GetReal(
+                instance,
+                references.as_ptr(),
+                references.len(),
+                values.as_mut_ptr(),
+            );
+            if status == OK {
+                assert!(values.iter().all(|value| value.is_finite()), "{values:?}");
+            }
+            abi::fmi2DoStep(instance, values[0], 1e-4, 0);
+            let (mut enter, mut end) = (0, 0);
+            abi::fmi2CompletedIntegratorStep(instance, 0, &raw mut enter, &raw mut end);
+        }
+        assert_eq!(abi::fmi2Reset(instance), OK);
+    }
+    values
+}

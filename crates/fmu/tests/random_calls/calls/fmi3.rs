@@ -247,12 +247,19 @@ pub(crate) fn instantiate(choices: &mut Choices<'_>) -> (&'static str, Option<Su
         };
         (Interface::ModelExchange, handle)
     } else {
-        let required = if a.wrong(8) { vec![9_u32] } else { Vec::new() };
+        let update = a.choices.one_in(2);
+        let mut required = Vec::new();
+        if update && a.choices.one_in(2) {
+            // what the callback sets and reads
+            host.references = (MODELS[model].inputs(), MODELS[model].outputs());
+            required.extend(host.references.0);
+            required.extend(host.references.1);
+        }
+        if a.wrong(8) {
+            required.push(a.choices.below(64) as u32);
+        }
         let required = a.array(required);
-        let update = a
-            .choices
-            .one_in(2)
-            .then_some(host::update_fmi3 as abi::IntermediateUpdate);
+        let update = update.then_some(host::update_fmi3 as abi::IntermediateUpdate);
         // SAFETY: as above; the array has the length that is told, or one that no array has
         let handle = unsafe {
             abi::fmi3InstantiateCoSimulation(
@@ -289,6 +296,7 @@ pub(crate) fn instantiate(choices: &mut Choices<'_>) -> (&'static str, Option<Su
         );
         return (function, None);
     }
+    host.instance = Some(handle);
     let subject = Subject {
         version: Version::Fmi3,
         interface,
@@ -877,4 +885,49 @@ fn scheduled_execution(turn: &mut Turn<'_, '_>) -> Outcome {
     };
     assert!(handle.is_null());
     ERROR.into()
+}
+
+/// Restores these bytes, if they are accepted, steps, and resets.
+pub(crate) fn go_on_from(instance: *mut c_void, bytes: &[u8]) -> Vec<f64> {
+    let mut state = ptr::null_mut();
+    let references = [0_u32, 1, 3, 5, 7];
+    let mut values = vec![0.0; references.len()];
+    // SAFETY: the instance lives, the arrays have the lengths that are told, the other pointers are to locals
+    unsafe {
+        let status =
+            abi::fmi3DeserializeFMUState(instance, bytes.as_ptr(), bytes.len(), &raw mut state);
+        if status != OK {
+            assert!(state.is_null());
+            return Vec::new();
+        }
+        assert_eq!(abi::fmi3SetFMUState(instance, state), OK);
+        free_state(instance, state);
+        for _ in 0..3 {
+            let status = abi::fmi3GetFloat64(
+                instance,
+                references.as_ptr(),
+                references.len(),
+                values.as_mut_ptr(),
+                values.len(),
+            );
+            if status == OK {
+                assert!(values.iter().all(|value| value.is_finite()), "{values:?}");
+            }
+            let (mut event, mut terminate, mut early, mut last) = (0, 0, 0, 0.0);
+            abi::fmi3DoStep(
+                instance,
+                values[0],
+                1e-4,
+                0,
+                &raw mut event,
+                &raw mut terminate,
+                &raw mut early,
+                &raw mut last,
+            );
+            let (mut enter, mut end) = (0, 0);
+            abi::fmi3CompletedIntegratorStep(instance, 0, &raw mut enter, &raw mut end);
+        }
+        assert_eq!(abi::fmi3Reset(instance), OK);
+    }
+    values
 }

@@ -7,6 +7,8 @@ use std::{
     sync::OnceLock,
 };
 
+use super::fmi3_abi;
+
 /// Token of all FMUs here.
 pub(crate) const TOKEN: &CStr = c"{random calls}";
 
@@ -149,7 +151,11 @@ pub(crate) struct Host {
     /// What is wrong with what the library handed to a callback.
     pub(crate) faults: Vec<String>,
     /// Counts calls of the intermediate update; decides about early return.
-    updates: u64,
+    pub(crate) updates: u64,
+    /// The instance, for callbacks that call back, once it is there.
+    pub(crate) instance: Option<*mut c_void>,
+    /// Value references that a callback sets and reads.
+    pub(crate) references: (&'static [u32], &'static [u32]),
 }
 
 impl Host {
@@ -213,23 +219,84 @@ pub(crate) unsafe extern "C" fn log_fmi3(
 pub(crate) unsafe extern "C" fn update_fmi3(
     environment: *mut c_void,
     time: f64,
-    _set_requested: bool,
-    _get_allowed: bool,
+    set_requested: bool,
+    get_allowed: bool,
     _step_finished: bool,
     can_return_early: bool,
     early_return_requested: *mut bool,
     early_return_time: *mut f64,
 ) {
+    let host = environment.cast::<Host>();
     // SAFETY: the environment is the host of the instance; the two last arguments point to one value each
     unsafe {
-        let host = &mut *environment.cast::<Host>();
         if !time.is_finite() {
-            host.faults.push(format!("intermediate update at {time} s"));
+            (*host)
+                .faults
+                .push(format!("intermediate update at {time} s"));
         }
-        let early = can_return_early && host.wants_early_return();
+        if set_requested {
+            set_input(host, time);
+        }
+        if get_allowed {
+            get_outputs(host);
+        }
+        let early = can_return_early && (*host).wants_early_return();
         early_return_requested.write(early);
         if early {
             early_return_time.write(time);
+        }
+    }
+}
+
+/// Sets an input from within an intermediate update, which the library has asked for.
+///
+/// # Safety
+///
+/// `host` is that of a living instance. Nothing else may refer to it: the library may call the log callback.
+unsafe fn set_input(host: *mut Host, time: f64) {
+    // SAFETY: the caller's promise; the arrays have one element
+    unsafe {
+        let (instance, (inputs, _)) = ((*host).instance, (*host).references);
+        let (Some(instance), Some(&input)) = (instance, inputs.first()) else {
+            return;
+        };
+        let value = time.sin();
+        let status = fmi3_abi::fmi3SetFloat64(instance, &raw const input, 1, &raw const value, 1);
+        if status != OK {
+            (*host)
+                .faults
+                .push(format!("input {input} cannot be set within a step"));
+        }
+    }
+}
+
+/// Reads the outputs from within an intermediate update, which the library has allowed.
+///
+/// # Safety
+///
+/// As for [`set_input`].
+unsafe fn get_outputs(host: *mut Host) {
+    // SAFETY: the caller's promise; the arrays have the lengths that are told
+    unsafe {
+        let (instance, (_, outputs)) = ((*host).instance, (*host).references);
+        let Some(instance) = instance else {
+            return;
+        };
+        let messages = (*host).messages.len();
+        let mut values = vec![f64::NAN; outputs.len()];
+        let status = fmi3_abi::fmi3GetFloat64(
+            instance,
+            outputs.as_ptr(),
+            outputs.len(),
+            values.as_mut_ptr(),
+            values.len(),
+        );
+        // a number that overflows is refused, and that message is not one of the step
+        (*host).messages.truncate(messages);
+        if status == OK && !values.iter().all(|value| value.is_finite()) {
+            (*host)
+                .faults
+                .push(format!("outputs {values:?} within a step"));
         }
     }
 }

@@ -10,6 +10,7 @@ mod fmi2;
 mod fmi2_abi;
 mod fmi3;
 mod fmi3_abi;
+mod forged;
 mod host;
 mod turn;
 mod world;

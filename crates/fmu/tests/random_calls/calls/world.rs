@@ -12,6 +12,7 @@ use super::{
     arrays::Arguments,
     choices::Choices,
     fmi2, fmi3,
+    forged::{forge, go_on_from},
     host::{DISCARD, ERROR, OK, PENDING, WARNING},
     turn::{Function, Mode, Outcome, Rule, Saved, Subject, Turn, Version},
 };
@@ -28,6 +29,10 @@ pub(crate) struct Tally {
     pub(crate) by_function: BTreeMap<&'static str, [u64; 3]>,
     /// Simulations that failed.
     pub(crate) failures: u64,
+    /// States that the library never wrote and yet accepted.
+    pub(crate) forged: u64,
+    /// Intermediate updates.
+    pub(crate) updates: u64,
     /// Depends on every status and every bit of every result, in their order.
     pub(crate) digest: u64,
 }
@@ -47,6 +52,8 @@ impl Tally {
             }
         }
         self.failures += other.failures;
+        self.forged += other.forged;
+        self.updates += other.updates;
         self.mix(other.digest);
     }
 
@@ -107,6 +114,10 @@ impl World {
         let index = choices.below(self.subjects.len());
         if choices.one_in(200) {
             self.free_instance(index);
+            return;
+        }
+        if choices.one_in(64) {
+            self.forge(index, choices);
             return;
         }
         if self.saved.len() == STATES {
@@ -181,6 +192,20 @@ impl World {
         self.subjects.extend(subject);
     }
 
+    fn forge(&mut self, index: usize, choices: &mut Choices<'_>) {
+        let subject = &mut self.subjects[index];
+        let mut bytes = observed(subject);
+        forge(&mut bytes, choices);
+        let values = go_on_from(subject, &bytes);
+        if self.trace {
+            eprintln!("{index}: forged state: {values:?}");
+        }
+        self.tally.forged += u64::from(!values.is_empty());
+        for value in values {
+            self.tally.mix(value.to_bits());
+        }
+    }
+
     fn free_instance(&mut self, index: usize) {
         let subject = self.subjects.remove(index);
         // states may outlive the instance that made them: another one of the same version frees them
@@ -205,6 +230,7 @@ impl World {
             }
         };
         self.tally.note(name, &Outcome::NONE);
+        self.tally.updates += subject.host.updates;
         assert_eq!(subject.host.faults, [""; 0]);
     }
 

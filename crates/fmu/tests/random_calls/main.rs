@@ -15,7 +15,7 @@ extern crate bolted_joint as _;
 
 mod calls;
 
-use std::{env, panic, path::Path, thread};
+use std::{env, fs, panic, path::Path, thread};
 
 use calls::{Choices, Tally, World};
 
@@ -131,6 +131,47 @@ fn bytes_from_a_fuzzer_make_calls_too() {
         tally.add(&World::new(false).exhaust(Choices::from_bytes(&bytes)));
     }
     assert!(tally.calls() > 5_000, "{} calls", tally.calls());
+}
+
+#[test]
+fn damaged_start_files_are_refused_or_can_be_stepped() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("start files");
+    fs::create_dir_all(&folder).unwrap();
+    let mut choices = Choices::seeded(7);
+    let mut accepted = 0;
+    for round in 0..1500 {
+        let mut bytes = choices.pick(&calls::MODELS).start_text().into_bytes();
+        for _ in 0..round % 4 {
+            let position = choices.bits() as usize % bytes.len();
+            match choices.below(6) {
+                0 => bytes.truncate(position.max(1)),
+                1 => bytes[position] = choices.below(256) as u8,
+                2 => bytes[position] = b"0123456789.-+eE \n"[choices.below(17)],
+                3 => bytes.insert(position, choices.below(256) as u8),
+                // a line twice, or an early end of a line
+                4 => bytes.extend_from_within(position..),
+                _ => {
+                    drop(bytes.splice(position..position, choices.any_number().to_string().bytes()))
+                }
+            }
+        }
+        fs::write(folder.join("start.txt"), bytes).unwrap();
+        accepted += u32::from(calls::live_from(&folder));
+    }
+    assert!((400..1400).contains(&accepted), "{accepted} accepted");
+}
+
+#[test]
+fn forged_states_are_refused_or_can_be_gone_on_from() {
+    prepare();
+    let mut choices = Choices::seeded(11);
+    let mut accepted = 0;
+    for round in 0..3000 {
+        let length = choices.below(if round % 2 == 0 { 40 } else { 256 });
+        let bytes: Vec<u8> = (0..length).map(|_| choices.below(256) as u8).collect();
+        accepted += u32::from(calls::go_on_from_forged_bytes(round as u8, &bytes));
+    }
+    assert!((1..3000).contains(&accepted), "{accepted} accepted");
 }
 
 /// No test of the library but of the tool that watches it: must fail under valgrind and AddressSanitizer.

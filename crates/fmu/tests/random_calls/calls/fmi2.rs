@@ -194,16 +194,9 @@ pub(crate) fn instantiate(choices: &mut Choices<'_>) -> (&'static str, Option<Su
     let exchange = a.choices.one_in(2);
     let mut host = Box::<Host>::default();
     let logs = !a.unusual(4);
-    // SAFETY: the fixed arguments of a variadic function are passed as those of another one
-    let logger = unsafe {
-        mem::transmute::<
-            unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
-            abi::Logger,
-        >(log)
-    };
     // the structure is only there during the call
     let callbacks = Box::new(abi::Callbacks {
-        logger: logs.then_some(logger),
+        logger: logs.then(logger),
         allocate_memory: None,
         free_memory: None,
         step_finished: None,
@@ -722,4 +715,68 @@ pub(crate) fn go_on_from(instance: *mut c_void, bytes: &[u8]) -> Vec<f64> {
         assert_eq!(abi::fmi2Reset(instance), OK);
     }
     values
+}
+
+/// The log callback, in the type of the header.
+fn logger() -> abi::Logger {
+    // SAFETY: the fixed arguments of a variadic function are passed as those of another one
+    unsafe {
+        mem::transmute::<
+            unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
+            abi::Logger,
+        >(log)
+    }
+}
+
+/// An instance with right arguments, for a host that is the environment; or null.
+pub(crate) fn open(
+    interface: Interface,
+    resources: &CStr,
+    environment: *mut c_void,
+) -> *mut c_void {
+    let callbacks = abi::Callbacks {
+        logger: Some(logger()),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment,
+    };
+    let kind = c_int::from(interface == Interface::CoSimulation);
+    // SAFETY: the strings are terminated, the environment is a host that outlives the instance
+    unsafe {
+        abi::fmi2Instantiate(
+            c"joint".as_ptr(),
+            kind,
+            TOKEN.as_ptr(),
+            resources.as_ptr(),
+            &raw const callbacks,
+            0,
+            0,
+        )
+    }
+}
+
+/// Initialises and takes some steps; parameters that no simulation can start from are refused.
+pub(crate) fn simulate(subject: &Subject) {
+    let i = subject.handle;
+    // SAFETY: the instance lives, pointers are to locals
+    unsafe {
+        assert_eq!(abi::fmi2SetupExperiment(i, 0, 0.0, 0.0, 0, 0.0), OK);
+        assert_eq!(abi::fmi2EnterInitializationMode(i), OK);
+        if abi::fmi2ExitInitializationMode(i) >= DISCARD {
+            return;
+        }
+        for step in 0..3 {
+            if subject.interface == Interface::CoSimulation {
+                abi::fmi2DoStep(i, f64::from(step) * 1e-5, 1e-5, 0);
+            } else {
+                abi::fmi2EnterContinuousTimeMode(i);
+                let (mut enter, mut end) = (0, 0);
+                abi::fmi2CompletedIntegratorStep(i, 0, &raw mut enter, &raw mut end);
+            }
+        }
+        let (mut value, time) = (f64::NAN, 0);
+        assert_eq!(abi::fmi2GetReal(i, &raw const time, 1, &raw mut value), OK);
+        assert!(value.is_finite());
+    }
 }

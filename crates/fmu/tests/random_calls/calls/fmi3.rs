@@ -1,12 +1,15 @@
 //! The functions of FMI 3.0, each with the drawing of its arguments.
 
-use std::{ffi::c_void, ptr};
+use std::{
+    ffi::{CStr, c_void},
+    ptr,
+};
 
 use super::{
     arrays::Arguments,
     choices::Choices,
     fmi3_abi as abi,
-    host::{self, ERROR, Host, MODELS, OK, TOKEN},
+    host::{self, DISCARD, ERROR, Host, MODELS, OK, TOKEN},
     turn::{Function, Interface, Mode, Outcome, Rule, Subject, Turn, Version},
 };
 
@@ -364,7 +367,7 @@ pub(crate) fn values(subject: &Subject) -> Vec<f64> {
 
 fn get_version(_: &mut Turn<'_, '_>) -> Outcome {
     // SAFETY: returns a terminated string
-    let version = unsafe { std::ffi::CStr::from_ptr(abi::fmi3GetVersion()) };
+    let version = unsafe { CStr::from_ptr(abi::fmi3GetVersion()) };
     assert_eq!(version, c"3.0");
     Outcome::NONE
 }
@@ -930,4 +933,69 @@ pub(crate) fn go_on_from(instance: *mut c_void, bytes: &[u8]) -> Vec<f64> {
         assert_eq!(abi::fmi3Reset(instance), OK);
     }
     values
+}
+
+/// An instance with right arguments, for a host that is the environment; or null.
+pub(crate) fn open(
+    interface: Interface,
+    resources: &CStr,
+    environment: *mut c_void,
+) -> *mut c_void {
+    let (name, token, path) = (c"joint".as_ptr(), TOKEN.as_ptr(), resources.as_ptr());
+    let log = Some(host::log_fmi3 as abi::LogMessage);
+    // SAFETY: the strings are terminated, the environment is a host that outlives the instance
+    unsafe {
+        match interface {
+            Interface::ModelExchange => {
+                abi::fmi3InstantiateModelExchange(name, token, path, 0, 0, environment, log)
+            }
+            Interface::CoSimulation => abi::fmi3InstantiateCoSimulation(
+                name,
+                token,
+                path,
+                0,
+                0,
+                0,
+                0,
+                ptr::null(),
+                0,
+                environment,
+                log,
+                None,
+            ),
+        }
+    }
+}
+
+/// Initialises and takes some steps; parameters that no simulation can start from are refused.
+pub(crate) fn simulate(subject: &Subject) {
+    let i = subject.handle;
+    // SAFETY: the instance lives, pointers are to locals
+    unsafe {
+        assert_eq!(abi::fmi3EnterInitializationMode(i, 0, 0.0, 0.0, 0, 0.0), OK);
+        if abi::fmi3ExitInitializationMode(i) >= DISCARD {
+            return;
+        }
+        let mut last = 0.0;
+        for _ in 0..3 {
+            if subject.interface == Interface::CoSimulation {
+                let (mut event, mut terminate, mut early) = (0, 0, 0);
+                abi::fmi3DoStep(
+                    i,
+                    last,
+                    1e-5,
+                    0,
+                    &raw mut event,
+                    &raw mut terminate,
+                    &raw mut early,
+                    &raw mut last,
+                );
+            } else {
+                abi::fmi3EnterContinuousTimeMode(i);
+                let (mut enter, mut end) = (0, 0);
+                abi::fmi3CompletedIntegratorStep(i, 0, &raw mut enter, &raw mut end);
+            }
+        }
+    }
+    assert!(values(subject).iter().all(|value| value.is_finite()));
 }

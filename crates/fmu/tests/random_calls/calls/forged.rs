@@ -13,27 +13,34 @@ fn fnv1a(bytes: &[u8]) -> u64 {
     })
 }
 
+/// Number of bytes of the checksum.
+pub(crate) const CHECKSUM: usize = 8;
+
+/// Makes the checksum right.
+pub(crate) fn seal(bytes: &mut [u8]) {
+    let (content, checksum) = bytes.split_last_chunk_mut().expect("a whole state");
+    *checksum = fnv1a(content).to_le_bytes();
+}
+
 /// Changes some of the content and makes the checksum right again.
 pub(crate) fn forge(bytes: &mut [u8], choices: &mut Choices<'_>) {
-    let (content, checksum) = bytes.split_last_chunk_mut::<8>().expect("a whole state");
-    assert_eq!(
-        fnv1a(content).to_le_bytes(),
-        *checksum,
-        "the states have another checksum than this"
-    );
+    let before = bytes.to_vec();
+    seal(bytes);
+    assert_eq!(bytes, before, "the states have another checksum than this");
+    let end = bytes.len() - CHECKSUM;
     for _ in 0..=choices.below(8) {
-        let position = choices.bits() as usize % content.len();
+        let position = choices.bits() as usize % end;
         // whole numbers at once, or a single byte
         let replaced = if choices.one_in(2) {
             choices.any_number().to_le_bytes().to_vec()
         } else {
             vec![choices.below(256) as u8]
         };
-        for (old, new) in content[position..].iter_mut().zip(replaced) {
+        for (old, new) in bytes[position..end].iter_mut().zip(replaced) {
             *old = new;
         }
     }
-    *checksum = fnv1a(content).to_le_bytes();
+    seal(bytes);
 }
 
 /// Restores a forged state, if it is accepted, and takes a few steps from it: whatever it says, nothing may break.

@@ -69,7 +69,7 @@ impl Model {
     }
 
     /// The text of `resources/start.txt`.
-    fn start_text(self) -> String {
+    pub(crate) fn start_text(self) -> String {
         let mut text = format!(
             "bolted-joint-start/1\nmodel {}\ndofs {}\ntoken {}\n",
             if self.lap { "lap" } else { "element" },

@@ -12,11 +12,13 @@ mod fmi3;
 mod fmi3_abi;
 mod forged;
 mod host;
+mod lives;
 mod turn;
 mod world;
 
 pub(crate) use choices::Choices;
-pub(crate) use host::write_resources;
+pub(crate) use host::{MODELS, write_resources};
+pub(crate) use lives::{go_on_from_forged_bytes, live_from};
 pub(crate) use world::{Tally, World};
 
 /// Names of all functions that are called.

@@ -5,7 +5,7 @@
 extern crate bolted_joint as _;
 
 #[path = "../../crates/fmu/tests/random_calls/calls/mod.rs"]
-#[allow(dead_code, reason = "the test uses more of it")]
+#[allow(dead_code, unused_imports, reason = "the test uses more of it")]
 mod calls;
 mod folder;
 

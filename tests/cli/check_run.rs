@@ -214,7 +214,8 @@ fn a_reference_run_that_is_not_met_is_found() {
         Some((others, _)) if index == 10 => format!("{others},1e3"),
         _ => line.to_owned(),
     };
-    let changes: [(&dyn Fn(usize, &str) -> String, &str); 3] = [
+    type Change<'a> = &'a dyn Fn(usize, &str) -> String;
+    let changes: [(Change<'_>, &str); 3] = [
         (&other_power, "reference run: found power.dissipated = "),
         (
             &first_line("time,", "t,"),

@@ -17,13 +17,15 @@ pub(crate) struct InputCourse {
     /// One bit for each input whose derivatives the importer has given, be they zero.
     given: u16,
     phase: Phase,
+    /// Whether any derivative is not zero.
+    moves: bool,
 }
 
 /// For which time the derivatives are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
-    /// There are none but zeros: the inputs are held.
-    Held,
+    /// There are none: the inputs are held.
+    None,
     /// For the step that comes next.
     Next,
     /// For the step that has been taken: they are those at its end.
@@ -31,7 +33,7 @@ enum Phase {
 }
 
 const _: () = assert!(
-    INPUT_REFERENCE_COUNT <= u16::BITS as usize,
+    INPUT_REFERENCE_COUNT < u16::BITS as usize,
     "an input has no bit"
 );
 
@@ -40,7 +42,8 @@ impl InputCourse {
     pub(crate) const HELD: Self = Self {
         derivatives: [[0.0; ORDER_MAX]; INPUT_REFERENCE_COUNT],
         given: 0,
-        phase: Phase::Held,
+        phase: Phase::None,
+        moves: false,
     };
 
     /// Number of bytes of a serialised course.
@@ -49,7 +52,13 @@ impl InputCourse {
     /// Whether the inputs are held over the step that comes next.
     #[inline]
     pub(crate) fn is_held(&self) -> bool {
-        self.phase != Phase::Next
+        !self.moves || self.phase != Phase::Next
+    }
+
+    /// Whether a step leaves this course as it is: there is none.
+    #[inline]
+    pub(crate) fn is_none(&self) -> bool {
+        self.phase == Phase::None
     }
 
     /// Whether a step was taken along this course.
@@ -67,11 +76,12 @@ impl InputCourse {
         if let Some(stored) = of_input.and_then(|orders| orders.get_mut(order.checked_sub(1)?)) {
             *stored = derivative;
             self.given |= Self::bit(input);
-            self.phase = self.phase_to_come();
+            self.phase = Phase::Next;
+            self.moves = self.any_moves();
         }
     }
 
-    /// Lets an input go through `middle` and `end` at half and full `interval_s` (s), from `start` at present.
+    /// Lets an input go from `start` at present through `middle` and `end` after half of `interval_s` (s) and all of it.
     pub(crate) fn fit(&mut self, input: usize, [start, middle, end]: [f64; 3], interval_s: f64) {
         if let Some(derivatives) = self.derivatives.get_mut(input) {
             // u̇ = (−3 u₀ + 4 u₁ − u₂)/h, ü = 4 (u₀ − 2 u₁ + u₂)/h², from the differences so that a held input stays so
@@ -81,7 +91,8 @@ impl InputCourse {
                 4.0 * (second - first) / (interval_s * interval_s),
                 0.0,
             ];
-            self.phase = self.phase_to_come();
+            self.phase = Phase::Next;
+            self.moves = self.any_moves();
         }
     }
 
@@ -108,22 +119,29 @@ impl InputCourse {
         known.then_some(first)
     }
 
-    /// The course at the end of a step of `interval_s` (s).
-    pub(crate) fn after(&self, interval_s: f64) -> Self {
-        if self.phase != Phase::Next {
-            return Self::HELD;
-        }
+    /// The course `after_s` (s) from now, still within the step that it is for.
+    pub(crate) fn moved(&self, after_s: f64) -> Self {
         let derivatives = self.derivatives.map(|[first, second, third]| {
             [
-                first + interval_s * (second + interval_s / 2.0 * third),
-                second + interval_s * third,
+                first + after_s * (second + after_s / 2.0 * third),
+                second + after_s * third,
                 third,
             ]
         });
         Self {
             derivatives,
-            given: self.given,
-            phase: Phase::Past,
+            ..*self
+        }
+    }
+
+    /// The course at the end of its step.
+    pub(crate) fn ended(&self) -> Self {
+        match self.phase {
+            Phase::Next => Self {
+                phase: Phase::Past,
+                ..*self
+            },
+            Phase::None | Phase::Past => Self::HELD,
         }
     }
 
@@ -135,9 +153,8 @@ impl InputCourse {
         1_u16.unbounded_shl(input as u32)
     }
 
-    fn phase_to_come(&self) -> Phase {
-        let held = self.derivatives.iter().flatten().all(|&x| x == 0.0);
-        if held { Phase::Held } else { Phase::Next }
+    fn any_moves(&self) -> bool {
+        self.derivatives.iter().flatten().any(|&x| x != 0.0)
     }
 
     /// The course in bytes, little endian.
@@ -146,7 +163,7 @@ impl InputCourse {
         let (head, tail) = bytes.split_at_mut(3);
         let [low, high] = self.given.to_le_bytes();
         let phase = match self.phase {
-            Phase::Held => 0,
+            Phase::None => 0,
             Phase::Next => 1,
             Phase::Past => 2,
         };
@@ -164,7 +181,7 @@ impl InputCourse {
         let mut course = Self {
             given: u16::from_le_bytes([low, high]),
             phase: match phase {
-                0 => Phase::Held,
+                0 => Phase::None,
                 1 => Phase::Next,
                 2 => Phase::Past,
                 _ => return None,
@@ -175,8 +192,9 @@ impl InputCourse {
         for (number, field) in numbers.zip(rest.as_chunks::<8>().0) {
             *number = f64::from_le_bytes(*field);
         }
+        course.moves = course.any_moves();
         let finite = course.derivatives.iter().flatten().all(|x| x.is_finite());
-        let consistent = course.phase != Phase::Held || course.phase_to_come() == Phase::Held;
+        let consistent = !course.is_none() || (course.given == 0 && !course.moves);
         let known = course.given >> INPUT_REFERENCE_COUNT == 0;
         (finite && consistent && known).then_some(course)
     }

@@ -1,9 +1,14 @@
 //! One instance of an FMU: all behaviour that the FMI functions offer, in safe Rust and independent of the FMI version.
 
 mod derivatives;
+mod events;
 mod experiment;
+mod intermediate;
 mod model_exchange;
+mod stepping;
 mod time_derivatives;
+
+pub(crate) use intermediate::Update;
 
 use std::{mem::MaybeUninit, sync::Arc};
 
@@ -13,7 +18,7 @@ use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
     mode::Mode,
-    models::{self, CommunicationStep, Model},
+    models::{self, Model},
     pace::Pace,
     refusal::{Active, Refusal},
     start_file::StartFile,
@@ -24,6 +29,8 @@ const CALCULATED: Roles = Roles::of(&[Role::Output, Role::Derivative]);
 
 /// Parameters, after a change of which the model has to be prepared again.
 const PARAMETERS: Roles = Roles::of(&[Role::Parameter]);
+
+use intermediate::Access;
 
 /// One instance of an FMU.
 pub(crate) struct Instance {
@@ -38,6 +45,8 @@ pub(crate) struct Instance {
     pace: Pace,
     parameters_changed: bool,
     outputs_stale: bool,
+    event_mode_used: bool,
+    access: Access,
 }
 
 impl Instance {
@@ -77,6 +86,8 @@ impl Instance {
             pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
+            event_mode_used: false,
+            access: Access::NONE,
         })
     }
 
@@ -122,6 +133,7 @@ impl Instance {
         let warning = self.prepare_model()?;
         self.parameters_changed = false;
         self.mode = match self.interface_type() {
+            InterfaceType::CoSimulation if self.event_mode_used => Mode::Event,
             InterfaceType::CoSimulation => Mode::Step,
             InterfaceType::ModelExchange => Mode::Event,
         };
@@ -131,6 +143,7 @@ impl Instance {
     /// Ends the simulation.
     pub(crate) fn terminate(&mut self) -> Result<(), Refusal> {
         self.require(match self.interface_type() {
+            InterfaceType::CoSimulation if self.event_mode_used => &[Mode::Step, Mode::Event],
             InterfaceType::CoSimulation => &[Mode::Step],
             InterfaceType::ModelExchange => &[Mode::Event, Mode::ContinuousTime],
         })?;
@@ -161,6 +174,9 @@ impl Instance {
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
+        if self.mode == Mode::IntermediateUpdate {
+            self.check_readable(references)?;
+        }
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if roles.intersects(CALCULATED) {
@@ -177,7 +193,7 @@ impl Instance {
     /// Sets the variables with these value references, all or none; `values` has the same length.
     #[inline]
     pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
-        let settable = self.mode.settable();
+        let settable = self.mode.settable(self.identity.abi, self.event_mode_used);
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if !roles.intersects(settable) {
@@ -189,6 +205,9 @@ impl Instance {
                     value,
                 });
             }
+        }
+        if self.mode == Mode::IntermediateUpdate {
+            self.check_settable(references)?;
         }
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
@@ -202,43 +221,6 @@ impl Instance {
         }
         self.outputs_stale = true;
         Ok(())
-    }
-
-    /// Advances from `current_s` by `interval_s`, with the inputs held or along the derivatives that were given.
-    #[inline]
-    pub(crate) fn step(
-        &mut self,
-        current_s: f64,
-        interval_s: f64,
-    ) -> Result<Option<Active>, Refusal> {
-        if self.mode != Mode::Step {
-            self.require_type(InterfaceType::CoSimulation)?;
-            self.require(&[Mode::Step])?;
-        }
-        let end_s = self.end_of_step(current_s, interval_s)?;
-        let warning = if self.parameters_changed {
-            self.prepare_model()?
-        } else {
-            None
-        };
-        let pace = self.pace.followed_by(interval_s);
-        let step = CommunicationStep {
-            time_s: current_s,
-            interval_s,
-            is_steady: pace.is_steady(),
-        };
-        let inputs = self.inputs_after(interval_s, end_s)?;
-        self.model.advance(&mut self.values, step, &self.inputs)?;
-        if let Some(values) = inputs {
-            self.set_inputs(&values);
-        }
-        self.inputs = self.inputs.after(interval_s);
-        self.pace = pace;
-        // only now, so that a warning reaches the importer even if this step is refused and the next one is not
-        self.parameters_changed = false;
-        self.values[TIME] = end_s;
-        self.outputs_stale = true;
-        Ok(warning)
     }
 
     /// Everything that this instance has to remember.
@@ -339,39 +321,6 @@ impl Instance {
             Some(&roles) if roles != Roles::NONE => Ok((index, roles)),
             _ => Err(Refusal::UnknownReference { reference }),
         }
-    }
-
-    /// End of the step, if the importer's and the FMU's times agree but for rounding.
-    #[inline]
-    fn end_of_step(&self, current_s: f64, interval_s: f64) -> Result<f64, Refusal> {
-        if !(interval_s.is_finite() && interval_s > 0.0) {
-            return Err(Refusal::StepSize {
-                found_s: interval_s,
-            });
-        }
-        // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
-        let expected_s = self.time_s();
-        let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
-        let agrees = (current_s - expected_s).abs() <= rounding_s;
-        if !agrees {
-            return Err(Refusal::CommunicationPoint {
-                found_s: current_s,
-                expected_s,
-            });
-        }
-        let end_s = current_s + interval_s;
-        if !(end_s > expected_s && end_s.is_finite()) {
-            return Err(Refusal::StepVanishes {
-                current_s,
-                interval_s,
-            });
-        }
-        if let Some(stop_s) = self.stop_s
-            && end_s - stop_s > 1e-6 * interval_s + 1e-9 * stop_s.abs()
-        {
-            return Err(Refusal::PastStop { end_s, stop_s });
-        }
-        Ok(end_s)
     }
 
     /// Brings outputs and derivatives up to date.

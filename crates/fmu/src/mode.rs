@@ -1,4 +1,4 @@
-//! The state machines of FMI for Model Exchange, and for Co-Simulation without Event Mode (FMI 3.0, 2.3, 3.2.1, 4.2.1).
+//! The state machines of FMI for Model Exchange and for Co-Simulation (FMI 3.0, 2.3, 3.2.1, 4.2.1).
 
 use std::fmt;
 
@@ -18,7 +18,10 @@ pub(crate) enum Mode {
     Initialization,
     /// Co-Simulation: between communication steps.
     Step,
-    /// Model Exchange: at an event, where parameters and inputs may jump.
+    /// Co-Simulation: within a communication step, while the importer's callback has the word.
+    IntermediateUpdate,
+    /// At an event, where parameters and inputs may jump: in Model Exchange, and in Co-Simulation if the importer
+    /// handles events.
     Event,
     /// Model Exchange: between events, while the importer integrates.
     ContinuousTime,
@@ -27,40 +30,53 @@ pub(crate) enum Mode {
 }
 
 impl Mode {
-    /// Roles of the variables that the importer may set in this mode.
+    /// Roles of the variables that the importer may set in this mode; whether it handles events decides where
+    /// parameters are tuned (FMI 3.0, 2.4.7.4).
     #[inline]
-    pub(crate) const fn settable(self) -> Roles {
-        const START: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
+    pub(crate) const fn settable(self, abi: Abi, event_mode_used: bool) -> Roles {
+        const ALL: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
+        const INPUT: Roles = Roles::of(&[Role::Input]);
         match self {
-            Self::Instantiated | Self::SetUp | Self::Initialization => START,
-            Self::Step | Self::Event => TUNABLE,
+            Self::Instantiated | Self::SetUp | Self::Initialization => ALL,
+            Self::Step if event_mode_used => INPUT,
+            Self::Step => TUNABLE,
+            Self::IntermediateUpdate => INPUT,
+            // only FMI 3.0 lets states be set at an event
+            Self::Event => match abi {
+                Abi::Fmi2 => TUNABLE,
+                Abi::Fmi3 => ALL,
+            },
             Self::ContinuousTime => Roles::of(&[Role::Input, Role::State]),
             Self::Terminated => Roles::NONE,
         }
     }
 
-    /// Whether the state machine of this FMI version and interface type has this mode.
+    /// Whether an instance of this FMI version and interface type can be saved in this mode.
     pub(crate) const fn belongs_to(self, abi: Abi, interface_type: InterfaceType) -> bool {
         match self {
             Self::Instantiated | Self::Initialization | Self::Terminated => true,
             Self::SetUp => matches!(abi, Abi::Fmi2),
-            Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
-            Self::Event | Self::ContinuousTime => {
-                matches!(interface_type, InterfaceType::ModelExchange)
+            Self::Event => {
+                matches!(abi, Abi::Fmi3) || matches!(interface_type, InterfaceType::ModelExchange)
             }
+            Self::Step => matches!(interface_type, InterfaceType::CoSimulation),
+            Self::IntermediateUpdate => false,
+            Self::ContinuousTime => matches!(interface_type, InterfaceType::ModelExchange),
         }
     }
 
     /// Roles of the variables that partial derivatives are of, and with respect to, in this mode; `None` where there
-    /// are no derivatives (FMI 3.0, 2.2.11).
+    /// are no derivatives (FMI 3.0, 2.2.12 for the unknowns, 2.4.8 for the knowns).
     pub(crate) const fn unknowns_and_knowns(self) -> Option<(Roles, Roles)> {
         const KNOWN: Roles =
             Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
         match self {
-            Self::Instantiated | Self::SetUp => None,
-            // the initial unknowns: a state is given there
+            // within a communication step there are none: they belong to communication points
+            Self::Instantiated | Self::SetUp | Self::IntermediateUpdate => None,
+            // the initial unknowns: what is calculated; a state is given there
             Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
+            // outputs, among them the states, and derivatives of states
             Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
                 Roles::of(&[Role::State, Role::Output, Role::Derivative]),
                 KNOWN,
@@ -78,6 +94,7 @@ impl Mode {
             Self::Event => 4,
             Self::ContinuousTime => 5,
             Self::SetUp => 6,
+            Self::IntermediateUpdate => 7,
         }
     }
 
@@ -103,6 +120,7 @@ impl fmt::Display for Mode {
             Self::SetUp => "Instantiated after fmi2SetupExperiment",
             Self::Initialization => "Initialization Mode",
             Self::Step => "Step Mode",
+            Self::IntermediateUpdate => "Intermediate Update Mode",
             Self::Event => "Event Mode",
             Self::ContinuousTime => "Continuous-Time Mode",
             Self::Terminated => "Terminated",

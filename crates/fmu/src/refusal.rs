@@ -25,6 +25,10 @@ pub(crate) enum Refusal {
     },
     /// The function belongs to another FMI version.
     OtherAbi { found: Abi, expected: Abi },
+    /// The importer's callback calls what is not allowed within a communication step.
+    InsideStep,
+    /// The importer handles events though it has said that it does not.
+    EventModeNotUsed,
     /// The function belongs to another interface type.
     OtherInterfaceType {
         found: InterfaceType,
@@ -44,6 +48,21 @@ pub(crate) enum Refusal {
         role: Role,
         mode: Mode,
     },
+    /// The variable is out of reach within a communication step.
+    NotIntermediate {
+        name: &'static str,
+        reason: NotIntermediate,
+    },
+    /// The importer asks for an early return that it was not offered.
+    EarlyReturnNotAllowed,
+    /// The importer asks for an early return outside of the step.
+    EarlyReturnTime {
+        found_s: f64,
+        start_s: f64,
+        end_s: f64,
+    },
+    /// Variables are required within communication steps, but there is no callback.
+    NoIntermediateUpdate,
     /// A value to set is NaN or infinite.
     ValueNotFinite { name: &'static str, value: f64 },
     /// A calculated output is NaN or infinite.
@@ -177,6 +196,32 @@ pub(crate) enum Refusal {
     Internal,
 }
 
+/// Why a variable is out of reach within a communication step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NotIntermediate {
+    /// The model description does not offer it.
+    NotOffered,
+    /// It was not among those that the importer said it would use.
+    NotRequired,
+    /// The callback was not told that it may read.
+    NoGet,
+    /// The callback was not asked to set inputs.
+    NoSet,
+}
+
+impl fmt::Display for NotIntermediate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotOffered => "has no intermediateUpdate in modelDescription.xml",
+            Self::NotRequired => {
+                "cannot be accessed within a communication step: it is not among the requiredIntermediateVariables"
+            }
+            Self::NoGet => "cannot be read now: intermediateVariableGetAllowed is fmi3False",
+            Self::NoSet => "cannot be set now: intermediateVariableSetRequested is fmi3False",
+        })
+    }
+}
+
 impl Refusal {
     /// Whether there is nothing to go on from: the motion diverged during a step, or the library itself failed.
     ///
@@ -221,6 +266,12 @@ impl fmt::Display for Refusal {
                 expected.name(),
                 found.name()
             ),
+            Self::InsideStep => f.write_str(
+                "is not allowed in state Intermediate Update Mode, only when the communication step has ended",
+            ),
+            Self::EventModeNotUsed => f.write_str(
+                "is not allowed: the instance was made with eventModeUsed = fmi3False",
+            ),
             Self::OtherInterfaceType { found, expected } => write!(
                 f,
                 "is not provided by this FMU: it belongs to {}, the instance is for {}",
@@ -236,8 +287,28 @@ impl fmt::Display for Refusal {
                 "variable {name} is of type {own}, not {asked}; use the {own} function"
             ),
             Self::NotSettable { name, role, mode } => {
-                write!(f, "variable {name} is {role} and cannot be set in state {mode}")
+                write!(f, "variable {name} is {role} and cannot be set in state {mode}")?;
+                match (role, mode) {
+                    (Role::Parameter, Mode::Step | Mode::ContinuousTime) => {
+                        f.write_str("; enter Event Mode first")
+                    }
+                    _ => Ok(()),
+                }
             }
+            Self::NotIntermediate { name, reason } => {
+                write!(f, "variable {name} {reason}")
+            }
+            Self::EarlyReturnNotAllowed => f.write_str(
+                "earlyReturnRequested was set by the callback though canReturnEarly was fmi3False: the instance was \
+                 made with earlyReturnAllowed = fmi3False",
+            ),
+            Self::EarlyReturnTime { found_s, start_s, end_s } => write!(
+                f,
+                "earlyReturnTime is {found_s} s, expected a time within the step from {start_s} s to {end_s} s"
+            ),
+            Self::NoIntermediateUpdate => f.write_str(
+                "requiredIntermediateVariables is not empty, but the callback intermediateUpdate is a null pointer",
+            ),
             Self::ValueNotFinite { name, value } => {
                 write!(f, "variable {name} cannot be set to {value}; expected a finite number")
             }
@@ -268,7 +339,8 @@ impl fmt::Display for Refusal {
             ),
             Self::NoDerivatives { mode } => write!(
                 f,
-                "is not allowed in state {mode}; partial derivatives are there from Initialization Mode on"
+                "is not allowed in state {mode}; partial derivatives are there from Initialization Mode on, at \
+                 communication points"
             ),
             Self::NotUnknown { name, role, mode } => write!(
                 f,

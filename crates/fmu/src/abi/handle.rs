@@ -2,15 +2,20 @@
 
 use crate::{
     abi::{Abi, Opaque},
+    fmi3::IntermediateUpdate,
     fmu_state::Snapshot,
     instance::Instance,
     logging::Logger,
+    models::MODEL_SIZE_MAX,
 };
 
 /// Marks a living FMU state: "bjstat" and a version.
 const STATE: u64 = 0x626a_7374_6174_0003;
 /// Left behind in what was freed.
 const FREED: u64 = 0;
+
+/// Marks a living instance of FMI 3.0 while its importer's callback has the word within a communication step.
+const INSIDE_STEP: u64 = 0x626a_7374_6570_0003;
 
 impl Abi {
     /// Marks a living instance that was made by this version's functions: "bjinst" and the version.
@@ -29,7 +34,11 @@ pub(crate) struct Handle {
     mark: u64,
     pub(crate) instance: Instance,
     pub(crate) logger: Logger,
+    pub(crate) intermediate_update: Option<IntermediateUpdate>,
 }
+
+// an instance takes this memory, and what its model is prepared for
+const _: () = assert!(size_of::<Handle>() + MODEL_SIZE_MAX <= 4096);
 
 /// What an `fmi2FMUstate` or `fmi3FMUState` points to.
 #[repr(C)]
@@ -44,6 +53,7 @@ pub(crate) fn to_c(abi: Abi, instance: Instance, logger: Logger) -> Opaque {
         mark: abi.mark(),
         instance,
         logger,
+        intermediate_update: None,
     }))
     .cast()
 }
@@ -66,6 +76,49 @@ pub(crate) unsafe fn from_c<'a>(abi: Abi, handle: Opaque) -> Option<&'a mut Hand
     }
     // SAFETY: the mark says that this is an instance, to which the caller has the only pointer
     Some(unsafe { &mut *handle })
+}
+
+/// The instance behind the importer's pointer also while the importer's callback has the word within a communication
+/// step, for the functions that are allowed there.
+///
+/// # Safety
+///
+/// As for [`from_c`].
+#[inline]
+pub(crate) unsafe fn from_c_inside<'a>(abi: Abi, handle: Opaque) -> Option<&'a mut Handle> {
+    // SAFETY: the caller's promise
+    unsafe {
+        match from_c(abi, handle) {
+            None if is_inside_step(abi, handle) => Some(&mut *handle.cast::<Handle>()),
+            found => found,
+        }
+    }
+}
+
+/// Whether this is an instance whose importer's callback has the word within a communication step.
+///
+/// # Safety
+///
+/// As for [`from_c`].
+#[cold]
+pub(crate) unsafe fn is_inside_step(abi: Abi, handle: Opaque) -> bool {
+    let handle = handle.cast::<Handle>();
+    if abi != Abi::Fmi3 || handle.is_null() || !handle.is_aligned() {
+        return false;
+    }
+    // SAFETY: the mark comes first (repr(C)) and is readable, by the caller's promise
+    unsafe { (&raw const (*handle).mark).read() == INSIDE_STEP }
+}
+
+impl Handle {
+    /// From now on only the functions that are allowed within a communication step reach the instance, or all again.
+    pub(crate) fn set_inside_step(&mut self, inside: bool) {
+        self.mark = if inside {
+            INSIDE_STEP
+        } else {
+            Abi::Fmi3.mark()
+        };
+    }
 }
 
 /// Frees an instance; nothing happens to a null pointer and to what is not an instance of this version.

@@ -82,7 +82,7 @@ pub(crate) unsafe fn switch_logging(
     categories: *const Text,
 ) -> Status {
     // SAFETY: the caller's promise
-    let Some(handle) = (unsafe { handle::from_c(function.abi, instance) }) else {
+    let Some(handle) = (unsafe { handle::from_c_inside(function.abi, instance) }) else {
         // SAFETY: the caller's promise
         return unsafe { refuse_handle(function, instance) };
     };

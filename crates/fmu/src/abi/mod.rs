@@ -150,17 +150,46 @@ pub(crate) unsafe fn call(
     body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
 ) -> Status {
     // SAFETY: the caller's promise
-    let Some(handle) = (unsafe { handle::from_c(function.abi, handle) }) else {
+    match unsafe { handle::from_c(function.abi, handle) } {
+        Some(handle) => run(function, handle, body),
         // SAFETY: the caller's promise
-        return unsafe { refuse_handle(function, handle) };
-    };
+        None => unsafe { refuse_handle(function, handle) },
+    }
+}
+
+/// Like [`call`], for functions that are allowed within a communication step, too.
+///
+/// # Safety
+///
+/// As for [`call`].
+#[inline]
+pub(crate) unsafe fn call_inside(
+    function: Function,
+    handle: Opaque,
+    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
+) -> Status {
+    // SAFETY: the caller's promise
+    match unsafe { handle::from_c_inside(function.abi, handle) } {
+        Some(handle) => run(function, handle, body),
+        // SAFETY: the caller's promise
+        None => unsafe { refuse_handle(function, handle) },
+    }
+}
+
+#[inline]
+fn run(
+    function: Function,
+    handle: &mut handle::Handle,
+    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
+) -> Status {
     match catch_unwind(AssertUnwindSafe(|| body(&mut handle.instance))) {
         Ok(Ok(Done::Silently)) => Status::Ok,
         outcome => conclude(function, handle, outcome.unwrap_or(Err(Refusal::Internal))),
     }
 }
 
-/// Says of an instance of another FMI version why this function does not work on it.
+/// Says of an instance why this function does not work on it: it is one of another FMI version, or within a
+/// communication step.
 ///
 /// # Safety
 ///
@@ -169,10 +198,21 @@ pub(crate) unsafe fn call(
 pub(crate) unsafe fn refuse_handle(function: Function, handle: Opaque) -> Status {
     let found = function.abi.other();
     // SAFETY: the caller's promise
-    if let Some(handle) = unsafe { handle::from_c(found, handle) } {
+    let refused = unsafe {
+        match handle::from_c(found, handle) {
+            Some(handle) => Some((handle, found)),
+            None => handle::from_c_inside(Abi::Fmi3, handle).map(|handle| (handle, Abi::Fmi3)),
+        }
+    };
+    if let Some((handle, found)) = refused {
+        let refusal = if found == function.abi {
+            Refusal::InsideStep
+        } else {
+            let expected = function.abi;
+            Refusal::OtherAbi { found, expected }
+        };
         let logger = handle.logger.clone();
-        let expected = function.abi;
-        logger.error(function.name, &Refusal::OtherAbi { found, expected });
+        logger.error(function.name, &refusal);
     }
     Status::Error
 }

@@ -1,11 +1,47 @@
-//! The communication step.
+//! The communication step, with and without the importer's part in it.
 
-use crate::{
-    fmi3::{Boolean, Done, Opaque, arguments::output, call},
-    logging::Status,
+use std::{
+    ffi::c_void,
+    mem::MaybeUninit,
+    panic::{AssertUnwindSafe, catch_unwind},
 };
 
-/// Advances the instance; it reaches the end of the step, or stays where it was.
+use crate::{
+    abi::{Abi, Done, Function, conclude, handle, refuse_handle},
+    fmi3::{Boolean, Opaque, arguments::output, function},
+    instance::{Instance, Update},
+    logging::Status,
+    refusal::{Active, Refusal},
+};
+
+/// `fmi3IntermediateUpdateCallback`.
+pub(super) type IntermediateUpdateCallback = unsafe extern "C" fn(
+    environment: *mut c_void,
+    intermediate_update_time: f64,
+    intermediate_variable_set_requested: Boolean,
+    intermediate_variable_get_allowed: Boolean,
+    intermediate_step_finished: Boolean,
+    can_return_early: Boolean,
+    early_return_requested: *mut Boolean,
+    early_return_time: *mut f64,
+);
+
+/// How the importer takes part in communication steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IntermediateUpdate {
+    pub(super) callback: IntermediateUpdateCallback,
+    pub(super) environment: *mut c_void,
+    pub(super) early_return_allowed: bool,
+}
+
+/// What a communication step tells the importer beside its status.
+struct Results<'a> {
+    early_return: &'a mut MaybeUninit<Boolean>,
+    last_successful_time: &'a mut MaybeUninit<f64>,
+}
+
+/// Advances the instance: to the end of the step, or to where the importer has asked for an early return; after an
+/// error it is where it was.
 ///
 /// # Safety
 ///
@@ -21,20 +57,159 @@ unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_successful_time: *mut f64,
 ) -> Status {
+    let this = function("fmi3DoStep");
     // SAFETY: the importer's promise
-    unsafe {
-        call("fmi3DoStep", instance, |instance| {
-            let event_handling_needed = output(event_handling_needed, "eventHandlingNeeded")?;
-            let terminate_simulation = output(terminate_simulation, "terminateSimulation")?;
-            let early_return = output(early_return, "earlyReturn")?;
-            let last_successful_time = output(last_successful_time, "lastSuccessfulTime")?;
-            event_handling_needed.write(0);
-            terminate_simulation.write(0);
-            early_return.write(0);
-            last_successful_time.write(instance.time_s());
-            let warning = instance.step(current_communication_point, communication_step_size)?;
-            last_successful_time.write(instance.time_s());
-            Ok(Done::from(warning))
+    let Some(handle) = (unsafe { handle::from_c(Abi::Fmi3, instance) }) else {
+        // SAFETY: the importer's promise
+        return unsafe { refuse_handle(this, instance) };
+    };
+    // SAFETY: the importer's promise
+    let results = || unsafe {
+        output(event_handling_needed, "eventHandlingNeeded")?.write(0);
+        output(terminate_simulation, "terminateSimulation")?.write(0);
+        let early_return = output(early_return, "earlyReturn")?;
+        early_return.write(0);
+        Ok(Results {
+            early_return,
+            last_successful_time: output(last_successful_time, "lastSuccessfulTime")?,
         })
+    };
+    let results = match results() {
+        Ok(results) => results,
+        Err(refusal) => return conclude(this, handle, Err(refusal)),
+    };
+    results.last_successful_time.write(handle.instance.time_s());
+    let (current_s, interval_s) = (current_communication_point, communication_step_size);
+    if let Some(update) = handle.intermediate_update {
+        // SAFETY: the importer's promise; the reference to the instance is not used any more
+        return unsafe { step_together(this, instance, update, [current_s, interval_s], results) };
     }
+    match guarded(&mut handle.instance, |instance| {
+        instance.step(current_s, interval_s)
+    }) {
+        Ok(warning) => {
+            results.last_successful_time.write(handle.instance.time_s());
+            match warning {
+                None => Status::Ok,
+                warning => conclude(this, handle, Ok(Done::from(warning))),
+            }
+        }
+        Err(refusal) => conclude(this, handle, Err(refusal)),
+    }
+}
+
+/// Takes a communication step in which the importer takes part.
+///
+/// # Safety
+///
+/// `instance` is a living instance, to which no reference is alive.
+#[cold]
+unsafe fn step_together(
+    this: Function,
+    instance: Opaque,
+    update: IntermediateUpdate,
+    [current_s, interval_s]: [f64; 2],
+    results: Results<'_>,
+) -> Status {
+    // SAFETY: the caller's promise
+    let outcome = unsafe { take_turns(instance, update, [current_s, interval_s]) };
+    // SAFETY: the callback cannot have freed the instance, and its references have ended
+    let Some(handle) = (unsafe { handle::from_c(Abi::Fmi3, instance) }) else {
+        return Status::Error;
+    };
+    results.last_successful_time.write(handle.instance.time_s());
+    let outcome = outcome.map(|(early, warning)| {
+        results.early_return.write(u8::from(early));
+        Done::from(warning)
+    });
+    conclude(this, handle, outcome)
+}
+
+/// Goes from one call of the importer's callback to the next, to the end of the communication step; tells whether that
+/// is early.
+///
+/// # Safety
+///
+/// As for [`step_together`].
+unsafe fn take_turns(
+    instance: Opaque,
+    update: IntermediateUpdate,
+    [current_s, interval_s]: [f64; 2],
+) -> Result<(bool, Option<Active>), Refusal> {
+    let early_return_allowed = update.early_return_allowed;
+    // SAFETY: the caller's promise
+    let mut step = unsafe {
+        with(instance, |instance| {
+            instance.begin_step(current_s, interval_s, early_return_allowed)
+        })
+    }?;
+    // SAFETY: the caller's promise; no reference to the instance is alive when the callback has the word
+    unsafe {
+        while let Some(next) = with(instance, |instance| instance.proceed(&mut step))? {
+            let early_return_s = call_back(instance, update, next);
+            with(instance, |instance| {
+                instance.resume(&mut step, early_return_s)
+            })?;
+        }
+        with(instance, |instance| Ok(instance.finish_step(&step)))
+    }
+}
+
+/// Gives the word to the importer; returns the time at which it wants the step to end, if it does.
+///
+/// # Safety
+///
+/// As for [`step_together`].
+unsafe fn call_back(instance: Opaque, update: IntermediateUpdate, next: Update) -> Option<f64> {
+    let mut early_return_requested = 0;
+    let mut early_return_time = next.time_s;
+    // SAFETY: the caller's promise, and the importer's for its callback
+    unsafe {
+        set_inside_step(instance, true);
+        (update.callback)(
+            update.environment,
+            next.time_s,
+            u8::from(next.set_requested),
+            u8::from(next.get_allowed),
+            u8::from(next.step_finished),
+            u8::from(update.early_return_allowed),
+            &raw mut early_return_requested,
+            &raw mut early_return_time,
+        );
+        set_inside_step(instance, false);
+    }
+    (early_return_requested != 0).then_some(early_return_time)
+}
+
+/// # Safety
+///
+/// As for [`step_together`].
+unsafe fn set_inside_step(instance: Opaque, inside: bool) {
+    // SAFETY: the caller's promise
+    if let Some(handle) = unsafe { handle::from_c_inside(Abi::Fmi3, instance) } {
+        handle.set_inside_step(inside);
+    }
+}
+
+/// Runs `body` on the instance, with a reference that lives only as long.
+///
+/// # Safety
+///
+/// As for [`step_together`].
+unsafe fn with<T>(
+    instance: Opaque,
+    body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
+) -> Result<T, Refusal> {
+    // SAFETY: the caller's promise
+    let handle = unsafe { handle::from_c(Abi::Fmi3, instance) }.ok_or(Refusal::Internal)?;
+    guarded(&mut handle.instance, body)
+}
+
+/// Runs `body`; no panic leaves.
+#[inline]
+fn guarded<T>(
+    instance: &mut Instance,
+    body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
+) -> Result<T, Refusal> {
+    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or(Err(Refusal::Internal))
 }

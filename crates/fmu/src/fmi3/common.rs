@@ -8,9 +8,14 @@ use std::{
 use crate::{
     abi::{
         Abi,
+        arguments::array,
+        handle,
         instantiation::{check_name, free, hand_over, new_instance, switch_logging},
     },
-    fmi3::{Boolean, Opaque, Text, ValueReference, function},
+    fmi3::{
+        Boolean, IntermediateUpdate, Opaque, Text, ValueReference,
+        co_simulation::IntermediateUpdateCallback, function,
+    },
     interface::InterfaceType,
     logging::{Fmi3Callback, Logger, Status},
     refusal::Refusal,
@@ -60,39 +65,49 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _visible: Boolean,
     logging_on: Boolean,
     event_mode_used: Boolean,
-    _early_return_allowed: Boolean,
-    _required_intermediate_variables: *const ValueReference,
+    early_return_allowed: Boolean,
+    required_intermediate_variables: *const ValueReference,
     required_intermediate_variable_count: usize,
     instance_environment: *mut c_void,
     log_message: Option<Fmi3Callback>,
-    _intermediate_update: Option<unsafe extern "C" fn()>,
+    intermediate_update: Option<IntermediateUpdateCallback>,
 ) -> Opaque {
     let logger = Logger::fmi3(log_message, instance_environment, logging_on != 0);
     let instance = catch_unwind(|| {
         // SAFETY: the importer's promise
-        unsafe { check_name(instance_name) }?;
-        if event_mode_used != 0 {
-            return Err(Refusal::NotProvided {
-                reason: "eventModeUsed is true, but the model has no events and modelDescription.xml has no hasEventMode",
-            });
-        }
-        if required_intermediate_variable_count != 0 {
-            return Err(Refusal::NotProvided {
-                reason: "requiredIntermediateVariables is not empty, but no variable has intermediateUpdate in \
-                         modelDescription.xml",
-            });
-        }
-        // SAFETY: the importer's promise
         unsafe {
-            new_instance(
+            check_name(instance_name)?;
+            let required = array(
+                required_intermediate_variables,
+                required_intermediate_variable_count,
+                "requiredIntermediateVariables",
+            )?;
+            if !required.is_empty() && intermediate_update.is_none() {
+                return Err(Refusal::NoIntermediateUpdate);
+            }
+            let mut instance = new_instance(
                 Abi::Fmi3,
                 InterfaceType::CoSimulation,
                 instantiation_token,
                 resource_path,
-            )
+            )?;
+            instance.require_intermediate(required)?;
+            if event_mode_used != 0 {
+                instance.use_event_mode();
+            }
+            Ok(instance)
         }
     });
-    hand_over(Abi::Fmi3, "fmi3InstantiateCoSimulation", instance, logger)
+    let instance = hand_over(Abi::Fmi3, "fmi3InstantiateCoSimulation", instance, logger);
+    // SAFETY: a new instance, or null
+    if let Some(handle) = unsafe { handle::from_c(Abi::Fmi3, instance) } {
+        handle.intermediate_update = intermediate_update.map(|callback| IntermediateUpdate {
+            callback,
+            environment: instance_environment,
+            early_return_allowed: early_return_allowed != 0,
+        });
+    }
+    instance
 }
 
 /// New instance for Model Exchange, or null after a message that says why not.

@@ -1,13 +1,40 @@
-//! Partial derivatives: directional and adjoint.
+//! Derivatives of outputs with respect to time, and partial derivatives: directional and adjoint.
 
 use crate::{
     fmi3::{
         Done, Opaque, ValueReference,
         arguments::{array, array_mut, same_count},
-        call,
+        call, call_inside,
     },
     logging::Status,
 };
+
+/// Reads first derivatives of outputs with respect to time.
+///
+/// # Safety
+///
+/// `instance` as for every function; the arrays have the lengths that are told.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi3GetOutputDerivatives(
+    instance: Opaque,
+    value_references: *const ValueReference,
+    value_reference_count: usize,
+    orders: *const i32,
+    values: *mut f64,
+    value_count: usize,
+) -> Status {
+    // SAFETY: the importer's promise
+    unsafe {
+        call_inside("fmi3GetOutputDerivatives", instance, |instance| {
+            same_count("nValues", value_count, value_reference_count)?;
+            let references = array(value_references, value_reference_count, "valueReferences")?;
+            let orders = array(orders, value_reference_count, "orders")?;
+            let values = array_mut(values, value_count, "values")?;
+            instance.output_derivatives(references, orders, values)?;
+            Ok(Done::Silently)
+        })
+    }
+}
 
 /// Defines the two functions, which differ in whether the seed belongs to the knowns or to the unknowns.
 macro_rules! partial_derivative {

@@ -8,11 +8,14 @@
 mod co_simulation;
 mod common;
 mod derivatives;
+mod events;
 mod fmu_state;
 mod lifecycle;
 mod model_exchange;
 mod not_provided;
 mod variables;
+
+pub(crate) use co_simulation::IntermediateUpdate;
 
 // the functions name these as their own
 use crate::{
@@ -47,4 +50,19 @@ unsafe fn call(
 ) -> Status {
     // SAFETY: the caller's promise
     unsafe { crate::abi::call(function(name), handle, body) }
+}
+
+/// Runs `body` on the instance behind `handle`, also within a communication step.
+///
+/// # Safety
+///
+/// As for [`crate::abi::call`].
+#[inline]
+unsafe fn call_inside(
+    name: &'static str,
+    handle: Opaque,
+    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
+) -> Status {
+    // SAFETY: the caller's promise
+    unsafe { crate::abi::call_inside(function(name), handle, body) }
 }

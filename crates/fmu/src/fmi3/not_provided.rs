@@ -6,12 +6,9 @@ use crate::{
     refusal::Refusal,
 };
 
-const EVENT_MODE: &str =
-    "modelDescription.xml has no hasEventMode, the model has no events in Co-Simulation";
 const DISCRETE_STATES: &str =
     "modelDescription.xml has no providesEvaluateDiscreteStates, there are no discrete states";
 const CONFIGURATION: &str = "there are no structural parameters";
-const OUTPUT_DERIVATIVES: &str = "modelDescription.xml has no maxOutputDerivativeOrder";
 const DEPENDENCIES: &str =
     "modelDescription.xml has no providesPerElementDependencies; it lists all dependencies itself";
 const CLOCKS: &str = "there are no clocks";
@@ -39,7 +36,6 @@ macro_rules! not_provided {
 
 not_provided! {
     // events and clocked partitions
-    fmi3EnterStepMode(EVENT_MODE;);
     fmi3EvaluateDiscreteStates(DISCRETE_STATES;);
     fmi3ActivateModelPartition(CLOCKS; _clock_reference: ValueReference, _activation_time: f64);
 
@@ -57,11 +53,9 @@ not_provided! {
     fmi3EnterConfigurationMode(CONFIGURATION;);
     fmi3ExitConfigurationMode(CONFIGURATION;);
 
-    // dependencies and derivatives of outputs with respect to time
+    // dependencies
     fmi3GetNumberOfVariableDependencies(DEPENDENCIES; _reference: ValueReference, _dependency_count: *mut usize);
     fmi3GetVariableDependencies(DEPENDENCIES;
         _dependent: ValueReference, _element_indices_of_dependent: *mut usize, _independents: *mut ValueReference,
         _element_indices_of_independents: *mut usize, _dependency_kinds: *mut i32, _dependency_count: usize);
-    fmi3GetOutputDerivatives(OUTPUT_DERIVATIVES;
-        _references: *const ValueReference, _count: usize, _orders: *const i32, _values: *mut f64, _value_count: usize);
 }

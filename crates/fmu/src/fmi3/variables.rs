@@ -6,7 +6,7 @@ use crate::{
     fmi3::{
         Boolean, Done, Opaque, ValueReference,
         arguments::{array, array_mut, same_count},
-        call,
+        call, call_inside,
     },
     logging::Status,
 };
@@ -26,7 +26,7 @@ unsafe extern "C" fn fmi3GetFloat64(
 ) -> Status {
     // SAFETY: the importer's promise
     unsafe {
-        call("fmi3GetFloat64", instance, |instance| {
+        call_inside("fmi3GetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array_mut(values, value_count, "values")?;
@@ -51,7 +51,7 @@ unsafe extern "C" fn fmi3SetFloat64(
 ) -> Status {
     // SAFETY: the importer's promise
     unsafe {
-        call("fmi3SetFloat64", instance, |instance| {
+        call_inside("fmi3SetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let values = array(values, value_count, "values")?;

@@ -19,21 +19,6 @@ const READABLE: &[Mode] = &[
 ];
 
 impl Instance {
-    /// From Continuous-Time Mode to an event; in FMI 2.0 also from one event to the next.
-    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
-        self.require(match self.identity.abi {
-            Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
-            Abi::Fmi3 => &[Mode::ContinuousTime],
-        })?;
-        self.mode = Mode::Event;
-        Ok(())
-    }
-
-    /// Nothing changes by itself at an event; this only tells whether the call is allowed.
-    pub(crate) fn update_discrete_states(&self) -> Result<(), Refusal> {
-        self.require(&[Mode::Event])
-    }
-
     /// From an event on to continuous time: parameters that were changed take effect.
     pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<Option<Active>, Refusal> {
         self.require(&[Mode::Event])?;
@@ -119,16 +104,6 @@ impl Instance {
     /// Refuses functions of Model Exchange on an instance for Co-Simulation.
     pub(crate) fn require_model_exchange(&self) -> Result<(), Refusal> {
         self.require_type(InterfaceType::ModelExchange)
-    }
-
-    /// Takes parameters that were changed into use.
-    fn use_parameters(&mut self) -> Result<Option<Active>, Refusal> {
-        if !self.parameters_changed {
-            return Ok(None);
-        }
-        let warning = self.prepare_model()?;
-        self.parameters_changed = false;
-        Ok(warning)
     }
 
     fn check_count(&self, found: usize) -> Result<(), Refusal> {

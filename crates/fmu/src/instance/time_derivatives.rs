@@ -55,7 +55,10 @@ impl Instance {
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
         self.require_type(InterfaceType::CoSimulation)?;
-        self.require(&[Mode::Step, Mode::Terminated])?;
+        self.require(&[Mode::Step, Mode::IntermediateUpdate, Mode::Terminated])?;
+        if self.mode == Mode::IntermediateUpdate {
+            self.check_readable(references)?;
+        }
         for (&reference, &order) in references.iter().zip(orders) {
             let (index, roles) = self.known(reference)?;
             let name = self.name(index);
@@ -88,42 +91,6 @@ impl Instance {
         self.model.rates(&values, &self.inputs, &mut rates);
         self.model.differentiate_outputs(&values, &mut rates);
         rates
-    }
-
-    /// The inputs at the end of a step of `interval_s` (s), at `end_s`; `None` where they are held.
-    #[inline]
-    pub(super) fn inputs_after(
-        &self,
-        interval_s: f64,
-        end_s: f64,
-    ) -> Result<Option<Values>, Refusal> {
-        if self.inputs.is_held() {
-            return Ok(None);
-        }
-        let mut values = self.values;
-        for (index, variable) in self.identity.variables.iter() {
-            if variable.role == Role::Input {
-                let value = self.inputs.value(index, values[index], interval_s);
-                if !value.is_finite() {
-                    return Err(Refusal::InputNotFinite {
-                        name: variable.name,
-                        time_s: end_s,
-                    });
-                }
-                values[index] = value;
-            }
-        }
-        Ok(Some(values))
-    }
-
-    /// Takes the inputs over from `values`.
-    #[cold]
-    pub(super) fn set_inputs(&mut self, values: &Values) {
-        for (index, variable) in self.identity.variables.iter() {
-            if variable.role == Role::Input {
-                self.values[index] = values[index];
-            }
-        }
     }
 
     /// Inputs that are set after a step no longer do what they did in it.

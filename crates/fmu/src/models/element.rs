@@ -1,5 +1,7 @@
 //! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
 
+use std::num::NonZeroU32;
+
 use bolted_joint_dynamics::Motion;
 
 use crate::{
@@ -29,6 +31,10 @@ impl<const D: usize> Model for Element<D> {
 
     fn check_states(&self, _: &Values) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
+        Ok(NonZeroU32::MIN)
     }
 
     fn advance(
@@ -61,7 +67,8 @@ impl<const D: usize> Model for Element<D> {
         let law = joint_law::<D>(values);
         let relative = A.motion::<D>(values).relative_to(&B.motion(values));
         let on_b = law.load_on_b(&relative);
-        A.set_load(values, &on_b.map(|load| -load));
+        // 0 − F is −F but for F = 0, which stays without a sign
+        A.set_load(values, &on_b.map(|load| 0.0 - load));
         B.set_load(values, &on_b);
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);

@@ -115,6 +115,11 @@ impl<const D: usize> Model for LapModel<D> {
         }
     }
 
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
+        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
+        count(interval_s, prepared.step_size_max_s)
+    }
+
     fn advance(
         &mut self,
         values: &mut Values,

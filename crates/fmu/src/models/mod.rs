@@ -6,6 +6,8 @@ mod sides;
 
 pub(crate) use lap::SUBSTEPS_MAX;
 
+use std::num::NonZeroU32;
+
 use crate::{
     input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
@@ -27,6 +29,9 @@ pub(crate) trait Model: Send {
 
     /// Whether the states in `values` are such that the simulation can go on.
     fn check_states(&self, values: &Values) -> Result<(), Refusal>;
+
+    /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal>;
 
     /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
@@ -51,7 +56,7 @@ pub(crate) trait Model: Send {
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
-/// One communication step.
+/// One communication step, or one internal step of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommunicationStep {
     /// Time at its start, s.
@@ -62,8 +67,10 @@ pub(crate) struct CommunicationStep {
     pub(crate) is_steady: bool,
 }
 
-// what an instance takes beside its values stays small, whatever is prepared for it
-const _: () = assert!(size_of::<lap::LapModel<2>>() <= 2048);
+/// Most bytes that a model takes, whatever is prepared for it.
+pub(crate) const MODEL_SIZE_MAX: usize = 2048;
+
+const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 
 /// The model of an FMU.
 pub(crate) fn model(variables: Variables) -> Box<dyn Model> {

@@ -31,6 +31,18 @@ type Instantiate = unsafe extern "C" fn(
     *const c_void,
     *const c_void,
 ) -> *mut c_void;
+type Instantiate2 = unsafe extern "C" fn(
+    *const c_char,
+    c_int,
+    *const c_char,
+    *const c_char,
+    *const c_void,
+    c_int,
+    c_int,
+) -> *mut c_void;
+type SetUp2 = unsafe extern "C" fn(*mut c_void, c_int, f64, f64, c_int, f64) -> c_int;
+type Enter2 = unsafe extern "C" fn(*mut c_void) -> c_int;
+type Get2 = unsafe extern "C" fn(*mut c_void, *const u32, usize, *mut f64) -> c_int;
 type Free = unsafe extern "C" fn(*mut c_void);
 type Get = unsafe extern "C" fn(*mut c_void, *const u32, usize, *mut f64, usize) -> c_int;
 
@@ -83,6 +95,23 @@ fn the_library_finds_its_own_resources() {
             assert!(!instance.is_null());
             let mut value = 0.0;
             assert_eq!(get(instance, [vr::K_YY].as_ptr(), 1, &raw mut value, 1), 0);
+            assert_eq!(value, 77.0);
+            free(instance);
+        }
+        let instantiate: Instantiate2 = mem::transmute(dlsym(library, c"fmi2Instantiate".as_ptr()));
+        let free: Free = mem::transmute(dlsym(library, c"fmi2FreeInstance".as_ptr()));
+        let set_up: SetUp2 = mem::transmute(dlsym(library, c"fmi2SetupExperiment".as_ptr()));
+        let enter: Enter2 = mem::transmute(dlsym(library, c"fmi2EnterInitializationMode".as_ptr()));
+        let get: Get2 = mem::transmute(dlsym(library, c"fmi2GetReal".as_ptr()));
+        for (fmu_type, resources) in [(0, ptr::null()), (1, c"".as_ptr())] {
+            let token = token.as_ptr();
+            let name = c"joint".as_ptr();
+            let instance = instantiate(name, fmu_type, token, resources, ptr::null(), 0, 0);
+            assert!(!instance.is_null());
+            assert_eq!(set_up(instance, 0, 0.0, 0.0, 0, 0.0), 0);
+            assert_eq!(enter(instance), 0);
+            let mut value = 0.0;
+            assert_eq!(get(instance, [vr::K_YY].as_ptr(), 1, &raw mut value), 0);
             assert_eq!(value, 77.0);
             free(instance);
         }

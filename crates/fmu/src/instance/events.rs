@@ -1,0 +1,69 @@
+//! Events: where the importer lets inputs and parameters jump. The model has none of its own.
+
+use super::Instance;
+use crate::{
+    abi::Abi,
+    interface::InterfaceType,
+    mode::Mode,
+    refusal::{Active, Refusal},
+};
+
+impl Instance {
+    /// The importer of this instance for Co-Simulation handles events.
+    pub(crate) fn use_event_mode(&mut self) {
+        self.event_mode_used = true;
+    }
+
+    /// To an event, from Continuous-Time Mode or Step Mode.
+    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
+        match self.interface_type() {
+            // FMI 2.0 lets an event follow an event
+            InterfaceType::ModelExchange => self.require(match self.identity.abi {
+                Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
+                Abi::Fmi3 => &[Mode::ContinuousTime],
+            })?,
+            InterfaceType::CoSimulation => {
+                self.require_event_mode()?;
+                self.require(&[Mode::Step])?;
+            }
+        }
+        self.mode = Mode::Event;
+        Ok(())
+    }
+
+    /// Nothing changes by itself at an event; this only tells whether the call is allowed.
+    pub(crate) fn update_discrete_states(&self) -> Result<(), Refusal> {
+        if self.interface_type() == InterfaceType::CoSimulation {
+            self.require_event_mode()?;
+        }
+        self.require(&[Mode::Event])
+    }
+
+    /// From an event on to communication steps: parameters that were changed take effect.
+    pub(crate) fn enter_step_mode(&mut self) -> Result<Option<Active>, Refusal> {
+        self.require_type(InterfaceType::CoSimulation)?;
+        self.require_event_mode()?;
+        self.require(&[Mode::Event])?;
+        let warning = self.use_parameters()?;
+        self.mode = Mode::Step;
+        Ok(warning)
+    }
+
+    /// Takes parameters that were changed into use.
+    pub(super) fn use_parameters(&mut self) -> Result<Option<Active>, Refusal> {
+        if !self.parameters_changed {
+            return Ok(None);
+        }
+        let warning = self.prepare_model()?;
+        self.parameters_changed = false;
+        Ok(warning)
+    }
+
+    fn require_event_mode(&self) -> Result<(), Refusal> {
+        if self.event_mode_used {
+            Ok(())
+        } else {
+            Err(Refusal::EventModeNotUsed)
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Communication steps of Co-Simulation that are taken in one go.
+
+use super::Instance;
+use crate::{
+    interface::{InterfaceType, Role, Values, reference::TIME},
+    mode::Mode,
+    models::CommunicationStep,
+    refusal::{Active, Refusal},
+};
+
+impl Instance {
+    /// Advances from `current_s` by `interval_s`, with the inputs held or along the derivatives that were given.
+    #[inline]
+    pub(crate) fn step(
+        &mut self,
+        current_s: f64,
+        interval_s: f64,
+    ) -> Result<Option<Active>, Refusal> {
+        let end_s = self.end_of_step(current_s, interval_s)?;
+        let warning = if self.parameters_changed {
+            self.prepare_model()?
+        } else {
+            None
+        };
+        let pace = self.pace.followed_by(interval_s);
+        self.advance(CommunicationStep {
+            time_s: current_s,
+            interval_s,
+            is_steady: pace.is_steady(),
+        })?;
+        if !self.inputs.is_none() {
+            self.inputs = self.inputs.ended();
+        }
+        self.pace = pace;
+        // only now, so that a warning reaches the importer even if this step is refused and the next one is not
+        self.parameters_changed = false;
+        self.values[TIME] = end_s;
+        Ok(warning)
+    }
+
+    /// Advances states and inputs, but not the time; on refusal nothing moves.
+    #[inline]
+    pub(super) fn advance(&mut self, step: CommunicationStep) -> Result<(), Refusal> {
+        if self.inputs.is_held() {
+            self.model.advance(&mut self.values, step, &self.inputs)?;
+        } else {
+            self.advance_along(step)?;
+        }
+        self.outputs_stale = true;
+        Ok(())
+    }
+
+    #[cold]
+    fn advance_along(&mut self, step: CommunicationStep) -> Result<(), Refusal> {
+        let end = self.inputs_after(step)?;
+        self.model.advance(&mut self.values, step, &self.inputs)?;
+        self.set_inputs(&end);
+        self.inputs = self.inputs.moved(step.interval_s);
+        Ok(())
+    }
+
+    /// The inputs at the end of the step.
+    fn inputs_after(&self, step: CommunicationStep) -> Result<Values, Refusal> {
+        let mut values = self.values;
+        for (index, variable) in self.identity.variables.iter() {
+            if variable.role == Role::Input {
+                let value = self.inputs.value(index, values[index], step.interval_s);
+                if !value.is_finite() {
+                    return Err(Refusal::InputNotFinite {
+                        name: variable.name,
+                        time_s: step.time_s + step.interval_s,
+                    });
+                }
+                values[index] = value;
+            }
+        }
+        Ok(values)
+    }
+
+    /// Takes the inputs over from `values`.
+    pub(super) fn set_inputs(&mut self, values: &Values) {
+        for (index, variable) in self.identity.variables.iter() {
+            if variable.role == Role::Input {
+                self.values[index] = values[index];
+            }
+        }
+    }
+
+    /// End of the step, if there can be one now, and the importer's and the FMU's times agree but for rounding.
+    #[inline]
+    pub(super) fn end_of_step(&self, current_s: f64, interval_s: f64) -> Result<f64, Refusal> {
+        if self.mode != Mode::Step {
+            self.require_type(InterfaceType::CoSimulation)?;
+            self.require(&[Mode::Step])?;
+        }
+        if !(interval_s.is_finite() && interval_s > 0.0) {
+            return Err(Refusal::StepSize {
+                found_s: interval_s,
+            });
+        }
+        // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
+        let expected_s = self.time_s();
+        let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
+        let agrees = (current_s - expected_s).abs() <= rounding_s;
+        if !agrees {
+            return Err(Refusal::CommunicationPoint {
+                found_s: current_s,
+                expected_s,
+            });
+        }
+        let end_s = current_s + interval_s;
+        if !(end_s > expected_s && end_s.is_finite()) {
+            return Err(Refusal::StepVanishes {
+                current_s,
+                interval_s,
+            });
+        }
+        if let Some(stop_s) = self.stop_s
+            && end_s - stop_s > 1e-6 * interval_s + 1e-9 * stop_s.abs()
+        {
+            return Err(Refusal::PastStop { end_s, stop_s });
+        }
+        Ok(end_s)
+    }
+}

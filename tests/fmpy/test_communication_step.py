@@ -5,7 +5,7 @@ import json
 import fmpy
 import numpy as np
 import pytest
-from conftest import Slave
+from conftest import ROOT, Slave
 from joints import LINEAR_1, LINEAR_2, TOL_C, TOL_K, body, joint
 
 STEPS = 3000
@@ -123,3 +123,14 @@ def test_a_lap_is_stable_up_to_its_bound(export, bound, tmp_path, file, stiffnes
     assert growth(coupled_lap(tmp_path, stiffness, damping, 0.95 * limit)) < 0.9
     sizes = coupled_lap(tmp_path, stiffness, damping, 1.05 * limit)
     assert sizes[-1] > 1e3 or growth(sizes) > 1.1
+
+
+def test_the_table_of_the_guide_is_what_check_says(export, bound):
+    fmu = export(joint(["y", "theta"], TOL_K, TOL_C, [0.0, 0.0]), "element")
+    guide = (ROOT / "docs/fmi.md").read_text(encoding="utf-8")
+    rows = guide.partition("| mass, kg | inertia, kg·m² |")[2].partition("\n\n")[0].splitlines()[2:]
+    assert len(rows) == 4
+    for row in rows:
+        mass, inertia, *bounds = [cell.strip() for cell in row.strip("|").split("|")]
+        found = bound(fmu, "--neighbour-mass", mass, "--neighbour-inertia", inertia)
+        assert [float(value) for value in bounds] == pytest.approx([found[master] for master in MASTERS], rel=5e-4)

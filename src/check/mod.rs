@@ -9,6 +9,7 @@ mod described;
 mod error;
 mod inspect;
 mod parts;
+mod reference;
 mod run;
 mod variables;
 

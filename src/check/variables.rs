@@ -1,5 +1,6 @@
 //! Does the model description declare what this program would for the joint that is in the FMU?
 
+use bolted_joint_importer::FmiVersion;
 use bolted_joint_interface::{Interface as Declared, Role};
 
 use super::described::{Described, DescribedVariable, FILE};
@@ -120,8 +121,12 @@ pub(super) fn against_start_file(found: &Described, start: &StartFile) -> Vec<St
         );
     }
     if found.token != start.token {
+        let attribute = match found.version {
+            FmiVersion::Two => "guid",
+            FmiVersion::Three => "instantiationToken",
+        };
         findings.push(format!(
-            "{FILE}: found instantiationToken \"{}\", expected \"{}\" as in resources/start.txt",
+            "{FILE}: found {attribute} \"{}\", expected \"{}\" as in resources/start.txt",
             found.token, start.token
         ));
     }

@@ -116,7 +116,7 @@ struct ExportArguments {
 struct CheckArguments {
     /// Joint file or FMU
     file: PathBuf,
-    /// Only look into the FMU: run none of its code
+    /// Only look into the FMU: run none of its code. Without this its library is run, in a process of its own
     #[arg(long)]
     no_run: bool,
     #[command(flatten)]

@@ -183,3 +183,96 @@ pub(super) fn samples<'v>(references: &References, values: &'v [Vec<f64>]) -> Ve
         .filter_map(|values| references.sample(values))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::run::script::Action;
+    use crate::joint::JointFile;
+
+    const JOINT: &str = r#"{ "format": "bolted-joint/1", "name": "test", "joint": {
+        "dofs": ["y", "theta"], "stiffness": [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+        "damping": [[10.83, -0.83], [-0.83, 0.083]], "cubic": [3e12, -1e5] } }"#;
+    const STEPS: usize = 8;
+
+    /// What an element would give along its paths, with energy and power by these factors.
+    fn values(file: &JointFile, excitation: &Excitation, factors: [f64; 2]) -> Vec<Vec<f64>> {
+        let law = file.joint.law::<2>().unwrap();
+        let references = references();
+        (0..=excitation.step_count(STEPS))
+            .map(|index| {
+                let time_s = index as f64 * excitation.span_s / STEPS as f64;
+                let Action::Set { values, .. } = excitation.set_motion(&references, time_s) else {
+                    panic!("no motion");
+                };
+                let relative = bolted_joint_dynamics::Motion {
+                    displacement: [values[0] - values[2], values[1] - values[3]],
+                    velocity: [values[4] - values[6], values[5] - values[7]],
+                };
+                let on_b = law.load_on_b(&relative);
+                let mut all = values;
+                all.extend([-on_b[0], -on_b[1], on_b[0], on_b[1], on_b[0], on_b[1]]);
+                all.push(factors[0] * law.stored_energy(&relative.displacement));
+                all.push(factors[1] * law.dissipated_power(&relative.velocity));
+                all
+            })
+            .collect()
+    }
+
+    fn references() -> References {
+        References {
+            displacements: vec![1, 2, 5, 6],
+            velocities: vec![3, 4, 7, 8],
+            loads: vec![9, 10, 11, 12],
+            joint: vec![13, 14],
+            energy: 15,
+            power: 16,
+        }
+    }
+
+    #[test]
+    fn an_energy_or_a_power_that_is_a_thousandth_off_is_found() {
+        let file = JointFile::from_json(JOINT, "test").unwrap();
+        let excitation = Excitation::of(&file, Interface::Element, None);
+        let balanced = |factors| {
+            let values = values(&file, &excitation, factors);
+            let samples = samples(&references(), &values);
+            assert_eq!(
+                load_finding(&file.joint, Interface::Element, &samples),
+                None
+            );
+            balance(&excitation, &samples, STEPS).unwrap().is_balanced()
+        };
+        assert!(balanced([1.0, 1.0]));
+        for factors in [
+            [1.001, 1.0],
+            [0.0, 1.0],
+            [1.0, 0.999],
+            [1.0, -1.0],
+            [f64::MAX, 1.0],
+        ] {
+            assert!(!balanced(factors), "{factors:?}");
+        }
+    }
+
+    #[test]
+    fn loads_and_derivatives_of_another_joint_are_found() {
+        let file = JointFile::from_json(JOINT, "test").unwrap();
+        let excitation = Excitation::of(&file, Interface::Element, None);
+        let values = values(&file, &excitation, [1.0, 1.0]);
+        let samples = samples(&references(), &values);
+        let mut other = file.joint.clone();
+        other.cubic[1] *= 1.001;
+        let finding = load_finding(&other, Interface::Element, &samples).unwrap();
+        assert!(finding.contains("joint.M"), "{finding}");
+        // δr = δy_a alone, so that δF = K₁₁ + 3 k3 r²
+        let sample = &samples[3];
+        let r = sample.displacements[0] - sample.displacements[2];
+        let seed = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let right = [5.73e5 + 3.0 * 3e12 * r * r, 5.82e3];
+        assert_eq!(derivative_finding(&file.joint, sample, &seed, &right), None);
+        for wrong in [[5.73e5, 5.82e3], [right[0], -5.82e3], [f64::NAN, 5.82e3]] {
+            assert!(derivative_finding(&file.joint, sample, &seed, &wrong).is_some());
+        }
+    }
+}

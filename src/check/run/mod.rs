@@ -2,9 +2,11 @@
 
 mod balance;
 mod child;
+mod comparison;
 mod excitation;
 mod judge;
 mod names;
+mod plan;
 mod script;
 mod supervisor;
 
@@ -20,18 +22,14 @@ pub use supervisor::Runner;
 
 use super::archive::Archive;
 use super::described::Described;
+use super::reference::ReferenceRun;
 use super::{InspectError, Inspection};
-use crate::export::{self, EMBEDDED_PLATFORM, Interface};
-use balance::Integral;
-use excitation::{Excitation, moved};
+use crate::export::{self, EMBEDDED_PLATFORM};
+use comparison::Comparison;
+use excitation::Excitation;
 use names::References;
+use plan::Plan;
 use script::{Action, Script};
-
-/// Steps in a span of the coarser and of the finer run.
-const STEPS: [usize; 2] = [Integral::SPAN, 2 * Integral::SPAN];
-
-/// Part of the energies below which the tolerance must be, or the balance says nothing.
-const MEANINGFUL: f64 = 1e-3;
 
 /// Why the run could not even be tried.
 #[derive(Debug, Error)]
@@ -111,14 +109,29 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
     };
     let folder = tempfile::Builder::new().prefix("bolted joint ").tempdir()?;
     let unpacked = folder.path().join("fmu");
-    archive.unpack(&unpacked)?;
+    if let Err(refused) = archive.unpack(&unpacked) {
+        let mut report = RunReport::without_run(RunVerdict::Failed);
+        let finding = format!("run: the FMU cannot be unpacked and run: {refused}");
+        report.findings.push(finding);
+        return Ok(report);
+    }
 
     let excitation = Excitation::of(
         &inspection.joint,
         inspection.interface,
         inspection.step_size_max_s,
     );
-    let plan = Plan::new(excitation, references, described);
+    let mut findings = Vec::new();
+    let comparison = match ReferenceRun::read(&mut archive)
+        .and_then(|run| run.map(|run| Comparison::new(run, described)).transpose())
+    {
+        Ok(comparison) => comparison,
+        Err(refused) => {
+            findings.push(refused);
+            None
+        }
+    };
+    let plan = Plan::new(excitation, references, described, comparison);
     let script = Script {
         library: unpacked.join(library),
         version: described.version.into(),
@@ -126,8 +139,9 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
         resources: unpacked.join("resources"),
         actions: plan.actions.clone(),
     };
-    let ran = runner.run(&script, folder.path())?;
+    let ran = runner.run(&script, folder.path(), &unpacked)?;
     let mut report = RunReport::without_run(RunVerdict::Ran);
+    report.findings = findings;
     report.steps = plan
         .actions
         .iter()
@@ -169,172 +183,4 @@ fn library_entry(names: &[String], platform: &str, described: &Described) -> Opt
                 .is_some_and(|extension| matches!(extension, "so" | "dll" | "dylib"))
         })
         .map(PathBuf::from)
-}
-
-/// Everything that is done in a run, one part after the other.
-struct Plan {
-    excitation: Excitation,
-    references: References,
-    actions: Vec<Action>,
-    /// Directions of the derivatives, if the FMU has them.
-    seed: Option<Vec<f64>>,
-    has_states: bool,
-}
-
-impl Plan {
-    fn new(excitation: Excitation, references: References, described: &Described) -> Self {
-        let mut actions = Vec::new();
-        for steps in STEPS {
-            actions.extend(excitation.actions(&references, steps));
-        }
-        let mut plan = Self {
-            seed: described.has_derivatives.then(|| seed(&references)),
-            has_states: described.can_save_state,
-            excitation,
-            references,
-            actions,
-        };
-        plan.add_derivatives();
-        plan.add_states();
-        plan
-    }
-
-    fn get(&self) -> Action {
-        Action::Get {
-            references: self.references.observed(),
-        }
-    }
-
-    fn add_derivatives(&mut self) {
-        let Some(seed) = &self.seed else {
-            return;
-        };
-        self.actions.extend([
-            self.excitation.start(&self.references),
-            self.get(),
-            Action::Derive {
-                unknowns: self.references.joint.clone(),
-                knowns: moved(&self.references),
-                seed: seed.clone(),
-            },
-        ]);
-    }
-
-    /// Step, save, step, restore, step again: twice the same.
-    fn add_states(&mut self) {
-        if !self.has_states {
-            return;
-        }
-        let interval_s = self.excitation.span_s;
-        let step = |index: usize| Action::Step {
-            time_s: index as f64 * interval_s,
-            interval_s,
-            tentative: true,
-        };
-        let input = |index: usize| match self.excitation.interface {
-            Interface::Lap => self.excitation.set_loads(&self.references, 60 + index),
-            Interface::Element => self
-                .excitation
-                .set_motion(&self.references, index as f64 * interval_s),
-        };
-        let actions = [
-            self.excitation.start(&self.references),
-            input(0),
-            step(0),
-            Action::Save,
-            input(1),
-            step(1),
-            self.get(),
-            Action::Restore,
-            input(1),
-            step(1),
-            self.get(),
-        ];
-        self.actions.extend(actions);
-    }
-
-    fn judge(&self, inspection: &Inspection, values: &[Vec<f64>], report: &mut RunReport) {
-        let joint = &inspection.joint.joint;
-        let mut rest = values;
-        let mut balances = Vec::new();
-        for steps in STEPS {
-            let Some((run, after)) = rest.split_at_checked(self.points(steps)) else {
-                return;
-            };
-            rest = after;
-            let samples = judge::samples(&self.references, run);
-            if let Some(wrong) = judge::load_finding(joint, inspection.interface, &samples) {
-                report.findings.push(wrong);
-                return;
-            }
-            balances.extend(judge::balance(&self.excitation, &samples, steps));
-        }
-        report
-            .facts
-            .push("loads: those of resources/joint.json at every communication point".to_owned());
-        if let [coarse, fine] = balances.as_slice() {
-            let balance = judge::refined(coarse, fine);
-            report.findings.extend(balance_finding(&balance));
-            report.balance = Some(balance);
-        }
-        if let (Some(seed), [at, derived, after @ ..]) = (&self.seed, rest) {
-            rest = after;
-            if let Some(sample) = self.references.sample(at) {
-                match judge::derivative_finding(joint, &sample, seed, derived) {
-                    Some(wrong) => report.findings.push(wrong),
-                    None => report
-                        .facts
-                        .push("directional derivatives: those of the joint's law".to_owned()),
-                }
-            }
-        }
-        if let (true, [first, second]) = (self.has_states, rest) {
-            let same = first
-                .iter()
-                .zip(second)
-                .all(|(one, other)| one.to_bits() == other.to_bits());
-            if same {
-                report.facts.push(
-                    "saved state: the step repeated from it is the same to the last bit".to_owned(),
-                );
-            } else {
-                report.findings.push(format!(
-                    "run: found {second:?} after a step from a restored state, expected {first:?} as the first time"
-                ));
-            }
-        }
-    }
-
-    /// Communication points of a run with `steps` steps in a span.
-    fn points(&self, steps: usize) -> usize {
-        self.excitation.step_count(steps) + 1
-    }
-}
-
-/// Every motion of both sides at once, in different measure.
-fn seed(references: &References) -> Vec<f64> {
-    (0..moved(references).len())
-        .map(|i| 1.0 + 0.37 * i as f64)
-        .collect()
-}
-
-fn balance_finding(balance: &BalanceReport) -> Option<String> {
-    if !balance.is_balanced() {
-        return Some(format!(
-            "run: found an energy balance that is off by {:.3e} J, expected at most {:.1e} J: {:.6e} J went in, energy.stored \
-             changed by {:.6e} J, power.dissipated took {:.6e} J",
-            balance.imbalance_j(),
-            balance.tolerance_j,
-            balance.work_j,
-            balance.stored_j,
-            balance.dissipated_j
-        ));
-    }
-    (balance.tolerance_j > MEANINGFUL * balance.scale_j).then(|| {
-        format!(
-            "run: found an energy balance that is only known to {:.1e} J of {:.1e} J, expected the run to be accurate \
-             enough to judge it",
-            balance.tolerance_j, balance.scale_j
-        )
-    })
 }

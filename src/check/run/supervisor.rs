@@ -36,8 +36,8 @@ pub(super) struct Ran {
 }
 
 impl Runner {
-    /// Carries out the script; files go to `folder`.
-    pub(super) fn run(&self, script: &Script, folder: &Path) -> io::Result<Ran> {
+    /// Carries out the script on the FMU in `unpacked`; files go to `folder`.
+    pub(super) fn run(&self, script: &Script, folder: &Path, unpacked: &Path) -> io::Result<Ran> {
         let path = |name: &str| folder.join(name);
         fs::write(path("script.json"), serde_json::to_vec(script)?)?;
         let mut child = Command::new(&self.program)
@@ -59,6 +59,9 @@ impl Runner {
         };
         let mut at = "the start of the child process".to_owned();
         let mut is_finished = false;
+        // paths in the FMU, without the folder that it happens to be in
+        let inside = format!("{}{}", unpacked.display(), std::path::MAIN_SEPARATOR);
+        let shown = |text: String| text.replace(&inside, "");
         // the last line may be cut
         for entry in journal
             .lines()
@@ -72,14 +75,16 @@ impl Runner {
                         .get(index)
                         .map_or_else(String::new, ToString::to_string);
                 }
-                Entry::Logged(message) => ran.messages.push(message),
+                Entry::Logged(message) => ran.messages.push(shown(message)),
                 Entry::Values(values) => ran.values.push(
                     values
                         .into_iter()
                         .map(|value| value.unwrap_or(f64::NAN))
                         .collect(),
                 ),
-                Entry::Refused(refused) => ran.failure = Some(format!("{refused} (during {at})")),
+                Entry::Refused(refused) => {
+                    ran.failure = Some(shown(format!("{refused} (during {at})")))
+                }
                 Entry::Finished => is_finished = true,
             }
         }

@@ -10,6 +10,7 @@
 )]
 
 mod documented;
+mod flags;
 mod shared_library;
 
 use std::collections::BTreeSet;

@@ -11,6 +11,13 @@
 
 mod documented;
 mod flags;
+#[cfg(all(
+    target_os = "linux",
+    target_env = "gnu",
+    target_pointer_width = "64",
+    any(target_arch = "x86_64", target_arch = "aarch64")
+))]
+mod old_glibc;
 mod shared_library;
 
 use std::collections::BTreeSet;

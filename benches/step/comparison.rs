@@ -1,4 +1,4 @@
-//! The same communication steps by two ways, and the time that each takes.
+//! The same communication steps by several ways, and the time that each takes.
 
 use std::{
     error::Error,
@@ -14,6 +14,7 @@ use criterion::Criterion;
 use crate::{
     STEP_SIZE_MAX_S,
     fmu::{Fmu, Library},
+    reference::{Compiler, Inertias, Reference},
     start_file,
 };
 
@@ -28,19 +29,23 @@ const LOAD_ON_A: [u32; 2] = [9, 10];
 /// Takes a number of communication steps and gives the sum of all outputs on the way.
 type Run<'a> = Box<dyn FnMut(u64) -> f64 + 'a>;
 
-/// Two ways to take the same steps.
+/// The ways, in the order in which they are shown.
+const WAYS: [&str; 4] = ["FMU", "plain Rust", "C reciprocals", "C divisions"];
+
+/// Several ways to take the same steps: the FMU, a plain Rust loop and, for the lap and where there is a compiler, C.
 pub(crate) struct Comparison<'a> {
     name: &'static str,
     is_linear: bool,
-    fmu: Run<'a>,
-    plain: Run<'a>,
+    /// In the order of [`WAYS`], of which the last may be missing.
+    ways: Vec<Run<'a>>,
 }
 
 impl<'a> Comparison<'a> {
-    /// Lap FMU against its integrator: loads in, motion out.
+    /// Lap FMU against its integrator and against C: loads in, motion out.
     pub(crate) fn of_lap<const D: usize>(
         name: &'static str,
         library: &'a Library,
+        compiler: Option<&Compiler>,
         lap: &Lap<D>,
         substeps: u32,
     ) -> Result<Self, Box<dyn Error>> {
@@ -57,6 +62,15 @@ impl<'a> Comparison<'a> {
         });
 
         let inputs = loads.map(|loads| [loads.a, loads.b].concat());
+        let mut in_c: Vec<Run<'a>> = Vec::new();
+        if let Some(compiler) = compiler {
+            for inertias in [Inertias::Reciprocals, Inertias::Divided] {
+                let loads = inputs.concat();
+                let mut reference =
+                    Reference::new(compiler, inertias, lap, loads, interval_s, substeps)?;
+                in_c.push(Box::new(move |steps| reference.take(steps)));
+            }
+        }
         let start = start_file::lap(lap, STEP_SIZE_MAX_S);
         let fmu = through_fmi(
             Fmu::start(library, &start)?,
@@ -89,8 +103,7 @@ impl<'a> Comparison<'a> {
         Ok(Self {
             name,
             is_linear: integrator.is_linear(),
-            fmu,
-            plain: Box::new(plain),
+            ways: [fmu, Box::new(plain)].into_iter().chain(in_c).collect(),
         })
     }
 
@@ -138,30 +151,33 @@ impl<'a> Comparison<'a> {
         Ok(Self {
             name,
             is_linear: false,
-            fmu,
-            plain: Box::new(plain),
+            ways: vec![fmu, Box::new(plain)],
         })
     }
 
-    /// Refuses to measure two ways that do not compute the same: bit for bit, or, where the FMU takes one product for
-    /// all Runge–Kutta steps, to rounding.
+    /// Refuses to measure ways that do not compute the same: FMU and Rust bit for bit, or, where the FMU takes one
+    /// product for all Runge–Kutta steps, to rounding; C to rounding.
     pub(crate) fn check(&mut self) -> Result<(), String> {
-        let (fmu, plain) = ((self.fmu)(1001), (self.plain)(1001));
-        let rounding = if self.is_linear { 1e-9 } else { 0.0 };
-        if (fmu - plain).abs() <= rounding * plain.abs() {
-            Ok(())
-        } else {
-            let name = self.name;
-            Err(format!(
-                "{name}: the FMU gives {fmu:e}, the plain loop {plain:e}"
-            ))
+        let sums: Vec<f64> = self.ways.iter_mut().map(|run| run(1001)).collect();
+        for (way, (&sum, name)) in sums.iter().zip(WAYS).enumerate() {
+            let rounding = if way < 2 && !self.is_linear {
+                0.0
+            } else {
+                1e-9
+            };
+            let agrees = (sum - sums[0]).abs() <= rounding * sums[0].abs();
+            if !agrees {
+                let (case, fmu) = (self.name, sums[0]);
+                return Err(format!("{case}: {name} gives {sum:e}, the FMU {fmu:e}"));
+            }
         }
+        Ok(())
     }
 
-    /// Criterion's report of both ways.
+    /// Criterion's report of all ways.
     pub(crate) fn bench(&mut self, criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(self.name);
-        for (way, run) in [("FMI", &mut self.fmu), ("plain loop", &mut self.plain)] {
+        for (way, run) in WAYS.into_iter().zip(&mut self.ways) {
             group.bench_function(way, |bencher| {
                 bencher.iter_custom(|steps| time(run, steps));
             });
@@ -169,46 +185,61 @@ impl<'a> Comparison<'a> {
         group.finish();
     }
 
-    /// Median times of one step in ns, FMI and plain, both ways measured in turns.
-    fn medians_ns(&mut self) -> [f64; 2] {
+    /// Median time of one step in ns by each way, all measured in turns.
+    fn medians_ns(&mut self) -> Vec<f64> {
         const ROUNDS: usize = 1001;
         const ROUND_S: f64 = 2e-4;
         let trial = 1000;
-        let steps =
-            (ROUND_S * trial as f64 / time(&mut self.plain, trial).as_secs_f64()).ceil() as u64;
-        let mut samples = [Vec::with_capacity(ROUNDS), Vec::with_capacity(ROUNDS)];
+        let steps: Vec<u64> = self
+            .ways
+            .iter_mut()
+            .map(|run| (ROUND_S * trial as f64 / time(run, trial).as_secs_f64()).ceil() as u64)
+            .collect();
+        let mut samples = vec![Vec::with_capacity(ROUNDS); self.ways.len()];
         for _ in 0..ROUNDS {
-            for (run, samples) in [&mut self.fmu, &mut self.plain]
-                .into_iter()
-                .zip(&mut samples)
-            {
+            for ((run, &steps), samples) in self.ways.iter_mut().zip(&steps).zip(&mut samples) {
                 samples.push(1e9 * time(run, steps).as_secs_f64() / steps as f64);
             }
         }
-        samples.map(|mut samples| {
-            samples.sort_by(f64::total_cmp);
-            samples[ROUNDS / 2]
-        })
+        samples
+            .into_iter()
+            .map(|mut samples| {
+                samples.sort_by(f64::total_cmp);
+                samples[ROUNDS / 2]
+            })
+            .collect()
     }
 }
 
-/// Prints the table of times, and a line with the ratios alone.
+/// Prints the times of one communication step, and those of the FMU in proportion to the others.
 pub(crate) fn print_ratios(comparisons: &mut [Comparison<'_>]) {
-    println!(
-        "{:<34}{:>10}{:>16}{:>16}{:>8}",
-        "communication step", "FMI, ns", "plain loop, ns", "difference, ns", "ratio"
-    );
-    let mut ratios = Vec::new();
-    for comparison in comparisons {
-        let [fmi, plain] = comparison.medians_ns();
-        let (name, ratio) = (comparison.name, fmi / plain);
-        println!(
-            "{name:<34}{fmi:>10.1}{plain:>16.1}{:>16.1}{ratio:>8.3}",
-            fmi - plain
-        );
-        ratios.push(format!("{name}: {ratio:.3}"));
+    print!("\n{:<32}", "one communication step, ns");
+    for way in WAYS {
+        print!("{way:>15}");
     }
-    println!("FMI / plain loop: {}", ratios.join("; "));
+    print!("   |");
+    for way in &WAYS[1..] {
+        print!("{:>17}", format!("/ {way}"));
+    }
+    println!();
+    for comparison in comparisons {
+        let medians = comparison.medians_ns();
+        print!("{:<32}", comparison.name);
+        for way in 0..WAYS.len() {
+            print!("{:>15}", cell(medians.get(way), 1));
+        }
+        print!("   |");
+        for way in 1..WAYS.len() {
+            let ratio = medians.get(way).map(|median| medians[0] / median);
+            print!("{:>17}", cell(ratio.as_ref(), 3));
+        }
+        println!();
+    }
+}
+
+/// A number, or a dash where there is none.
+fn cell(number: Option<&f64>, decimals: usize) -> String {
+    number.map_or("-".into(), |number| format!("{number:.decimals$}"))
 }
 
 fn time(run: &mut Run<'_>, steps: u64) -> Duration {

@@ -1,11 +1,13 @@
-//! What a communication step costs through FMI, beside the same equations in a plain Rust loop.
+//! What a communication step costs through FMI, beside the same equations in a plain Rust loop and in plain C.
 //!
 //! The FMU's side is what an importer does: `fmi3SetFloat64`, `fmi3DoStep`, `fmi3GetFloat64`, in the very library that
-//! the executable embeds, loaded at run time. Criterion reports both sides; after that, both are timed once more in
-//! turns, so that they share whatever else the machine does, and their ratios are printed.
+//! the executable embeds, loaded at run time. The C side is `reference.c`, compiled with `-O3` when the benchmark
+//! starts; it has no interface to cross. Criterion reports all ways; after that, all are timed once more in turns, so
+//! that they share whatever else the machine does, and the FMU's time is printed in proportion to the others.
 
 mod comparison;
 mod fmu;
+mod reference;
 mod start_file;
 
 use std::{error::Error, time::Duration};
@@ -13,24 +15,40 @@ use std::{error::Error, time::Duration};
 use bolted_joint_dynamics::{Body, JointLaw, Lap};
 use criterion::Criterion;
 
-use crate::{comparison::Comparison, fmu::Library};
+use crate::{comparison::Comparison, fmu::Library, reference::Compiler};
 
 /// Longest Runge–Kutta step, s.
 const STEP_SIZE_MAX_S: f64 = 1e-5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let library = Library::load()?;
+    let compiler = Compiler::find()
+        .map_err(|missing| eprintln!("no comparison with C: {missing}"))
+        .ok();
+    let cc = compiler.as_ref();
     let (translation, rotation) = (translational_lap(), rotational_lap());
     let (linear_1, linear_2) = (without_cubic(&translation), without_cubic(&rotation));
     let mut comparisons = [
-        Comparison::of_lap("lap, 1 DOF, 1 substep", &library, &translation, 1)?,
-        Comparison::of_lap("lap, 1 DOF, 50 substeps", &library, &translation, 50)?,
-        Comparison::of_lap("lap, 2 DOF, 1 substep", &library, &rotation, 1)?,
-        Comparison::of_lap("lap, 2 DOF, 50 substeps", &library, &rotation, 50)?,
-        Comparison::of_lap("linear lap, 1 DOF, 1 substep", &library, &linear_1, 1)?,
-        Comparison::of_lap("linear lap, 1 DOF, 50 substeps", &library, &linear_1, 50)?,
-        Comparison::of_lap("linear lap, 2 DOF, 1 substep", &library, &linear_2, 1)?,
-        Comparison::of_lap("linear lap, 2 DOF, 50 substeps", &library, &linear_2, 50)?,
+        Comparison::of_lap("lap, 1 DOF, 1 substep", &library, cc, &translation, 1)?,
+        Comparison::of_lap("lap, 1 DOF, 50 substeps", &library, cc, &translation, 50)?,
+        Comparison::of_lap("lap, 2 DOF, 1 substep", &library, cc, &rotation, 1)?,
+        Comparison::of_lap("lap, 2 DOF, 50 substeps", &library, cc, &rotation, 50)?,
+        Comparison::of_lap("linear lap, 1 DOF, 1 substep", &library, cc, &linear_1, 1)?,
+        Comparison::of_lap(
+            "linear lap, 1 DOF, 50 substeps",
+            &library,
+            cc,
+            &linear_1,
+            50,
+        )?,
+        Comparison::of_lap("linear lap, 2 DOF, 1 substep", &library, cc, &linear_2, 1)?,
+        Comparison::of_lap(
+            "linear lap, 2 DOF, 50 substeps",
+            &library,
+            cc,
+            &linear_2,
+            50,
+        )?,
         Comparison::of_element("element, 2 DOF", &library, &rotation.joint)?,
     ];
     for comparison in &mut comparisons {

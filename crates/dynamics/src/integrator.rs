@@ -1,49 +1,67 @@
 //! Time integration of the lap model, under held loads and under loads that change within a step.
 
-use std::num::NonZeroU32;
+use std::{array::from_fn, num::NonZeroU32};
 
-use crate::joint::Motion;
-use crate::lap::{Body, Lap, LapLoads, LapState};
-use crate::rk4::{self, Linear, Stage};
+use crate::{
+    joint::Motion,
+    lap::{Body, Lap, LapLoads, LapState},
+    pair::Pair,
+};
 
-impl<const D: usize> Linear for Motion<D> {
-    #[inline]
-    fn plus(&self, factor: f64, rate: &Self) -> Self {
-        Self {
-            displacement: std::array::from_fn(|i| {
-                self.displacement[i] + factor * rate.displacement[i]
-            }),
-            velocity: std::array::from_fn(|i| self.velocity[i] + factor * rate.velocity[i]),
-        }
-    }
-}
-
-impl<const D: usize> Linear for LapState<D> {
-    #[inline]
-    fn plus(&self, factor: f64, rate: &Self) -> Self {
-        Self {
-            a: self.a.plus(factor, &rate.a),
-            b: self.b.plus(factor, &rate.b),
-        }
-    }
-}
-
-/// The lap model made ready for stepping: divisions by the inertias are done once.
+/// The lap model made ready for stepping: all coefficients are divided by the inertias once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LapIntegrator<const D: usize> {
-    lap: Lap<D>,
-    mobility_a: [f64; D],
-    mobility_b: [f64; D],
+    /// 1/m
+    mobility: [Pair; D],
+    /// k/m of the supports.
+    support: [Pair; D],
+    /// K/m of the joint.
+    joint: [[Pair; D]; D],
+    /// k3/m of the joint.
+    cubic: [Pair; D],
+    damping: Damping<D>,
+}
+
+/// The dampers of supports and joint, as a linear map of velocities to accelerations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Damping<const D: usize> {
+    /// c/m of the supports.
+    support: [Pair; D],
+    /// C/m of the joint.
+    joint: [[Pair; D]; D],
+}
+
+/// What a step needs of its length h.
+struct Step<const D: usize> {
+    /// h
+    length_s: f64,
+    /// The dampers times h/2 and h.
+    half_damping: Damping<D>,
+    full_damping: Damping<D>,
 }
 
 impl<const D: usize> LapIntegrator<D> {
     /// Prepares `lap` for stepping. Its inertias must be positive: [`Lap::defect`] tells.
     #[must_use]
     pub fn new(lap: &Lap<D>) -> Self {
+        let over_inertia =
+            |i: usize, a: f64, b: f64| Pair::new(a / lap.a.inertia[i], b / lap.b.inertia[i]);
+        let of_bodies = |value: fn(&Body<D>, usize) -> f64| {
+            from_fn(|i| over_inertia(i, value(&lap.a, i), value(&lap.b, i)))
+        };
+        let of_joint = |matrix: &[[f64; D]; D]| {
+            from_fn(|i| from_fn(|j| over_inertia(i, matrix[i][j], matrix[i][j])))
+        };
+        let law = &lap.joint;
         Self {
-            lap: *lap,
-            mobility_a: lap.a.inertia.map(f64::recip),
-            mobility_b: lap.b.inertia.map(f64::recip),
+            mobility: of_bodies(|_, _| 1.0),
+            support: of_bodies(|body, i| body.stiffness[i]),
+            joint: of_joint(&law.stiffness),
+            cubic: from_fn(|i| over_inertia(i, law.cubic[i], law.cubic[i])),
+            damping: Damping {
+                support: of_bodies(|body, i| body.damping[i]),
+                joint: of_joint(&law.damping),
+            },
         }
     }
 
@@ -51,7 +69,7 @@ impl<const D: usize> LapIntegrator<D> {
     #[inline]
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.lap.joint.cubic.iter().all(|&cubic| cubic == 0.0)
+        self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
     }
 
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
@@ -65,17 +83,35 @@ impl<const D: usize> LapIntegrator<D> {
         substeps: NonZeroU32,
     ) -> LapState<D> {
         let step_s = interval_s / f64::from(substeps.get());
-        let mut state = *state;
-        for _ in 0..substeps.get() {
-            state = rk4::step(|_, state| self.rate(state, loads), &state, step_s);
+        if substeps == NonZeroU32::MIN {
+            return self.step_with_loads(state, &[*loads; 3], step_s);
         }
-        state
+        let (x, v) = self.take_many(state, loads, step_s, substeps);
+        join(&x, &v)
+    }
+
+    /// Equal steps under held loads. Apart from all else, so that the bodies stay side by side in the registers.
+    #[inline(never)]
+    fn take_many(
+        &self,
+        state: &LapState<D>,
+        loads: &LapLoads<D>,
+        step_s: f64,
+        count: NonZeroU32,
+    ) -> ([Pair; D], [Pair; D]) {
+        let step = self.step(step_s);
+        let load = self.accelerations_by(loads);
+        let (mut x, mut v) = split(state);
+        for _ in 0..count.get() {
+            (x, v) = self.take(&step, &x, &v, [&load; 3]);
+        }
+        (x, v)
     }
 
     /// State after one RK4 step of `step_s` (s) under loads that change: `loads` at its start, its middle and its end.
     ///
     /// With three equal loads this is one substep of [`LapIntegrator::advance`], to the last bit.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn step_with_loads(
         &self,
@@ -83,48 +119,146 @@ impl<const D: usize> LapIntegrator<D> {
         loads: &[LapLoads<D>; 3],
         step_s: f64,
     ) -> LapState<D> {
-        let [start, middle, end] = loads;
-        let rate = |stage, state: &LapState<D>| {
-            let loads = match stage {
-                Stage::Start => start,
-                Stage::Middle => middle,
-                Stage::End => end,
-            };
-            self.rate(state, loads)
-        };
-        rk4::step(rate, state, step_s)
+        let loads = loads.each_ref().map(|loads| self.accelerations_by(loads));
+        let (x, v) = split(state);
+        let (x, v) = self.take(&self.step(step_s), &x, &v, loads.each_ref());
+        join(&x, &v)
     }
 
     /// Rate of change of the state: velocities and accelerations.
     #[inline]
     #[must_use]
     pub fn rate(&self, state: &LapState<D>, loads: &LapLoads<D>) -> LapState<D> {
-        let on_b = self.lap.joint.load_on_b(&state.a.relative_to(&state.b));
-        // m_a ẍ_a = F_a − k_a x_a − c_a ẋ_a − F_joint
-        // m_b ẍ_b = F_b − k_b x_b − c_b ẋ_b + F_joint   (Pirdayr's equations of motion, a = 1, b = 2)
-        let on_a = on_b.map(|load| -load);
-        LapState {
-            a: body_rate(&self.lap.a, &self.mobility_a, &state.a, &loads.a, &on_a),
-            b: body_rate(&self.lap.b, &self.mobility_b, &state.b, &loads.b, &on_b),
+        // ẍ = M⁻¹ (F − k x − c ẋ ∓ F_joint)   (Pirdayr's equations of motion)
+        let (x, v) = split(state);
+        let load = self.accelerations_by(loads);
+        join(&v, &self.less_springs(&self.damping.less(&load, &v), &x))
+    }
+
+    /// M⁻¹ F
+    #[inline]
+    fn accelerations_by(&self, loads: &LapLoads<D>) -> [Pair; D] {
+        from_fn(|i| Pair::new(loads.a[i], loads.b[i]) * self.mobility[i])
+    }
+
+    /// What is left of `acceleration` after the springs have taken their share.
+    #[inline]
+    fn less_springs(&self, acceleration: &[Pair; D], x: &[Pair; D]) -> [Pair; D] {
+        // − M⁻¹ (k x + K r + k3 ∘ r³), where r is x_a − x_b for body a and x_b − x_a for body b
+        let r = x.map(Pair::relative);
+        from_fn(|i| {
+            let cubic = (self.cubic[i] * r[i]) * (r[i] * r[i]);
+            acceleration[i] - self.support[i] * x[i] - dot(&self.joint[i], &r) - cubic
+        })
+    }
+
+    /// What a step of `length_s` (s) needs.
+    #[inline]
+    fn step(&self, length_s: f64) -> Step<D> {
+        Step {
+            length_s,
+            half_damping: self.damping.times(0.5 * length_s),
+            full_damping: self.damping.times(length_s),
+        }
+    }
+
+    /// One RK4 step, with the accelerations that the loads give at its start, middle and end.
+    #[inline(always)]
+    fn take(
+        &self,
+        step: &Step<D>,
+        x: &[Pair; D],
+        v: &[Pair; D],
+        [start, middle, end]: [&[Pair; D]; 3],
+    ) -> ([Pair; D], [Pair; D]) {
+        let h = step.length_s;
+        let (half, sixth) = (0.5 * h, h / 6.0);
+        // With f the springs and loads and c the dampers, the four stages of ẋ = v, v̇ = f(t, x) − c(v) are as below.
+        // Every sum takes last what is known last, so that as little as possible waits for it.
+        // a₁ = f(t, x) − c(v)
+        let a1 = self.less_springs(&self.damping.less(start, v), x);
+        // a₂ = f(t + h/2, x + h/2 v) − c(v) − h/2 c(a₁)
+        let middle = self.damping.less(middle, v);
+        let x2 = moved(x, half, v);
+        let a2 = step
+            .half_damping
+            .less(&self.less_springs(&middle, &x2), &a1);
+        // a₃ = f(t + h/2, x + h/2 v + h²/4 a₁) − c(v) − h/2 c(a₂)
+        let x3 = moved(&x2, half * half, &a1);
+        let a3 = step
+            .half_damping
+            .less(&self.less_springs(&middle, &x3), &a2);
+        // a₄ = f(t + h, x + h v + h²/2 a₂) − c(v) − h c(a₃)
+        let end = self.damping.less(end, v);
+        let x1 = moved(&x2, half, v);
+        let x4 = moved(&x1, half * h, &a2);
+        let a4 = step.full_damping.less(&self.less_springs(&end, &x4), &a3);
+        // x(t+h) = x + h v + h²/6 (a₁ + a₂ + a₃),  v(t+h) = v + h/6 (a₁ + 2a₂ + 2a₃ + a₄)
+        let inner: [Pair; D] = from_fn(|i| a1[i] + a2[i] + a3[i]);
+        let outer: [Pair; D] = from_fn(|i| inner[i] + a2[i] + a3[i]);
+        (
+            moved(&x1, h * sixth, &inner),
+            moved(&moved(v, sixth, &outer), sixth, &a4),
+        )
+    }
+}
+
+impl<const D: usize> Damping<D> {
+    /// What is left of `acceleration` after the dampers have taken their share at these velocities.
+    #[inline]
+    fn less(&self, acceleration: &[Pair; D], v: &[Pair; D]) -> [Pair; D] {
+        // − M⁻¹ (c v + C ṙ)
+        let r = v.map(Pair::relative);
+        from_fn(|i| acceleration[i] - self.support[i] * v[i] - dot(&self.joint[i], &r))
+    }
+
+    #[inline]
+    fn times(&self, factor: f64) -> Self {
+        Self {
+            support: self.support.map(|c| c * factor),
+            joint: self.joint.map(|row| row.map(|c| c * factor)),
         }
     }
 }
 
 #[inline]
-fn body_rate<const D: usize>(
-    body: &Body<D>,
-    reciprocal_inertia: &[f64; D],
-    motion: &Motion<D>,
-    external: &[f64; D],
-    joint: &[f64; D],
-) -> Motion<D> {
-    Motion {
-        displacement: motion.velocity,
-        velocity: std::array::from_fn(|i| {
-            let support =
-                body.stiffness[i] * motion.displacement[i] + body.damping[i] * motion.velocity[i];
-            (external[i] - support + joint[i]) * reciprocal_inertia[i]
-        }),
+fn dot<const D: usize>(row: &[Pair; D], vector: &[Pair; D]) -> Pair {
+    let mut sum = row[0] * vector[0];
+    for j in 1..D {
+        sum = sum + row[j] * vector[j];
+    }
+    sum
+}
+
+/// `x + factor · by`
+#[inline]
+fn moved<const D: usize>(x: &[Pair; D], factor: f64, by: &[Pair; D]) -> [Pair; D] {
+    from_fn(|i| x[i] + by[i] * factor)
+}
+
+/// Displacements and velocities.
+#[inline]
+fn split<const D: usize>(state: &LapState<D>) -> ([Pair; D], [Pair; D]) {
+    let LapState { a, b } = state;
+    let pairs = |a: &[f64; D], b: &[f64; D]| from_fn(|i| Pair::new(a[i], b[i]));
+    (
+        pairs(&a.displacement, &b.displacement),
+        pairs(&a.velocity, &b.velocity),
+    )
+}
+
+/// Inverse of [`split`].
+#[inline]
+fn join<const D: usize>(x: &[Pair; D], v: &[Pair; D]) -> LapState<D> {
+    LapState {
+        a: Motion {
+            displacement: x.map(|pair| pair.a),
+            velocity: v.map(|pair| pair.a),
+        },
+        b: Motion {
+            displacement: x.map(|pair| pair.b),
+            velocity: v.map(|pair| pair.b),
+        },
     }
 }
 
@@ -266,5 +400,106 @@ mod tests {
         let held = integrator.advance(&LapState::REST, &loads, 4e-3, NonZeroU32::MIN);
         let stepped = integrator.step_with_loads(&LapState::REST, &[loads; 3], 4e-3);
         assert_eq!(held, stepped);
+    }
+
+    /// ẋ of the full lap as the equations of motion stand in the textbook, with divisions: `x` has the displacements
+    /// of a and b, then their velocities.
+    fn textbook_rate(lap: &Lap<2>, x: &[f64; 8], loads: &LapLoads<2>) -> [f64; 8] {
+        let r: [f64; 2] = from_fn(|i| x[i] - x[2 + i]);
+        let s: [f64; 2] = from_fn(|i| x[4 + i] - x[6 + i]);
+        let (stiffness, damping, cubic) =
+            (&lap.joint.stiffness, &lap.joint.damping, &lap.joint.cubic);
+        let mut rate = [0.0; 8];
+        rate[..4].copy_from_slice(&x[4..]);
+        for i in 0..2 {
+            let mut joint = cubic[i] * r[i].powi(3);
+            for j in 0..2 {
+                joint += stiffness[i][j] * r[j] + damping[i][j] * s[j];
+            }
+            let bodies = [(&lap.a, loads.a[i], -joint), (&lap.b, loads.b[i], joint)];
+            for (n, (body, load, joint)) in bodies.into_iter().enumerate() {
+                let at = 2 * n + i;
+                let support = body.stiffness[i] * x[at] + body.damping[i] * x[4 + at];
+                rate[4 + at] = (load - support + joint) / body.inertia[i];
+            }
+        }
+        rate
+    }
+
+    #[test]
+    fn a_step_is_the_textbook_s_four_stages() {
+        let body = |scale: f64| Body {
+            inertia: [1.41 * scale, 1e-3 / scale],
+            stiffness: [8.24e5, 1e3 * scale],
+            damping: [200.0 * scale, 0.05],
+        };
+        let lap = Lap {
+            joint: JointLaw {
+                stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+                damping: [[108.3, -0.83], [-0.83, 0.083]],
+                cubic: [5e12, 1e6],
+            },
+            a: body(1.0),
+            b: body(2.5),
+        };
+        let integrator = LapIntegrator::new(&lap);
+        let step_s = 1e-4;
+        let loads: [LapLoads<2>; 3] = from_fn(|n| {
+            let n = n as f64;
+            LapLoads {
+                a: [300.0 - 200.0 * n, 2.0 + n],
+                b: [-100.0 + 50.0 * n * n, 3.0 - 2.0 * n],
+            }
+        });
+        let mut state = LapState::REST;
+        let mut x = [0.0; 8];
+        let mut largest = [0.0_f64; 8];
+        for _ in 0..200 {
+            state = integrator.step_with_loads(&state, &loads, step_s);
+            let plus = |factor: f64, rate: &[f64; 8]| from_fn(|i| x[i] + factor * rate[i]);
+            let k1 = textbook_rate(&lap, &x, &loads[0]);
+            let k2 = textbook_rate(&lap, &plus(step_s / 2.0, &k1), &loads[1]);
+            let k3 = textbook_rate(&lap, &plus(step_s / 2.0, &k2), &loads[1]);
+            let k4 = textbook_rate(&lap, &plus(step_s, &k3), &loads[2]);
+            x = from_fn(|i| x[i] + step_s / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+            let LapState { a, b } = state;
+            let [found, other] = [a, b].map(|side| [side.displacement, side.velocity]);
+            for i in 0..2 {
+                for (at, value) in [
+                    (i, found[0][i]),
+                    (2 + i, other[0][i]),
+                    (4 + i, found[1][i]),
+                    (6 + i, other[1][i]),
+                ] {
+                    largest[at] = largest[at].max(x[at].abs());
+                    let error = (value - x[at]).abs();
+                    assert!(error < 1e-13 * largest[at], "{at}: {value:e}, {:e}", x[at]);
+                }
+            }
+        }
+        // the cubic springs had a share in it
+        assert!(lap.joint.cubic[0] * (x[0] - x[2]).powi(2) > 0.01 * lap.joint.stiffness[0][0]);
+    }
+
+    #[test]
+    fn many_steps_at_once_are_as_many_single_steps() {
+        let mut lap = decoupled(2e4, 3.0);
+        lap.joint = JointLaw {
+            stiffness: [[7e3]],
+            damping: [[0.3]],
+            cubic: [1e9],
+        };
+        let integrator = LapIntegrator::new(&lap);
+        let loads = LapLoads {
+            a: [12.0],
+            b: [-5.0],
+        };
+        let count = NonZeroU32::new(64).unwrap();
+        let at_once = integrator.advance(&LapState::REST, &loads, 64e-3, count);
+        let mut state = LapState::REST;
+        for _ in 0..64 {
+            state = integrator.advance(&state, &loads, 64e-3 / 64.0, NonZeroU32::MIN);
+        }
+        assert_eq!(at_once, state);
     }
 }

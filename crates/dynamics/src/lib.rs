@@ -12,6 +12,7 @@ mod escape;
 mod integrator;
 mod joint;
 mod lap;
+mod pair;
 mod propagator;
 mod rk4;
 mod spectrum;

@@ -6,8 +6,24 @@ use crate::{
     integrator::LapIntegrator,
     joint::Motion,
     lap::{LapLoads, LapState},
-    rk4::Linear,
 };
+
+impl<const D: usize> LapState<D> {
+    /// `self + factor · rate`
+    #[inline]
+    fn plus(&self, factor: f64, rate: &Self) -> Self {
+        let sum =
+            |of: &[f64; D], rate: &[f64; D]| std::array::from_fn(|i| of[i] + factor * rate[i]);
+        let moved = |motion: &Motion<D>, rate: &Motion<D>| Motion {
+            displacement: sum(&motion.displacement, &rate.displacement),
+            velocity: sum(&motion.velocity, &rate.velocity),
+        };
+        Self {
+            a: moved(&self.a, &rate.a),
+            b: moved(&self.b, &rate.b),
+        }
+    }
+}
 
 /// Change of a linear lap's state over a fixed interval, for any state at its start and any held loads.
 ///

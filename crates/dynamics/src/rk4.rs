@@ -1,4 +1,4 @@
-//! The classical Runge–Kutta method of fourth order, and how long its steps may be.
+//! How long the steps of the classical Runge–Kutta method of fourth order may be: accuracy, stability, number.
 
 use std::num::NonZeroU32;
 
@@ -10,37 +10,6 @@ pub const STABILITY_LIMIT_IMAGINARY: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 /// Phase error (rad) that the recommended step allows over one period of the fastest mode.
 pub const PHASE_ERROR_PER_PERIOD: f64 = 1e-6;
-
-/// Points of a linear space: what RK4 needs of a state and of its rate of change.
-pub(crate) trait Linear: Copy {
-    /// `self + factor · rate`
-    fn plus(&self, factor: f64, rate: &Self) -> Self;
-}
-
-/// Where in a step a stage of RK4 lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
-    /// t
-    Start,
-    /// t + h/2
-    Middle,
-    /// t + h
-    End,
-}
-
-/// One step of length `step_s` of the classical RK4 for ẋ = f(t, x).
-#[inline]
-pub(crate) fn step<S: Linear>(rate_of: impl Fn(Stage, &S) -> S, state: &S, step_s: f64) -> S {
-    // k₁ = f(t, x), k₂ = f(t + h/2, x + h/2 k₁), k₃ = f(t + h/2, x + h/2 k₂), k₄ = f(t + h, x + h k₃)
-    let half = 0.5 * step_s;
-    let k1 = rate_of(Stage::Start, state);
-    let k2 = rate_of(Stage::Middle, &state.plus(half, &k1));
-    let k3 = rate_of(Stage::Middle, &state.plus(half, &k2));
-    let k4 = rate_of(Stage::End, &state.plus(step_s, &k3));
-    // x(t+h) = x + h/6 (k₁ + 2k₂ + 2k₃ + k₄)
-    let inner = k2.plus(1.0, &k3);
-    state.plus(step_s / 6.0, &k1.plus(2.0, &inner).plus(1.0, &k4))
-}
 
 /// Number of equal substeps, none longer than `step_size_max_s`, that cover `interval_s`.
 ///
@@ -85,18 +54,10 @@ pub(crate) fn amplification_squared(real: f64, imaginary: f64) -> f64 {
 mod tests {
     use super::*;
 
-    impl Linear for f64 {
-        fn plus(&self, factor: f64, rate: &Self) -> Self {
-            self + factor * rate
-        }
-    }
-
     #[test]
-    fn one_step_of_a_linear_equation_is_the_fourth_order_taylor_polynomial() {
+    fn the_amplification_is_the_fourth_order_taylor_polynomial() {
         let z: f64 = -0.3;
-        let advanced = step(|_, x: &f64| z * x, &1.0, 1.0);
         let taylor = 1.0 + z + z * z / 2.0 + z.powi(3) / 6.0 + z.powi(4) / 24.0;
-        assert!((advanced - taylor).abs() < 1e-15);
         assert!((amplification_squared(z, 0.0) - taylor * taylor).abs() < 1e-15);
     }
 

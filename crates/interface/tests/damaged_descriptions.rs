@@ -61,6 +61,8 @@ refused!(other_type: LAP, r#"<Float64 name="a.y" valueReference="1""# => r#"<Flo
 refused!(array: LAP, r#"start="2e-5" description="Longest Runge-Kutta step, greater than zero; a communication step takes as many equal steps as needed"/>"#
     => r#"start="2e-5" description="d"><Dimension start="2"/></Float64>"#,
     Problem::NotScalar { variable } if variable == "step_size_max");
+refused!(intermediate_parameter: LAP, r#"<Float64 name="a.m""# => r#"<Float64 intermediateUpdate="true" name="a.m""#,
+    Problem::IntermediateUpdate { variable } if variable == "a.m");
 refused!(illegal_name: LAP, r#"name="a.y""# => r#"name="a.2y""#, Problem::IllegalName { variable } if variable == "a.2y");
 refused!(illegal_character: LAP, r#"name="a.y""# => r#"name="a y""#, Problem::IllegalName { variable } if variable == "a y");
 refused!(duplicate_name: LAP, r#"name="a.theta""# => r#"name="a.y""#, Problem::DuplicateName { variable } if variable == "a.y");

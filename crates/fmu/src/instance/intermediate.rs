@@ -4,10 +4,10 @@
 //! The caller takes turns between [`Instance::proceed`] and the importer's callback, so that no reference to the
 //! instance is alive while the callback has the word.
 
-use super::{Instance, InterfaceType};
+use super::Instance;
 use crate::{
     input_course::InputCourse,
-    interface::{REFERENCE_COUNT, Role, Roles, Values, reference::TIME},
+    interface::{InterfaceType, REFERENCE_COUNT, Role, Values, reference::TIME},
     mode::Mode,
     models::CommunicationStep,
     refusal::{Active, NotIntermediate, Refusal},
@@ -306,14 +306,10 @@ impl Instance {
     #[cold]
     pub(super) fn check_settable(&self, references: &[u32]) -> Result<(), Refusal> {
         self.check_access(references, |index| {
-            if !self.roles[index].intersects(Roles::of(&[Role::Input])) {
-                // refused because of what it is
-                None
-            } else if !self.access.requires(index) {
-                Some(NotIntermediate::NotRequired)
-            } else {
-                (!self.access.set).then_some(NotIntermediate::NoSet)
+            if !self.access.requires(index) {
+                return Some(NotIntermediate::NotRequired);
             }
+            (!self.access.set).then_some(NotIntermediate::NoSet)
         })
     }
 

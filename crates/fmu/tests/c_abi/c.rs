@@ -9,6 +9,8 @@ pub(crate) const ERROR: c_int = 3;
 
 pub(crate) type LogMessage = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 pub(crate) type Function = unsafe extern "C" fn();
+pub(crate) type IntermediateUpdate =
+    unsafe extern "C" fn(*mut c_void, f64, bool, bool, bool, bool, *mut bool, *mut f64);
 
 unsafe extern "C" {
     pub(crate) fn fmi3GetVersion() -> *const c_char;
@@ -30,7 +32,7 @@ unsafe extern "C" {
         intermediate_count: usize,
         environment: *mut c_void,
         log: Option<LogMessage>,
-        update: Option<Function>,
+        update: Option<IntermediateUpdate>,
     ) -> *mut c_void;
     pub(crate) fn fmi3InstantiateModelExchange(
         name: *const c_char,
@@ -162,7 +164,7 @@ unsafe extern "C" {
         nsens: usize,
     ) -> c_int;
 
-    // functions that this FMU refuses
+    // Event Mode, Model Exchange, and functions that this FMU refuses
     pub(crate) fn fmi3EnterEventMode(i: *mut c_void) -> c_int;
     pub(crate) fn fmi3EnterStepMode(i: *mut c_void) -> c_int;
     pub(crate) fn fmi3EnterConfigurationMode(i: *mut c_void) -> c_int;

@@ -234,7 +234,8 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let saved = instance.save();
     let bytes = instance.serialize(saved);
     instance.free_state(saved);
-    // the values end 8 bytes before the end; step_size_max comes before four accelerations
+    // before the checksum there are the derivatives of 13 inputs, before them the values; step_size_max comes before
+    // four accelerations
     let forge = |position: usize, content: &[u8]| {
         let mut forged = bytes.clone();
         forged[position..position + content.len()].copy_from_slice(content);
@@ -247,7 +248,8 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         forged[end..].copy_from_slice(&hash.to_le_bytes());
         forged
     };
-    let step_size_max = bytes.len() - 8 - 8 * 5;
+    let inputs = bytes.len() - 8 - (3 + 8 * 3 * 13);
+    let step_size_max = inputs - 8 * 5;
     assert!(
         instance
             .deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()))
@@ -274,6 +276,24 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         message.contains("its communication step is impossible"),
         "{message}"
     );
+    // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
+    for (position, content) in [
+        (inputs, &[0x00, 0x80][..]),
+        (inputs + 2, &[3]),
+        (inputs + 3 + 8, &1.0_f64.to_le_bytes()),
+        (inputs, &[&[0, 0, 1], &f64::NAN.to_le_bytes()[..]].concat()),
+    ] {
+        let forged = forge(position, content);
+        assert_eq!(instance.deserialize(&forged), Err(c::ERROR));
+        let message = instance.error();
+        assert!(
+            message.contains("its course of the inputs is impossible"),
+            "{message}"
+        );
+    }
+    let forged = forge(mode, &[7]);
+    assert_eq!(instance.deserialize(&forged), Err(c::ERROR));
+    assert!(instance.error().contains("its mode is impossible"));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::{
     ffi::{CStr, CString, c_char, c_int, c_void},
     fs,
+    mem::ManuallyDrop,
     path::{Path, PathBuf},
     ptr,
     sync::atomic::{AtomicU32, Ordering},
@@ -154,6 +155,75 @@ pub(crate) unsafe extern "C" fn record(
     }
 }
 
+/// What the callback within a communication step is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Update {
+    pub(crate) time: f64,
+    pub(crate) set: bool,
+    pub(crate) get: bool,
+    pub(crate) finished: bool,
+    pub(crate) can_return_early: bool,
+}
+
+/// What the importer does in the callback; it returns the time of an early return.
+type Script = Box<dyn FnMut(&mut Instance, Update) -> Option<f64>>;
+
+/// `instanceEnvironment`: the log comes first, where [`record`] looks for it.
+#[repr(C)]
+#[derive(Default)]
+struct Environment {
+    log: Vec<Message>,
+    handle: Option<*mut c_void>,
+    script: Option<Script>,
+}
+
+/// The importer's callback within a communication step: runs the script of the environment.
+unsafe extern "C" fn update(
+    environment: *mut c_void,
+    time: f64,
+    set: bool,
+    get: bool,
+    finished: bool,
+    can_return_early: bool,
+    early_return_requested: *mut bool,
+    early_return_time: *mut f64,
+) {
+    let environment = environment.cast::<Environment>();
+    // SAFETY: the tests pass an environment that outlives the instance, the pointers come from the library
+    unsafe {
+        assert!(!*early_return_requested && *early_return_time == time);
+        let Some(mut script) = (*environment).script.take() else {
+            return;
+        };
+        // the instance that called, which is not ours to drop
+        let mut instance = ManuallyDrop::new(Instance {
+            handle: (*environment).handle.unwrap(),
+            environment,
+            start_s: 0.0,
+        });
+        let told = Update {
+            time,
+            set,
+            get,
+            finished,
+            can_return_early,
+        };
+        if let Some(at) = script(&mut instance, told) {
+            *early_return_requested = true;
+            *early_return_time = at;
+        }
+        (*environment).script = Some(script);
+    }
+}
+
+/// What a communication step returned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stepped {
+    pub(crate) status: c_int,
+    pub(crate) early: bool,
+    pub(crate) last: f64,
+}
+
 /// How to instantiate.
 pub(crate) struct Request<'a> {
     pub(crate) name: Option<&'a str>,
@@ -161,6 +231,9 @@ pub(crate) struct Request<'a> {
     pub(crate) resources: Option<&'a str>,
     pub(crate) logging: bool,
     pub(crate) event_mode: bool,
+    pub(crate) early_return: bool,
+    /// Whether to give a callback for intermediate updates, and the variables that it will use.
+    pub(crate) updated: bool,
     pub(crate) intermediate: &'a [u32],
 }
 
@@ -172,6 +245,8 @@ impl Default for Request<'_> {
             resources: None,
             logging: true,
             event_mode: false,
+            early_return: false,
+            updated: false,
             intermediate: &[],
         }
     }
@@ -189,12 +264,12 @@ impl Request<'_> {
                 false,
                 self.logging,
                 self.event_mode,
-                false,
+                self.early_return,
                 self.intermediate.as_ptr(),
                 self.intermediate.len(),
                 log,
                 Some(record),
-                None,
+                self.updated.then_some(update),
             )
         })
     }
@@ -224,15 +299,17 @@ impl Request<'_> {
         let pointers = texts
             .each_ref()
             .map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
-        let log: *mut Vec<Message> = Box::into_raw(Box::default());
-        let handle = function(pointers, log.cast());
+        let environment: *mut Environment = Box::into_raw(Box::default());
+        let handle = function(pointers, environment.cast());
         if handle.is_null() {
-            // SAFETY: nobody else has the log any more
-            return Err(unsafe { *Box::from_raw(log) });
+            // SAFETY: nobody else has the environment any more
+            return Err(unsafe { Box::from_raw(environment) }.log);
         }
+        // SAFETY: the library uses the environment only during a call
+        unsafe { (*environment).handle = Some(handle) };
         Ok(Instance {
             handle,
-            log,
+            environment,
             start_s: 0.0,
         })
     }
@@ -241,7 +318,7 @@ impl Request<'_> {
 /// An instance with its log.
 pub(crate) struct Instance {
     pub(crate) handle: *mut c_void,
-    log: *mut Vec<Message>,
+    environment: *mut Environment,
     start_s: f64,
 }
 
@@ -253,7 +330,7 @@ impl Drop for Instance {
         // SAFETY: made together, freed together
         unsafe {
             c::fmi3FreeInstance(self.handle);
-            drop(Box::from_raw(self.log));
+            drop(Box::from_raw(self.environment));
         }
     }
 }
@@ -290,7 +367,7 @@ impl Instance {
     /// All messages since the last call.
     pub(crate) fn take_log(&mut self) -> Vec<Message> {
         // SAFETY: the library writes to the log only during a call
-        std::mem::take(unsafe { &mut *self.log })
+        std::mem::take(unsafe { &mut (*self.environment).log })
     }
 
     /// The one error message since the last call; events are ignored.
@@ -444,8 +521,55 @@ impl Instance {
         (status == c::OK).then_some(sensitivity).ok_or(status)
     }
 
-    /// Status of a step, and the time that it reached.
+    /// What to do in the callback within a communication step.
+    pub(crate) fn on_update(
+        &mut self,
+        script: impl FnMut(&mut Instance, Update) -> Option<f64> + 'static,
+    ) {
+        // SAFETY: the library uses the environment only during a call
+        unsafe { (*self.environment).script = Some(Box::new(script)) };
+    }
+
+    /// First derivatives of outputs with respect to time.
+    pub(crate) fn output_derivatives(&mut self, references: &[u32]) -> Result<Vec<f64>, c_int> {
+        let orders = vec![1; references.len()];
+        self.derivatives_of_order(references, &orders)
+    }
+
+    /// Derivatives of outputs with respect to time.
+    pub(crate) fn derivatives_of_order(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+    ) -> Result<Vec<f64>, c_int> {
+        let mut values = vec![f64::NAN; references.len()];
+        // SAFETY: pointers and lengths are those of slices
+        let status = unsafe {
+            c::fmi3GetOutputDerivatives(
+                self.handle,
+                references.as_ptr(),
+                references.len(),
+                orders.as_ptr(),
+                values.as_mut_ptr(),
+                values.len(),
+            )
+        };
+        (status == c::OK).then_some(values).ok_or(status)
+    }
+
+    /// Status of a step that ends where it shall or not at all, and the time that it reached.
     pub(crate) fn step(&mut self, t: f64, h: f64) -> (c_int, f64) {
+        let Stepped {
+            status,
+            early,
+            last,
+        } = self.do_step(t, h);
+        assert!(!early);
+        (status, last)
+    }
+
+    /// What a step returned.
+    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Stepped {
         let (mut event, mut terminate, mut early, mut last) = (true, true, true, f64::NAN);
         // SAFETY: the instance lives, all pointers are to locals
         let status = unsafe {
@@ -460,8 +584,12 @@ impl Instance {
                 &raw mut last,
             )
         };
-        assert!(!event && !terminate && !early);
-        (status, last)
+        assert!(!event && !terminate);
+        Stepped {
+            status,
+            early,
+            last,
+        }
     }
 
     pub(crate) fn save(&mut self) -> *mut c_void {

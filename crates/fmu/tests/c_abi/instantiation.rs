@@ -289,23 +289,45 @@ fn instances_need_a_name() {
 }
 
 #[test]
-fn options_that_are_not_offered_are_refused() {
-    let folder = Folder::with_start(&lap());
+fn required_intermediate_variables_are_checked() {
+    let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[]));
     let path = text(&folder.0);
-    let resources = Some(path.as_str());
-    let message = refusal(&Request {
-        resources,
-        event_mode: true,
-        ..Request::default()
-    });
-    assert!(message.contains("eventModeUsed"), "{message}");
-    let message = refusal(&Request {
-        resources,
-        intermediate: &[vr::A_F],
-        ..Request::default()
-    });
+    fn request<'a>(path: &'a str, intermediate: &'a [u32]) -> Request<'a> {
+        Request {
+            resources: Some(path),
+            updated: true,
+            intermediate,
+            ..Request::default()
+        }
+    }
+    let offered = [
+        vr::A_Y,
+        vr::B_V,
+        vr::A_F,
+        vr::JOINT_F,
+        vr::ENERGY,
+        vr::A_ACCELERATION,
+    ];
+    assert!(request(&path, &offered).instantiate().is_ok());
+    for (reference, expected) in [
+        (vr::TIME, "variable time has no intermediateUpdate"),
+        (
+            vr::K_YY,
+            "variable joint.k_yy has no intermediateUpdate in modelDescription.xml",
+        ),
+        (vr::A_THETA, "value reference 2 does not exist"),
+        (vr::NONE, "value reference 42 does not exist"),
+    ] {
+        let message = refusal(&request(&path, &[vr::A_F, reference]));
+        assert!(message.contains(expected), "{message}");
+    }
+    let without_callback = Request {
+        updated: false,
+        ..request(&path, &[vr::A_F])
+    };
+    let message = refusal(&without_callback);
     assert!(
-        message.contains("requiredIntermediateVariables"),
+        message.contains("the callback intermediateUpdate is a null pointer"),
         "{message}"
     );
 }
@@ -484,6 +506,16 @@ fn logging_follows_the_categories() {
         instance
             .error()
             .contains("log category \"logEverything\" does not exist")
+    );
+    // a category that is null
+    let categories = [c"logEvents".as_ptr(), ptr::null()];
+    // SAFETY: the instance lives, the array has the length that is told
+    let status = unsafe { c::fmi3SetDebugLogging(instance.handle, true, 2, categories.as_ptr()) };
+    assert_eq!(status, c::ERROR);
+    assert!(
+        instance
+            .error()
+            .contains("argument categories is a null pointer")
     );
     // SAFETY: the instance lives
     let status = unsafe { c::fmi3SetDebugLogging(instance.handle, true, 2, ptr::null()) };

@@ -11,12 +11,16 @@ extern crate bolted_joint as _;
 
 mod c;
 mod derivatives;
+mod equations;
+mod events;
 mod fmi2;
 mod fmu_state;
 mod importer;
 mod instantiation;
+mod intermediate_update;
 mod model_exchange;
 mod not_provided;
+mod output_derivatives;
 mod own_folder;
 mod random_calls;
 mod state_machine;

@@ -251,7 +251,7 @@ fn calls_are_allowed_in_the_states_of_the_standard_only() {
         (
             "fmi3SetFloat64",
             |i| i.set(&[vr::A_Y], &[1e-5]),
-            &[Instantiated, Initialization],
+            &[Instantiated, Initialization, Event, Continuous],
         ),
         ("fmi3Terminate", Instance::terminate, &[Event, Continuous]),
     ];
@@ -290,11 +290,15 @@ fn each_interface_type_has_its_own_functions() {
         "{message}"
     );
     let mut stepping = Instance::stepping(Kind::Lap, 1, &[]);
-    for call in [
-        Instance::enter_event,
-        Instance::enter_continuous,
-        Instance::complete_step,
-    ] {
+    let message = exchanging.refused(|i| {
+        let rates = i.output_derivatives(&[vr::JOINT_F]);
+        rates.err().unwrap_or(c::OK)
+    });
+    assert!(
+        message.contains("it belongs to Co-Simulation, the instance is for Model Exchange"),
+        "{message}"
+    );
+    for call in [Instance::enter_continuous, Instance::complete_step] {
         let message = stepping.refused(call);
         assert!(
             message.contains("it belongs to Model Exchange, the instance is for Co-Simulation"),

@@ -2,50 +2,9 @@
 
 use crate::{
     c,
+    equations::Equations,
     importer::{Instance, Kind, vr},
 };
-
-/// The lap's equations with one DOF, written down once more: m, k, c of both bodies; k12, c12, k3; F of both.
-struct Equations {
-    m: f64,
-    k: f64,
-    c: f64,
-    k12: f64,
-    c12: f64,
-    k3: f64,
-    force: [f64; 2],
-}
-
-impl Equations {
-    /// Rate of (y_a, v_a, y_b, v_b).
-    fn rate(&self, x: [f64; 4]) -> [f64; 4] {
-        let [ya, va, yb, vb] = x;
-        let joint = self.k12 * (ya - yb) + self.c12 * (va - vb) + self.k3 * (ya - yb).powi(3);
-        [
-            va,
-            (self.force[0] - self.k * ya - self.c * va - joint) / self.m,
-            vb,
-            (self.force[1] - self.k * yb - self.c * vb + joint) / self.m,
-        ]
-    }
-
-    /// `n` classical Runge–Kutta steps of length `h`.
-    fn runge_kutta(&self, mut x: [f64; 4], h: f64, n: usize) -> [f64; 4] {
-        let shifted = |x: [f64; 4], factor: f64, k: [f64; 4]| -> [f64; 4] {
-            std::array::from_fn(|i| x[i] + factor * k[i])
-        };
-        for _ in 0..n {
-            let k1 = self.rate(x);
-            let k2 = self.rate(shifted(x, h / 2.0, k1));
-            let k3 = self.rate(shifted(x, h / 2.0, k2));
-            let k4 = self.rate(shifted(x, h, k3));
-            x = std::array::from_fn(|i| {
-                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
-            });
-        }
-        x
-    }
-}
 
 const EQUATIONS: Equations = Equations {
     m: 2.0,

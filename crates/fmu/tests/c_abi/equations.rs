@@ -1,0 +1,57 @@
+//! The lap with one DOF, written down once more, for results to compare with.
+
+/// The lap's equations with one DOF, written down once more: m, k, c of both bodies; k12, c12, k3; F of both.
+#[derive(Clone, Copy)]
+pub(crate) struct Equations {
+    pub(crate) m: f64,
+    pub(crate) k: f64,
+    pub(crate) c: f64,
+    pub(crate) k12: f64,
+    pub(crate) c12: f64,
+    pub(crate) k3: f64,
+    pub(crate) force: [f64; 2],
+}
+
+impl Equations {
+    /// Rate of (y_a, v_a, y_b, v_b).
+    pub(crate) fn rate(&self, x: [f64; 4]) -> [f64; 4] {
+        let [ya, va, yb, vb] = x;
+        let joint = self.k12 * (ya - yb) + self.c12 * (va - vb) + self.k3 * (ya - yb).powi(3);
+        [
+            va,
+            (self.force[0] - self.k * ya - self.c * va - joint) / self.m,
+            vb,
+            (self.force[1] - self.k * yb - self.c * vb + joint) / self.m,
+        ]
+    }
+
+    /// `n` classical Runge–Kutta steps of length `h`.
+    pub(crate) fn runge_kutta(&self, mut x: [f64; 4], h: f64, n: usize) -> [f64; 4] {
+        let shifted = |x: [f64; 4], factor: f64, k: [f64; 4]| -> [f64; 4] {
+            std::array::from_fn(|i| x[i] + factor * k[i])
+        };
+        for _ in 0..n {
+            let k1 = self.rate(x);
+            let k2 = self.rate(shifted(x, h / 2.0, k1));
+            let k3 = self.rate(shifted(x, h / 2.0, k2));
+            let k4 = self.rate(shifted(x, h, k3));
+            x = std::array::from_fn(|i| {
+                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
+            });
+        }
+        x
+    }
+
+    /// Force in the joint, stored energy, dissipated power.
+    pub(crate) fn outputs(&self, [ya, va, yb, vb]: [f64; 4]) -> [f64; 3] {
+        let (r, v) = (ya - yb, va - vb);
+        [
+            self.k12 * r + self.c12 * v + self.k3 * r.powi(3),
+            0.5 * self.m * (va * va + vb * vb)
+                + 0.5 * self.k * (ya * ya + yb * yb)
+                + 0.5 * self.k12 * r * r
+                + 0.25 * self.k3 * r.powi(4),
+            self.c * (va * va + vb * vb) + self.c12 * v * v,
+        ]
+    }
+}

@@ -1,0 +1,506 @@
+//! Communication steps in which the importer takes part: what it is told, what it may do, and what its inputs do.
+
+use std::{cell::RefCell, ptr, rc::Rc};
+
+use crate::{
+    c,
+    equations::Equations,
+    importer::{Folder, Instance, Kind, Request, Stepped, Update, start_text, vr},
+};
+
+const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
+const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
+const EQUATIONS: Equations = Equations {
+    m: 2.0,
+    k: 8e5,
+    c: 1.0,
+    k12: 4e6,
+    c12: 8.0,
+    k3: 5e12,
+    force: [30.0, -20.0],
+};
+
+/// Instance in Step Mode at t = 0 whose importer takes part in steps with these variables.
+fn taking_part(
+    kind: Kind,
+    changes: &[(&str, f64)],
+    intermediate: &[u32],
+    early_return: bool,
+) -> Instance {
+    let folder = Folder::with_start(&start_text(kind, 1, changes));
+    let request = Request {
+        resources: folder.0.to_str(),
+        early_return,
+        updated: true,
+        intermediate,
+        ..Request::default()
+    };
+    let mut instance = request.instantiate().unwrap();
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    if kind == Kind::Lap {
+        assert_eq!(instance.set(&STATES, &START), c::OK);
+        assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+    }
+    assert_eq!(instance.exit_initialization(), c::OK);
+    instance.take_log();
+    instance
+}
+
+fn lap(intermediate: &[u32], early_return: bool) -> Instance {
+    let changes = [("joint.k3_y", 5e12), ("step_size_max", 2e-4)];
+    taking_part(Kind::Lap, &changes, intermediate, early_return)
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found - expected).abs() <= tolerance * expected.abs(),
+            "{found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn the_importer_sees_every_internal_step() {
+    // registered, or, as the FMI project's own example does, without a word before
+    for required in [&STATES[..], &[]] {
+        let mut instance = lap(required, false);
+        let seen = Rc::new(RefCell::new(Vec::<(Update, [f64; 4])>::new()));
+        let log = Rc::clone(&seen);
+        instance.on_update(move |i, update| {
+            log.borrow_mut().push((update, i.get(STATES)));
+            None
+        });
+        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        let seen = seen.take();
+        assert_eq!(seen.len(), 5);
+        for (n, (update, state)) in (1..).zip(&seen) {
+            let time = if n == 5 { 1e-3 } else { 2e-4 * n as f64 };
+            assert!((update.time - time).abs() < 1e-18);
+            let expected = Update {
+                time: update.time,
+                set: false,
+                get: true,
+                finished: true,
+                can_return_early: false,
+            };
+            assert_eq!(*update, expected);
+            assert_close(state, &EQUATIONS.runge_kutta(START, 2e-4, n), 1e-12);
+        }
+        assert_eq!(seen[4].0.time, 1e-3);
+        // the end is the same as without a callback, to the last bit
+        let mut alone = Instance::new(
+            Kind::Lap,
+            1,
+            &[("joint.k3_y", 5e12), ("step_size_max", 2e-4)],
+        );
+        assert_eq!(alone.set(&STATES, &START), c::OK);
+        assert_eq!(alone.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+        assert_eq!(alone.enter_initialization(0.0, None), c::OK);
+        assert_eq!(alone.exit_initialization(), c::OK);
+        assert_eq!(alone.step(0.0, 1e-3).0, c::OK);
+        assert_eq!(
+            instance.get(STATES).map(f64::to_bits),
+            alone.get(STATES).map(f64::to_bits)
+        );
+        assert_eq!(instance.state_bytes(), alone.state_bytes());
+    }
+}
+
+#[test]
+fn inputs_that_the_importer_knows_between_the_points_are_followed_with_fourth_order() {
+    // both bodies under the same load, without damping: m ẍ + k x = F sin Ωt from rest,
+    // x = F/(m (ω² − Ω²)) (sin Ωt − Ω/ω sin ωt); one communication step over all of it
+    let (omega, forcing, duration): (f64, f64, f64) = (f64::sqrt(8e5 / 2.0), 900.0, 0.02);
+    let load = move |t: f64| 1e3 * (forcing * t).sin();
+    let amplitude = 1e3 / (2.0 * (omega * omega - forcing * forcing));
+    let expected =
+        amplitude * ((forcing * duration).sin() - forcing / omega * (omega * duration).sin());
+    let error = |count: u32| {
+        let changes = [
+            ("a.c_y", 0.0),
+            ("b.c_y", 0.0),
+            ("step_size_max", duration / f64::from(count)),
+        ];
+        let mut instance = taking_part(Kind::Lap, &changes, &[vr::A_F, vr::B_F], false);
+        assert_eq!(instance.reset(), c::OK);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        let calls = Rc::new(RefCell::new(0));
+        let counted = Rc::clone(&calls);
+        instance.on_update(move |i, update| {
+            assert!(update.set);
+            *counted.borrow_mut() += 1;
+            assert_eq!(i.set(&[vr::A_F, vr::B_F], &[load(update.time); 2]), c::OK);
+            None
+        });
+        assert_eq!(instance.step(0.0, duration), (c::OK, duration));
+        // asked for the middle and the end of each internal step, and told of its end
+        assert_eq!(*calls.borrow(), 3 * count);
+        assert_eq!(instance.get([vr::A_F]), [load(duration)]);
+        let [y] = instance.get([vr::A_Y]);
+        (y - expected).abs() / amplitude.abs()
+    };
+    for count in [100, 200, 400] {
+        let order = (error(count) / error(2 * count)).log2();
+        assert!((3.9..4.1).contains(&order), "{count} steps: order {order}");
+    }
+    assert!(error(1600) < 1e-8, "{:e}", error(1600));
+}
+
+#[test]
+fn inputs_that_are_set_after_an_internal_step_act_from_there_on() {
+    let mut instance = lap(&[vr::A_F], false);
+    instance.on_update(|i, update| {
+        if update.finished {
+            assert_eq!(i.set(&[vr::A_F], &[1e5 * update.time]), c::OK);
+        }
+        None
+    });
+    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    let mut expected = START;
+    for n in 0..5 {
+        let load = if n == 0 {
+            30.0
+        } else {
+            1e5 * 2e-4 * f64::from(n)
+        };
+        let equations = Equations {
+            force: [load, -20.0],
+            ..EQUATIONS
+        };
+        expected = equations.runge_kutta(expected, 2e-4, 1);
+    }
+    assert_close(&instance.get(STATES), &expected, 1e-12);
+    assert_eq!(instance.get([vr::A_F, vr::B_F]), [1e5 * 1e-3, -20.0]);
+}
+
+#[test]
+fn derivatives_of_outputs_know_how_the_inputs_go() {
+    // F_a = 3 + 2000 t + 10⁶ t²; the energy does not see it, the acceleration is no output, so look at an element:
+    // F_b = k (y_a − y_b) + c (v_a − v_b), with v_a a polynomial in time and v_b held
+    let mut instance = taking_part(Kind::Element, &[], &[vr::A_V, vr::B_F, vr::JOINT_F], false);
+    let velocity = |t: f64| 3.0 + 2e3 * t + 1e6 * t * t;
+    assert_eq!(instance.set(&[vr::A_V], &[velocity(0.0)]), c::OK);
+    let seen = Rc::new(RefCell::new(Vec::new()));
+    let log = Rc::clone(&seen);
+    instance.on_update(move |i, update| {
+        if update.finished {
+            let rates = i.output_derivatives(&[vr::B_F, vr::JOINT_F]).unwrap();
+            log.borrow_mut()
+                .push((update.time, i.get([vr::A_V]), rates));
+        } else {
+            assert_eq!(i.set(&[vr::A_V], &[velocity(update.time)]), c::OK);
+        }
+        None
+    });
+    for n in 0..3 {
+        assert_eq!(instance.step(1e-3 * f64::from(n), 1e-3).0, c::OK);
+    }
+    let seen = seen.take();
+    assert_eq!(seen.len(), 3);
+    for (t, [v], rates) in seen {
+        assert_eq!(v, velocity(t));
+        // Ḟ = k v + c v̇, v̇ = 2000 + 2·10⁶ t
+        let expected = 4e6 * v + 8.0 * (2e3 + 2e6 * t);
+        assert_close(&rates, &[expected; 2], 1e-12);
+    }
+    // also at the communication point; an input that jumps there forgets how it went before
+    let last = velocity(3e-3);
+    let rates = instance.output_derivatives(&[vr::B_F]).unwrap();
+    assert_close(&rates, &[4e6 * last + 8.0 * (2e3 + 2e6 * 3e-3)], 1e-12);
+    assert_eq!(instance.set(&[vr::A_V], &[1.0]), c::OK);
+    let rates = instance.output_derivatives(&[vr::B_F]).unwrap();
+    assert_eq!(rates, [4e6]);
+}
+
+#[test]
+fn an_element_is_asked_once() {
+    let mut instance = taking_part(Kind::Element, &[], &[vr::A_Y, vr::A_F], true);
+    let seen = Rc::new(RefCell::new(Vec::new()));
+    let log = Rc::clone(&seen);
+    instance.on_update(move |i, update| {
+        if update.finished {
+            assert_eq!(i.get([vr::A_F]), [-4e6 * 1e-3]);
+        } else {
+            assert_eq!(i.set(&[vr::A_Y], &[update.time]), c::OK);
+        }
+        log.borrow_mut().push((update.time, update.set, update.get));
+        None
+    });
+    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    assert_eq!(
+        *seen.borrow(),
+        [(5e-4, true, false), (1e-3, true, false), (1e-3, true, true)]
+    );
+}
+
+#[test]
+fn only_what_the_standard_allows_reaches_the_instance() {
+    type Call = fn(&mut Instance) -> i32;
+    fn status<T>(result: Result<T, i32>) -> i32 {
+        result.err().unwrap_or(c::OK)
+    }
+    const INSIDE: &str = "is not allowed in state Intermediate Update Mode";
+    let refused: [(Call, &str, &str); 16] = [
+        (
+            |i| {
+                let (mut flag, mut time) = (false, 0.0);
+                let flag = &raw mut flag;
+                // SAFETY: the instance lives, all pointers are to locals
+                unsafe { c::fmi3DoStep(i.handle, 0.0, 1e-3, true, flag, flag, flag, &raw mut time) }
+            },
+            "fmi3DoStep",
+            INSIDE,
+        ),
+        (Instance::reset, "fmi3Reset", INSIDE),
+        (Instance::terminate, "fmi3Terminate", INSIDE),
+        (
+            |i| i.enter_initialization(0.0, None),
+            "fmi3EnterInitializationMode",
+            INSIDE,
+        ),
+        (
+            Instance::exit_initialization,
+            "fmi3ExitInitializationMode",
+            INSIDE,
+        ),
+        (
+            |i| {
+                let mut state = ptr::null_mut();
+                // SAFETY: the instance lives, the pointer is to a local
+                unsafe { c::fmi3GetFMUState(i.handle, &raw mut state) }
+            },
+            "fmi3GetFMUState",
+            INSIDE,
+        ),
+        (|i| i.restore(ptr::null_mut()), "fmi3SetFMUState", INSIDE),
+        (
+            // SAFETY: the instance lives
+            |i| unsafe { c::fmi3EnterEventMode(i.handle) },
+            "fmi3EnterEventMode",
+            INSIDE,
+        ),
+        (
+            |i| status(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
+            "fmi3GetDirectionalDerivative",
+            INSIDE,
+        ),
+        (
+            |i| status(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
+            "fmi3GetAdjointDerivative",
+            INSIDE,
+        ),
+        (
+            |i| {
+                // SAFETY: the instance lives; it must go on living
+                unsafe { c::fmi3FreeInstance(i.handle) };
+                c::ERROR
+            },
+            "fmi3FreeInstance",
+            INSIDE,
+        ),
+        (
+            |i| i.set(&[vr::K_YY], &[1e6]),
+            "fmi3SetFloat64",
+            "variable joint.k_yy is a parameter and cannot be set in state Intermediate Update Mode",
+        ),
+        (
+            |i| i.set(&[vr::A_F, vr::JOINT_F], &[1.0; 2]),
+            "fmi3SetFloat64",
+            "variable joint.F is a calculated output and cannot be set in state Intermediate Update Mode",
+        ),
+        (
+            |i| i.set(&[vr::B_F], &[1.0]),
+            "fmi3SetFloat64",
+            "variable b.F cannot be accessed within a communication step: it is not among the \
+             requiredIntermediateVariables",
+        ),
+        (
+            |i| status(i.try_get(&[vr::A_F, vr::ENERGY])),
+            "fmi3GetFloat64",
+            "variable energy.stored cannot be accessed within a communication step",
+        ),
+        (
+            |i| status(i.output_derivatives(&[vr::A_Y])),
+            "fmi3GetOutputDerivatives",
+            "variable a.y cannot be accessed within a communication step",
+        ),
+    ];
+    for (call, function, expected) in refused {
+        let required = [vr::A_F, vr::JOINT_F];
+        let (mut careless, mut careful) = (lap(&required, true), lap(&required, true));
+        let messages = Rc::new(RefCell::new(Vec::new()));
+        let log = Rc::clone(&messages);
+        careless.on_update(move |i, update| {
+            // what is allowed at one time is not at another
+            let allowed = if update.finished {
+                assert_eq!(i.get([vr::A_F]), [30.0]);
+                assert_eq!(status(i.output_derivatives(&[vr::JOINT_F])), c::OK);
+                i.set(&[vr::A_F], &[30.0])
+            } else {
+                assert_eq!(status(i.try_get(&[vr::JOINT_F])), c::ERROR);
+                let message = i.error();
+                assert!(
+                    message.contains("variable joint.F cannot be read now"),
+                    "{message}"
+                );
+                i.set(&[vr::A_F], &[30.0])
+            };
+            assert_eq!(allowed, c::OK);
+            // SAFETY: the instance lives
+            let logging = unsafe { c::fmi3SetDebugLogging(i.handle, true, 0, ptr::null()) };
+            assert_eq!(logging, c::OK);
+            if update.finished {
+                assert_eq!(call(i), c::ERROR, "{function}");
+                log.borrow_mut().push(i.error());
+            }
+            None
+        });
+        assert_eq!(careless.step(0.0, 1e-3), (c::OK, 1e-3));
+        assert_eq!(careful.step(0.0, 1e-3), (c::OK, 1e-3));
+        let messages = messages.take();
+        assert_eq!(messages.len(), 5);
+        for message in &messages {
+            assert!(message.starts_with(&format!("{function}: ")), "{message}");
+            assert!(message.contains(expected), "{message}");
+        }
+        // and nothing of it has left a trace
+        assert_eq!(careless.state_bytes(), careful.state_bytes());
+    }
+}
+
+#[test]
+fn an_early_return_ends_exactly_where_it_was_asked_for() {
+    // asked for after the second internal step, or while inputs are asked for, and for a time within a later step
+    for (required, asked_after, at) in [
+        (&[vr::A_Y][..], 4e-4, 7.3e-4),
+        (&[vr::A_Y], 4e-4, 4e-4),
+        (&[vr::A_Y], 4e-4, 4.000_001e-4),
+        (&[vr::A_F], 3e-4, 3e-4),
+        (&[vr::A_F], 3e-4, 9.9e-4),
+    ] {
+        let mut instance = lap(required, true);
+        let told = Rc::new(RefCell::new(Vec::new()));
+        let log = Rc::clone(&told);
+        instance.on_update(move |_, update| {
+            assert!(update.can_return_early);
+            log.borrow_mut().push(update.time);
+            (update.time >= asked_after - 1e-12).then_some(at)
+        });
+        let expected = Stepped {
+            status: c::OK,
+            early: true,
+            last: at,
+        };
+        assert_eq!(instance.do_step(0.0, 1e-3), expected);
+        let told = told.take();
+        assert_eq!(told.last(), Some(&at));
+        assert_eq!(instance.get([vr::TIME]), [at]);
+        let whole = (at / 2e-4).floor() as usize;
+        let reached = EQUATIONS.runge_kutta(START, 2e-4, whole);
+        let rest = at - 2e-4 * whole as f64;
+        let reached = EQUATIONS.runge_kutta(reached, rest, 1);
+        assert_close(&instance.get(STATES), &reached, 1e-11);
+        // the simulation goes on from there
+        instance.on_update(|_, _| None);
+        assert_eq!(instance.step(at, 1e-3), (c::OK, at + 1e-3));
+        let end = EQUATIONS.runge_kutta(reached, 2e-4, 5);
+        assert_close(&instance.get(STATES), &end, 1e-11);
+    }
+    // at the end it is not early; and what has passed cannot be brought back
+    let mut instance = lap(&[], true);
+    instance.on_update(|_, update| (update.time > 9e-4).then_some(update.time));
+    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    instance.on_update(|_, _| Some(1e-3));
+    let stepped = instance.do_step(1e-3, 1e-3);
+    assert!(
+        stepped.early && (stepped.last - 1.2e-3).abs() < 1e-18,
+        "{stepped:?}"
+    );
+}
+
+#[test]
+fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
+    for (allowed, at, expected) in [
+        (
+            false,
+            4e-4,
+            "earlyReturnRequested was set by the callback though canReturnEarly was fmi3False",
+        ),
+        (
+            true,
+            2e-3,
+            "earlyReturnTime is 0.002 s, expected a time within the step from 0 s to 0.001 s",
+        ),
+        (true, -1e-3, "earlyReturnTime is -0.001 s"),
+        (true, f64::NAN, "earlyReturnTime is NaN s"),
+        (true, f64::INFINITY, "earlyReturnTime is inf s"),
+    ] {
+        let mut instance = lap(&[vr::A_F], allowed);
+        instance.on_update(move |i, update| {
+            assert_eq!(update.can_return_early, allowed);
+            assert_eq!(i.set(&[vr::A_F], &[77.0]), c::OK);
+            (update.time > 3e-4).then_some(at)
+        });
+        let message = instance.refused(|i| {
+            let stepped = i.do_step(0.0, 1e-3);
+            assert_eq!((stepped.early, stepped.last), (false, 0.0));
+            stepped.status
+        });
+        assert!(
+            message.starts_with("fmi3DoStep: ") && message.contains(expected),
+            "{message}"
+        );
+        instance.on_update(|_, _| None);
+        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        assert_close(
+            &instance.get(STATES),
+            &EQUATIONS.runge_kutta(START, 2e-4, 5),
+            1e-12,
+        );
+    }
+}
+
+#[test]
+fn a_step_that_fails_goes_back_to_its_beginning_with_its_inputs() {
+    let mut instance = taking_part(Kind::Lap, &[("joint.k3_y", -1e12)], &[vr::B_F], false);
+    let all = [
+        vr::TIME,
+        vr::A_Y,
+        vr::B_Y,
+        vr::A_V,
+        vr::B_V,
+        vr::A_F,
+        vr::B_F,
+    ];
+    let before = instance.get(all);
+    let last = Rc::new(RefCell::new(0.0));
+    let seen = Rc::clone(&last);
+    instance.on_update(move |i, update| {
+        *seen.borrow_mut() = update.time;
+        assert_eq!(i.set(&[vr::B_F], &[1e9 * update.time]), c::OK);
+        None
+    });
+    assert_eq!(instance.step(0.0, 1e-2), (c::ERROR, 0.0));
+    let message = instance.error();
+    assert!(message.contains("softening joint"), "{message}");
+    // found at the very internal step, long before the communication step's end
+    let last = *last.borrow();
+    assert!(last < 5e-3, "{last}");
+    assert_eq!(instance.get(all), before);
+    assert_eq!(instance.step(0.0, 1e-3).0, c::ERROR);
+    assert!(instance.error().contains("in state Terminated"));
+}
+
+#[test]
+fn refused_steps_do_not_call_back() {
+    let mut instance = lap(&[], true);
+    instance.on_update(|_, _| panic!("called back"));
+    for (t, h) in [(0.0, 0.0), (0.0, f64::NAN), (1.0, 1e-3), (0.0, 1e9)] {
+        instance.refused(|i| i.do_step(t, h).status);
+    }
+    assert_eq!(instance.set(&[vr::A_MASS], &[-1.0]), c::OK);
+    instance.refused(|i| i.do_step(0.0, 1e-3).status);
+}

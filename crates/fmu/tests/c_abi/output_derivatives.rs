@@ -1,0 +1,176 @@
+//! Derivatives of outputs with respect to time, against differences of an independent integration.
+
+use crate::{
+    c,
+    equations::Equations,
+    importer::{Instance, Kind, vr},
+};
+
+const EQUATIONS: Equations = Equations {
+    m: 2.0,
+    k: 8e5,
+    c: 1.0,
+    k12: 4e6,
+    c12: 8.0,
+    k3: 5e12,
+    force: [300.0, -200.0],
+};
+const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
+const OUTPUTS: [u32; 3] = [vr::JOINT_F, vr::ENERGY, vr::POWER];
+
+#[test]
+fn a_lap_gives_those_of_all_its_outputs() {
+    let mut instance = Instance::new(Kind::Lap, 1, &[("joint.k3_y", 5e12)]);
+    assert_eq!(instance.set(&STATES, &[1e-4, 0.1, -2e-4, 0.0]), c::OK);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+    let mut t = 0.0;
+    for _ in 0..20 {
+        let state = instance.get(STATES);
+        let found = instance
+            .output_derivatives(&[&OUTPUTS[..], &STATES].concat())
+            .unwrap();
+        // ẏ(t) ≈ (45 (y₁ − y₋₁) − 9 (y₂ − y₋₂) + (y₃ − y₋₃)) / 60 δ, with the motion from here to both sides
+        let delta = 1e-5;
+        let at = |n: i32| {
+            let h = delta * f64::from(n) / 100.0;
+            let x = EQUATIONS.runge_kutta(state, h, 100);
+            let [force, energy, power] = EQUATIONS.outputs(x);
+            let [ya, va, yb, vb] = x;
+            [force, energy, power, ya, va, yb, vb]
+        };
+        let [y1, y2, y3] = [1, 2, 3].map(|n| [at(n), at(-n)]);
+        let size = [1e3, 0.1, 1.0, 1e-4, 0.1, 1e-4, 0.1];
+        for i in 0..7 {
+            let difference = |y: &[[f64; 7]; 2]| y[0][i] - y[1][i];
+            let expected =
+                (45.0 * difference(&y1) - 9.0 * difference(&y2) + difference(&y3)) / (60.0 * delta);
+            // against the amplitude times the frequency of the faster mode
+            let tolerance = 1e-9 * size[i] * 2e3;
+            assert!(
+                (found[i] - expected).abs() < tolerance,
+                "{i}: {} {expected}",
+                found[i]
+            );
+        }
+        // the derivative of the energy is what the loads bring less what the dampers take: exact
+        let [power] = instance.get([vr::POWER]);
+        let [_, va, _, vb] = state;
+        let balance = EQUATIONS.force[0] * va + EQUATIONS.force[1] * vb - power;
+        assert!((found[1] - balance).abs() < 1e-12 * (power.abs() + balance.abs() + 100.0));
+        assert_eq!(instance.step(t, 3e-4).0, c::OK);
+        t += 3e-4;
+    }
+}
+
+#[test]
+fn an_element_takes_the_velocities_for_what_they_are() {
+    // F_b = k r + c ṙ + k3 r³ with ṙ = v: Ḟ_b = (k + 3 k3 r²) v while v is held
+    let mut instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
+    let motion = [vr::A_Y, vr::B_Y, vr::A_V, vr::B_V];
+    assert_eq!(instance.set(&motion, &[3e-4, 1e-4, 0.2, 0.05]), c::OK);
+    let (r, v): (f64, f64) = (3e-4 - 1e-4, 0.2 - 0.05);
+    let force = (4e6 + 3.0 * 5e12 * r * r) * v;
+    let energy = (4e6 * r + 5e12 * r.powi(3)) * v;
+    let found = instance
+        .output_derivatives(&[vr::A_F, vr::B_F, vr::JOINT_F, vr::ENERGY, vr::POWER])
+        .unwrap();
+    for (found, expected) in found.iter().zip([-force, force, force, energy, 0.0]) {
+        assert!(
+            (found - expected).abs() <= 1e-14 * expected.abs(),
+            "{found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn only_first_derivatives_of_outputs_are_given() {
+    let mut instance = Instance::stepping(Kind::Lap, 2, &[]);
+    for (reference, order, expected) in [
+        (vr::NONE, 1, "value reference 42 does not exist"),
+        (vr::A_F, 1, "variable a.F is an input and no output"),
+        (
+            vr::K_YY,
+            1,
+            "variable joint.k_yy is a parameter and no output",
+        ),
+        (
+            vr::TIME,
+            1,
+            "variable time is the independent variable and no output",
+        ),
+        (
+            vr::A_ACCELERATION,
+            1,
+            "variable a.acceleration is a calculated derivative and no output",
+        ),
+        (
+            vr::A_Y,
+            0,
+            "the order of the derivative of variable a.y is 0, expected 1",
+        ),
+        (
+            vr::A_Y,
+            2,
+            "the order of the derivative of variable a.y is 2, expected 1",
+        ),
+        (vr::A_Y, -1, "is -1, expected 1"),
+        (vr::A_Y, i32::MIN, "is -2147483648, expected 1"),
+    ] {
+        let message = instance.refused(|i| {
+            let result = i.derivatives_of_order(&[vr::JOINT_F, reference], &[1, order]);
+            result.err().unwrap_or(c::OK)
+        });
+        assert!(
+            message.starts_with("fmi3GetOutputDerivatives: ") && message.contains(expected),
+            "{message}"
+        );
+    }
+    assert_eq!(instance.output_derivatives(&[]), Ok(vec![]));
+    let mut value = 0.0;
+    for (references, orders, values, count, expected) in [
+        (
+            false,
+            true,
+            true,
+            1,
+            "argument valueReferences is a null pointer",
+        ),
+        (true, false, true, 1, "argument orders is a null pointer"),
+        (true, true, false, 1, "argument values is a null pointer"),
+        (true, true, true, 0, "argument nValues is 0, expected 1"),
+    ] {
+        let pick = |given: bool| {
+            if given {
+                [1_i32].as_ptr()
+            } else {
+                std::ptr::null()
+            }
+        };
+        // SAFETY: all pointers are null or to one value
+        let message = instance.refused(|i| unsafe {
+            c::fmi3GetOutputDerivatives(
+                i.handle,
+                pick(references).cast(),
+                1,
+                pick(orders),
+                if values {
+                    &raw mut value
+                } else {
+                    std::ptr::null_mut()
+                },
+                count,
+            )
+        });
+        assert!(message.contains(expected), "{message}");
+    }
+    // a number that overflows is not handed on
+    let mut instance = Instance::stepping(Kind::Element, 1, &[]);
+    assert_eq!(instance.set(&[vr::A_V], &[1e305]), c::OK);
+    let message = instance.refused(|i| {
+        let result = i.output_derivatives(&[vr::JOINT_F]);
+        result.err().unwrap_or(c::OK)
+    });
+    assert!(message.contains("variable joint.F overflows"), "{message}");
+}

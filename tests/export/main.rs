@@ -1,4 +1,9 @@
 //! The FMU as importers and users meet it: its files, its interface, what it refuses.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
 
 mod description;
 mod terminals;

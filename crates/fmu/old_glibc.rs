@@ -113,8 +113,7 @@ unsafe extern "C" fn visit(
         // SAFETY: there are as many headers as the object says.
         let header = unsafe { &*object.headers.add(index) };
         let start = object.base.wrapping_add(header.virtual_address as usize);
-        if header.kind == LOADED
-            && search.address.wrapping_sub(start) < header.memory_size as usize
+        if header.kind == LOADED && search.address.wrapping_sub(start) < header.memory_size as usize
         {
             // SAFETY: the caller of dladdr has given a place for the result.
             unsafe {

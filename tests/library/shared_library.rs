@@ -153,7 +153,7 @@ fn weaknesses_of_elf(elf: &ElfFile64<'_, Endianness>) -> Vec<String> {
     let dynamic: Vec<_> = elf.elf_dynamic_table().unwrap().iter().collect();
     if !dynamic
         .iter()
-        .any(|entry| entry.tag == elf::DT_FLAGS_1 && entry.val & u64::from(elf::DF_1_NOW.0) != 0)
+        .any(|entry| entry.tag == elf::DT_FLAGS_1 && entry.val & elf::DF_1_NOW.0 != 0)
     {
         found.push("lazy binding: part of RELRO stays writable".to_owned());
     }

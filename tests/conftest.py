@@ -41,7 +41,8 @@ def export(run, tmp_path_factory):
         source = folder / f"{name}.joint.json"
         source.write_text(json.dumps(file), encoding="utf-8")
         fmu = folder / f"{name}.fmu"
-        run("export", source, "-o", fmu, "--as", interface, "--fmi", fmi, *options)
+        version = [] if "--fmi" in options else ["--fmi", fmi]
+        run("export", source, "-o", fmu, "--as", interface, *version, *options)
         return fmu
 
     return export

@@ -1,10 +1,13 @@
 //! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 //!
 //! The way of the data: [`frf`] and [`structure`] give receptances, [`identify`] finds the joint that couples them,
-//! [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`report`] draws what was found.
+//! [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`check`] tries that FMU, [`report`] draws
+//! what was found.
 #![forbid(unsafe_code)]
 
+pub mod check;
 pub mod cli;
+pub mod cosimulation;
 pub mod export;
 pub mod frf;
 pub mod identify;

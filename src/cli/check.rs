@@ -3,44 +3,65 @@
 use std::fmt::Write as _;
 use std::io::Read as _;
 use std::path::Path;
+use std::time::Duration;
 
-use serde_json::json;
+use bolted_joint_importer::FmiVersion;
+use serde_json::{Map, Value, json};
 
-use crate::export::inspect;
+use crate::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
+use crate::export::Interface;
 use crate::joint::{DofSet, JointFile};
 
-use super::CheckArguments;
+use super::communication_step::communication_step;
 use super::error::CliError;
 use super::output::print;
 use super::table::number;
+use super::{CheckArguments, RunLibraryArguments};
+
+/// Name of the hidden command that runs an FMU's library.
+pub(super) const RUN_LIBRARY: &str = "run-library";
+
+/// How long a library may take for the whole run.
+const TIME_LIMIT: Duration = Duration::from_secs(60);
 
 /// What was looked at, and what is wrong with it.
 struct Report {
-    kind: &'static str,
+    kind: String,
     facts: Vec<String>,
     findings: Vec<String>,
+    /// What the FMU logged.
+    messages: Vec<String>,
+    /// Further numbers, for machines.
+    details: Map<String, Value>,
 }
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
     let report = if is_zip(path) {
-        fmu(path)?
+        fmu(path, arguments)?
     } else {
-        joint_file(path)?
+        joint_file(path, arguments)?
     };
     if arguments.json {
-        let value = json!({
+        let mut value = json!({
             "file": path.display().to_string(),
             "kind": report.kind,
             "sound": report.findings.is_empty(),
             "facts": report.facts,
+            "messages": report.messages,
             "findings": report.findings,
         });
+        if let Value::Object(object) = &mut value {
+            object.extend(report.details);
+        }
         print(&serde_json::to_string_pretty(&value)?)?;
     } else {
         let mut text = format!("{}: {}\n", path.display(), report.kind);
         for fact in &report.facts {
             let _ = writeln!(text, "  {fact}");
+        }
+        for message in &report.messages {
+            let _ = writeln!(text, "  the FMU logged: {message}");
         }
         if report.findings.is_empty() {
             text += "  no problem found\n";
@@ -57,6 +78,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     }
 }
 
+/// The child process of [`run`].
+pub(super) fn run_library(arguments: &RunLibraryArguments) -> Result<(), CliError> {
+    Ok(execute_script(&arguments.script, &arguments.journal)?)
+}
+
 /// Whether the file begins as a zip archive does; one that cannot be read is left to its reader's message.
 fn is_zip(path: &Path) -> bool {
     let mut magic = [0; 2];
@@ -65,7 +91,7 @@ fn is_zip(path: &Path) -> bool {
         .is_ok_and(|()| magic == *b"PK")
 }
 
-fn joint_file(path: &Path) -> Result<Report, CliError> {
+fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
     let file = JointFile::read(path)?;
     let passivity = file.passivity();
     let mut facts = vec![
@@ -83,10 +109,18 @@ fn joint_file(path: &Path) -> Result<Report, CliError> {
         .active()
         .map(|matrix| format!("{matrix}; expected it positive semidefinite: this joint can feed energy into a simulation"))
         .collect();
+    let mut details = Map::new();
+    let neighbours = &arguments.neighbours;
+    if let Some(step) = communication_step(&file, Interface::Element, neighbours, None, None)? {
+        facts.extend(step.facts);
+        details.insert("communication_step".to_owned(), step.details);
+    }
     Ok(Report {
-        kind: "joint file",
+        kind: "joint file".to_owned(),
         facts,
         findings,
+        messages: Vec::new(),
+        details,
     })
 }
 
@@ -110,7 +144,7 @@ fn lap_fact<const D: usize>(
     }
 }
 
-fn fmu(path: &Path) -> Result<Report, CliError> {
+fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
     let inspection = inspect(path)?;
     let mut facts = vec![
         format!(
@@ -118,7 +152,7 @@ fn fmu(path: &Path) -> Result<Report, CliError> {
             inspection.model_name,
             inspection.interface.summary()
         ),
-        format!("degrees of freedom: {}", inspection.dofs),
+        format!("degrees of freedom: {}", inspection.joint.joint.dofs),
         format!("platforms: {}", inspection.platforms.join(", ")),
     ];
     facts.extend(
@@ -131,9 +165,97 @@ fn fmu(path: &Path) -> Result<Report, CliError> {
     if let Some(step_s) = inspection.step_size_max_s {
         facts.push(format!("RK4 steps of at most {} s", number(step_s, 2)));
     }
+    facts.extend(inspection.parts.iter().cloned());
+    let mut details = Map::new();
+    details.insert("platforms".to_owned(), json!(inspection.platforms));
+    details.insert(
+        "step_size_max".to_owned(),
+        json!(inspection.step_size_max_s),
+    );
+    let (mut findings, mut messages) = (inspection.findings.clone(), Vec::new());
+    if arguments.no_run {
+        facts.push("run: left out".to_owned());
+        details.insert("run".to_owned(), Value::Null);
+    } else {
+        let runner = Runner {
+            program: std::env::current_exe()?,
+            arguments: vec![RUN_LIBRARY.to_owned()],
+            time_limit: TIME_LIMIT,
+        };
+        let report = check::run(path, &inspection, &runner)?;
+        facts.extend(run_facts(&report));
+        details.insert("run".to_owned(), run_details(&report));
+        findings.extend(report.findings);
+        messages = report.messages;
+    }
+    if let Some(step) = communication_step(
+        &inspection.joint,
+        inspection.interface,
+        &arguments.neighbours,
+        inspection.step_size_max_s,
+        inspection.suggested_step_s,
+    )? {
+        facts.extend(step.facts);
+        details.insert("communication_step".to_owned(), step.details);
+    }
+    let version = match inspection.version {
+        FmiVersion::Two => "2.0",
+        FmiVersion::Three => "3.0",
+    };
     Ok(Report {
-        kind: "FMU (FMI 3.0, Co-Simulation and Model Exchange)",
+        kind: format!("FMU (FMI {version}, Co-Simulation and Model Exchange)"),
         facts,
-        findings: inspection.findings,
+        findings,
+        messages,
+        details,
+    })
+}
+
+/// What the run showed, line by line.
+fn run_facts(report: &RunReport) -> Vec<String> {
+    let mut facts = match &report.verdict {
+        RunVerdict::Ran => vec![format!(
+            "run: {} communication steps of the library for this platform, every degree of freedom excited",
+            report.steps
+        )],
+        RunVerdict::Failed => vec!["run: broken off".to_owned()],
+        RunVerdict::NoLibrary(platform) => vec![format!(
+            "run: left out, as the FMU has no library for this platform ({platform})"
+        )],
+        RunVerdict::NoVariables => vec![
+            "run: left out, as modelDescription.xml does not have the variables for it".to_owned(),
+        ],
+    };
+    facts.extend(report.facts.iter().map(|fact| format!("run: {fact}")));
+    if let Some(balance) = &report.balance {
+        facts.push(format!(
+            "run: energy: {} J in, {} J stored, {} J dissipated; off by {} J, tolerance {} J",
+            number(balance.work_j, 4),
+            number(balance.stored_j, 4),
+            number(balance.dissipated_j, 4),
+            number(balance.imbalance_j(), 1),
+            number(balance.tolerance_j, 1)
+        ));
+    }
+    facts
+}
+
+/// The same for machines.
+fn run_details(report: &RunReport) -> Value {
+    json!({
+        "verdict": match &report.verdict {
+            RunVerdict::Ran => "ran",
+            RunVerdict::Failed => "failed",
+            RunVerdict::NoLibrary(_) => "no library for this platform",
+            RunVerdict::NoVariables => "no variables",
+        },
+        "steps": report.steps,
+        "energy": report.balance.map(|balance| json!({
+            "work": balance.work_j,
+            "stored": balance.stored_j,
+            "dissipated": balance.dissipated_j,
+            "imbalance": balance.imbalance_j(),
+            "tolerance": balance.tolerance_j,
+        })),
     })
 }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::export::{ExportError, InspectError};
+use crate::check::{InspectError, RunError};
+use crate::cosimulation::CouplingError;
+use crate::export::ExportError;
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::JointFileError;
@@ -25,6 +27,10 @@ pub(super) enum CliError {
     Unexportable { path: PathBuf, source: ExportError },
     #[error(transparent)]
     Inspect(#[from] InspectError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error("communication step: {0}")]
+    Coupling(CouplingError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]

@@ -1,6 +1,7 @@
 //! The command line: arguments become a plan, the plan is run, results go to stdout, messages to stderr.
 
 mod check;
+mod communication_step;
 mod demo;
 mod error;
 mod export;
@@ -35,8 +36,11 @@ enum Command {
     Identify(IdentifyArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
-    /// Check a joint file or an FMU
+    /// Check a joint file or an FMU, and run the FMU's library for a moment
     Check(CheckArguments),
+    /// Run the library of an FMU for `check`, in a process of its own
+    #[command(name = check::RUN_LIBRARY, hide = true)]
+    RunLibrary(RunLibraryArguments),
 }
 
 /// `demo`
@@ -112,9 +116,23 @@ struct ExportArguments {
 struct CheckArguments {
     /// Joint file or FMU
     file: PathBuf,
+    /// Only look into the FMU: run none of its code. Without this its library is run, in a process of its own
+    #[arg(long)]
+    no_run: bool,
+    #[command(flatten)]
+    neighbours: communication_step::NeighbourArguments,
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,
+}
+
+/// The child process of `check`
+#[derive(Debug, Args)]
+struct RunLibraryArguments {
+    /// What to do
+    script: PathBuf,
+    /// What was done
+    journal: PathBuf,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -162,6 +180,7 @@ pub fn main() -> ExitCode {
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::RunLibrary(arguments) => check::run_library(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -152,6 +152,9 @@ pub fn fmu_bytes(
     let token = token(&[&description.text()?, &parameters]);
     let (xml, declared) = description.finish(&token, options.date)?;
 
+    let step_s = experiment.map(|experiment| experiment.communication_step_s);
+    let reference_run =
+        ReferenceRun::new(file, &declared, options.interface, lap.as_ref(), step_s)?;
     let page = documentation::html(&Page {
         file,
         interface: options.interface,
@@ -159,6 +162,7 @@ pub fn fmu_bytes(
         declared: &declared,
         lap: lap.as_ref(),
         passivity: &passivity,
+        reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
         token: &token,
         date: options.date,
     });
@@ -176,9 +180,6 @@ pub fn fmu_bytes(
         terminals::FILE,
         terminals_and_icons(&declared, dofs),
     ));
-    let step_s = experiment.map(|experiment| experiment.communication_step_s);
-    let reference_run =
-        ReferenceRun::new(file, &declared, options.interface, lap.as_ref(), step_s)?;
     if let Some(run) = &reference_run {
         files.extend(run.files(&file.name));
     }

@@ -5,13 +5,13 @@
 
 mod archive;
 mod assets;
+mod declared;
 mod description;
 mod documentation;
 mod error;
 mod fmi2;
 mod fmi_version;
 mod fmu;
-mod inspect;
 mod interface;
 mod parameters;
 mod platforms;
@@ -23,11 +23,14 @@ mod timestamp;
 mod token;
 mod xml;
 
+pub(crate) use declared::declared;
 pub use error::ExportError;
 pub use fmi_version::FmiVersion;
 pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
-pub use inspect::{InspectError, Inspection, inspect};
 pub use interface::Interface;
+pub(crate) use parameters::start_value;
+pub(crate) use platforms::EMBEDDED_PLATFORM;
 pub use platforms::{Library, LibrarySource};
+pub(crate) use start_file::{StartFile, parameter_lines};
 pub use step::{StepChoice, StepSize};
 pub use timestamp::Timestamp;

@@ -5,7 +5,7 @@ use crate::joint::{Body, JointFile};
 /// Start value of the parameter `name`, or `None` where the joint file has no such number.
 ///
 /// A cubic stiffness that the file leaves out is zero.
-pub(super) fn start_value(
+pub(crate) fn start_value(
     file: &JointFile,
     longest_step_s: Option<f64>,
     name: &str,

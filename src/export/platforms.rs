@@ -10,7 +10,7 @@ use super::{ExportError, FmiVersion};
 const EMBEDDED: &[u8] = include_bytes!(env!("BOLTED_JOINT_LIBRARY"));
 
 /// That platform, as FMI 3.0 names it.
-const EMBEDDED_PLATFORM: &str = env!("BOLTED_JOINT_PLATFORM");
+pub(crate) const EMBEDDED_PLATFORM: &str = env!("BOLTED_JOINT_PLATFORM");
 
 /// Architectures of FMI 3.0's platform names (section 2.5.1.4.1).
 const ARCHITECTURES: [&str; 8] = [

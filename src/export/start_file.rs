@@ -9,7 +9,7 @@ use crate::joint::DofSet;
 const HEADER: &str = "bolted-joint-start/1";
 
 /// The parameters as the file lists them, one `name value` on each line.
-pub(super) fn parameter_lines(parameters: &[(String, f64)]) -> String {
+pub(crate) fn parameter_lines(parameters: &[(String, f64)]) -> String {
     let mut text = String::new();
     for (name, value) in parameters {
         // writing to a String cannot fail; {:?} gives the fewest digits that read back to the same value
@@ -33,16 +33,16 @@ pub(super) fn start_file(
 
 /// What such a file says.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct StartFile {
-    pub(super) interface: Interface,
-    pub(super) dof_count: usize,
-    pub(super) token: String,
-    pub(super) parameters: Vec<(String, f64)>,
+pub(crate) struct StartFile {
+    pub(crate) interface: Interface,
+    pub(crate) dof_count: usize,
+    pub(crate) token: String,
+    pub(crate) parameters: Vec<(String, f64)>,
 }
 
 impl StartFile {
     /// Reads the text back; `None` where it is not such a file.
-    pub(super) fn parse(text: &str) -> Option<Self> {
+    pub(crate) fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         if lines.next()? != HEADER {
             return None;
@@ -70,7 +70,7 @@ impl StartFile {
     }
 
     /// Start value of the parameter `name`.
-    pub(super) fn value(&self, name: &str) -> Option<f64> {
+    pub(crate) fn value(&self, name: &str) -> Option<f64> {
         let found = self.parameters.iter().find(|(other, _)| other == name);
         found.map(|&(_, value)| value)
     }

@@ -114,21 +114,9 @@ impl Strip {
                 .element("text")
                 .number("x", self.left - 6.0)
                 .number("y", baseline);
-            match tick.label {
-                TickLabel::Plain(label) => text.containing(&label),
-                TickLabel::Power { mantissa, exponent } => {
-                    text.open();
-                    if mantissa != 1 {
-                        svg.characters(&format!("{mantissa}·"));
-                    }
-                    svg.characters("10");
-                    svg.element("tspan")
-                        .number("dy", -0.36 * TICK_FONT)
-                        .number("font-size", EXPONENT_FONT)
-                        .containing_inline(&super::axis::with_minus_sign(&exponent.to_string()));
-                    svg.close();
-                }
-            }
+            text.open();
+            write_label(tick.label, svg);
+            svg.close();
         }
         svg.close();
         let (x, y) = (self.left - NAME_DISTANCE, self.top + 0.5 * self.height);
@@ -142,6 +130,11 @@ impl Strip {
 
     /// Writes the frequency ticks' labels below the strip and the axis' name below them.
     pub(super) fn draw_frequency_labels(&self, svg: &mut Svg) {
+        self.draw_labels_below("frequency, Hz", svg);
+    }
+
+    /// Writes the labels of the ticks below the strip and `name` below them.
+    pub(super) fn draw_labels_below(&self, name: &str, svg: &mut Svg) {
         let below = self.top + self.height;
         svg.element("g")
             .number("font-size", TICK_FONT)
@@ -149,19 +142,19 @@ impl Strip {
             .word("fill", TEXT)
             .open();
         for tick in self.frequency_ticks().major {
-            if let (Some(x), TickLabel::Plain(label)) =
-                (self.place_frequency(tick.value), tick.label)
-            {
+            if let Some(x) = self.place_frequency(tick.value) {
                 svg.element("text")
                     .number("x", self.left + x)
                     .number("y", below + 16.0)
-                    .containing(&label);
+                    .open();
+                write_label(tick.label, svg);
+                svg.close();
             }
         }
         svg.element("text")
             .number("x", self.left + 0.5 * self.width)
             .number("y", below + 34.0)
-            .containing("frequency, Hz");
+            .containing(name);
         svg.close();
     }
 
@@ -187,6 +180,23 @@ impl Strip {
     pub(super) fn upright(&self, frequency_hz: f64, from: f64, to: f64, path: &mut PathData) {
         if let Some(x) = self.place_frequency(frequency_hz) {
             path.polyline(&[Point { x, y: from }, Point { x, y: to }]);
+        }
+    }
+}
+
+/// The text of a tick, inside an open text element.
+fn write_label(label: TickLabel, svg: &mut Svg) {
+    match label {
+        TickLabel::Plain(label) => svg.characters(&label),
+        TickLabel::Power { mantissa, exponent } => {
+            if mantissa != 1 {
+                svg.characters(&format!("{mantissa}·"));
+            }
+            svg.characters("10");
+            svg.element("tspan")
+                .number("dy", -0.36 * TICK_FONT)
+                .number("font-size", EXPONENT_FONT)
+                .containing_inline(&super::axis::with_minus_sign(&exponent.to_string()));
         }
     }
 }

@@ -21,7 +21,7 @@ fn bench() -> Bench {
 }
 
 /// Packs `from` again as `to` with each entry as `change` leaves it; an entry that becomes `None` is left out.
-fn repacked(
+pub(crate) fn repacked(
     bench: &Bench,
     from: &str,
     to: &str,
@@ -139,7 +139,7 @@ fn every_edit_of_an_fmu_is_found() {
             start,
             "model lap",
             "model element",
-            "found variable a.y as State 1",
+            "found variable a.y as output 1 in m, expected input 1 in m",
         ),
         (
             start,
@@ -304,4 +304,84 @@ fn a_library_with_a_flipped_bit_is_found() {
         "{}",
         outcome.stderr
     );
+}
+
+#[test]
+fn what_no_validator_sees_is_found() {
+    let bench = Bench::new();
+    bench.write("j.joint.json", JOINT);
+    for (version, capability, misspelt) in [
+        ("2", "canGetAndSetFMUstate", "canGetAndSetFMUState"),
+        ("3", "canGetAndSetFMUState", "canGetAndSetFMUstate"),
+    ] {
+        bench.done(&[
+            "export",
+            "j.joint.json",
+            "-o",
+            "lap.fmu",
+            "--as",
+            "lap",
+            "--fmi",
+            version,
+        ]);
+        for (from, to, fragment) in [
+            (
+                format!("{capability}=\"true\""),
+                format!("{misspelt}=\"true\""),
+                format!(
+                    "found attribute {misspelt} of <CoSimulation>, which the standard does not have; did you mean {capability}?"
+                ),
+            ),
+            (
+                format!("{capability}=\"true\""),
+                format!("{capability}=\"yes\""),
+                format!("found {capability}=\"yes\" of <CoSimulation>, expected true or false"),
+            ),
+            (
+                "start=\"0.5\"".to_owned(),
+                "start=\"-0.5\"".to_owned(),
+                "found start = -0.5 of b.m, expected a value from ".to_owned(),
+            ),
+            (
+                format!("fmiVersion=\"{version}.0\""),
+                "fmiVersion=\"1.0\"".to_owned(),
+                "found fmiVersion \"1.0\", expected \"2.0\" or \"3.0\"".to_owned(),
+            ),
+        ] {
+            repacked(&bench, "lap.fmu", "edited.fmu", |name, bytes| {
+                if name != "modelDescription.xml" {
+                    return Some(bytes);
+                }
+                let text = String::from_utf8(bytes).unwrap();
+                assert!(text.contains(&from), "{from}");
+                Some(text.replace(&from, &to).into_bytes())
+            });
+            let outcome = bench.run(&["check", "edited.fmu", "--no-run"]);
+            assert_eq!(outcome.code, Some(1));
+            assert!(
+                outcome.stderr.contains(&fragment),
+                "{fragment}: {}",
+                outcome.stderr
+            );
+        }
+    }
+    repacked(&bench, "lap.fmu", "edited.fmu", |name, bytes| {
+        if name != "terminalsAndIcons/terminalsAndIcons.xml" {
+            return (!name.ends_with("flange_a.png")).then_some(bytes);
+        }
+        Some(
+            String::from_utf8(bytes)
+                .unwrap()
+                .replace("\"b.F\"", "\"b.G\"")
+                .into_bytes(),
+        )
+    });
+    let outcome = bench.run(&["check", "edited.fmu"]);
+    for fragment in ["found member \"b.G\"", "found icon \"flange_a\""] {
+        assert!(
+            outcome.stderr.contains(fragment),
+            "{fragment}: {}",
+            outcome.stderr
+        );
+    }
 }

@@ -169,3 +169,33 @@ fn the_same_date_gives_the_same_bytes() {
     }
     assert!(fs::read(bench.path("one.fmu")).unwrap() == fs::read(bench.path("two.fmu")).unwrap());
 }
+
+#[test]
+fn five_lines_say_what_was_written_and_for_which_version() {
+    let bench = bench(JOINT);
+    for (version, number, platforms) in [
+        ("3", "3.0", "platforms: x86_64-linux"),
+        ("2", "2.0", "platforms: linux64"),
+    ] {
+        let arguments = export(&["--fmi", version, "--as", "lap"]);
+        let outcome = bench.done(&arguments);
+        let lines: Vec<&str> = outcome.stdout.lines().collect();
+        assert_eq!(lines.len(), 5, "{}", outcome.stdout);
+        assert!(
+            lines[0].starts_with(&format!("wrote o.fmu (FMI {number}, ")),
+            "{}",
+            lines[0]
+        );
+        for (line, start) in lines[1..]
+            .iter()
+            .zip(["model: ", "steps: ", "platforms: ", "token: "])
+        {
+            assert!(line.starts_with(start), "{line}");
+        }
+        if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+            assert_eq!(lines[3], platforms);
+        }
+        let json = bench.done(&[&arguments[..], &["--json"]].concat()).json();
+        assert_eq!(json["fmi_version"], number);
+    }
+}

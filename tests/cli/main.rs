@@ -7,6 +7,8 @@
 
 mod bench;
 mod check;
+mod check_run;
+mod communication_step;
 mod demo;
 mod export;
 mod identified;

@@ -1,8 +1,9 @@
 //! The shared library inside every FMU: FMI C ABIs over `bolted-joint-dynamics`.
 //!
-//! The library is the same for every joint. What it simulates, and with which start values, it reads from
-//! `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe Rust;
-//! `fmi3` turns C pointers and arrays into slices, and refusals into statuses and log messages.
+//! The library is the same for every joint, for FMI 2.0 and for FMI 3.0. What it simulates, and with which start values,
+//! it reads from `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe
+//! Rust; `fmi2` and `fmi3` turn C pointers and arrays into slices, and refusals into statuses and log messages, with
+//! what they share in `abi`.
 
 mod abi;
 mod fmi2;

@@ -1,5 +1,6 @@
 //! The FMU's documentation: one page that needs no network, and the licences.
 
+mod curves;
 mod html;
 mod licences;
 mod model;
@@ -27,6 +28,8 @@ pub(super) struct Page<'a> {
     /// `None` for the element.
     pub(super) lap: Option<&'a LapFacts>,
     pub(super) passivity: &'a Passivity,
+    /// How closely the reference run is to be met; `None` if there is none.
+    pub(super) reference_tolerance: Option<f64>,
     pub(super) token: &'a str,
     pub(super) date: Timestamp,
 }
@@ -37,6 +40,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
     let sections = [
         model::section(page),
         parameters::section(page),
+        curves::section(page),
         running::section(page),
         variables::section(page),
         origin::section(page),

@@ -2,13 +2,14 @@
 
 use super::Page;
 use super::html::{escaped, number, number_cell, quantity, table};
+use crate::export::FmiVersion;
 use crate::export::fmu::LapFacts;
 use crate::export::step::StepChoice;
 use crate::joint::MatrixPassivity;
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let steps = match page.lap {
-        Some(lap) => format!("<h3>Step size</h3>\n{}{}", step_size(lap), modes(lap)),
+        Some(lap) => format!("<h3>Step size</h3>\n{}{}", step_size(lap, page.version), modes(lap)),
         None => "<h3>Step size</h3>\n<p>The element takes no steps of its own: a communication step only passes time. \
                  Choose it so that the structures on both sides stay stable with the joint's stiffness between them; \
                  loads are exchanged at communication points only.</p>\n"
@@ -16,13 +17,25 @@ pub(super) fn section(page: &Page<'_>) -> String {
     };
     let escape = page.lap.map(escape).unwrap_or_default();
     format!(
-        "<h2>Running it</h2>\n{steps}<h3>Passivity</h3>\n{}<h3>Range of validity</h3>\n{}{escape}",
+        "<h2>Running it</h2>\n{steps}<h3>Passivity</h3>\n{}<h3>Range of validity</h3>\n{}{escape}{}",
         passivity(page),
         validity(page),
+        page.reference_tolerance
+            .map(reference_run)
+            .unwrap_or_default(),
     )
 }
 
-fn step_size(lap: &LapFacts) -> String {
+fn reference_run(tolerance: f64) -> String {
+    format!(
+        "<h3>Reference run</h3>\n<p>The FMU carries inputs and the outputs that they lead to, with which an importer can \
+         check itself: it should meet them to {} of their largest magnitudes. \
+         <a href=\"fmi-ls-ref.txt\">How to run it</a>.</p>\n",
+        number(tolerance)
+    )
+}
+
+fn step_size(lap: &LapFacts, version: FmiVersion) -> String {
     let step = &lap.step;
     let reason = match step.choice {
         StepChoice::Accuracy => {
@@ -42,9 +55,13 @@ fn step_size(lap: &LapFacts) -> String {
     };
     format!(
         "<p>A communication step is divided into equal Runge–Kutta steps, none longer than <code>step_size_max</code> = \
-         {}, {reason}.{limit} Loads are held over a communication step, so keep that well below the periods that matter; \
-         {} is suggested.</p>\n",
+         {}, {reason}.{limit} Loads are held over a communication step unless {} within it, so keep it well below the \
+         periods that matter; {} is suggested.</p>\n",
         quantity(step.longest_s, "s"),
+        match version {
+            FmiVersion::V2 => "their derivatives say how they change",
+            FmiVersion::V3 => "the importer sets them anew",
+        },
         quantity(lap.experiment.communication_step_s, "s"),
     )
 }

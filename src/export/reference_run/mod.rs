@@ -73,6 +73,11 @@ impl ReferenceRun {
         files::files(self, model_name)
     }
 
+    /// By how much each output may differ, as a fraction of its largest magnitude.
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     fn stop_s(&self) -> f64 {
         self.steps as f64 * self.step_s
     }

@@ -14,8 +14,11 @@ const TONES: [[(f64, f64); 2]; 4] = [
     [(0.210, 0.6), (0.290, 0.4)],
 ];
 
-/// Largest relative motion where nothing else limits it, m and rad: that of small vibration.
+/// Largest relative motion of a linear joint, m and rad: that of small vibration.
 const SMALL_MOTION: [f64; 2] = [1e-4, 1e-3];
+
+/// How much further a cubic joint is opened where its cubic load would not show otherwise.
+const FURTHER: f64 = 10.0;
 
 /// Part of √(K/|k3|) that the relative motion reaches: the cubic load is its square of the linear one.
 const PART_OF_CUBIC: f64 = 0.3;
@@ -41,7 +44,7 @@ pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>) -> [f64; D] {
         // |k3| x³ = p² K x at x = p √(K/|k3|)
         let cubic = PART_OF_CUBIC * (law.stiffness[i][i] / law.cubic[i].abs()).sqrt();
         if cubic.is_finite() && cubic > 0.0 {
-            cubic.min(SMALL_MOTION[i])
+            cubic.min(FURTHER * SMALL_MOTION[i])
         } else {
             SMALL_MOTION[i]
         }

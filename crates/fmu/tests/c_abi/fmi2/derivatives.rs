@@ -140,6 +140,47 @@ fn a_lap_under_a_ramp_follows_the_equations_of_motion() {
 }
 
 #[test]
+fn each_derivative_of_a_load_gains_an_order() {
+    const OMEGA: f64 = 300.0;
+    /// Displacement of body b under a sine of which the importer tells this many derivatives.
+    fn displacement(orders: usize, steps: u32) -> f64 {
+        let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+        let h = 0.02 / f64::from(steps);
+        for n in 0..steps {
+            let t = f64::from(n) * h;
+            let (sin, cos) = (OMEGA * t).sin_cos();
+            let load = 1e3;
+            let derivatives = [
+                load * OMEGA * cos,
+                -load * OMEGA.powi(2) * sin,
+                -load * OMEGA.powi(3) * cos,
+            ];
+            assert_eq!(instance.set(&[vr::B_F], &[load * sin]), c::OK);
+            assert_eq!(
+                instance.set_input_derivatives(
+                    &[vr::B_F; 3][..orders],
+                    &[1, 2, 3][..orders],
+                    &derivatives[..orders],
+                ),
+                c::OK
+            );
+            assert_eq!(instance.step(t, h), c::OK);
+        }
+        instance.get([vr::B_Y])[0]
+    }
+    let exact = displacement(3, 4000);
+    for orders in 0..=3 {
+        let [coarse, fine] = [40, 80].map(|steps| (displacement(orders, steps) - exact).abs());
+        // the load is followed to the order n, which leaves an error of the order n + 1
+        let gain = f64::from(2_u32.pow(orders as u32 + 1));
+        assert!(
+            coarse / fine > 0.8 * gain && coarse < 0.1 * exact.abs(),
+            "{orders}: {coarse:e} {fine:e} of {exact:e}"
+        );
+    }
+}
+
+#[test]
 fn derivatives_of_outputs_are_rates_of_change() {
     let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
     assert_eq!(instance.set(&[vr::A_F], &[50.0]), c::OK);

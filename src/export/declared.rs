@@ -1,0 +1,20 @@
+//! What the FMU of a joint must declare, for whoever looks into one.
+
+use bolted_joint_interface::Interface as Declared;
+
+use super::description::Description;
+use super::parameters::start_value;
+use super::{ExportError, Interface, Timestamp};
+use crate::joint::JointFile;
+
+/// The variables that an FMU of the joint in `file` declares, with their start values.
+pub(crate) fn declared(
+    file: &JointFile,
+    interface: Interface,
+    step_size_max_s: Option<f64>,
+) -> Result<Declared, ExportError> {
+    let mut description = Description::new(interface, file.joint.dofs)?;
+    description.set_parameters(|name| start_value(file, step_size_max_s, name))?;
+    let (_, declared) = description.finish("no token", Timestamp::from_epoch_text("0")?)?;
+    Ok(declared)
+}

@@ -1,0 +1,244 @@
+//! `check` runs the library in an FMU: sound ones pass, and none that fails takes the report with it.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use bolted_joint::check::{RunVerdict, Runner, inspect, run};
+
+use crate::bench::{Bench, Outcome, replaced};
+use crate::check::repacked;
+use crate::joint_file::JOINT;
+
+/// A bench with one FMU.
+fn bench(interface: &str, version: &str, joint: &str) -> Bench {
+    let bench = Bench::new();
+    bench.write("j.joint.json", joint);
+    let arguments = ["export", "j.joint.json", "-o", "x.fmu", "--as", interface];
+    bench.done(&[&arguments[..], &["--fmi", version]].concat());
+    bench
+}
+
+/// The bench's FMU with a library in it that fails.
+fn with_fault(bench: &Bench, fault: &str) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cli/faulty_library.rs");
+    let library = bench.path("faulty");
+    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = Command::new(compiler)
+        .args(["--edition=2024", "--crate-type=cdylib", "--cap-lints=allow"])
+        .arg(format!("--cfg=fault=\"{fault}\""))
+        .arg(source)
+        .arg("-o")
+        .arg(&library)
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let bytes = std::fs::read(library).unwrap();
+    repacked(bench, "x.fmu", "faulty.fmu", |name, old| {
+        Some(if name.starts_with("binaries/") {
+            bytes.clone()
+        } else {
+            old
+        })
+    });
+}
+
+fn checked(bench: &Bench, file: &str) -> Outcome {
+    bench.run(&["check", file, "--json"])
+}
+
+#[test]
+fn sound_fmus_run_and_their_energy_is_balanced() {
+    let cubic = replaced(JOINT, "\"cubic\": [0, 0]", "\"cubic\": [3e10, -2e4]");
+    for joint in [JOINT, &cubic] {
+        for interface in ["element", "lap"] {
+            for version in ["2", "3"] {
+                let outcome = checked(&bench(interface, version, joint), "x.fmu");
+                assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+                let report = outcome.json();
+                assert_eq!(report["sound"], true);
+                assert_eq!(report["run"]["verdict"], "ran");
+                let energy = |key: &str| report["run"]["energy"][key].as_f64().unwrap();
+                assert!(energy("imbalance").abs() <= energy("tolerance"));
+                // a balance that could be off: energy went in and part of it became heat
+                assert!(energy("tolerance") < 1e-5 * energy("work").abs());
+                assert!(energy("dissipated") > 1e-3 * energy("work").abs());
+                let facts = report["facts"].to_string();
+                for fact in [
+                    "loads: those",
+                    "derivatives: those",
+                    "last bit",
+                    "reference run: met",
+                ] {
+                    assert!(facts.contains(fact), "{fact}: {facts}");
+                }
+                assert_eq!(report["messages"].as_array().unwrap().len(), 0);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_library_that_fails_is_told_of_with_what_it_logged() {
+    let bench = bench("lap", "3", JOINT);
+    for (fault, fragments) in [
+        (
+            "crashes",
+            [
+                "the library ended its process (signal 6, abort) during the step at t = 0.0 s",
+                "",
+            ],
+        ),
+        (
+            "exits",
+            [
+                "(exit code 7) during the step",
+                "it said: licence not found",
+            ],
+        ),
+        (
+            "refuses",
+            [
+                "fmi3InstantiateCoSimulation returned null; Warning [logStatusWarning]: about to fail",
+                "during instantiation",
+            ],
+        ),
+        (
+            "lacks",
+            [
+                "found no function fmi3DeserializeFMUState",
+                "during loading",
+            ],
+        ),
+        ("prints", ["bytes on standard output", "as it was set"]),
+        ("zeros", ["found the motion [0.0, 0.0", ""]),
+    ] {
+        if cfg!(not(unix)) && fault == "crashes" {
+            continue;
+        }
+        with_fault(&bench, fault);
+        let outcome = bench.run(&["check", "faulty.fmu"]);
+        assert_eq!(outcome.code, Some(1));
+        for fragment in fragments {
+            assert!(
+                outcome.stderr.contains(fragment),
+                "{fault}: {}",
+                outcome.stderr
+            );
+        }
+        // the rest of the report is there
+        assert!(
+            outcome.stdout.contains("joint.stiffness is passive"),
+            "{}",
+            outcome.stdout
+        );
+        assert_eq!(
+            outcome
+                .stdout
+                .contains("the FMU logged: Warning [logStatusWarning]: about to fail"),
+            fault != "lacks"
+        );
+        // left out: none of its code is run
+        bench.done(&["check", "faulty.fmu", "--no-run"]);
+    }
+}
+
+#[test]
+fn a_library_that_hangs_is_ended() {
+    let bench = bench("lap", "3", JOINT);
+    with_fault(&bench, "hangs");
+    let fmu = bench.path("faulty.fmu");
+    let runner = Runner {
+        program: env!("CARGO_BIN_EXE_bolted-joint").into(),
+        arguments: vec!["run-library".to_owned()],
+        time_limit: Duration::from_secs(1),
+    };
+    let began = Instant::now();
+    let report = run(&fmu, &inspect(&fmu).unwrap(), &runner).unwrap();
+    assert!(began.elapsed() < Duration::from_secs(10));
+    assert_eq!(report.verdict, RunVerdict::Failed);
+    assert!(
+        report.findings[0]
+            .contains("had not come to an end after 1 s, during the step at t = 0.0 s"),
+        "{:?}",
+        report.findings
+    );
+}
+
+#[test]
+fn without_a_library_for_this_platform_the_rest_is_checked() {
+    let bench = bench("element", "3", JOINT);
+    let mut archive =
+        zip::ZipArchive::new(std::fs::File::open(bench.path("x.fmu")).unwrap()).unwrap();
+    let mut other = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for index in 0..archive.len() {
+        let entry = archive.by_index_raw(index).unwrap();
+        let name = entry.name().unwrap().into_owned();
+        let name = match name.strip_prefix("binaries/") {
+            Some(_) => "binaries/riscv32-linux/bolted_joint.so".to_owned(),
+            None => name,
+        };
+        other.raw_copy_file_rename(entry, name).unwrap();
+    }
+    bench.write("x.fmu", other.finish().unwrap().into_inner());
+    let outcome = bench.done(&["check", "x.fmu"]);
+    assert!(outcome.stdout.contains("platforms: riscv32-linux"));
+    assert!(
+        outcome
+            .stdout
+            .contains("run: left out, as the FMU has no library for this platform"),
+        "{}",
+        outcome.stdout
+    );
+}
+
+#[test]
+fn a_reference_run_that_is_not_met_is_found() {
+    let bench = bench("lap", "3", JOINT);
+    let outputs = "extra/org.fmi-standard.fmi-ls-ref/reference-run-out.csv";
+    let first_line = |from: &'static str, to: &'static str| {
+        move |index: usize, line: &str| {
+            if index == 0 {
+                line.replacen(from, to, 1)
+            } else {
+                line.to_owned()
+            }
+        }
+    };
+    // the last column is power.dissipated
+    let other_power = |index: usize, line: &str| match line.rsplit_once(',') {
+        Some((others, _)) if index == 10 => format!("{others},1e3"),
+        _ => line.to_owned(),
+    };
+    type Change<'a> = &'a dyn Fn(usize, &str) -> String;
+    let changes: [(Change<'_>, &str); 3] = [
+        (&other_power, "reference run: found power.dissipated = "),
+        (
+            &first_line("time,", "t,"),
+            "expected one that begins with `time`",
+        ),
+        (&first_line("a.y", "a.z"), "found variable a.z"),
+    ];
+    for (change, fragment) in changes {
+        repacked(&bench, "x.fmu", "other.fmu", |name, bytes| {
+            if name != outputs {
+                return Some(bytes);
+            }
+            let text = String::from_utf8(bytes).unwrap();
+            let lines = text.lines().enumerate();
+            let lines: Vec<String> = lines.map(|(index, line)| change(index, line)).collect();
+            Some((lines.join("\n") + "\n").into_bytes())
+        });
+        let outcome = bench.run(&["check", "other.fmu"]);
+        assert_eq!(outcome.code, Some(1));
+        assert!(
+            outcome.stderr.contains(fragment),
+            "{fragment}: {}",
+            outcome.stderr
+        );
+    }
+}

@@ -1,0 +1,343 @@
+//! What no validator looks at in a model description: bounds, capability flags, and that both versions say the same.
+
+use bolted_joint::export::{FmiVersion, Interface};
+
+use crate::xml::{Element, elements, named};
+use crate::{export_as, text};
+
+/// Attributes of `<ModelExchange>` and `<CoSimulation>` alike: FMI 3.0.2, section 2.4.1.1.
+const FMI_3_COMMON: [&str; 9] = [
+    "modelIdentifier",
+    "needsExecutionTool",
+    "canBeInstantiatedOnlyOncePerProcess",
+    "canGetAndSetFMUState",
+    "canSerializeFMUState",
+    "providesDirectionalDerivatives",
+    "providesAdjointDerivatives",
+    "providesPerElementDependencies",
+    "providesEvaluateDiscreteStates",
+];
+/// FMI 3.0.2, section 3.4.
+const FMI_3_MODEL_EXCHANGE: [&str; 1] = ["needsCompletedIntegratorStep"];
+/// FMI 3.0.2, section 4.4.
+const FMI_3_CO_SIMULATION: [&str; 8] = [
+    "canHandleVariableCommunicationStepSize",
+    "fixedInternalStepSize",
+    "maxOutputDerivativeOrder",
+    "recommendedIntermediateInputSmoothness",
+    "providesIntermediateUpdate",
+    "mightReturnEarlyFromDoStep",
+    "canReturnEarlyAfterIntermediateUpdate",
+    "hasEventMode",
+];
+/// FMI 2.0.5, sections 3.3.1 and 4.3.1.
+const FMI_2_COMMON: [&str; 7] = [
+    "modelIdentifier",
+    "needsExecutionTool",
+    "canBeInstantiatedOnlyOncePerProcess",
+    "canNotUseMemoryManagementFunctions",
+    "canGetAndSetFMUstate",
+    "canSerializeFMUstate",
+    "providesDirectionalDerivative",
+];
+/// FMI 2.0.5, section 3.3.1.
+const FMI_2_MODEL_EXCHANGE: [&str; 1] = ["completedIntegratorStepNotNeeded"];
+/// FMI 2.0.5, section 4.3.1, as misspelt there.
+const FMI_2_CO_SIMULATION: [&str; 4] = [
+    "canHandleVariableCommunicationStepSize",
+    "canInterpolateInputs",
+    "maxOutputDerivativeOrder",
+    "canRunAsynchronuously",
+];
+
+const JOINTS: [(&str, Interface); 3] = [
+    ("m10-aluminium.joint.json", Interface::Element),
+    ("pirdayr-ex03.joint.json", Interface::Element),
+    ("pirdayr-ex03.joint.json", Interface::Lap),
+];
+
+fn description(name: &str, interface: Interface, version: FmiVersion) -> String {
+    let (fmu, _) = export_as(name, interface, version).unwrap();
+    text(&fmu, "modelDescription.xml").unwrap()
+}
+
+/// Exported ones of both versions, and the hand-written ones, whose every variable is there.
+fn all() -> Vec<(FmiVersion, String)> {
+    let mut all = vec![
+        (
+            FmiVersion::V3,
+            include_str!("../../modelDescription/element.xml").to_owned(),
+        ),
+        (
+            FmiVersion::V3,
+            include_str!("../../modelDescription/lap.xml").to_owned(),
+        ),
+    ];
+    for version in [FmiVersion::V2, FmiVersion::V3] {
+        for (name, interface) in JOINTS {
+            all.push((version, description(name, interface, version)));
+        }
+    }
+    all
+}
+
+#[test]
+fn every_capability_attribute_is_one_of_the_standard() {
+    for (version, xml) in all() {
+        let (common, model_exchange, co_simulation): (&[&str], &[&str], &[&str]) = match version {
+            FmiVersion::V2 => (&FMI_2_COMMON, &FMI_2_MODEL_EXCHANGE, &FMI_2_CO_SIMULATION),
+            FmiVersion::V3 => (&FMI_3_COMMON, &FMI_3_MODEL_EXCHANGE, &FMI_3_CO_SIMULATION),
+        };
+        for (element, own) in [
+            ("ModelExchange", model_exchange),
+            ("CoSimulation", co_simulation),
+        ] {
+            let found = named(&xml, element);
+            assert_eq!(found.len(), 1, "{version}: {element}");
+            for name in found[0].attributes.keys() {
+                assert!(
+                    common.contains(&&**name) || own.contains(&&**name),
+                    "{version}: {element}: {name}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn start_values_lie_within_their_bounds_and_bounds_around_what_the_library_takes() {
+    let mut bounded = 0;
+    for (version, xml) in all() {
+        let elements = elements(&xml);
+        // FMI 2.0 has the numbers of type and variable in the element that follows.
+        let inner = match version {
+            FmiVersion::V2 => 1,
+            FmiVersion::V3 => 0,
+        };
+        let (type_tag, variable_tag) = match version {
+            FmiVersion::V2 => ("SimpleType", "ScalarVariable"),
+            FmiVersion::V3 => ("Float64Type", "Float64"),
+        };
+        let all_of = |tag: &str| -> Vec<(&str, &Element)> {
+            let found = elements.iter().enumerate().filter(|(_, e)| e.name == tag);
+            found
+                .map(|(i, e)| (e.get("name").unwrap(), &elements[i + inner]))
+                .collect()
+        };
+        let types = all_of(type_tag);
+        for (name, variable) in all_of(variable_tag) {
+            let declared = variable.get("declaredType").unwrap();
+            let of_type = types.iter().find(|(name, _)| *name == declared).unwrap().1;
+            let bound = |bound| variable.number(bound).or_else(|| of_type.number(bound));
+            let Some(start) = variable.number("start") else {
+                continue;
+            };
+            assert!(start.is_finite(), "{name}");
+            assert!(bound("min").is_none_or(|min| min <= start), "{name}");
+            assert!(bound("max").is_none_or(|max| start <= max), "{name}");
+            bounded += usize::from(bound("min").is_some());
+            // Zero is refused by the library, so it must not lie within the bounds.
+            let must_be_positive =
+                name.ends_with(".m") || name.ends_with(".J") || name == "step_size_max";
+            assert_eq!(
+                bound("min"),
+                must_be_positive.then_some(f64::MIN_POSITIVE),
+                "{name}"
+            );
+            let nominal = of_type.number("nominal");
+            assert!(nominal.is_none_or(|nominal| nominal > 0.0), "{declared}");
+        }
+    }
+    assert!(bounded > 10, "{bounded}");
+}
+
+#[test]
+fn both_versions_declare_the_same_variables() {
+    for (name, interface) in JOINTS {
+        let [two, three] = [FmiVersion::V2, FmiVersion::V3]
+            .map(|version| elements(&description(name, interface, version)));
+        let variables =
+            |elements: &[Element], tag: &str, inner: usize, derivative: &dyn Fn(&str) -> String| {
+                let found = elements.iter().enumerate().filter(|(_, e)| e.name == tag);
+                found
+                    .map(|(i, variable)| {
+                        let numbers = &elements[i + inner];
+                        let own = [
+                            "name",
+                            "valueReference",
+                            "causality",
+                            "variability",
+                            "initial",
+                            "description",
+                        ]
+                        .map(|attribute| variable.get(attribute).map(str::to_owned));
+                        (
+                            own,
+                            numbers.get("declaredType").map(str::to_owned),
+                            numbers.number("start"),
+                            numbers.get("derivative").map(derivative),
+                        )
+                    })
+                    .collect::<Vec<_>>()
+            };
+        let in_three = variables(&three, "Float64", 0, &|reference| reference.to_owned());
+        // Indices count from 1 in the order of the file; references are what FMI 3.0 has in their place.
+        let reference_of = |index: usize| in_three[index - 1].0[1].clone().unwrap();
+        let in_two = variables(&two, "ScalarVariable", 1, &|index| {
+            reference_of(index.parse().unwrap())
+        });
+        assert_eq!(in_two, in_three);
+        assert!(in_two.len() > 10);
+
+        let units = |elements: &[Element]| -> Vec<String> {
+            let kept = [
+                "Unit",
+                "BaseUnit",
+                "DisplayUnit",
+                "Category",
+                "DefaultExperiment",
+            ];
+            let found = elements.iter().filter(|e| kept.contains(&&*e.name));
+            found
+                .map(|e| format!("{e:?}").replace("fmi3", "fmi2"))
+                .collect()
+        };
+        assert_eq!(units(&two), units(&three));
+        let types = |elements: &[Element], tag: &str, inner: usize| -> Vec<_> {
+            let found = elements.iter().enumerate().filter(|(_, e)| e.name == tag);
+            found
+                .map(|(i, e)| {
+                    let mut attributes = elements[i + inner].attributes.clone();
+                    attributes.insert("name".to_owned(), e.get("name").unwrap().to_owned());
+                    attributes
+                })
+                .collect()
+        };
+        assert_eq!(
+            types(&two, "SimpleType", 1),
+            types(&three, "Float64Type", 0)
+        );
+    }
+}
+
+#[test]
+fn both_versions_tell_the_same_dependencies() {
+    for (name, interface) in JOINTS {
+        let [two, three] =
+            [FmiVersion::V2, FmiVersion::V3].map(|version| description(name, interface, version));
+        let declared = named(&three, "Float64");
+        let reference = |element: &Element| element.list("valueReference").unwrap()[0];
+        let index_of = |wanted: usize| {
+            let position = declared.iter().position(|e| reference(e) == wanted);
+            position.unwrap() + 1
+        };
+        let is_parameter =
+            |index: &usize| declared[index - 1].get("causality") == Some("parameter");
+        for (list, element) in [
+            ("Outputs", "Output"),
+            ("Derivatives", "ContinuousStateDerivative"),
+            ("InitialUnknowns", "InitialUnknown"),
+        ] {
+            let expected: Vec<_> = named(&three, element)
+                .iter()
+                .map(|unknown| {
+                    let mut on: Vec<usize> = unknown
+                        .list("dependencies")
+                        .unwrap()
+                        .into_iter()
+                        .map(index_of)
+                        .collect();
+                    on.sort_unstable();
+                    // Only the initialisation knows parameters in FMI 2.0.
+                    on.retain(|index| list == "InitialUnknowns" || !is_parameter(index));
+                    (index_of(reference(unknown)), on)
+                })
+                .collect();
+            let found: Vec<_> = match two.split_once(&format!("<{list}>")) {
+                Some((_, rest)) => {
+                    let within = rest.split(&format!("</{list}>")).next().unwrap();
+                    named(within, "Unknown")
+                        .iter()
+                        .map(|unknown| {
+                            let on = unknown.list("dependencies").unwrap();
+                            let kinds = unknown
+                                .get("dependenciesKind")
+                                .map(|kinds| kinds.split(' ').count());
+                            assert!(kinds.is_none_or(|count| count == on.len()), "{list}");
+                            assert_eq!(kinds.is_none(), list == "InitialUnknowns", "{list}");
+                            (unknown.list("index").unwrap()[0], on)
+                        })
+                        .collect()
+                }
+                None => Vec::new(),
+            };
+            assert_eq!(found, expected, "{list}");
+            assert_eq!(
+                found.is_empty(),
+                list == "Derivatives" && interface == Interface::Element
+            );
+        }
+    }
+}
+
+#[test]
+fn fmi_2_claims_what_fmi_3_claims() {
+    for (name, interface) in JOINTS {
+        let [two, three] =
+            [FmiVersion::V2, FmiVersion::V3].map(|version| description(name, interface, version));
+        for (element, pairs) in [
+            (
+                "ModelExchange",
+                [
+                    ("canGetAndSetFMUstate", "canGetAndSetFMUState"),
+                    ("canSerializeFMUstate", "canSerializeFMUState"),
+                    (
+                        "providesDirectionalDerivative",
+                        "providesDirectionalDerivatives",
+                    ),
+                ]
+                .as_slice(),
+            ),
+            (
+                "CoSimulation",
+                &[
+                    ("canGetAndSetFMUstate", "canGetAndSetFMUState"),
+                    ("canSerializeFMUstate", "canSerializeFMUState"),
+                    (
+                        "providesDirectionalDerivative",
+                        "providesDirectionalDerivatives",
+                    ),
+                    ("canInterpolateInputs", "providesIntermediateUpdate"),
+                    ("maxOutputDerivativeOrder", "maxOutputDerivativeOrder"),
+                    (
+                        "canHandleVariableCommunicationStepSize",
+                        "canHandleVariableCommunicationStepSize",
+                    ),
+                ],
+            ),
+        ] {
+            let [two, three] = [&two, &three].map(|xml| named(xml, element).remove(0));
+            for (old, new) in pairs {
+                assert_eq!(two.get(old), three.get(new), "{element}: {old}");
+                assert!(two.get(old).is_some(), "{element}: {old}");
+            }
+            assert_eq!(two.get("modelIdentifier"), three.get("modelIdentifier"));
+        }
+        let needed = named(&three, "ModelExchange")[0]
+            .get("needsCompletedIntegratorStep")
+            .map(str::to_owned);
+        let not_needed = named(&two, "ModelExchange")[0]
+            .get("completedIntegratorStepNotNeeded")
+            .map(str::to_owned);
+        let expected = if interface == Interface::Lap {
+            ("true", "false")
+        } else {
+            ("false", "true")
+        };
+        assert_eq!(
+            (needed.as_deref(), not_needed.as_deref()),
+            (Some(expected.0), Some(expected.1))
+        );
+        assert!(!two.contains("fmi3") && two.contains("numberOfEventIndicators=\"0\""));
+    }
+}

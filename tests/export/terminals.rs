@@ -1,0 +1,134 @@
+//! Flanges and pictures.
+
+use bolted_joint::export::{FmiVersion, Interface};
+
+use crate::xml::{Element, elements, named};
+use crate::{bytes, export_as, text};
+
+/// The flanges: name, and of each member its name, variable and kind.
+fn flanges(xml: &str) -> Vec<(String, Vec<[String; 3]>)> {
+    let mut flanges: Vec<(String, Vec<[String; 3]>)> = Vec::new();
+    for element in elements(xml) {
+        match &*element.name {
+            "Terminal" => {
+                assert_eq!(element.get("matchingRule"), Some("plug"));
+                flanges.push((element.get("name").unwrap().to_owned(), Vec::new()));
+            }
+            "TerminalMemberVariable" => {
+                let member = ["memberName", "variableName", "variableKind"]
+                    .map(|attribute| element.get(attribute).unwrap().to_owned());
+                flanges.last_mut().unwrap().1.push(member);
+            }
+            _ => {}
+        }
+    }
+    flanges
+}
+
+#[test]
+fn each_side_has_a_flange_and_an_element_fits_a_lap() {
+    for (name, members) in [
+        (
+            "m10-aluminium.joint.json",
+            ["y", "theta", "v", "omega", "F", "M"].as_slice(),
+        ),
+        ("pirdayr-ex03.joint.json", &["y", "v", "F"]),
+    ] {
+        for version in [FmiVersion::V2, FmiVersion::V3] {
+            let (element, _) = export_as(name, Interface::Element, version).unwrap();
+            let xml = text(&element, "terminalsAndIcons/terminalsAndIcons.xml").unwrap();
+            assert!(xml.contains("<fmiTerminalsAndIcons fmiVersion=\"3.0\">"));
+            let description = text(&element, "modelDescription.xml").unwrap();
+            let tag = if version == FmiVersion::V2 {
+                "ScalarVariable"
+            } else {
+                "Float64"
+            };
+            let variables = named(&description, tag);
+            let causality = |name: &str| -> String {
+                let found = variables
+                    .iter()
+                    .find(|e: &&Element| e.get("name") == Some(name));
+                found.unwrap().get("causality").unwrap().to_owned()
+            };
+            let flanges = flanges(&xml);
+            assert_eq!(flanges.len(), 2);
+            for ((side, found), expected) in flanges.iter().zip(["a", "b"]) {
+                assert_eq!(side, expected);
+                let names: Vec<&str> = found.iter().map(|[member, _, _]| &**member).collect();
+                assert_eq!(names, members);
+                for [member, variable, kind] in found {
+                    assert_eq!(*variable, format!("{side}.{member}"));
+                    // Motion is taken from the neighbour, the load on the neighbour is given out.
+                    let expected = match &**member {
+                        "F" | "M" => ("output", "outflow"),
+                        _ => ("input", "signal"),
+                    };
+                    assert_eq!((&*causality(variable), &**kind), expected, "{variable}");
+                }
+            }
+        }
+    }
+    // What an element takes the lap gives, and the other way round, under the same names.
+    let [element, lap] = [Interface::Element, Interface::Lap].map(|interface| {
+        let (fmu, _) = export_as("pirdayr-ex03.joint.json", interface, FmiVersion::V3).unwrap();
+        flanges(&text(&fmu, "terminalsAndIcons/terminalsAndIcons.xml").unwrap())
+    });
+    for ((_, element), (_, lap)) in element.iter().zip(&lap) {
+        for ([member, _, kind], [other, _, other_kind]) in element.iter().zip(lap) {
+            assert_eq!(member, other);
+            let expected = if kind == "outflow" {
+                "inflow"
+            } else {
+                "signal"
+            };
+            assert_eq!(other_kind, expected, "{member}");
+        }
+    }
+}
+
+/// Width and height of a PNG: its header chunk is the first.
+fn size(png: &[u8]) -> [u32; 2] {
+    assert_eq!(png[..16], *b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR");
+    [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().unwrap()))
+}
+
+#[test]
+fn pictures_are_where_the_standard_wants_them() {
+    for interface in [Interface::Element, Interface::Lap] {
+        let [two, three] = [FmiVersion::V2, FmiVersion::V3].map(|version| {
+            export_as("pirdayr-ex03.joint.json", interface, version)
+                .unwrap()
+                .0
+        });
+        let icon = bytes(&two, "model.png").unwrap();
+        assert_eq!(size(&icon), [100, 100]);
+        assert!(bytes(&three, "model.png").is_err());
+        for fmu in [&two, &three] {
+            assert_eq!(bytes(fmu, "terminalsAndIcons/icon.png").unwrap(), icon);
+            let [width, height] = size(&bytes(fmu, "documentation/diagram.png").unwrap());
+            assert!(width > 600 && height > 100);
+            let terminals = text(fmu, "terminalsAndIcons/terminalsAndIcons.xml").unwrap();
+            for place in named(&terminals, "TerminalGraphicalRepresentation") {
+                let name = place.get("iconBaseName").unwrap();
+                size(&bytes(fmu, &format!("terminalsAndIcons/{name}.png")).unwrap());
+            }
+            for drawing in [
+                "terminalsAndIcons/icon.svg",
+                "terminalsAndIcons/flange_a.svg",
+                "terminalsAndIcons/flange_b.svg",
+                "documentation/diagram.svg",
+            ] {
+                let svg = text(fmu, drawing).unwrap();
+                assert!(
+                    svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""),
+                    "{drawing}"
+                );
+                assert!(
+                    svg.trim_end().ends_with("</svg>") && !svg.contains("href"),
+                    "{drawing}"
+                );
+            }
+        }
+    }
+}

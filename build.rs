@@ -13,6 +13,9 @@ use std::{
 
 use bolted_joint_interface::Interfaces;
 
+#[path = "crates/fmu/linking.rs"]
+mod linking;
+
 fn main() -> ExitCode {
     match build() {
         Ok(()) => ExitCode::SUCCESS,
@@ -31,6 +34,8 @@ fn build() -> Result<(), String> {
         "modelDescription",
         "crates/dynamics/src",
         "crates/fmu/src",
+        "crates/fmu/linking.rs",
+        "crates/fmu/old_glibc.rs",
     ] {
         println!("cargo:rerun-if-changed={}", root.join(watched).display());
     }
@@ -48,7 +53,8 @@ fn build() -> Result<(), String> {
     ));
     let compiler = Compiler::new(&root, &out, &platform)?;
     let dynamics = compiler.dynamics()?;
-    compiler.fmu(&dynamics, &library)?;
+    let old_glibc = compiler.old_glibc()?;
+    compiler.fmu(&dynamics, old_glibc.as_deref(), &library)?;
 
     println!("cargo:rustc-env=BOLTED_JOINT_LIBRARY={}", library.display());
     println!("cargo:rustc-env=BOLTED_JOINT_PLATFORM={}", platform.folder);
@@ -63,6 +69,8 @@ struct Platform {
     extension: &'static str,
     /// Flags that this platform's linker needs.
     flags: Vec<String>,
+    /// Whether the functions of `old_glibc.rs` are linked in, for systems older than this one.
+    old_glibc: bool,
 }
 
 impl Platform {
@@ -79,40 +87,37 @@ impl Platform {
             other => return Err(format!("FMI 3.0 has no name for the architecture {other}")),
         };
         let environment = env::var("CARGO_CFG_TARGET_ENV").unwrap_or_default();
-        let (system, extension, flags): (_, _, &[&str]) = match (
-            variable("CARGO_CFG_TARGET_OS")?.as_str(),
-            environment.as_str(),
-        ) {
-            // a shared library needs the dynamic C library
-            ("linux", "musl") => ("linux", "so", &["-Ctarget-feature=-crt-static"]),
-            ("linux", _) => ("linux", "so", &["-Clink-arg=-Wl,--build-id=none"]),
-            // the default install name is the path on the building machine
-            ("macos", _) => (
-                "darwin",
-                "dylib",
-                &["-Clink-arg=-Wl,-install_name,@rpath/bolted_joint.dylib"],
-            ),
-            // no Visual C++ runtime on the user's machine, no time stamp in the file
-            ("windows", "msvc") => (
-                "windows",
-                "dll",
-                &[
-                    "-Ctarget-feature=+crt-static",
-                    "-Clink-arg=/Brepro",
-                    "-Clink-arg=/DEBUG:NONE",
-                ],
-            ),
-            ("windows", _) => ("windows", "dll", &["-Clink-arg=-Wl,--no-insert-timestamp"]),
-            (other, _) => {
+        let system = variable("CARGO_CFG_TARGET_OS")?;
+        let (name, extension) = match system.as_str() {
+            "linux" => ("linux", "so"),
+            "macos" => ("darwin", "dylib"),
+            "windows" => ("windows", "dll"),
+            other => {
                 return Err(format!(
                     "FMI 3.0 has no name for the operating system {other}"
                 ));
             }
         };
+        let mut flags: Vec<String> = linking::arguments(&system, &environment)
+            .iter()
+            .map(|argument| format!("-Clink-arg={argument}"))
+            .collect();
+        match environment.as_str() {
+            // a shared library needs the dynamic C library
+            "musl" => flags.push("-Ctarget-feature=-crt-static".to_owned()),
+            // no Visual C++ runtime on the user's machine
+            "msvc" => flags.push("-Ctarget-feature=+crt-static".to_owned()),
+            _ => {}
+        }
+        let old_glibc = system == "linux"
+            && environment == "gnu"
+            && matches!(architecture, "x86_64" | "aarch64")
+            && variable("CARGO_CFG_TARGET_POINTER_WIDTH")? == "64";
         Ok(Self {
-            folder: format!("{architecture}-{system}"),
+            folder: format!("{architecture}-{name}"),
             extension,
-            flags: flags.iter().map(|&flag| flag.to_owned()).collect(),
+            flags,
+            old_glibc,
         })
     }
 }
@@ -150,7 +155,19 @@ impl<'a> Compiler<'a> {
         Ok(rlib)
     }
 
-    fn fmu(&self, dynamics: &Path, library: &Path) -> Result<(), String> {
+    /// The object that keeps newer versions of the C library's symbols out of the library, where there is one.
+    fn old_glibc(&self) -> Result<Option<PathBuf>, String> {
+        if !self.platform.old_glibc {
+            return Ok(None);
+        }
+        let object = self.out.join("old_glibc.o");
+        let mut command = self.command("crates/fmu/old_glibc.rs", &object);
+        command.args(["--crate-name=old_glibc", "--crate-type=lib", "--emit=obj"]);
+        run(command)?;
+        Ok(Some(object))
+    }
+
+    fn fmu(&self, dynamics: &Path, old_glibc: Option<&Path>, library: &Path) -> Result<(), String> {
         let mut command = self.command("crates/fmu/src/lib.rs", library);
         command.args(["--crate-name=bolted_joint", "--crate-type=cdylib"]);
         command.args(["-Clto=fat", "-Cstrip=symbols"]);
@@ -158,6 +175,9 @@ impl<'a> Compiler<'a> {
             .arg("--extern")
             .arg(with_value("bolted_joint_dynamics=", dynamics));
         command.args(&self.platform.flags);
+        if let Some(object) = old_glibc {
+            command.arg(with_value("-Clink-arg=", object));
+        }
         if let Some(linker) = &self.linker {
             command.arg(with_value("-Clinker=", Path::new(linker)));
         }

@@ -83,22 +83,41 @@ pub(crate) struct Fmu<'a> {
     status: c_int,
 }
 
-impl<'a> Fmu<'a> {
-    /// Instance of the FMU with this start-value file, initialised at t = 0.
-    pub(crate) fn start(library: &'a Library, start_file: &str) -> Result<Self, Box<dyn Error>> {
-        let resources = tempfile::tempdir()?;
-        fs::write(resources.path().join("start.txt"), start_file)?;
-        let path = resources
+/// Resources of an FMU in a folder of their own.
+pub(crate) struct Resources {
+    path: CString,
+    _folder: tempfile::TempDir,
+}
+
+impl Resources {
+    /// Writes the start-value file.
+    pub(crate) fn with(start_file: &str) -> Result<Self, Box<dyn Error>> {
+        let folder = tempfile::tempdir()?;
+        fs::write(folder.path().join("start.txt"), start_file)?;
+        let path = folder
             .path()
             .to_str()
             .ok_or("the temporary folder is not UTF-8")?;
-        let (token, path) = (CString::new(TOKEN)?, CString::new(path)?);
+        Ok(Self {
+            path: CString::new(path)?,
+            _folder: folder,
+        })
+    }
+}
+
+impl<'a> Fmu<'a> {
+    /// Instance of the FMU with these resources.
+    pub(crate) fn instantiate(
+        library: &'a Library,
+        resources: &Resources,
+    ) -> Result<Self, Box<dyn Error>> {
+        let token = CString::new(TOKEN)?;
         // SAFETY: all strings are terminated and live through the call, the callback is callable at any time
         let handle = unsafe {
             (library.instantiate)(
                 c"benchmark".as_ptr(),
                 token.as_ptr(),
-                path.as_ptr(),
+                resources.path.as_ptr(),
                 false,
                 false,
                 false,
@@ -113,17 +132,22 @@ impl<'a> Fmu<'a> {
         if handle.is_null() {
             return Err("the FMU cannot be instantiated".into());
         }
-        let fmu = Self {
+        Ok(Self {
             library,
             handle,
             time_s: 0.0,
             status: OK,
-        };
+        })
+    }
+
+    /// Instance of the FMU with this start-value file, initialised at t = 0.
+    pub(crate) fn start(library: &'a Library, start_file: &str) -> Result<Self, Box<dyn Error>> {
+        let fmu = Self::instantiate(library, &Resources::with(start_file)?)?;
         // SAFETY: the instance lives
         let statuses = unsafe {
             [
-                (library.enter_initialization)(handle, false, 0.0, 0.0, false, 0.0),
-                (library.exit_initialization)(handle),
+                (library.enter_initialization)(fmu.handle, false, 0.0, 0.0, false, 0.0),
+                (library.exit_initialization)(fmu.handle),
             ]
         };
         if statuses == [OK; 2] {

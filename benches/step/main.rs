@@ -3,7 +3,8 @@
 //! The FMU's side is what an importer does: `fmi3SetFloat64`, `fmi3DoStep`, `fmi3GetFloat64`, in the very library that
 //! the executable embeds, loaded at run time. The C side is `reference.c`, compiled with `-O3` when the benchmark
 //! starts; it has no interface to cross. Criterion reports all ways; after that, all are timed once more in turns, so
-//! that they share whatever else the machine does, and the FMU's time is printed in proportion to the others.
+//! that they share whatever else the machine does, and the FMU's time is printed in proportion to the others. What it
+//! takes to make an instance is reported too.
 
 mod comparison;
 mod fmu;
@@ -15,7 +16,11 @@ use std::{error::Error, time::Duration};
 use bolted_joint_dynamics::{Body, JointLaw, Lap};
 use criterion::Criterion;
 
-use crate::{comparison::Comparison, fmu::Library, reference::Compiler};
+use crate::{
+    comparison::Comparison,
+    fmu::{Fmu, Library, Resources},
+    reference::Compiler,
+};
 
 /// Longest Runge–Kutta step, s.
 const STEP_SIZE_MAX_S: f64 = 1e-5;
@@ -63,6 +68,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for comparison in &mut comparisons {
         comparison.bench(&mut criterion);
     }
+    bench_instantiation(
+        &mut criterion,
+        &library,
+        &start_file::lap(&rotation, STEP_SIZE_MAX_S),
+    )?;
     criterion.final_summary();
 
     // Cargo tells in this way that it is to measure, the user that it is only to try or to list
@@ -70,6 +80,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     if is_given("--bench") && !is_given("--test") && !is_given("--list") {
         comparison::print_ratios(&mut comparisons);
     }
+    Ok(())
+}
+
+/// Criterion's report of making an instance and freeing it, its start-value file in the page cache.
+fn bench_instantiation(
+    criterion: &mut Criterion,
+    library: &Library,
+    start_file: &str,
+) -> Result<(), Box<dyn Error>> {
+    let resources = Resources::with(start_file)?;
+    Fmu::instantiate(library, &resources)?;
+    criterion.bench_function("instantiate and free, lap, 2 DOF", |bencher| {
+        bencher.iter(|| Fmu::instantiate(library, &resources).is_ok());
+    });
     Ok(())
 }
 

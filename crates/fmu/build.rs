@@ -1,15 +1,20 @@
-//! Turns `modelDescription/*.xml` into the library's tables of variables.
+//! Turns `modelDescription/*.xml` into the library's tables of variables, and tells the linker what it must know.
 
 use std::{env, fs, path::Path, process::ExitCode};
 
 use bolted_joint_interface::Interfaces;
+
+#[path = "linking.rs"]
+mod linking;
 
 fn main() -> ExitCode {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
     for file in Interfaces::FILES {
         println!("cargo:rerun-if-changed={}", folder.join(file).display());
     }
-    match write_tables(&folder) {
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=linking.rs");
+    match write_tables(&folder).and_then(|()| pass_linker_arguments()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");
@@ -21,7 +26,20 @@ fn main() -> ExitCode {
 fn write_tables(folder: &Path) -> Result<(), String> {
     let interfaces =
         Interfaces::read(folder).map_err(|error| format!("modelDescription: {error}"))?;
-    let out = env::var("OUT_DIR").map_err(|error| format!("OUT_DIR: {error}"))?;
+    let out = variable("OUT_DIR")?;
     let path = Path::new(&out).join("interface.rs");
     fs::write(&path, interfaces.to_rust()).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn pass_linker_arguments() -> Result<(), String> {
+    let system = variable("CARGO_CFG_TARGET_OS")?;
+    let environment = variable("CARGO_CFG_TARGET_ENV")?;
+    for argument in linking::arguments(&system, &environment) {
+        println!("cargo:rustc-cdylib-link-arg={argument}");
+    }
+    Ok(())
+}
+
+fn variable(name: &str) -> Result<String, String> {
+    env::var(name).map_err(|error| format!("{name}: {error}"))
 }

@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from instances import both_versions
 from joints import LAPS
 from reference import Joint, Lap
 
@@ -62,6 +63,8 @@ def found_jacobian(instance, unknowns, knowns):
         instance.fmu.getDirectionalDerivative(unknowns, [instance.reference[known]], [1.0]) for known in knowns
     ]
     forward = np.array(columns).T
+    if instance.is_fmi2:
+        return forward  # FMI 2.0 has no adjoint derivatives
     references = [instance.reference[known] for known in knowns]
     rows = []
     for row in range(len(unknowns)):
@@ -78,6 +81,7 @@ def assert_equal(found, expected):
     assert (np.abs(found - expected) <= 1e-12 * scale).all(), np.abs(found - expected) / (scale + (scale == 0))
 
 
+@both_versions
 @pytest.mark.parametrize("case", CASES)
 def test_element(slave, case):
     file = {key: value for key, value in LAPS[case].items() if key != "bodies"}
@@ -101,6 +105,7 @@ def test_element(slave, case):
         assert_equal(found_jacobian(instance, unknowns, knowns), jacobian(outputs, knowns))
 
 
+@both_versions
 @pytest.mark.parametrize("case", CASES)
 def test_lap(slave, case):
     file = LAPS[case]
@@ -117,7 +122,7 @@ def test_lap(slave, case):
 
         expected = jacobian(outputs, knowns)
         instance = slave(file, "lap")
-        instance.fmu.enterInitializationMode()
+        instance.enter_initialization()
         instance.set(dict(zip(states, values)))
         assert_equal(found_jacobian(instance, unknowns, knowns), expected)
         instance.fmu.exitInitializationMode()

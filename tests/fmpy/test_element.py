@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from instances import both_versions
 from joints import LAPS
 from reference import Joint
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_loads_energy_and_power(slave, case):
     joint = Joint(LAPS[case])
@@ -33,12 +35,14 @@ def test_loads_energy_and_power(slave, case):
         )
 
 
+@both_versions
 def test_a_one_dof_element_has_no_rotation(slave):
     instance = slave(LAPS["linear-1"], "element")
     rotational = [name for name in instance.reference if "theta" in name or "omega" in name or name.endswith(".M")]
     assert rotational == []
 
 
+@both_versions
 def test_tunable_parameters_act_at_once(slave):
     instance = slave(LAPS["linear-1"], "element")
     instance.initialise()

@@ -11,27 +11,30 @@ import zipfile
 import fmpy
 import numpy as np
 import pytest
-from conftest import Slave
+from conftest import ROOT
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
+from instances import Slave, both_versions
 from joints import HARDENING_1, LAPS, LINEAR_1, LINEAR_2, SOFTENING_1, changed
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 @pytest.mark.parametrize("interface", ["element", "lap"])
-def test_the_validator_finds_no_problem(export, case, interface):
-    fmu = export(LAPS[case], interface)
+def test_the_validator_finds_no_problem(export, case, interface, fmi):
+    fmu = export(LAPS[case], interface, fmi=fmi)
     assert validate_fmu(str(fmu)) == []
     description = fmpy.read_model_description(str(fmu), validate=True)
-    assert description.fmiVersion == "3.0"
+    assert description.fmiVersion == f"{fmi}.0"
     assert description.coSimulation.canGetAndSetFMUstate
     assert description.coSimulation.canSerializeFMUstate
     result = fmpy.simulate_fmu(str(fmu), stop_time=1e-3, output_interval=1e-4)
     assert len(result) == 11
 
 
-def test_start_values_are_those_of_the_joint_file(export):
-    description = fmpy.read_model_description(str(export(LINEAR_2, "lap")))
+@both_versions
+def test_start_values_are_those_of_the_joint_file(export, fmi):
+    description = fmpy.read_model_description(str(export(LINEAR_2, "lap", fmi=fmi)))
     start = {v.name: float(v.start) for v in description.modelVariables if v.start is not None}
     assert start["joint.k_yy"] == 5.73e5
     assert start["joint.k_ytheta"] == 5.82e3
@@ -42,8 +45,9 @@ def test_start_values_are_those_of_the_joint_file(export):
     assert start["b.k_theta"] == 80.0
 
 
-def test_units_and_display_units(export):
-    description = fmpy.read_model_description(str(export(LINEAR_2, "lap")))
+@both_versions
+def test_units_and_display_units(export, fmi):
+    description = fmpy.read_model_description(str(export(LINEAR_2, "lap", fmi=fmi)))
     variables = {v.name: v for v in description.modelVariables}
     displacement = variables["a.y"].declaredType
     assert (displacement.unit, displacement.displayUnit) == ("m", "mm")
@@ -53,21 +57,35 @@ def test_units_and_display_units(export):
 
 
 def header_functions():
-    """Names of all functions that the FMI 3.0 header, as FMPy ships it, declares."""
-    header = pathlib.Path(fmpy.__file__).parent / "c-code" / "fmi3Functions.h"
-    text = header.read_text()
-    names = set(re.findall(r"FMI3_Export\s+fmi3\w+TYPE\s+(fmi3\w+)\s*;", text))
-    assert len(names) > 70, "the header has another form than expected"
+    """Names of all functions that the headers of FMI 2.0 and 3.0, as FMPy ships them, declare."""
+    folder = pathlib.Path(fmpy.__file__).parent / "c-code"
+    names = set()
+    for version, least in ((2, 40), (3, 70)):
+        text = (folder / f"fmi{version}Functions.h").read_text()
+        found = re.findall(rf"FMI{version}_Export\s+fmi{version}\w+TYPE\s+(fmi{version}\w+)\s*;", text)
+        assert len(found) > least, "the header has another form than expected"
+        names.update(found)
     return names
 
 
 @pytest.mark.skipif(shutil.which("nm") is None, reason="nm (binutils) lists the exported functions")
-def test_every_function_of_the_header_is_exported_and_nothing_else(export, tmp_path):
-    fmpy.extract(str(export(LINEAR_1, "lap")), str(tmp_path))
+@both_versions
+def test_every_function_of_the_headers_is_exported_and_nothing_else(export, tmp_path, fmi):
+    fmpy.extract(str(export(LINEAR_1, "lap", fmi=fmi)), str(tmp_path))
     (library,) = (tmp_path / "binaries").glob("*/bolted_joint.*")
     listed = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True)
     exported = {line.split()[-1].split("@")[0] for line in listed.stdout.splitlines()}
     assert exported == header_functions()
+
+
+def test_the_random_calls_reach_every_function_of_the_headers():
+    """The harness in crates/fmu has its own table of functions: it must not forget one."""
+    folder = ROOT / "crates/fmu/tests/random_calls/calls"
+    called = set()
+    for version in (2, 3):
+        called.update(re.findall(rf'"(fmi{version}[A-Z]\w+)"', (folder / f"fmi{version}.rs").read_text()))
+        called.update(re.findall(rf'"(fmi{version}[A-Z]\w+)"', (folder / "world.rs").read_text()))
+    assert called == header_functions()
 
 
 def test_same_input_same_bytes_and_no_need_of_anything_beside_the_executable(program, tmp_path):
@@ -99,16 +117,19 @@ def test_the_archive_holds_what_the_user_may_look_at(export):
     assert "http" not in re.sub(r'xmlns(:\w+)?="[^"]*"', "", page), "the page needs no network"
 
 
+@both_versions
 @pytest.mark.parametrize("folder", ["plain", "with space", "Größe µm – Schraube"])
 @pytest.mark.parametrize("ending", ["", os.sep])
-def test_resources_are_found_in_any_folder(export, tmp_path, folder, ending):
+def test_resources_are_found_in_any_folder(export, tmp_path, folder, ending, fmi):
     target = tmp_path / folder
-    fmpy.extract(str(export(HARDENING_1, "lap")), str(target))
-    resources = (str(target / "resources") + ending).encode()
-    instance = Slave(target, resources=resources)
-    instance.initialise()
-    assert instance.get("joint.k3_y", "a.m") == [3e12, 2.35]
-    instance.fmu.freeInstance()
+    fmpy.extract(str(export(HARDENING_1, "lap", fmi=fmi)), str(target))
+    path = target / "resources"
+    forms = [str(path)] if fmi == "3" else [path.as_uri(), path.as_uri().replace("file:///", "file:/"), str(path)]
+    for form in forms:
+        instance = Slave(target, resources=(form + ending).encode())
+        instance.initialise()
+        assert instance.get("joint.k3_y", "a.m") == [3e12, 2.35]
+        instance.fmu.freeInstance()
 
 
 def refusal(instance, call):
@@ -121,8 +142,9 @@ def refusal(instance, call):
     return " ".join(messages)
 
 
-def test_a_wrong_token_is_refused(export, tmp_path):
-    fmpy.extract(str(export(LINEAR_1, "lap")), str(tmp_path))
+@both_versions
+def test_a_wrong_token_is_refused(export, tmp_path, fmi):
+    fmpy.extract(str(export(LINEAR_1, "lap", fmi=fmi)), str(tmp_path))
     text = (tmp_path / "modelDescription.xml").read_text(encoding="utf-8")
     token = fmpy.read_model_description(str(tmp_path)).guid
     (tmp_path / "modelDescription.xml").write_text(text.replace(token, "another"), encoding="utf-8")
@@ -130,20 +152,21 @@ def test_a_wrong_token_is_refused(export, tmp_path):
         Slave(tmp_path)
 
 
+@both_versions
 def test_wrong_use_is_refused_and_changes_nothing(slave):
     instance = slave(LINEAR_1, "lap")
     reference = instance.reference
     fmu = instance.fmu
-    assert "fmi3DoStep" in refusal(instance, lambda: instance.step(0.0, 1e-3))
+    assert "DoStep" in refusal(instance, lambda: instance.step(0.0, 1e-3))
     instance.initialise(**{"a.y": 1e-5})
     before = instance.get("a.y", "a.v", "b.y", "b.v")
     for call in (
-        lambda: fmu.setFloat64([reference["a.F"]], [float("nan")]),
-        lambda: fmu.setFloat64([reference["a.F"]], [float("inf")]),
-        lambda: fmu.setFloat64([reference["b.F"], 9999], [1.0, 2.0]),
-        lambda: fmu.setFloat64([reference["b.F"], reference["joint.F"]], [1.0, 2.0]),
-        lambda: fmu.setFloat64([reference["a.y"]], [1.0]),
-        lambda: fmu.getFloat64([9999]),
+        lambda: instance.set_by_reference([reference["a.F"]], [float("nan")]),
+        lambda: instance.set_by_reference([reference["a.F"]], [float("inf")]),
+        lambda: instance.set_by_reference([reference["b.F"], 9999], [1.0, 2.0]),
+        lambda: instance.set_by_reference([reference["b.F"], reference["joint.F"]], [1.0, 2.0]),
+        lambda: instance.set_by_reference([reference["a.y"]], [1.0]),
+        lambda: instance.get_by_reference([9999]),
         lambda: instance.step(0.0, 0.0),
         lambda: instance.step(0.0, -1e-3),
         lambda: instance.step(0.0, float("nan")),
@@ -158,6 +181,7 @@ def test_wrong_use_is_refused_and_changes_nothing(slave):
     assert instance.get("a.y") != before[:1]
 
 
+@both_versions
 def test_escape_of_a_softening_joint_is_an_error_not_a_nan(slave):
     instance = slave(SOFTENING_1, "lap")
     instance.initialise(**{"a.v": 20.0, "b.v": -20.0})
@@ -171,13 +195,15 @@ def test_escape_of_a_softening_joint_is_an_error_not_a_nan(slave):
     assert np.isfinite(instance.get("a.y", "a.v", "b.y", "b.v", "joint.F", "energy.stored")).all()
 
 
+@both_versions
 def test_a_negative_mass_is_refused_before_any_step(slave):
     instance = slave(LINEAR_1, "lap")
-    instance.fmu.enterInitializationMode()
+    instance.enter_initialization()
     instance.set({"a.m": -1.0})
     assert "a.m" in refusal(instance, instance.fmu.exitInitializationMode)
 
 
+@both_versions
 def test_reset_restores_the_start_values(slave):
     instance = slave(LINEAR_1, "lap")
     instance.initialise(**{"joint.k_yy": 1e6, "a.y": 1e-4})

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from instances import both_versions
 from joints import LAPS
 from reference import Lap
 from scipy.integrate import trapezoid
@@ -35,6 +36,7 @@ def simulated(instance, lap, applied):
     return np.array(states)
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_trajectory(slave, case):
     lap = Lap(LAPS[case])
@@ -58,6 +60,7 @@ def test_the_loads_make_the_cubic_term_matter(pair):
     assert np.abs(difference).max() > 1e-3 * np.abs(cubic.held(start, applied, STEP)).max()
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_initial_state_outputs_and_energy(slave, case):
     lap = Lap(LAPS[case])
@@ -82,6 +85,7 @@ def test_initial_state_outputs_and_energy(slave, case):
     assert energy[0] - energy[-1] == pytest.approx(lost, rel=2e-4)
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_one_step_of_1_ms_is_fifty_of_20_us(slave, case):
     lap = Lap(LAPS[case])
@@ -98,6 +102,7 @@ def test_one_step_of_1_ms_is_fifty_of_20_us(slave, case):
     assert np.abs(ends[1] / ends[0] - 1).max() < 1e-12
 
 
+@both_versions
 @pytest.mark.parametrize("case", ["hardening-1", "softening-2"])
 @pytest.mark.parametrize("serialised", [False, True])
 def test_restart_from_a_saved_state_is_bit_exact(slave, case, serialised):

@@ -3,8 +3,7 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import Slave
-from fmpy.fmi3 import FMU3Model
+from instances import both_versions
 from joints import LAPS
 from reference import Joint, Lap
 from scipy.integrate import solve_ivp
@@ -12,38 +11,6 @@ from test_derivatives import CASES, assert_equal, found_jacobian, jacobian, para
 from test_derivatives import with_joint_parameters
 
 FREQUENCY_HZ = 130.0
-
-
-class Model(Slave):
-    """An instance for Model Exchange, with access by variable names."""
-
-    def __init__(self, folder):
-        self.description = fmpy.read_model_description(str(folder))
-        self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.messages = []
-        self.fmu = FMU3Model(
-            guid=self.description.guid,
-            unzipDirectory=str(folder),
-            modelIdentifier=self.description.modelExchange.modelIdentifier,
-            instanceName="test",
-        )
-        self.fmu.instantiate(loggingOn=True, logMessage=self.log)
-
-
-@pytest.fixture
-def model(export, tmp_path):
-    """Exports a joint and instantiates its FMU for Model Exchange."""
-    opened = []
-
-    def model(file, interface):
-        folder = tmp_path / f"fmu {len(opened)}"
-        fmpy.extract(str(export(file, interface)), str(folder))
-        opened.append(Model(folder))
-        return opened[-1]
-
-    yield model
-    for instance in opened:
-        instance.fmu.freeInstance()
 
 
 def names(n):
@@ -54,10 +21,11 @@ def start(n):
     return np.array([2e-5, 1e-4][:n] + [-1e-5, 3e-4][:n] + [0.02, 0.3][:n] + [0.01, -0.2][:n])
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
-def test_cvode_follows_the_co_simulation(export, case):
+def test_cvode_follows_the_co_simulation(export, case, fmi):
     n = Lap(LAPS[case]).n
-    fmu = str(export(LAPS[case], "lap", "--step-size-max", "2e-6"))
+    fmu = str(export(LAPS[case], "lap", "--step-size-max", "2e-6", fmi=fmi))
     outputs = names(n) + ["joint.F", "energy.stored"]
     common = {
         "stop_time": 0.02,
@@ -75,6 +43,7 @@ def test_cvode_follows_the_co_simulation(export, case):
     assert (np.abs(integrated - stepped) / scale).max() < 1e-6
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_a_load_that_varies_need_not_be_held(model, case):
     lap = Lap(LAPS[case])
@@ -83,29 +52,23 @@ def test_a_load_that_varies_need_not_be_held(model, case):
     states = names(n)
     amplitude = np.array([0.0, 4000.0] if n == 1 else [0.0, 0.0, 1000.0, 3.0])
     instance.initialise(**dict(zip(states, start(n))))
-    instance.fmu.enterContinuousTimeMode()
+    instance.enter_continuous_time()
     # the order of the states is that of the model structure
-    order = [derivative.variable.derivative.name for derivative in instance.description.derivatives]
+    order = instance.states()
     assert sorted(order) == sorted(states)
     inputs = [instance.reference[name] for name in per_side(n, "F", "M")]
-    count = len(order)
-    numbers = np.zeros(count)
-    pointer = numbers.ctypes.data_as(fmpy.fmi3.POINTER(fmpy.fmi3.fmi3Float64))
 
     def load(time):
         return amplitude * np.sin(2 * np.pi * FREQUENCY_HZ * time)
 
     def rate(time, y):
         instance.fmu.setTime(time)
-        instance.fmu.setFloat64(inputs, load(time))
-        numbers[:] = y
-        instance.fmu.setContinuousStates(pointer, count)
-        instance.fmu.getContinuousStateDerivatives(pointer, count)
-        return numbers.copy()
+        instance.set_by_reference(inputs, load(time))
+        instance.set_states(y)
+        return instance.get_rates()
 
-    instance.fmu.getContinuousStates(pointer, count)
     options = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-16}
-    found = solve_ivp(rate, (0, 0.02), numbers.copy(), **options)
+    found = solve_ivp(rate, (0, 0.02), instance.get_states(), **options)
     expected = solve_ivp(lambda time, y: lap.rate(y, load(time)), (0, 0.02), start(n), **options)
     assert found.success and expected.success
     end = dict(zip(order, found.y[:, -1]))
@@ -115,6 +78,7 @@ def test_a_load_that_varies_need_not_be_held(model, case):
     instance.fmu.completedIntegratorStep()
 
 
+@both_versions
 @pytest.mark.parametrize("case", CASES)
 def test_derivatives_of_the_accelerations(model, case):
     file = LAPS[case]
@@ -134,24 +98,25 @@ def test_derivatives_of_the_accelerations(model, case):
         instance.initialise(**dict(zip(names(n) + inputs, [*values, *loads])))
         expected = jacobian(accelerations, knowns)
         assert_equal(found_jacobian(instance, unknowns, knowns), expected)
-        instance.fmu.enterContinuousTimeMode()
+        instance.enter_continuous_time()
         assert_equal(found_jacobian(instance, unknowns, knowns), expected)
 
 
+@both_versions
 @pytest.mark.parametrize("case", LAPS)
-def test_the_element_has_no_states(export, model, case):
+def test_the_element_has_no_states(export, model, case, fmi):
     joint = Joint(LAPS[case])
     file = {key: value for key, value in LAPS[case].items() if key != "bodies"}
     instance = model(file, "element")
-    assert instance.description.numberOfContinuousStates == 0
+    assert instance.states() == []
     instance.initialise()
-    instance.fmu.enterContinuousTimeMode()
+    instance.enter_continuous_time()
     instance.set({"a.y": 1e-4, "b.v": 0.2})
     unit = np.eye(joint.n)[0]
     load = joint.load_on_b(1e-4 * unit, -0.2 * unit)
     assert instance.get(*["b.F", "b.M"][: joint.n]) == pytest.approx(load, rel=1e-12)
     result = fmpy.simulate_fmu(
-        str(export(file, "element")),
+        str(export(file, "element", fmi=fmi)),
         fmi_type="ModelExchange",
         stop_time=1e-2,
         output_interval=1e-3,

@@ -1,6 +1,7 @@
 //! Eigenvalues of small real matrices: Hessenberg form, then the shifted QR iteration in complex arithmetic
 //! (Golub and Van Loan, *Matrix Computations*, chapter 7).
 
+use crate::elementary::hypotenuse;
 use crate::spectrum::Eigenvalue;
 
 /// Largest order that [`eigenvalues`] takes: four states for each of two DOFs a side.
@@ -54,7 +55,7 @@ impl Complex {
     }
 
     fn modulus(self) -> f64 {
-        self.re.hypot(self.im)
+        hypotenuse(self.re, self.im)
     }
 
     fn square_root(self) -> Self {
@@ -179,7 +180,7 @@ fn qr_step(h: &mut [[Complex; MAX_ORDER]; MAX_ORDER], start: usize, last: usize,
     let mut rotations = [(Complex::ZERO, Complex::ZERO); MAX_ORDER];
     for k in start..last {
         let (upper, lower) = (h[k][k], h[k + 1][k]);
-        let length = upper.modulus().hypot(lower.modulus());
+        let length = hypotenuse(upper.modulus(), lower.modulus());
         if length == 0.0 {
             rotations[k] = (Complex { re: 1.0, im: 0.0 }, Complex::ZERO);
             continue;

@@ -73,7 +73,7 @@ impl<const D: usize> LapIntegrator<D> {
     }
 
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn advance(
         &self,
@@ -82,11 +82,15 @@ impl<const D: usize> LapIntegrator<D> {
         interval_s: f64,
         substeps: NonZeroU32,
     ) -> LapState<D> {
-        let step_s = interval_s / f64::from(substeps.get());
-        if substeps == NonZeroU32::MIN {
-            return self.step_with_loads(state, &[*loads; 3], step_s);
-        }
-        let (x, v) = self.take_many(state, loads, step_s, substeps);
+        // A single step in place spares the way through memory; with one DOF the bodies then fall apart into single
+        // numbers, which costs more than that way.
+        let (x, v) = if D > 1 && substeps == NonZeroU32::MIN {
+            let load = self.accelerations_by(loads);
+            let (x, v) = split(state);
+            self.take(&self.step(interval_s), &x, &v, [&load; 3])
+        } else {
+            self.take_many(state, loads, interval_s, substeps)
+        };
         join(&x, &v)
     }
 
@@ -96,10 +100,10 @@ impl<const D: usize> LapIntegrator<D> {
         &self,
         state: &LapState<D>,
         loads: &LapLoads<D>,
-        step_s: f64,
+        interval_s: f64,
         count: NonZeroU32,
     ) -> ([Pair; D], [Pair; D]) {
-        let step = self.step(step_s);
+        let step = self.step(interval_s / f64::from(count.get()));
         let load = self.accelerations_by(loads);
         let (mut x, mut v) = split(state);
         for _ in 0..count.get() {
@@ -111,7 +115,7 @@ impl<const D: usize> LapIntegrator<D> {
     /// State after one RK4 step of `step_s` (s) under loads that change: `loads` at its start, its middle and its end.
     ///
     /// With three equal loads this is one substep of [`LapIntegrator::advance`], to the last bit.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn step_with_loads(
         &self,
@@ -172,7 +176,7 @@ impl<const D: usize> LapIntegrator<D> {
         [start, middle, end]: [&[Pair; D]; 3],
     ) -> ([Pair; D], [Pair; D]) {
         let h = step.length_s;
-        let (half, sixth) = (0.5 * h, h / 6.0);
+        let (half, sixth) = (0.5 * h, (1.0 / 6.0) * h);
         // With f the springs and loads and c the dampers, the four stages of ẋ = v, v̇ = f(t, x) − c(v) are as below.
         // Every sum takes last what is known last, so that as little as possible waits for it.
         // a₁ = f(t, x) − c(v)

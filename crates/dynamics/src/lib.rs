@@ -7,6 +7,7 @@
 
 mod definiteness;
 mod eigenvalues;
+mod elementary;
 mod escape;
 mod integrator;
 mod joint;

@@ -9,6 +9,19 @@ use crate::{
 };
 
 impl<const D: usize> LapState<D> {
+    /// `factor · self`
+    #[inline]
+    fn times(&self, factor: f64) -> Self {
+        let scaled = |motion: &Motion<D>| Motion {
+            displacement: motion.displacement.map(|x| factor * x),
+            velocity: motion.velocity.map(|v| factor * v),
+        };
+        Self {
+            a: scaled(&self.a),
+            b: scaled(&self.b),
+        }
+    }
+
     /// `self + factor · rate`
     #[inline]
     fn plus(&self, factor: f64, rate: &Self) -> Self {
@@ -38,6 +51,8 @@ pub struct LapPropagator<const D: usize> {
 ///
 /// The identity is left out, because P is small for short steps and keeps its digits on its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// so that two numbers at a time can be read without a load of their own
+#[repr(align(16))]
 struct Change<const D: usize> {
     /// Columns of P: displacements of a, velocities of a, displacements of b, velocities of b.
     per_state: [[LapState<D>; D]; 4],
@@ -67,14 +82,9 @@ impl<const D: usize> LapPropagator<D> {
     #[inline]
     #[must_use]
     pub fn advance(&self, state: &LapState<D>, loads: &LapLoads<D>) -> LapState<D> {
-        // x(t+H) = x + P x + Q F; two sums, so that neither waits for the other
-        let of_state = self.change.of_state(state);
-        let mut of_loads = LapState::REST;
-        for i in 0..D {
-            of_loads = of_loads.plus(loads.a[i], &self.change.per_load[0][i]);
-            of_loads = of_loads.plus(loads.b[i], &self.change.per_load[1][i]);
-        }
-        state.plus(1.0, &of_state.plus(1.0, &of_loads))
+        // x(t+H) = x + (P x + Q F); the state last, because the rest is small beside it
+        let change = self.change.of_state(state);
+        state.plus(1.0, &change.plus(1.0, &self.change.of_loads(loads)))
     }
 }
 
@@ -94,7 +104,7 @@ impl<const D: usize> Change<D> {
             }
             sum
         };
-        let scaled = |x: &LapState<D>| LapState::REST.plus(step_s, x);
+        let scaled = |x: &LapState<D>| x.times(step_s);
         // P = R(hA) − I = hA φ(hA)
         let per_state = |unit: LapState<D>| scaled(&rate(&averaged(&unit)));
         // Q F = h φ(hA) M⁻¹F, with M⁻¹F the accelerations from rest
@@ -173,15 +183,18 @@ impl<const D: usize> Change<D> {
     /// P x
     #[inline]
     fn of_state(&self, state: &LapState<D>) -> LapState<D> {
-        let mut of_a = LapState::REST;
-        let mut of_b = LapState::REST;
-        for i in 0..D {
-            of_a = of_a.plus(state.a.displacement[i], &self.per_state[0][i]);
-            of_a = of_a.plus(state.a.velocity[i], &self.per_state[1][i]);
-            of_b = of_b.plus(state.b.displacement[i], &self.per_state[2][i]);
-            of_b = of_b.plus(state.b.velocity[i], &self.per_state[3][i]);
-        }
+        let [x_a, v_a, x_b, v_b] = &self.per_state;
+        // two sums, so that neither waits for the other
+        let of_a = of_two([x_a, v_a], [&state.a.displacement, &state.a.velocity]);
+        let of_b = of_two([x_b, v_b], [&state.b.displacement, &state.b.velocity]);
         of_a.plus(1.0, &of_b)
+    }
+
+    /// Q F
+    #[inline]
+    fn of_loads(&self, loads: &LapLoads<D>) -> LapState<D> {
+        let [on_a, on_b] = &self.per_load;
+        of_two([on_a, on_b], [&loads.a, &loads.b])
     }
 
     fn is_finite(&self) -> bool {
@@ -193,6 +206,19 @@ impl<const D: usize> Change<D> {
                 numbers.all(|number| number.is_finite())
             })
     }
+}
+
+/// Sum of columns times numbers, for two groups of both.
+#[inline]
+fn of_two<const D: usize>(columns: [&[LapState<D>; D]; 2], numbers: [&[f64; D]; 2]) -> LapState<D> {
+    let mut sum = columns[0][0].times(numbers[0][0]);
+    for i in 0..D {
+        if i > 0 {
+            sum = sum.plus(numbers[0][i], &columns[0][i]);
+        }
+        sum = sum.plus(numbers[1][i], &columns[1][i]);
+    }
+    sum
 }
 
 #[cfg(test)]

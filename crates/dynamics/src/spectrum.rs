@@ -1,6 +1,7 @@
 //! Eigenvalues of the lap model about rest: they set the step and tell whether motion dies out.
 
 use crate::eigenvalues::{self, MAX_ORDER, Square};
+use crate::elementary;
 use crate::lap::Lap;
 use crate::rk4;
 
@@ -22,7 +23,7 @@ impl Eigenvalue {
     /// |λ|, 1/s.
     #[must_use]
     pub fn modulus(&self) -> f64 {
-        self.real.hypot(self.imaginary)
+        elementary::hypotenuse(self.real, self.imaginary)
     }
 }
 
@@ -65,7 +66,8 @@ impl Spectrum {
         self.eigenvalues().iter().all(|eigenvalue| {
             let real = step_s * eigenvalue.real;
             let growth = rk4::amplification_squared(real, step_s * eigenvalue.imaginary).sqrt();
-            growth <= 1.0 + step_s * slack || eigenvalue.real > slack && growth <= real.exp() + 1e-6
+            growth <= 1.0 + step_s * slack
+                || eigenvalue.real > slack && growth <= elementary::exponential(real) + 1e-6
         })
     }
 }

@@ -40,6 +40,12 @@ impl Pace {
         self.count >= STEADY
     }
 
+    /// Whether it is steady, and one more step of `interval_s` (s) leaves it as it is.
+    #[inline]
+    pub(crate) fn is_kept_by(self, interval_s: f64) -> bool {
+        self.is_steady() && self.interval_s == interval_s
+    }
+
     /// The pace in bytes, little endian.
     pub(crate) fn to_bytes(self) -> [u8; Self::SIZE] {
         let [a, b, c, d, e, f, g, h] = self.interval_s.to_le_bytes();
@@ -65,9 +71,12 @@ mod tests {
         for n in 1..=300_u32 {
             pace = pace.followed_by(1e-3);
             assert_eq!(pace.is_steady(), n >= u32::from(STEADY));
+            let kept = pace.followed_by(1e-3) == pace;
+            assert_eq!(pace.is_kept_by(1e-3), kept);
             assert_eq!(Pace::from_bytes(pace.to_bytes()), Some(pace));
         }
-        assert!(!pace.followed_by(1e-3 + 1e-18).is_steady());
+        let other_s = 1e-3 + 1e-18;
+        assert!(!pace.is_kept_by(other_s) && !pace.followed_by(other_s).is_steady());
     }
 
     #[test]

@@ -96,7 +96,7 @@ refused!(display_factor: LAP, r#"name="mm" factor="1000""# => r#"name="mm" facto
 refused!(nominal: LAP, r#"nominal="100""# => r#"nominal="-100""#,
     Problem::Nominal { declared_type, nominal: -100.0 } if declared_type == "Force");
 refused!(zero_nominal: LAP, r#"nominal="100""# => r#"nominal="0""#, Problem::Nominal { nominal: 0.0, .. });
-refused!(range: LAP, r#"min="0" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
+refused!(range: LAP, r#"min="2.2250738585072014e-308" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
     Problem::Range { declared_type, min: 1.0, max: 0.0 } if declared_type == "StepSize");
 refused!(combination: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="continuous""#,
     Problem::Combination { variable, .. } if variable == "joint.k_yy");
@@ -123,7 +123,7 @@ refused!(several_starts: LAP, r#"start="1.41""# => r#"start="1.41 1.42""#,
     Problem::IllegalStart { variable, found } if variable == "a.m" && *found == [1.41, 1.42]);
 refused!(infinite_start: LAP, r#"start="1.41""# => r#"start="inf""#, Problem::IllegalStart { variable, .. } if variable == "a.m");
 refused!(start_out_of_range: LAP, r#"start="1.41""# => r#"start="-1.41""#,
-    Problem::StartOutOfRange { variable, start: -1.41, min: 0.0, .. } if variable == "a.m");
+    Problem::StartOutOfRange { variable, start: -1.41, min: f64::MIN_POSITIVE, .. } if variable == "a.m");
 refused!(no_independent: LAP, r#"causality="independent" variability="continuous" declaredType="Time""# => r#"causality="input" variability="continuous" declaredType="Time" start="0""#,
     Problem::Independent { found } if found.is_empty());
 refused!(independent_name: LAP, r#"name="time""# => r#"name="t""#, Problem::Independent { found } if found[0].0 == "t");

@@ -91,8 +91,8 @@ fn check<T>(pointer: *const T, length: usize, argument: &'static str) -> Result<
     if pointer.is_null() {
         return Err(Refusal::NullPointer { argument });
     }
-    let bytes = length.checked_mul(size_of::<T>());
-    if !pointer.is_aligned() || bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
+    // the longest array that memory can hold
+    if !pointer.is_aligned() || length > isize::MAX as usize / size_of::<T>() {
         return Err(Refusal::BadArray { argument });
     }
     Ok(())

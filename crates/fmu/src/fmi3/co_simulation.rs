@@ -84,8 +84,13 @@ unsafe extern "C" fn fmi3DoStep(
         // SAFETY: the importer's promise; the reference to the instance is not used any more
         return unsafe { step_together(this, instance, update, [current_s, interval_s], results) };
     }
+    let steadily = || handle.instance.step_steadily(current_s, interval_s);
+    if let Ok(true) = catch_unwind(AssertUnwindSafe(steadily)) {
+        results.last_successful_time.write(handle.instance.time_s());
+        return Status::Ok;
+    }
     match guarded(&mut handle.instance, |instance| {
-        instance.step(current_s, interval_s)
+        instance.step_any(current_s, interval_s)
     }) {
         Ok(warning) => {
             results.last_successful_time.write(handle.instance.time_s());
@@ -211,5 +216,5 @@ fn guarded<T>(
     instance: &mut Instance,
     body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or(Err(Refusal::Internal))
+    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or_else(|_| Err(Refusal::Internal))
 }

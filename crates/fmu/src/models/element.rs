@@ -46,6 +46,10 @@ impl<const D: usize> Model for Element<D> {
         Ok(())
     }
 
+    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
+        true
+    }
+
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
         for side in [A, B] {
             let Motion { velocity, .. } = side.motion::<D>(values);

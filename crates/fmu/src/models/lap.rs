@@ -23,6 +23,10 @@ pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
 /// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
 const STEPS_WORTH_PREPARING: u32 = 256;
 
+/// Runge–Kutta steps after which it is checked whether a softening joint still holds: a tenth of the fastest period where
+/// the export has chosen the step. Checking after every one takes half as long again.
+const STEPS_BETWEEN_CHECKS: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
 /// Two bodies and the joint between them, with `D` degrees of freedom a side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LapModel<const D: usize> {
@@ -36,6 +40,8 @@ struct Prepared<const D: usize> {
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
     amplitude: [f64; D],
+    /// Whether the joint holds only so far.
+    softens: bool,
     /// What the latest length of a communication step gives; `None` before the first one.
     interval: Option<Interval<D>>,
 }
@@ -84,12 +90,12 @@ impl<const D: usize> Model for LapModel<D> {
         if interface_type == InterfaceType::CoSimulation {
             check_step(&lap, step_size_max_s)?;
         }
+        let limits = lap.escape_amplitude();
         self.prepared = Some(Prepared {
             integrator: LapIntegrator::new(&lap),
             step_size_max_s,
-            amplitude: lap
-                .escape_amplitude()
-                .map(|limit| limit.unwrap_or(f64::MAX)),
+            amplitude: limits.map(|limit| limit.unwrap_or(f64::MAX)),
+            softens: limits.iter().any(Option::is_some),
             interval: None,
         });
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
@@ -143,6 +149,21 @@ impl<const D: usize> Model for LapModel<D> {
         A.set_motion(values, &end.a);
         B.set_motion(values, &end.b);
         Ok(())
+    }
+
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
+        let Some(prepared) = &self.prepared else {
+            return false;
+        };
+        let (start, loads) = (state(values), loads(values));
+        match prepared.steady_end(&start, &loads, interval_s) {
+            Some(end) if prepared.holds(&end) => {
+                A.set_motion(values, &end.a);
+                B.set_motion(values, &end.b);
+                true
+            }
+            _ => false,
+        }
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
@@ -252,7 +273,66 @@ impl<const D: usize> Prepared<D> {
                 return Ok(propagator.advance(start, loads));
             }
         }
+        if self.softens && count > STEPS_BETWEEN_CHECKS {
+            return Ok(self.stepped_while_held(start, loads, length_s, count));
+        }
         Ok(stepped(&self.integrator, start, loads, length_s, count))
+    }
+
+    /// State after the Runge–Kutta steps under held loads, or, of a softening joint, at the first check that finds it
+    /// torn: what a load brings back from there cannot become whole again.
+    fn stepped_while_held(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        count: NonZeroU32,
+    ) -> LapState<D> {
+        let length_s = interval_s / f64::from(count.get());
+        let mut state = *start;
+        let mut rest = count.get();
+        while rest > 0 {
+            // so many steps have the length of one to the last bit, because it is a power of two
+            let next = if rest >= STEPS_BETWEEN_CHECKS.get() {
+                STEPS_BETWEEN_CHECKS
+            } else {
+                NonZeroU32::MIN
+            };
+            let span_s = length_s * f64::from(next.get());
+            state = stepped(&self.integrator, &state, loads, span_s, next);
+            if !self.holds(&state) {
+                break;
+            }
+            rest -= next.get();
+        }
+        state
+    }
+
+    /// State at the end of one of many equal steps, if all is prepared for it.
+    #[inline]
+    fn steady_end(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+    ) -> Option<LapState<D>> {
+        let interval = self.interval.as_ref()?;
+        if interval.length_s != interval_s {
+            return None;
+        }
+        match &interval.propagation {
+            Propagation::Unknown => None,
+            Propagation::Possible(propagator) => Some(propagator.advance(start, loads)),
+            Propagation::Impossible if self.softens && interval.count > STEPS_BETWEEN_CHECKS => {
+                None
+            }
+            Propagation::Impossible => {
+                Some(
+                    self.integrator
+                        .advance(start, loads, interval_s, interval.count),
+                )
+            }
+        }
     }
 
     /// State at the end of the step under loads that change, by Runge–Kutta steps.
@@ -269,6 +349,9 @@ impl<const D: usize> Prepared<D> {
         for index in 0..count {
             let loads = loads.at_stages(index, length_s);
             state = self.integrator.step_with_loads(&state, &loads, length_s);
+            if !self.holds(&state) {
+                break;
+            }
         }
         Ok(state)
     }
@@ -345,8 +428,8 @@ impl<const D: usize> Prepared<D> {
     }
 }
 
-/// The Runge–Kutta steps, apart from all else, so that the optimiser has all registers for them.
-#[inline(never)]
+/// The Runge–Kutta steps where time does not matter.
+#[cold]
 fn stepped<const D: usize>(
     integrator: &LapIntegrator<D>,
     start: &LapState<D>,

@@ -44,6 +44,10 @@ pub(crate) trait Model: Send {
         inputs: &InputCourse,
     ) -> Result<(), Refusal>;
 
+    /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
+    /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool;
+
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
 

@@ -16,6 +16,7 @@ mod events;
 mod fmi2;
 mod fmu_state;
 mod importer;
+mod input_derivatives;
 mod instantiation;
 mod intermediate_update;
 mod model_exchange;

@@ -178,19 +178,87 @@ fn halves_of_a_step_make_the_whole() {
 
 #[test]
 fn time_does_not_drift() {
-    // the importer computes t = n·h, or adds h: both are accepted, and the FMU ends where the importer does
-    let h = 1e-4;
-    for multiply in [true, false] {
-        let mut instance = lap(1e-4);
-        let mut t = 0.0;
-        for n in 1..=100_000_u32 {
-            let (status, last) = instance.step(t, h);
-            assert_eq!((status, last), (c::OK, t + h));
-            t = if multiply { f64::from(n) * h } else { t + h };
+    // the importer computes t0 + n·h, or adds h: both are accepted to the last step before the stop time, whatever the
+    // rounding, and the FMU ends where the importer does
+    const STEPS: u32 = 1_000_000;
+    for (start, h) in [
+        (0.0, 1e-4),
+        (1.0, 1e-3),
+        (-37.3, 1.0 / 3.0),
+        (1e6 + 0.1, 1e-5),
+    ] {
+        for multiply in [true, false] {
+            let mut instance = Instance::new(Kind::Element, 1, &[]);
+            let stop = start + h * f64::from(STEPS);
+            assert_eq!(instance.enter_initialization(start, Some(stop)), c::OK);
+            assert_eq!(instance.exit_initialization(), c::OK);
+            let mut t = start;
+            for n in 1..=STEPS {
+                let (status, last) = instance.step(t, h);
+                assert_eq!(
+                    (status, last),
+                    (c::OK, t + h),
+                    "{n} {:?}",
+                    instance.take_log()
+                );
+                t = if multiply {
+                    start + f64::from(n) * h
+                } else {
+                    t + h
+                };
+            }
+            let [time] = instance.get([vr::TIME]);
+            let rounding = f64::EPSILON * time.abs().max(start.abs());
+            let drift = if multiply { 2.0 } else { f64::from(STEPS) } * rounding;
+            assert!((time - stop).abs() <= drift, "{start} {h}: {time} {stop}");
+            if multiply && start.abs() < 100.0 {
+                let message = instance.refused(|i| i.step(t, h).0);
+                assert!(message.contains("after stopTime"), "{message}");
+            }
         }
-        let [time] = instance.get([vr::TIME]);
-        assert!((time - 10.0).abs() < if multiply { 1e-14 } else { 1e-9 });
     }
+    // a lap, with steps that are no multiple of its internal ones
+    let mut instance = lap(3e-5);
+    let mut t = 0.0;
+    for n in 1..=100_000_u32 {
+        assert_eq!(instance.step(t, 1e-4), (c::OK, t + 1e-4));
+        t = f64::from(n) * 1e-4;
+    }
+}
+
+#[test]
+fn a_stop_time_that_rounding_has_moved_is_reached() {
+    for ulps in -8_i64..=8 {
+        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        let stop = f64::from_bits((0.7_f64.to_bits() as i64 + ulps) as u64);
+        assert_eq!(instance.enter_initialization(0.0, Some(stop)), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        let mut t = 0.0;
+        for n in 1..=7 {
+            assert_eq!(instance.step(t, 0.1).0, c::OK, "{ulps}");
+            t = 0.1 * f64::from(n);
+        }
+    }
+}
+
+#[test]
+fn inputs_that_are_set_before_initialisation_act_from_the_first_step_on() {
+    let run = |early: bool| {
+        let mut instance = Instance::new(Kind::Lap, 1, &[("joint.k3_y", 5e12)]);
+        let set = |i: &mut Instance| i.set(&[vr::A_F, vr::B_F], &EQUATIONS.force);
+        if early {
+            assert_eq!(set(&mut instance), c::OK);
+        }
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        if !early {
+            assert_eq!(set(&mut instance), c::OK);
+        }
+        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+        instance.get(STATES)
+    };
+    assert_eq!(run(true), run(false));
+    assert_close(run(true), EQUATIONS.runge_kutta([0.0; 4], 2e-5, 50), 1e-11);
 }
 
 #[test]
@@ -446,6 +514,59 @@ fn escape_from_a_softening_joint_is_reported_and_the_last_point_kept() {
         before
     );
     assert!((before[1] - before[2]).abs() <= amplitude);
+}
+
+#[test]
+fn a_joint_that_was_torn_within_a_step_is_not_whole_again_at_its_end() {
+    // the relative motion passes the amplitude, and a load brings it back before the communication step ends
+    let changes = [
+        ("joint.k3_y", -1e12),
+        ("joint.k_yy", 1e6),
+        ("a.k_y", 1e6),
+        ("b.k_y", 1e6),
+        ("step_size_max", 1e-5),
+    ];
+    // in balance up to √((k + 2 k12)/(−2 k3))
+    let amplitude = f64::sqrt((1e6 + 2.0 * 1e6) / 2e12);
+    let equations = Equations {
+        k: 1e6,
+        k12: 1e6,
+        k3: -1e12,
+        force: [0.0; 2],
+        ..EQUATIONS
+    };
+    // just below the amplitude, moving apart: it is passed, and the load that begins then brings the bodies back
+    let start = [0.4999 * amplitude, 0.3, -0.4999 * amplitude, -0.3];
+    let back = Equations {
+        force: [-6000.0, 6000.0],
+        ..equations
+    };
+    let apart = |[ya, _, yb, _]: [f64; 4]| ya - yb;
+    let duration = 4e-4;
+    let path: Vec<f64> = (1..=40)
+        .map(|n| apart(back.runge_kutta(start, 1e-5, n)))
+        .collect();
+    assert!(path.iter().any(|&r| r > 1.01 * amplitude));
+    assert!(path[39].abs() < 0.9 * amplitude);
+    let passed = path.iter().position(|&r| r > amplitude).unwrap() + 1;
+
+    let mut instance = Instance::new(Kind::Lap, 1, &changes);
+    assert_eq!(instance.set(&STATES, &start), c::OK);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &back.force), c::OK);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.step(0.0, duration), (c::ERROR, 0.0));
+    let message = instance.error();
+    assert!(message.contains("softening joint"), "{message}");
+    let time = 1e-5 * passed as f64;
+    let told: f64 = message
+        .split("t = ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next())
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((told - time).abs() < 1e-12, "{message}");
 }
 
 #[test]

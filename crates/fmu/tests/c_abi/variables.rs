@@ -263,3 +263,10 @@ fn outputs_that_overflow_are_refused_by_name() {
     let [load] = instance.get([vr::B_F]);
     assert!((load - 400.0).abs() < 1e-9, "{load}");
 }
+
+#[test]
+fn an_element_at_rest_has_no_negative_zeros() {
+    let mut instance = Instance::stepping(Kind::Element, 2, &[]);
+    let loads = instance.get([vr::A_F, vr::A_M, vr::B_F, vr::B_M, vr::JOINT_F, vr::JOINT_M]);
+    assert_eq!(loads.map(f64::to_bits), [0; 6]);
+}

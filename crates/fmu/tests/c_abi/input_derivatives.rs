@@ -1,0 +1,175 @@
+//! Inputs that change within a communication step along derivatives that were given for its beginning (FMI 2.0), and
+//! what they do to motion and outputs.
+
+use crate::{
+    equations::Equations,
+    fmi2::{c, importer::Instance},
+    importer::{Kind, vr},
+};
+
+const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
+
+fn stepping(kind: Kind, changes: &[(&str, f64)]) -> Instance {
+    Instance::stepping(kind, 1, changes)
+}
+
+/// F sin Ωt and its first three derivatives.
+fn sine(t: f64) -> [f64; 4] {
+    let (amplitude, forcing): (f64, f64) = (1e3, 900.0);
+    let (sin, cos) = (forcing * t).sin_cos();
+    [
+        amplitude * sin,
+        amplitude * forcing * cos,
+        -amplitude * forcing.powi(2) * sin,
+        -amplitude * forcing.powi(3) * cos,
+    ]
+}
+
+#[test]
+fn each_derivative_that_is_given_raises_the_order() {
+    // both bodies under the same load, without damping: m ẍ + k x = F sin Ωt from rest,
+    // x = F/(m (ω² − Ω²)) (sin Ωt − Ω/ω sin ωt), with internal steps short enough not to matter
+    let (omega, forcing, duration): (f64, f64, f64) = (f64::sqrt(8e5 / 2.0), 900.0, 0.02);
+    let amplitude = 1e3 / (2.0 * (omega * omega - forcing * forcing));
+    let expected =
+        amplitude * ((forcing * duration).sin() - forcing / omega * (omega * duration).sin());
+    for orders in 0..=3_i32 {
+        let error = |steps: u32| {
+            let changes = [("a.c_y", 0.0), ("b.c_y", 0.0), ("step_size_max", 5e-6)];
+            let mut instance = stepping(Kind::Lap, &changes);
+            let h = duration / f64::from(steps);
+            for n in 0..steps {
+                let t = h * f64::from(n);
+                let [load, derivatives @ ..] = sine(t);
+                for input in [vr::A_F, vr::B_F] {
+                    assert_eq!(instance.set(&[input], &[load]), c::OK);
+                    for order in 1..=orders {
+                        let derivative = derivatives[order as usize - 1];
+                        let status =
+                            instance.set_input_derivatives(&[input], &[order], &[derivative]);
+                        assert_eq!(status, c::OK);
+                    }
+                }
+                assert_eq!(instance.step(t, h), c::OK);
+            }
+            let [y] = instance.get([vr::A_Y]);
+            (y - expected).abs() / amplitude.abs()
+        };
+        // held loads are first order, and every derivative adds one
+        let order = (error(160) / error(320)).log2();
+        let found = f64::from(orders + 1);
+        assert!((order - found).abs() < 0.15, "{orders}: order {order}");
+    }
+}
+
+#[test]
+fn a_cubic_load_is_integrated_as_such() {
+    // one communication step of many internal ones: the stages see the polynomial at their own times
+    let [f0, f1, f2, f3] = [20.0, 3e5, -4e8, 9e11];
+    let load = |t: f64| f0 + t * (f1 + t / 2.0 * (f2 + t / 3.0 * f3));
+    for k3 in [0.0, 5e12] {
+        let mut instance = stepping(Kind::Lap, &[("joint.k3_y", k3), ("step_size_max", 1e-5)]);
+        assert_eq!(instance.set(&[vr::A_F, vr::B_F], &[f0, -7.0]), c::OK);
+        let given = instance.set_input_derivatives(&[vr::A_F; 3], &[1, 3, 2], &[f1, f3, f2]);
+        assert_eq!(given, c::OK);
+        assert_eq!(instance.step(0.0, 1e-3), c::OK);
+        // Runge–Kutta once more, with the load at the stages
+        let equations = |t: f64| Equations {
+            m: 2.0,
+            k: 8e5,
+            c: 1.0,
+            k12: 4e6,
+            c12: 8.0,
+            k3,
+            force: [load(t), -7.0],
+        };
+        let (h, mut x) = (1e-5, [0.0; 4]);
+        for n in 0..100 {
+            let t = h * f64::from(n);
+            let shifted = |factor: f64, k: [f64; 4]| -> [f64; 4] {
+                std::array::from_fn(|i| x[i] + factor * k[i])
+            };
+            let k1 = equations(t).rate(x);
+            let k2 = equations(t + h / 2.0).rate(shifted(h / 2.0, k1));
+            let k3 = equations(t + h / 2.0).rate(shifted(h / 2.0, k2));
+            let k4 = equations(t + h).rate(shifted(h, k3));
+            x = std::array::from_fn(|i| {
+                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
+            });
+        }
+        for (found, expected) in instance.get(STATES).iter().zip(x) {
+            assert!(
+                (found - expected).abs() < 1e-11 * expected.abs(),
+                "{found} {expected}"
+            );
+        }
+        // the input is where its polynomial has led
+        let [at_end] = instance.get([vr::A_F]);
+        assert!((at_end / load(1e-3) - 1.0).abs() < 1e-14);
+        // what was given was for one step: the next one holds the inputs
+        assert_eq!(instance.step(1e-3, 1e-3), c::OK);
+        assert_eq!(instance.get([vr::A_F]), [at_end]);
+    }
+}
+
+#[test]
+fn derivatives_of_outputs_follow_those_of_inputs() {
+    // F_b = k r + c ṙ: Ḟ_b = k v_a + c v̇_a; with y_a's own derivative given, that one counts
+    let mut instance = stepping(Kind::Element, &[]);
+    assert_eq!(instance.set(&[vr::A_Y, vr::A_V], &[1e-4, 0.2]), c::OK);
+    let rate = |i: &mut Instance| i.output_derivatives(&[vr::B_F], &[1]).unwrap()[0];
+    let close = |found: f64, expected: f64| {
+        assert!(
+            (found - expected).abs() <= 1e-13 * expected.abs(),
+            "{found} {expected}"
+        );
+    };
+    close(rate(&mut instance), 4e6 * 0.2);
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_V; 2], &[1, 2], &[3.0, 500.0]),
+        c::OK
+    );
+    close(rate(&mut instance), 4e6 * 0.2 + 8.0 * 3.0);
+    assert_eq!(instance.step(0.0, 1e-2), c::OK);
+    // at the end of the step: v = 0.2 + 3·10⁻² + 500·10⁻⁴/2, v̇ = 3 + 500·10⁻²
+    close(rate(&mut instance), 4e6 * 0.255 + 8.0 * 8.0);
+    assert_eq!(instance.get([vr::A_Y]), [1e-4]);
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.0]),
+        c::OK
+    );
+    close(rate(&mut instance), 0.0);
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.25]),
+        c::OK
+    );
+    close(rate(&mut instance), 4e6 * 0.25);
+    assert_eq!(instance.step(1e-2, 1e-2), c::OK);
+    let [y] = instance.get([vr::A_Y]);
+    close(y, 1e-4 + 0.25e-2);
+    close(rate(&mut instance), 4e6 * 0.25);
+    assert_eq!(instance.step(2e-2, 1e-2), c::OK);
+    assert_eq!(instance.get([vr::A_Y]), [y]);
+    close(rate(&mut instance), 4e6 * 0.255);
+}
+
+#[test]
+fn a_load_that_would_overflow_is_refused_and_nothing_moves() {
+    let mut instance = stepping(Kind::Lap, &[]);
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_F], &[3], &[1e300]),
+        c::OK
+    );
+    assert_eq!(instance.step(0.0, 1e4), c::ERROR);
+    assert_eq!(instance.get([vr::TIME, vr::A_F, vr::A_Y]), [0.0; 3]);
+    let message = instance.message(c::ERROR);
+    assert!(
+        message.contains("input a.F overflows before t = 10000 s"),
+        "{message}"
+    );
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_F], &[3], &[0.0]),
+        c::OK
+    );
+    assert_eq!(instance.step(0.0, 1e-3), c::OK);
+}

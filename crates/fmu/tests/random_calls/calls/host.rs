@@ -1,0 +1,302 @@
+//! What an importer keeps for an instance: resources on disk, the log, and the answers of its callbacks.
+
+use std::{
+    ffi::{CStr, CString, c_char, c_int, c_void},
+    fs,
+    path::Path,
+    sync::OnceLock,
+};
+
+use super::fmi3_abi;
+
+/// Token of all FMUs here.
+pub(crate) const TOKEN: &CStr = c"{random calls}";
+
+/// One of the FMUs on which the calls are made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Model {
+    pub(crate) lap: bool,
+    pub(crate) dofs: u8,
+    cubic_n_per_m3: f64,
+}
+
+/// Element and lap; one and two degrees of freedom; linear, hardening and softening.
+pub(crate) const MODELS: [Model; 6] = [
+    Model::new(true, 1, 0.0),
+    Model::new(true, 2, 0.0),
+    Model::new(true, 1, -2e12),
+    Model::new(true, 2, 5e11),
+    Model::new(false, 1, 5e11),
+    Model::new(false, 2, 0.0),
+];
+
+impl Model {
+    const fn new(lap: bool, dofs: u8, cubic_n_per_m3: f64) -> Self {
+        Self {
+            lap,
+            dofs,
+            cubic_n_per_m3,
+        }
+    }
+
+    /// Number of continuous states.
+    pub(crate) fn states(self) -> usize {
+        if self.lap {
+            4 * usize::from(self.dofs)
+        } else {
+            0
+        }
+    }
+
+    /// Value references of the inputs.
+    pub(crate) fn inputs(self) -> &'static [u32] {
+        match (self.lap, self.dofs) {
+            (true, 1) => &[9, 11],
+            (true, _) => &[9, 10, 11, 12],
+            (false, 1) => &[1, 3, 5, 7],
+            (false, _) => &[1, 2, 3, 4, 5, 6, 7, 8],
+        }
+    }
+
+    /// Value references of the outputs that are no states.
+    pub(crate) fn outputs(self) -> &'static [u32] {
+        match (self.lap, self.dofs) {
+            (true, 1) => &[13, 15, 16],
+            (true, _) => &[13, 14, 15, 16],
+            (false, 1) => &[9, 11, 13, 15, 16],
+            (false, _) => &[9, 10, 11, 12, 13, 14, 15, 16],
+        }
+    }
+
+    /// The text of `resources/start.txt`.
+    pub(crate) fn start_text(self) -> String {
+        let mut text = format!(
+            "bolted-joint-start/1\nmodel {}\ndofs {}\ntoken {}\n",
+            if self.lap { "lap" } else { "element" },
+            self.dofs,
+            TOKEN.to_string_lossy()
+        );
+        let mut parameter = |name: &str, value: f64| {
+            let rotational = name.contains("theta") || name.ends_with(".J");
+            if self.dofs == 2 || !rotational {
+                text += &format!("{name} {value}\n");
+            }
+        };
+        for (name, value) in [
+            ("joint.k_yy", 4e6),
+            ("joint.k_ytheta", 1e4),
+            ("joint.k_thetatheta", 2e3),
+            ("joint.c_yy", 8.0),
+            ("joint.c_ytheta", 0.5),
+            ("joint.c_thetatheta", 0.25),
+            ("joint.k3_y", self.cubic_n_per_m3),
+            ("joint.k3_theta", 0.0),
+        ] {
+            parameter(name, value);
+        }
+        if self.lap {
+            for side in ["a", "b"] {
+                for (name, value) in [
+                    ("m", 2.0),
+                    ("J", 1e-3),
+                    ("k_y", 8e5),
+                    ("k_theta", 1e3),
+                    ("c_y", 1.0),
+                    ("c_theta", 1e-3),
+                ] {
+                    parameter(&format!("{side}.{name}"), value);
+                }
+            }
+            parameter("step_size_max", 2e-5);
+        }
+        text
+    }
+}
+
+static RESOURCES: OnceLock<Vec<CString>> = OnceLock::new();
+
+/// Writes the resources of all models below `folder`, once in a process.
+pub(crate) fn write_resources(folder: &Path) {
+    RESOURCES.get_or_init(|| {
+        MODELS
+            .iter()
+            .enumerate()
+            .map(|(index, model)| {
+                let path = folder.join(format!("model {index}/resources"));
+                fs::create_dir_all(&path).expect("the folder can be made");
+                fs::write(path.join("start.txt"), model.start_text()).expect("writable");
+                CString::new(path.to_str().expect("UTF-8")).expect("no zero byte")
+            })
+            .collect()
+    });
+}
+
+/// Resource folder of the model with this index.
+pub(crate) fn resources(model: usize) -> &'static CStr {
+    &RESOURCES.get().expect("write_resources comes first")[model]
+}
+
+/// Statuses of both versions have the same numbers.
+pub(crate) const OK: c_int = 0;
+pub(crate) const WARNING: c_int = 1;
+pub(crate) const DISCARD: c_int = 2;
+pub(crate) const ERROR: c_int = 3;
+pub(crate) const PENDING: c_int = 5;
+
+/// What the callbacks of one instance see and answer. Its address is the instance environment.
+#[derive(Default)]
+pub(crate) struct Host {
+    /// Status and text of each message since the last look.
+    pub(crate) messages: Vec<(c_int, String)>,
+    /// What is wrong with what the library handed to a callback.
+    pub(crate) faults: Vec<String>,
+    /// Counts calls of the intermediate update; decides about early return.
+    pub(crate) updates: u64,
+    /// The instance, for callbacks that call back, once it is there.
+    pub(crate) instance: Option<*mut c_void>,
+    /// Value references that a callback sets and reads.
+    pub(crate) references: (&'static [u32], &'static [u32]),
+}
+
+impl Host {
+    /// Notes a message; `text` and `category` come from the library.
+    ///
+    /// # Safety
+    ///
+    /// Both are null or terminated strings.
+    pub(crate) unsafe fn note(
+        &mut self,
+        status: c_int,
+        category: *const c_char,
+        text: *const c_char,
+    ) {
+        let mut read = |pointer: *const c_char, what: &str| {
+            if pointer.is_null() {
+                self.faults.push(format!("{what} is null"));
+                return String::new();
+            }
+            // SAFETY: not null, and terminated by the library's promise
+            let bytes = unsafe { CStr::from_ptr(pointer) };
+            bytes.to_str().map(str::to_owned).unwrap_or_else(|_| {
+                self.faults.push(format!("{what} is not UTF-8"));
+                String::new()
+            })
+        };
+        let category = read(category, "category");
+        let text = read(text, "message");
+        let expected = match status {
+            OK => category.starts_with("log"),
+            WARNING => category == "logStatusWarning",
+            _ => category == "logStatusError",
+        };
+        if !expected {
+            self.faults
+                .push(format!("status {status} in category {category}: {text}"));
+        }
+        self.messages.push((status, text));
+    }
+
+    /// Answers an intermediate update: sometimes with the wish to return at once.
+    pub(crate) fn wants_early_return(&mut self) -> bool {
+        self.updates += 1;
+        self.updates % 7 == 3
+    }
+}
+
+/// `fmi3LogMessageCallback`.
+pub(crate) unsafe extern "C" fn log_fmi3(
+    environment: *mut c_void,
+    status: c_int,
+    category: *const c_char,
+    text: *const c_char,
+) {
+    // SAFETY: the environment is the host of the instance, which outlives it
+    unsafe { (*environment.cast::<Host>()).note(status, category, text) };
+}
+
+/// `fmi3IntermediateUpdateCallback`.
+#[expect(clippy::too_many_arguments, reason = "the C header gives the type")]
+pub(crate) unsafe extern "C" fn update_fmi3(
+    environment: *mut c_void,
+    time: f64,
+    set_requested: bool,
+    get_allowed: bool,
+    _step_finished: bool,
+    can_return_early: bool,
+    early_return_requested: *mut bool,
+    early_return_time: *mut f64,
+) {
+    let host = environment.cast::<Host>();
+    // SAFETY: the environment is the host of the instance; the two last arguments point to one value each
+    unsafe {
+        if !time.is_finite() {
+            (*host)
+                .faults
+                .push(format!("intermediate update at {time} s"));
+        }
+        if set_requested {
+            set_input(host, time);
+        }
+        if get_allowed {
+            get_outputs(host);
+        }
+        let early = can_return_early && (*host).wants_early_return();
+        early_return_requested.write(early);
+        if early {
+            early_return_time.write(time);
+        }
+    }
+}
+
+/// Sets an input from within an intermediate update, which the library has asked for.
+///
+/// # Safety
+///
+/// `host` is that of a living instance. Nothing else may refer to it: the library may call the log callback.
+unsafe fn set_input(host: *mut Host, time: f64) {
+    // SAFETY: the caller's promise; the arrays have one element
+    unsafe {
+        let (instance, (inputs, _)) = ((*host).instance, (*host).references);
+        let (Some(instance), Some(&input)) = (instance, inputs.first()) else {
+            return;
+        };
+        let value = time.sin();
+        let status = fmi3_abi::fmi3SetFloat64(instance, &raw const input, 1, &raw const value, 1);
+        if status != OK {
+            (*host)
+                .faults
+                .push(format!("input {input} cannot be set within a step"));
+        }
+    }
+}
+
+/// Reads the outputs from within an intermediate update, which the library has allowed.
+///
+/// # Safety
+///
+/// As for [`set_input`].
+unsafe fn get_outputs(host: *mut Host) {
+    // SAFETY: the caller's promise; the arrays have the lengths that are told
+    unsafe {
+        let (instance, (_, outputs)) = ((*host).instance, (*host).references);
+        let Some(instance) = instance else {
+            return;
+        };
+        let messages = (*host).messages.len();
+        let mut values = vec![f64::NAN; outputs.len()];
+        let status = fmi3_abi::fmi3GetFloat64(
+            instance,
+            outputs.as_ptr(),
+            outputs.len(),
+            values.as_mut_ptr(),
+            values.len(),
+        );
+        // a number that overflows is refused, and that message is not one of the step
+        (*host).messages.truncate(messages);
+        if status == OK && !values.iter().all(|value| value.is_finite()) {
+            (*host)
+                .faults
+                .push(format!("outputs {values:?} within a step"));
+        }
+    }
+}

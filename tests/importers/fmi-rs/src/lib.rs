@@ -1,0 +1,1 @@
+//! Nothing to use: `tests/` loads exported FMUs with the crate `fmi-rs`.

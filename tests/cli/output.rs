@@ -138,20 +138,19 @@ fn json_has_its_keys() {
             "passive"
         ]
     );
-    assert_eq!(exported["fmi_version"], "3.0");
     assert_eq!(exported["interface"], "lap");
     assert_eq!(exported["model_name"], "two bodies");
     assert_eq!(exported["passive"], true);
     assert!(exported["step_size_max_s"].as_f64().unwrap() > 0.0);
     assert_eq!(exported["entries"][0]["path"], "modelDescription.xml");
 
-    let every = ["file", "kind", "sound", "facts", "messages", "findings"];
-    for (file, own) in [
+    for (file, of_fmu) in [
         ("j.joint.json", &[][..]),
         ("o.fmu", &["platforms", "step_size_max", "run"]),
     ] {
         let checked = bench.done(&["check", file, "--json"]).json();
-        assert_eq!(keys(&checked), [&every[..], own].concat());
+        let of_all = ["file", "kind", "sound", "facts", "messages", "findings"];
+        assert_eq!(keys(&checked), [&of_all, of_fmu].concat());
         assert_eq!(
             (&checked["file"], &checked["sound"]),
             (&file.into(), &true.into())

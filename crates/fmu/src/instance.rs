@@ -174,36 +174,7 @@ impl Instance {
     }
 
     /// Reads the variables with these value references; `values` has the same length.
-    #[inline]
     pub(crate) fn get(
-        &mut self,
-        references: &[u32],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Result<(), Refusal> {
-        if self.read_at_hand(references, values) {
-            Ok(())
-        } else {
-            self.get_any(references, values)
-        }
-    }
-
-    /// Reads variables of which none has to be calculated or asked for; tells whether all were such.
-    #[inline]
-    fn read_at_hand(&self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> bool {
-        if self.mode == Mode::IntermediateUpdate {
-            return false;
-        }
-        for (&reference, value) in references.iter().zip(values) {
-            let index = reference as usize;
-            match self.roles.get(index) {
-                Some(roles) if roles.intersects(AT_HAND) => value.write(self.values[index]),
-                _ => return false,
-            };
-        }
-        true
-    }
-
-    fn get_any(
         &mut self,
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
@@ -224,39 +195,28 @@ impl Instance {
         Ok(())
     }
 
-    /// Sets the variables with these value references, all or none; `values` has the same length.
+    /// Reads variables between communication steps, if none has to be calculated; tells whether all were such.
     #[inline]
-    pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
-        if self.set_inputs_between_steps(references, values) {
-            Ok(())
-        } else {
-            self.set_any(references, values)
-        }
-    }
-
-    /// Sets variables in the most common case: inputs that are held, between communication steps. Tells whether it was
-    /// that and nothing is wrong; otherwise nothing is set.
-    #[inline]
-    fn set_inputs_between_steps(&mut self, references: &[u32], values: &[f64]) -> bool {
-        if self.mode != Mode::Step || self.inputs.is_past() {
+    pub(crate) fn get_between_steps(
+        &self,
+        references: &[u32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> bool {
+        if self.mode != Mode::Step {
             return false;
         }
         for (&reference, value) in references.iter().zip(values) {
-            let roles = self.roles.get(reference as usize);
-            if !(roles.is_some_and(|roles| roles.intersects(INPUTS)) && value.is_finite()) {
-                return false;
-            }
+            let index = reference as usize;
+            match self.roles.get(index) {
+                Some(roles) if roles.intersects(AT_HAND) => value.write(self.values[index]),
+                _ => return false,
+            };
         }
-        for (&reference, &value) in references.iter().zip(values) {
-            if let Some(input) = self.values.get_mut(reference as usize) {
-                *input = value;
-            }
-        }
-        self.outputs_stale = true;
         true
     }
 
-    fn set_any(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
+    /// Sets the variables with these value references, all or none; `values` has the same length.
+    pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
         let settable = self.mode.settable(self.identity.abi, self.event_mode_used);
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
@@ -285,6 +245,28 @@ impl Instance {
         }
         self.outputs_stale = true;
         Ok(())
+    }
+
+    /// Sets variables between communication steps, if they are inputs that are held and nothing is wrong; tells whether it
+    /// was so, otherwise nothing is set.
+    #[inline]
+    pub(crate) fn set_between_steps(&mut self, references: &[u32], values: &[f64]) -> bool {
+        if self.mode != Mode::Step || self.inputs.is_past() {
+            return false;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            let roles = self.roles.get(reference as usize);
+            if !(roles.is_some_and(|roles| roles.intersects(INPUTS)) && value.is_finite()) {
+                return false;
+            }
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            if let Some(input) = self.values.get_mut(reference as usize) {
+                *input = value;
+            }
+        }
+        self.outputs_stale = true;
+        true
     }
 
     /// Everything that this instance has to remember.

@@ -8,6 +8,7 @@ pub(crate) mod arguments;
 pub(crate) mod handle;
 pub(crate) mod instantiation;
 pub(crate) mod saved_states;
+pub(crate) mod shortcut;
 
 use std::{
     ffi::{c_char, c_void},

@@ -1,8 +1,12 @@
 //! Reading and writing variables.
 
 use crate::{
+    abi::{
+        handle::Handle,
+        shortcut::{arrays, arrays_mut, taken},
+    },
     fmi2::{
-        Boolean, Done, Integer, Opaque, Text, ValueReference,
+        Abi, Boolean, Done, Integer, Opaque, Text, ValueReference,
         arguments::{array, array_mut},
         call, call_evaluating,
     },
@@ -33,6 +37,30 @@ unsafe extern "C" fn fmi2GetReal(
 ) -> Status {
     // SAFETY: the importer's promise
     unsafe {
+        let shortcut = |handle: &mut Handle| {
+            arrays_mut(value_references, values, count).is_some_and(|(references, values)| {
+                handle.instance.get_between_steps(references, values)
+            })
+        };
+        if taken(Abi::Fmi2, instance, shortcut) {
+            return Status::Ok;
+        }
+        get_real(instance, value_references, count, values)
+    }
+}
+
+/// # Safety
+///
+/// As for [`fmi2GetReal`].
+#[cold]
+unsafe fn get_real(
+    instance: Opaque,
+    value_references: *const ValueReference,
+    count: usize,
+    values: *mut f64,
+) -> Status {
+    // SAFETY: the caller's promise
+    unsafe {
         call_evaluating("fmi2GetReal", instance, |instance| {
             instance.require(READABLE)?;
             let references = array(value_references, count, "vr")?;
@@ -56,6 +84,30 @@ unsafe extern "C" fn fmi2SetReal(
     values: *const f64,
 ) -> Status {
     // SAFETY: the importer's promise
+    unsafe {
+        let shortcut = |handle: &mut Handle| {
+            arrays(value_references, values, count).is_some_and(|(references, values)| {
+                handle.instance.set_between_steps(references, values)
+            })
+        };
+        if taken(Abi::Fmi2, instance, shortcut) {
+            return Status::Ok;
+        }
+        set_real(instance, value_references, count, values)
+    }
+}
+
+/// # Safety
+///
+/// As for [`fmi2SetReal`].
+#[cold]
+unsafe fn set_real(
+    instance: Opaque,
+    value_references: *const ValueReference,
+    count: usize,
+    values: *const f64,
+) -> Status {
+    // SAFETY: the caller's promise
     unsafe {
         call_evaluating("fmi2SetReal", instance, |instance| {
             let references = array(value_references, count, "vr")?;

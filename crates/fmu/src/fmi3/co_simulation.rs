@@ -7,7 +7,12 @@ use std::{
 };
 
 use crate::{
-    abi::{Abi, Done, Function, conclude, handle, refuse_handle},
+    abi::{
+        Abi, Done, Function, conclude,
+        handle::{self, Handle},
+        refuse_handle,
+        shortcut::taken,
+    },
     fmi3::{Boolean, Opaque, arguments::output, function},
     instance::{Instance, Update},
     logging::Status,
@@ -57,6 +62,50 @@ unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_successful_time: *mut f64,
 ) -> Status {
+    let (current_s, interval_s) = (current_communication_point, communication_step_size);
+    let flags = [event_handling_needed, terminate_simulation, early_return];
+    let shortcut = |handle: &mut Handle| {
+        let is_steady = !event_handling_needed.is_null()
+            && !terminate_simulation.is_null()
+            && !early_return.is_null()
+            && !last_successful_time.is_null()
+            && last_successful_time.is_aligned()
+            && handle.intermediate_update.is_none()
+            && handle.instance.step_steadily(current_s, interval_s);
+        if is_steady {
+            for flag in flags {
+                // SAFETY: not null; the rest is the importer's promise
+                unsafe { flag.write(0) };
+            }
+            // SAFETY: not null and aligned; the rest is the importer's promise
+            unsafe { last_successful_time.write(handle.instance.time_s()) };
+        }
+        is_steady
+    };
+    // SAFETY: the importer's promise
+    unsafe {
+        if taken(Abi::Fmi3, instance, shortcut) {
+            return Status::Ok;
+        }
+        do_step(
+            instance,
+            [current_s, interval_s],
+            flags,
+            last_successful_time,
+        )
+    }
+}
+
+/// # Safety
+///
+/// As for [`fmi3DoStep`].
+#[cold]
+unsafe fn do_step(
+    instance: Opaque,
+    [current_s, interval_s]: [f64; 2],
+    [event_handling_needed, terminate_simulation, early_return]: [*mut Boolean; 3],
+    last_successful_time: *mut f64,
+) -> Status {
     let this = function("fmi3DoStep");
     // SAFETY: the importer's promise
     let Some(handle) = (unsafe { handle::from_c(Abi::Fmi3, instance) }) else {
@@ -79,18 +128,12 @@ unsafe extern "C" fn fmi3DoStep(
         Err(refusal) => return conclude(this, handle, Err(refusal)),
     };
     results.last_successful_time.write(handle.instance.time_s());
-    let (current_s, interval_s) = (current_communication_point, communication_step_size);
     if let Some(update) = handle.intermediate_update {
         // SAFETY: the importer's promise; the reference to the instance is not used any more
         return unsafe { step_together(this, instance, update, [current_s, interval_s], results) };
     }
-    let steadily = || handle.instance.step_steadily(current_s, interval_s);
-    if let Ok(true) = catch_unwind(AssertUnwindSafe(steadily)) {
-        results.last_successful_time.write(handle.instance.time_s());
-        return Status::Ok;
-    }
     match guarded(&mut handle.instance, |instance| {
-        instance.step_any(current_s, interval_s)
+        instance.step(current_s, interval_s)
     }) {
         Ok(warning) => {
             results.last_successful_time.write(handle.instance.time_s());

@@ -3,8 +3,12 @@
 use std::ffi::c_char;
 
 use crate::{
+    abi::{
+        handle::Handle,
+        shortcut::{arrays, arrays_mut, taken},
+    },
     fmi3::{
-        Boolean, Done, Opaque, ValueReference,
+        Abi, Boolean, Done, Opaque, ValueReference,
         arguments::{array, array_mut, same_count},
         call, call_inside,
     },
@@ -25,6 +29,37 @@ unsafe extern "C" fn fmi3GetFloat64(
     value_count: usize,
 ) -> Status {
     // SAFETY: the importer's promise
+    unsafe {
+        let shortcut = |handle: &mut Handle| {
+            arrays_mut(value_references, values, value_count).is_some_and(|(references, values)| {
+                handle.instance.get_between_steps(references, values)
+            })
+        };
+        if value_count == value_reference_count && taken(Abi::Fmi3, instance, shortcut) {
+            return Status::Ok;
+        }
+        get_float64(
+            instance,
+            value_references,
+            value_reference_count,
+            values,
+            value_count,
+        )
+    }
+}
+
+/// # Safety
+///
+/// As for [`fmi3GetFloat64`].
+#[cold]
+unsafe fn get_float64(
+    instance: Opaque,
+    value_references: *const ValueReference,
+    value_reference_count: usize,
+    values: *mut f64,
+    value_count: usize,
+) -> Status {
+    // SAFETY: the caller's promise
     unsafe {
         call_inside("fmi3GetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;
@@ -50,6 +85,37 @@ unsafe extern "C" fn fmi3SetFloat64(
     value_count: usize,
 ) -> Status {
     // SAFETY: the importer's promise
+    unsafe {
+        let shortcut = |handle: &mut Handle| {
+            arrays(value_references, values, value_count).is_some_and(|(references, values)| {
+                handle.instance.set_between_steps(references, values)
+            })
+        };
+        if value_count == value_reference_count && taken(Abi::Fmi3, instance, shortcut) {
+            return Status::Ok;
+        }
+        set_float64(
+            instance,
+            value_references,
+            value_reference_count,
+            values,
+            value_count,
+        )
+    }
+}
+
+/// # Safety
+///
+/// As for [`fmi3SetFloat64`].
+#[cold]
+unsafe fn set_float64(
+    instance: Opaque,
+    value_references: *const ValueReference,
+    value_reference_count: usize,
+    values: *const f64,
+    value_count: usize,
+) -> Status {
+    // SAFETY: the caller's promise
     unsafe {
         call_inside("fmi3SetFloat64", instance, |instance| {
             same_count("nValues", value_count, value_reference_count)?;

@@ -10,44 +10,7 @@ use crate::{
 
 impl Instance {
     /// Advances from `current_s` by `interval_s`, with the inputs held or along the derivatives that were given.
-    #[inline]
     pub(crate) fn step(
-        &mut self,
-        current_s: f64,
-        interval_s: f64,
-    ) -> Result<Option<Active>, Refusal> {
-        if self.step_steadily(current_s, interval_s) {
-            Ok(None)
-        } else {
-            self.step_any(current_s, interval_s)
-        }
-    }
-
-    /// Takes the step in the most common case: one of many equal ones, with the inputs held and nothing wrong. Tells
-    /// whether it was that; otherwise nothing has moved.
-    #[inline]
-    pub(crate) fn step_steadily(&mut self, current_s: f64, interval_s: f64) -> bool {
-        let is_as_usual = self.mode == Mode::Step
-            && self.pace.is_kept_by(interval_s)
-            && !self.parameters_changed
-            && self.inputs.is_none();
-        // closer limits than those of `end_of_step`
-        let expected_s = self.time_s();
-        let end_s = current_s + interval_s;
-        let is_in_time = (current_s - expected_s).abs() <= 1e-6 * interval_s
-            && end_s > expected_s
-            && end_s <= self.stop_s.unwrap_or(f64::MAX);
-        if !(is_as_usual && is_in_time && self.model.advance_steadily(&mut self.values, interval_s))
-        {
-            return false;
-        }
-        self.values[TIME] = end_s;
-        self.outputs_stale = true;
-        true
-    }
-
-    /// Takes any step that can be taken, or says why it cannot.
-    pub(crate) fn step_any(
         &mut self,
         current_s: f64,
         interval_s: f64,
@@ -72,6 +35,31 @@ impl Instance {
         self.parameters_changed = false;
         self.values[TIME] = end_s;
         Ok(warning)
+    }
+
+    /// Takes the step in the most common case: one of many equal ones, with the inputs held and nothing wrong. Tells
+    /// whether it was that; otherwise nothing has moved.
+    #[inline]
+    pub(crate) fn step_steadily(&mut self, current_s: f64, interval_s: f64) -> bool {
+        if self.mode != Mode::Step
+            || !self.pace.is_kept_by(interval_s)
+            || self.parameters_changed
+            || !self.inputs.is_none()
+        {
+            return false;
+        }
+        // closer limits than those of `end_of_step`
+        let expected_s = self.time_s();
+        let end_s = current_s + interval_s;
+        let is_in_time = (current_s - expected_s).abs() <= 1e-6 * interval_s
+            && end_s > expected_s
+            && end_s <= self.stop_s.unwrap_or(f64::MAX);
+        if !is_in_time || !self.model.advance_steadily(&mut self.values, interval_s) {
+            return false;
+        }
+        self.values[TIME] = end_s;
+        self.outputs_stale = true;
+        true
     }
 
     /// Advances states and inputs, but not the time; on refusal nothing moves.

@@ -24,6 +24,7 @@ mod not_provided;
 mod output_derivatives;
 mod own_folder;
 mod random_calls;
+mod short_way;
 mod state_machine;
 mod stepping;
 mod variables;

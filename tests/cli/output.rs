@@ -127,6 +127,7 @@ fn json_has_its_keys() {
         keys(&exported),
         [
             "output",
+            "fmi_version",
             "interface",
             "model_name",
             "token",
@@ -143,12 +144,13 @@ fn json_has_its_keys() {
     assert!(exported["step_size_max_s"].as_f64().unwrap() > 0.0);
     assert_eq!(exported["entries"][0]["path"], "modelDescription.xml");
 
-    for file in ["j.joint.json", "o.fmu"] {
+    for (file, of_fmu) in [
+        ("j.joint.json", &[][..]),
+        ("o.fmu", &["platforms", "step_size_max", "run"]),
+    ] {
         let checked = bench.done(&["check", file, "--json"]).json();
-        assert_eq!(
-            keys(&checked),
-            ["file", "kind", "sound", "facts", "findings"]
-        );
+        let of_all = ["file", "kind", "sound", "facts", "messages", "findings"];
+        assert_eq!(keys(&checked), [&of_all, of_fmu].concat());
         assert_eq!(
             (&checked["file"], &checked["sound"]),
             (&file.into(), &true.into())

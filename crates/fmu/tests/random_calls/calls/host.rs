@@ -215,7 +215,6 @@ pub(crate) unsafe extern "C" fn log_fmi3(
 }
 
 /// `fmi3IntermediateUpdateCallback`.
-#[expect(clippy::too_many_arguments, reason = "the C header gives the type")]
 pub(crate) unsafe extern "C" fn update_fmi3(
     environment: *mut c_void,
     time: f64,

@@ -63,6 +63,10 @@ impl Category {
     }
 }
 
+/// Bit of the messages with `fmi2Discard`, which share the category of errors but wait until it is asked for: a solver
+/// that only tries needs none before (FMI 2.0, 2.1.3).
+const DISCARDS: u8 = 1 << Category::ALL.len();
+
 const _: () = assert!(
     Category::ALL.len() == LOG_CATEGORIES.len(),
     "the model descriptions define other log categories"
@@ -112,7 +116,7 @@ enum Sink {
 }
 
 impl Logger {
-    /// Logger of FMI 2.0 with all categories on or off.
+    /// Logger of FMI 2.0 with all categories on, or errors alone.
     pub(crate) fn fmi2(
         callback: Option<Fmi2Callback>,
         environment: *mut c_void,
@@ -127,7 +131,7 @@ impl Logger {
         Self::new(sink, on)
     }
 
-    /// Logger of FMI 3.0 with all categories on or off.
+    /// Logger of FMI 3.0 with all categories on, or errors alone.
     pub(crate) fn fmi3(callback: Option<Fmi3Callback>, environment: *mut c_void, on: bool) -> Self {
         let sink = callback.map_or(Sink::Nowhere, |callback| Sink::Fmi3 {
             callback,
@@ -136,52 +140,64 @@ impl Logger {
         Self::new(sink, on)
     }
 
+    /// Errors are on from the start, whatever `loggingOn` says: else nobody would learn why a call was refused, or why
+    /// there is no instance.
     fn new(sink: Sink, on: bool) -> Self {
-        let mut logger = Self { sink, enabled: 0 };
-        logger.switch(&Category::ALL, on);
+        let mut logger = Self {
+            sink,
+            enabled: Category::Error.bit(),
+        };
+        if on {
+            logger.switch(&Category::ALL, true);
+        }
         logger
     }
 
-    /// Switches categories on or off; errors are reported in any case, as both standards advise.
+    /// Switches categories on or off.
     pub(crate) fn switch(&mut self, categories: &[Category], on: bool) {
-        for category in categories {
+        for &category in categories {
+            let bits = match category {
+                Category::Error => category.bit() | DISCARDS,
+                Category::Events | Category::Warning => category.bit(),
+            };
             if on {
-                self.enabled |= category.bit();
+                self.enabled |= bits;
             } else {
-                self.enabled &= !category.bit();
+                self.enabled &= !bits;
             }
         }
     }
 
-    /// Reports an error of `function`.
+    /// Reports an error of `function`, unless errors were switched off.
     pub(crate) fn error(&self, function: &str, reason: &dyn fmt::Display) {
-        self.send(Status::Error, Category::Error, function, reason);
+        if self.is_on(Category::Error.bit()) {
+            self.send(Status::Error, Category::Error, function, reason);
+        }
     }
 
-    /// Reports why `function` asks for a shorter step, if errors are on: a solver that only tries needs no message
-    /// (FMI 2.0, 2.1.3).
+    /// Reports why `function` asks for a shorter step, if errors were switched on.
     pub(crate) fn discard(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.is_on(Category::Error) {
+        if self.is_on(DISCARDS) {
             self.send(Status::Discard, Category::Error, function, reason);
         }
     }
 
     /// Reports a warning of `function`, if warnings are on.
     pub(crate) fn warning(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.is_on(Category::Warning) {
+        if self.is_on(Category::Warning.bit()) {
             self.send(Status::Warning, Category::Warning, function, reason);
         }
     }
 
     /// Reports what `function` did, if events are on.
     pub(crate) fn event(&self, function: &str, event: &dyn fmt::Display) {
-        if self.is_on(Category::Events) {
+        if self.is_on(Category::Events.bit()) {
             self.send(Status::Ok, Category::Events, function, event);
         }
     }
 
-    const fn is_on(&self, category: Category) -> bool {
-        self.enabled & category.bit() != 0
+    const fn is_on(&self, bit: u8) -> bool {
+        self.enabled & bit != 0
     }
 
     fn send(&self, status: Status, category: Category, function: &str, text: &dyn fmt::Display) {

@@ -124,8 +124,7 @@ impl Instance {
         }
         // An importer computes its n-th point as t0 + n·h, or by adding h n times: both differ by rounding only.
         let expected_s = self.time_s();
-        let rounding_s = 1e-6 * interval_s + 16.0 * f64::EPSILON * expected_s.abs();
-        let agrees = (current_s - expected_s).abs() <= rounding_s;
+        let agrees = (current_s - expected_s).abs() <= rounding_s(expected_s, interval_s);
         if !agrees {
             return Err(Refusal::CommunicationPoint {
                 found_s: current_s,
@@ -140,10 +139,24 @@ impl Instance {
             });
         }
         if let Some(stop_s) = self.stop_s
-            && end_s - stop_s > 1e-6 * interval_s + 1e-9 * stop_s.abs()
+            && end_s - stop_s > past_stop_s(stop_s, interval_s)
         {
             return Err(Refusal::PastStop { end_s, stop_s });
         }
         Ok(end_s)
     }
+}
+
+/// How far rounding may take an importer's time near `time_s` (s) from the FMU's, in steps of `interval_s` (s).
+#[inline]
+fn rounding_s(time_s: f64, interval_s: f64) -> f64 {
+    1e-6 * interval_s + 16.0 * f64::EPSILON * time_s.abs()
+}
+
+/// How far a step of `interval_s` (s) may end past the stop time: as far as the sum drifts of an importer that adds h again
+/// and again, but never so far that a late stop time leaves room for another step.
+#[inline]
+fn past_stop_s(stop_s: f64, interval_s: f64) -> f64 {
+    let drift_s = f64::min(1e-2 * interval_s, 1e-9 * stop_s.abs());
+    drift_s + rounding_s(stop_s, interval_s)
 }

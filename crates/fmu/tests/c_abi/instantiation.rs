@@ -493,14 +493,20 @@ fn logging_follows_the_categories() {
     assert_eq!(run(&mut instance), ["logStatusWarning"]);
     assert_eq!(switch(&instance, false, &[]), c::OK);
     assert_eq!(run(&mut instance), [] as [&str; 0]);
-    // errors are reported in any case
+    // errors, too; the call is refused all the same
     assert_eq!(instance.exit_initialization(), c::ERROR);
-    assert!(instance.error().starts_with("fmi3ExitInitializationMode: "));
+    assert_eq!(switch(&instance, true, &[c"logEverything"]), c::ERROR);
+    assert_eq!(instance.take_log(), []);
     assert_eq!(
         switch(&instance, true, &[c"logStatusWarning", c"logEvents"]),
         c::OK
     );
     assert_eq!(run(&mut instance), ["logEvents", "logStatusWarning"]);
+    assert_eq!(instance.exit_initialization(), c::ERROR);
+    assert_eq!(instance.take_log(), []);
+    assert_eq!(switch(&instance, true, &[c"logStatusError"]), c::OK);
+    assert_eq!(instance.exit_initialization(), c::ERROR);
+    assert!(instance.error().starts_with("fmi3ExitInitializationMode: "));
     assert_eq!(switch(&instance, true, &[c"logEverything"]), c::ERROR);
     assert!(
         instance

@@ -69,11 +69,12 @@ fn a_million_random_calls_keep_every_promise() {
     let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
     let tally = sequences(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
     println!(
-        "{} calls, {} failed simulations, {} forged states accepted, {} intermediate updates",
+        "{} calls, {} failed simulations, {} forged states accepted, {} intermediate updates, {} refusals without a word",
         tally.calls(),
         tally.failures,
         tally.forged,
-        tally.updates
+        tally.updates,
+        tally.silent
     );
     for (name, [successes, warnings, refusals]) in &tally.by_function {
         println!("{name:45} {successes:8} ok {warnings:6} warnings {refusals:8} refused");
@@ -89,6 +90,7 @@ fn a_million_random_calls_keep_every_promise() {
         }
         assert!(tally.forged > 100, "{} states", tally.forged);
         assert!(tally.updates > 1000, "{} updates", tally.updates);
+        assert!(tally.silent > 10_000, "{} in silence", tally.silent);
         assert!(
             tally.failures > 100,
             "{} simulations failed",

@@ -108,16 +108,23 @@ fn categories_switch_messages_on_and_off() {
     };
     assert_eq!(statuses(&mut instance), [c::OK, c::WARNING, c::ERROR]);
     assert_eq!(switch(&instance, 0, &[]), c::OK);
-    assert_eq!(statuses(&mut instance), [c::ERROR]);
+    assert_eq!(statuses(&mut instance), [0; 0]);
     assert_eq!(switch(&instance, 1, &[c"logStatusWarning"]), c::OK);
-    assert_eq!(statuses(&mut instance), [c::WARNING, c::ERROR]);
+    assert_eq!(statuses(&mut instance), [c::WARNING]);
     // any other number than zero is true
-    assert_eq!(switch(&instance, -1, &[c"logEvents"]), c::OK);
     assert_eq!(
-        switch(&instance, 0, &[c"logStatusWarning", c"logStatusError"]),
+        switch(&instance, -1, &[c"logEvents", c"logStatusError"]),
         c::OK
     );
+    assert_eq!(switch(&instance, 0, &[c"logStatusWarning"]), c::OK);
     assert_eq!(statuses(&mut instance), [c::OK, c::ERROR]);
+    // what goes on without a message is refused all the same
+    assert_eq!(switch(&instance, 0, &[c"logStatusError"]), c::OK);
+    assert_eq!(statuses(&mut instance), [c::OK]);
+    assert_eq!(switch(&instance, 0, &[c"logAll"]), c::ERROR);
+    assert_eq!(instance.take_log(), []);
+    assert_eq!(switch(&instance, 1, &[]), c::OK);
+    assert_eq!(statuses(&mut instance), [c::OK, c::WARNING, c::ERROR]);
     let message = instance.refused(|i| switch(i, 1, &[c"logEvents", c"logAll"]));
     assert!(
         message.contains("log category \"logAll\" does not exist"),
@@ -129,6 +136,47 @@ fn categories_switch_messages_on_and_off() {
     assert!(
         message.contains("argument categories is a null pointer"),
         "{message}"
+    );
+}
+
+#[test]
+fn errors_are_told_from_the_start() {
+    let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[("joint.c_yy", -1.0)]));
+    let silent = |fmu_type, guid| {
+        let request = Request {
+            fmu_type,
+            guid: Some(guid),
+            resources: folder.0.to_str(),
+            logging: false,
+            ..Request::default()
+        };
+        request.instantiate()
+    };
+    let log = silent(c::CO_SIMULATION, "other").err().unwrap();
+    assert_eq!(log.len(), 1);
+    assert_eq!(log[0].status, c::ERROR);
+    let mut instance = silent(c::CO_SIMULATION, TOKEN).unwrap();
+    assert_eq!(instance.set_up(0.0, None), c::OK);
+    assert_eq!(instance.enter_initialization(), c::OK);
+    assert_eq!(instance.exit_initialization(), c::WARNING);
+    assert_eq!(instance.take_log(), []);
+    let message = instance.refused(|i| i.step(0.0, 0.0));
+    assert!(message.contains("communicationStepSize is 0"), "{message}");
+    // a status that there is not, fmi2Discard, is told in debug mode only (2.1.3)
+    let status = |instance: &Instance| {
+        let mut value = 0;
+        // SAFETY: the instance lives, the pointer is to a local
+        unsafe { c::fmi2GetIntegerStatus(instance.handle, c::LAST_SUCCESSFUL_TIME, &mut value) }
+    };
+    assert_eq!(status(&instance), c::DISCARD);
+    assert_eq!(instance.take_log(), []);
+    // SAFETY: the instance lives
+    unsafe { c::fmi2SetDebugLogging(instance.handle, 1, 0, ptr::null()) };
+    assert_eq!(status(&instance), c::DISCARD);
+    assert!(
+        instance
+            .message(c::DISCARD)
+            .starts_with("fmi2GetIntegerStatus: ")
     );
 }
 

@@ -11,7 +11,7 @@ use super::{
     fmi2_abi as abi,
     fmi3::damage,
     host::{self, DISCARD, ERROR, Host, MODELS, OK, TOKEN},
-    turn::{Function, Interface, Mode, Outcome, Rule, Subject, Turn, Version},
+    turn::{Function, Interface, Mode, Outcome, Rule, Subject, Told, Turn, Version},
 };
 
 use Mode::{ContinuousTime, Event, Initialization, Instantiated, SetUp, Step, Terminated};
@@ -253,6 +253,7 @@ pub(crate) fn instantiate(choices: &mut Choices<'_>) -> (&'static str, Option<Su
         handle,
         host,
         logs,
+        told: Told::from_the_start(logging != 0),
         event_mode: false,
         mode: Some(Instantiated),
         time_s: 0.0,
@@ -321,16 +322,21 @@ fn text_of(function: unsafe extern "C" fn() -> *const c_char, expected: &CStr) -
 
 fn set_debug_logging(turn: &mut Turn<'_, '_>) -> Outcome {
     let instance = turn.instance();
-    let names = [c"logEvents", c"logStatusWarning", c"logStatusError"];
-    let count = turn.a.choices.below(4);
-    let names: Vec<_> = names[..count]
+    let drawn = turn.categories();
+    let names: Vec<_> = drawn
         .iter()
-        .map(|name| turn.a.text(name))
+        .map(|category| turn.a.text(category.name()))
         .collect();
     let names = turn.a.array(names);
     let on = c_int::from(turn.a.flag());
     // SAFETY: the array has the length that is told, or one that no array has; strings are terminated or null
-    unsafe { abi::fmi2SetDebugLogging(instance, on, names.count(), names.pointer()) }.into()
+    let status = unsafe { abi::fmi2SetDebugLogging(instance, on, names.count(), names.pointer()) };
+    if status == OK && turn.reached {
+        // of an array that is told too short, the rest does not count
+        let told = &drawn[..names.count()];
+        turn.subject.switch_logging(told, on != 0);
+    }
+    status.into()
 }
 
 fn setup_experiment(turn: &mut Turn<'_, '_>) -> Outcome {

@@ -8,7 +8,7 @@ use std::{
 use super::{
     fmi2, fmi3, forged,
     host::{self, ERROR, Host, MODELS},
-    turn::{Interface, Mode, Subject, Version},
+    turn::{Interface, Mode, Subject, Told, Version},
 };
 
 const VERSIONS: [Version; 2] = [Version::Fmi2, Version::Fmi3];
@@ -76,6 +76,7 @@ fn open(version: Version, interface: Interface, model: usize, resources: &CStr) 
         handle,
         host,
         logs: true,
+        told: Told::from_the_start(true),
         event_mode: false,
         mode: Some(Mode::Instantiated),
         time_s: 0.0,

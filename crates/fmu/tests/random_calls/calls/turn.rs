@@ -1,13 +1,13 @@
 //! One turn: an instance, the saved states, and the arguments of the call that is made.
 
 use std::{
-    ffi::{c_int, c_void},
+    ffi::{CStr, c_int, c_void},
     ptr,
 };
 
 use super::{
     arrays::Arguments,
-    host::{Host, MODELS, Model},
+    host::{DISCARD, Host, MODELS, Model, OK, WARNING},
 };
 
 /// Version of FMI.
@@ -88,6 +88,58 @@ impl From<c_int> for Outcome {
     }
 }
 
+/// A log category of the model descriptions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Category {
+    Events,
+    Warnings,
+    Errors,
+}
+
+impl Category {
+    const ALL: [Self; 3] = [Self::Events, Self::Warnings, Self::Errors];
+
+    pub(crate) fn name(self) -> &'static CStr {
+        match self {
+            Self::Events => c"logEvents",
+            Self::Warnings => c"logStatusWarning",
+            Self::Errors => c"logStatusError",
+        }
+    }
+}
+
+/// Which messages an importer gets: those that it has not switched off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Told {
+    pub(crate) events: bool,
+    pub(crate) warnings: bool,
+    pub(crate) errors: bool,
+    /// In the category of errors, but only once that was asked for.
+    pub(crate) discards: bool,
+}
+
+impl Told {
+    /// What is told after an instantiation with this `loggingOn`: errors in any case.
+    pub(crate) fn from_the_start(logging_on: bool) -> Self {
+        Self {
+            events: logging_on,
+            warnings: logging_on,
+            errors: true,
+            discards: logging_on,
+        }
+    }
+
+    /// Whether a message with this status may come.
+    pub(crate) fn allows(self, status: c_int) -> bool {
+        match status {
+            OK => self.events,
+            WARNING => self.warnings,
+            DISCARD => self.discards,
+            _ => self.errors,
+        }
+    }
+}
+
 /// An instance, and what its importer knows of it.
 pub(crate) struct Subject {
     pub(crate) version: Version,
@@ -98,6 +150,8 @@ pub(crate) struct Subject {
     pub(crate) host: Box<Host>,
     /// Whether the instance has a log callback.
     pub(crate) logs: bool,
+    /// What the callback is called for.
+    pub(crate) told: Told,
     /// Whether Co-Simulation was instantiated with Event Mode.
     pub(crate) event_mode: bool,
     /// `None` after a call that may have ended the simulation.
@@ -109,6 +163,20 @@ impl Subject {
     /// What is simulated.
     pub(crate) fn model(&self) -> Model {
         MODELS[self.model]
+    }
+
+    /// Follows a call that switches these log categories, or all if there are none.
+    pub(crate) fn switch_logging(&mut self, categories: &[Category], on: bool) {
+        let all = categories.is_empty();
+        for category in Category::ALL {
+            if all || categories.contains(&category) {
+                match category {
+                    Category::Events => self.told.events = on,
+                    Category::Warnings => self.told.warnings = on,
+                    Category::Errors => (self.told.errors, self.told.discards) = (on, on),
+                }
+            }
+        }
     }
 }
 
@@ -145,6 +213,14 @@ impl Turn<'_, '_> {
         } else {
             self.subject.handle
         }
+    }
+
+    /// Log categories: any, in any order, also twice.
+    pub(crate) fn categories(&mut self) -> Vec<Category> {
+        let count = self.a.choices.below(4);
+        (0..count)
+            .map(|_| self.a.choices.pick(&Category::ALL))
+            .collect()
     }
 
     fn not_a_handle(&mut self) -> *mut c_void {

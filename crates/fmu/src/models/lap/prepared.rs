@@ -1,0 +1,228 @@
+//! A lap whose parameters are taken into use, and its way through a communication step.
+
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::{Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps};
+
+use super::loads::Loads;
+use crate::{models::CommunicationStep, refusal::Refusal};
+
+/// Most Runge–Kutta steps in one communication step: about a minute's work.
+pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
+
+/// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
+const STEPS_WORTH_PREPARING: u32 = 256;
+
+/// Runge–Kutta steps after which it is checked whether a softening joint still holds: a tenth of the fastest period where
+/// the export has chosen the step. Checking after every one takes half as long again.
+const STEPS_BETWEEN_CHECKS: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
+/// A lap made ready for steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Prepared<const D: usize> {
+    pub(super) integrator: LapIntegrator<D>,
+    step_size_max_s: f64,
+    /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
+    pub(super) amplitude: [f64; D],
+    /// Whether the joint holds only so far.
+    softens: bool,
+    /// What the latest length of a communication step gives; `None` before the first one.
+    interval: Option<Interval<D>>,
+}
+
+/// One length of communication steps.
+#[derive(Clone, Copy, Debug)]
+struct Interval<const D: usize> {
+    length_s: f64,
+    /// Runge–Kutta steps that it takes.
+    count: NonZeroU32,
+    propagation: Propagation<D>,
+}
+
+/// Whether one product can take the place of the Runge–Kutta steps.
+#[derive(Clone, Copy, Debug)]
+enum Propagation<const D: usize> {
+    /// Nobody has asked yet.
+    Unknown,
+    /// It cannot: the equations are not linear, or a mode grows past all bounds.
+    Impossible,
+    /// It can.
+    Possible(LapPropagator<D>),
+}
+
+impl<const D: usize> Prepared<D> {
+    /// Prepares `lap` for Runge–Kutta steps of `step_size_max_s` (s) at most.
+    pub(super) fn new(lap: &Lap<D>, step_size_max_s: f64) -> Self {
+        let limits = lap.escape_amplitude();
+        Self {
+            integrator: LapIntegrator::new(lap),
+            step_size_max_s,
+            amplitude: limits.map(|limit| limit.unwrap_or(f64::MAX)),
+            softens: limits.iter().any(Option::is_some),
+            interval: None,
+        }
+    }
+
+    /// Number of Runge–Kutta steps in a communication step of `interval_s` (s).
+    pub(super) fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
+        count(interval_s, self.step_size_max_s)
+    }
+
+    /// State at the end of the step, by one product where that is possible and worth its preparation.
+    #[inline]
+    pub(super) fn advance(
+        &mut self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        step: CommunicationStep,
+    ) -> Result<LapState<D>, Refusal> {
+        let length_s = step.interval_s;
+        let interval = match &mut self.interval {
+            Some(interval) if interval.length_s == length_s => interval,
+            interval => interval.insert(Interval {
+                length_s,
+                count: count(length_s, self.step_size_max_s)?,
+                propagation: Propagation::Unknown,
+            }),
+        };
+        let count = interval.count;
+        if step.is_steady || count.get() >= STEPS_WORTH_PREPARING {
+            if let Propagation::Unknown = interval.propagation {
+                interval.propagation = propagation(&self.integrator, length_s, count);
+            }
+            if let Propagation::Possible(propagator) = &interval.propagation {
+                return Ok(propagator.advance(start, loads));
+            }
+        }
+        if self.softens && count > STEPS_BETWEEN_CHECKS {
+            return Ok(self.stepped_while_held(start, loads, length_s, count));
+        }
+        Ok(stepped(&self.integrator, start, loads, length_s, count))
+    }
+
+    /// State after the Runge–Kutta steps under held loads, or, of a softening joint, at the first check that finds it
+    /// torn: what a load brings back from there cannot become whole again.
+    fn stepped_while_held(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        count: NonZeroU32,
+    ) -> LapState<D> {
+        let length_s = interval_s / f64::from(count.get());
+        let mut state = *start;
+        let mut rest = count.get();
+        while rest > 0 {
+            // so many steps have the length of one to the last bit, because it is a power of two
+            let next = if rest >= STEPS_BETWEEN_CHECKS.get() {
+                STEPS_BETWEEN_CHECKS
+            } else {
+                NonZeroU32::MIN
+            };
+            let span_s = length_s * f64::from(next.get());
+            state = stepped(&self.integrator, &state, loads, span_s, next);
+            if !self.holds(&state) {
+                break;
+            }
+            rest -= next.get();
+        }
+        state
+    }
+
+    /// State at the end of one of many equal steps, if all is prepared for it.
+    #[inline]
+    pub(super) fn steady_end(
+        &self,
+        start: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+    ) -> Option<LapState<D>> {
+        let interval = self.interval.as_ref()?;
+        if interval.length_s != interval_s {
+            return None;
+        }
+        match &interval.propagation {
+            Propagation::Unknown => None,
+            Propagation::Possible(propagator) => Some(propagator.advance(start, loads)),
+            Propagation::Impossible if self.softens && interval.count > STEPS_BETWEEN_CHECKS => {
+                None
+            }
+            Propagation::Impossible => {
+                Some(
+                    self.integrator
+                        .advance(start, loads, interval_s, interval.count),
+                )
+            }
+        }
+    }
+
+    /// State at the end of the step under loads that change, by Runge–Kutta steps.
+    #[cold]
+    pub(super) fn advance_along(
+        &self,
+        start: &LapState<D>,
+        loads: &Loads<'_, D>,
+        step: CommunicationStep,
+    ) -> Result<LapState<D>, Refusal> {
+        let count = self.internal_steps(step.interval_s)?.get();
+        let length_s = step.interval_s / f64::from(count);
+        let mut state = *start;
+        for index in 0..count {
+            let loads = loads.at_stages(index, length_s);
+            state = self.integrator.step_with_loads(&state, &loads, length_s);
+            if !self.holds(&state) {
+                break;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Whether the state is finite and the joint holds.
+    #[inline]
+    pub(super) fn holds(&self, state: &LapState<D>) -> bool {
+        let relative = state.a.relative_to(&state.b);
+        let mut sum = 0.0;
+        let mut holds = true;
+        for dof in 0..D {
+            sum += state.a.displacement[dof].abs() + state.b.displacement[dof].abs();
+            sum += state.a.velocity[dof].abs() + state.b.velocity[dof].abs();
+            // a comparison with NaN is false
+            holds &= relative.displacement[dof].abs() <= self.amplitude[dof];
+        }
+        holds && sum <= f64::MAX
+    }
+}
+
+/// The Runge–Kutta steps where time does not matter.
+#[cold]
+fn stepped<const D: usize>(
+    integrator: &LapIntegrator<D>,
+    start: &LapState<D>,
+    loads: &LapLoads<D>,
+    interval_s: f64,
+    count: NonZeroU32,
+) -> LapState<D> {
+    integrator.advance(start, loads, interval_s, count)
+}
+
+/// Number of Runge–Kutta steps in a communication step.
+#[cold]
+fn count(interval_s: f64, step_size_max_s: f64) -> Result<NonZeroU32, Refusal> {
+    // n = ⌈H/h_max⌉
+    substeps(interval_s, step_size_max_s)
+        .filter(|count| count.get() <= SUBSTEPS_MAX)
+        .ok_or(Refusal::TooManySubsteps {
+            interval_s,
+            step_size_max_s,
+        })
+}
+
+#[cold]
+fn propagation<const D: usize>(
+    integrator: &LapIntegrator<D>,
+    interval_s: f64,
+    count: NonZeroU32,
+) -> Propagation<D> {
+    LapPropagator::new(integrator, interval_s, count)
+        .map_or(Propagation::Impossible, Propagation::Possible)
+}

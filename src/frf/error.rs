@@ -141,6 +141,54 @@ pub enum FrfError {
         /// Reference.
         reference: Dof,
     },
+    /// A coherence outside 0 to 1.
+    #[error(
+        "coherence {response} / {reference}, line {line} ({frequency_hz} Hz): found {found}, expected a number from 0 to 1; \
+         export γ² itself, neither in per cent nor in decibel, or remove the coherence"
+    )]
+    CoherenceNotAllowed {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the coherence.
+        line: usize,
+        /// Frequency of the line, Hz.
+        frequency_hz: f64,
+        /// The value.
+        found: f64,
+    },
+    /// A coherence whose lines are not those of its function.
+    #[error(
+        "coherence {response} / {reference}: found no value for line {line} at {frequency_hz} Hz, expected one for every line of \
+         its function; export both with the same analyser settings, or remove the coherence"
+    )]
+    CoherenceAxis {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the function.
+        line: usize,
+        /// Frequency of that line, Hz.
+        frequency_hz: f64,
+    },
+    /// Two coherences of one function.
+    #[error(
+        "found two coherences from {reference} to {response}, expected one; remove the one that is not wanted"
+    )]
+    DuplicateCoherence {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+    },
+    /// A number of averages that cannot be.
+    #[error("found {found} averages, expected a number of at least 1")]
+    Averages {
+        /// The number.
+        found: f64,
+    },
     /// A pair that was not measured, nor its transpose.
     #[error(
         "no function with response {response} and reference {reference}, nor the reverse; \

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
-use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
+use crate::frf::{Dof, Frf, FrfError, FrfSet, ReadOptions, read_uff58};
 use crate::structure::{
     Beam, BeamError, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
 };
@@ -136,9 +136,9 @@ struct Reader {
 
 impl Reader {
     fn read(&mut self, file: &FrfFile) -> Result<FrfSet, IdentifyError> {
-        let options = UffOptions {
+        let options = ReadOptions {
             quantity: file.quantity,
-            ..UffOptions::default()
+            ..ReadOptions::default()
         };
         let reading = read_uff58(&file.path, &options)?;
         if !reading.units_are_stated() {

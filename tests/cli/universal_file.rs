@@ -49,14 +49,18 @@ fn what_is_no_universal_file_is_said_to_be_none() {
 }
 
 #[test]
-fn binary_data_sets_are_known_but_not_read() {
+fn a_binary_header_over_ascii_values_is_refused() {
     let bench = with("c.uff", |text| {
         let header = "    58b     1     2          11     3184     0     0           0           0";
         text.replacen("    58", header, 1).into_bytes()
     });
     bench.refused(
         &IDENTIFY,
-        &["c.uff, line 2: found binary dataset 58b", "export as ASCII"],
+        &[
+            "c.uff, line 1: binary data set 58b: found no \"    -1\"",
+            "says 3184 bytes",
+            "export as ASCII",
+        ],
     );
 }
 

@@ -54,9 +54,9 @@ const BY_CODE: [(i64, &str, UnitSystem); 8] = [
 ];
 
 /// Pound-force, N (exact: 0.45359237 kg · 9.80665 m/s²).
-pub(super) const LBF: f64 = 4.448_221_615_260_5;
+pub(in crate::frf) const LBF: f64 = 4.448_221_615_260_5;
 /// Kilogram-force, N (exact).
-pub(super) const KGF: f64 = 9.806_65;
+pub(in crate::frf) const KGF: f64 = 9.806_65;
 /// Poundal, N (exact: 0.45359237 kg · 0.3048 m/s²).
 const POUNDAL: f64 = 0.138_254_954_376;
 
@@ -97,7 +97,7 @@ impl UnitSystem {
     }
 
     /// SI units in one file unit of lengthᵃ·forceᵇ.
-    pub(super) fn to_si(self, length_exponent: i32, force_exponent: i32) -> f64 {
+    pub(in crate::frf) fn to_si(self, length_exponent: i32, force_exponent: i32) -> f64 {
         // SI = file / (Lᵃ Fᵇ)
         self.length_per_metre.powi(-length_exponent) * self.force_per_newton.powi(-force_exponent)
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::{Dof, UffProblem};
+use super::{CsvProblem, Dof, NpzProblem, UffProblem};
 
 /// How many pairs an error message lists before it only counts.
 const LISTED_PAIRS: usize = 12;
@@ -244,6 +244,26 @@ pub enum FrfError {
         /// What is wrong there.
         #[source]
         problem: UffProblem,
+    },
+    /// A table of functions is not usable.
+    #[error("{}, line {line}: {problem}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong there.
+        #[source]
+        problem: CsvProblem,
+    },
+    /// A NumPy archive is not usable.
+    #[error("{}: {problem}", path.display())]
+    Npz {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        #[source]
+        problem: NpzProblem,
     },
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]

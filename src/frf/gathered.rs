@@ -14,6 +14,19 @@ pub(super) struct Gathered {
 }
 
 impl Gathered {
+    /// Lines that are in the band already, of a function that has lines at `all_hz`.
+    pub(super) fn of_band(frequency_hz: Vec<f64>, values: Vec<Complex64>, all_hz: &[f64]) -> Self {
+        Self {
+            frequency_hz,
+            values,
+            ends_hz: all_hz
+                .first()
+                .copied()
+                .zip(all_hz.last().copied())
+                .map(<[f64; 2]>::from),
+        }
+    }
+
     /// Keeps a line if it is wanted.
     pub(super) fn push(&mut self, selection: &Selection, hz: f64, value: Complex64) {
         self.ends_hz = Some([self.ends_hz.map_or(hz, |[first, _]| first), hz]);

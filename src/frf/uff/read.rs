@@ -13,12 +13,10 @@ use super::lines::Lines;
 use super::meaning::{check_abscissa, decide};
 use super::{UffProblem, UnitSystem, binary, values};
 use crate::frf::gathered::Gathered;
+use crate::frf::shown;
 use crate::frf::{
     Coherence, Dof, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
 };
-
-/// How much of a line an error message shows.
-const SHOWN_CHARACTERS: usize = 40;
 
 /// Reads the frequency response functions of a universal file.
 ///
@@ -352,18 +350,4 @@ fn in_header<R: BufRead>(
     (record, problem): InRecord,
 ) -> FrfError {
     lines.problem_at(begun_at + 1 + record, problem)
-}
-
-/// The beginning of a line, fit for a message.
-fn shown(text: &str) -> String {
-    let mut shown: String = text
-        .trim()
-        .chars()
-        .take(SHOWN_CHARACTERS)
-        .flat_map(char::escape_debug)
-        .collect();
-    if text.trim().chars().count() > SHOWN_CHARACTERS {
-        shown.push('…');
-    }
-    shown
 }

@@ -94,6 +94,16 @@ pub enum FrfError {
     /// A set without functions.
     #[error("found no frequency response function, expected at least one")]
     NoFunctions,
+    /// A file with functions, but none that was asked for.
+    #[error(
+        "found no function between the degrees of freedom that are asked for; there are (response / reference) {}; \
+         correct the labels in the study",
+        list(present)
+    )]
+    NoneSelected {
+        /// Every pair that is there, sorted.
+        present: Vec<(Dof, Dof)>,
+    },
     /// Two functions of one set are given at different frequencies.
     #[error(
         "functions {} and {} have different frequencies: line {line} is at {first_hz} Hz in the first and {second_hz} Hz \

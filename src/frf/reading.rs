@@ -88,8 +88,13 @@ impl FrfReading {
     /// # Errors
     /// [`FrfError::InFile`] around what [`FrfSet::new`] and [`FrfSet::with_coherences`] refuse.
     pub fn into_set(self) -> Result<FrfSet, FrfError> {
-        FrfSet::new(self.functions)
-            .and_then(|set| set.with_coherences(self.coherences, self.averages))
+        let set = match self.functions.is_empty() && !self.not_selected.is_empty() {
+            true => Err(FrfError::NoneSelected {
+                present: self.not_selected.iter().copied().collect(),
+            }),
+            false => FrfSet::new(self.functions),
+        };
+        set.and_then(|set| set.with_coherences(self.coherences, self.averages))
             .map(|set| set.knowing_of(self.not_selected))
             .map_err(|source| FrfError::InFile {
                 path: self.path,

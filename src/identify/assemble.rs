@@ -5,7 +5,7 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
-use crate::frf::{Dof, Frf, FrfError, FrfSet, ReadOptions, read_uff58};
+use crate::frf::{Dof, Frf, FrfError, FrfSet, ReadOptions, Selection, read_frfs};
 use crate::structure::{
     Beam, BeamError, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
 };
@@ -22,7 +22,7 @@ pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError
     let path = &study.assembly.path;
     let in_file = |source| in_file(path, source);
     let assembly = reader
-        .read(&study.assembly)?
+        .read(&study.assembly, &study.points, [from_hz, to_hz])?
         .restricted_to(from_hz, to_hz)
         .map_err(in_file)?;
     let axis = Axis {
@@ -135,15 +135,23 @@ struct Reader {
 }
 
 impl Reader {
-    fn read(&mut self, file: &FrfFile) -> Result<FrfSet, IdentifyError> {
+    /// The functions between `dofs` in a band (Hz); of a large file the rest is not held.
+    fn read(
+        &mut self,
+        file: &FrfFile,
+        dofs: &[Dof],
+        [from_hz, to_hz]: [f64; 2],
+    ) -> Result<FrfSet, IdentifyError> {
         let options = ReadOptions {
             quantity: file.quantity,
-            ..ReadOptions::default()
+            units: file.units,
+            averages: file.averages,
+            selection: Selection::between(dofs.iter().copied()).within(from_hz, to_hz),
         };
-        let reading = read_uff58(&file.path, &options)?;
+        let reading = read_frfs(&file.path, &options)?;
         if !reading.units_are_stated() {
             self.warnings.push(format!(
-                "{}: states no units, so SI units are assumed; add data set 164 if they are others",
+                "{}: states no units, so SI units are assumed; state units beside frf if they are others",
                 file.path.display()
             ));
         }
@@ -266,8 +274,8 @@ fn labelled_receptances(
     let mut entries = Vec::with_capacity(labels.len() * labels.len());
     match source {
         Source::Frf(file) => {
-            let set = reader.read(file)?;
             let (from_hz, to_hz) = axis.ends();
+            let set = reader.read(file, labels, [from_hz, to_hz])?;
             let set = set
                 .restricted_to(from_hz, to_hz)
                 .map_err(|source| in_file(&file.path, source))?;

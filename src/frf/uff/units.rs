@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::numbers::parse_line;
 use super::{UffProblem, fields};
+use crate::frf::unit_label::Unit;
 
 /// Two statements of a factor agree within this share; labels and factors are often rounded.
 pub(super) const FACTOR_TOLERANCE: f64 = 1e-3;
@@ -82,6 +83,15 @@ impl UnitSystem {
             }
         }
         Ok(Self::of(length_per_metre, force_per_newton))
+    }
+
+    /// The units with these names, such as `mm` and `N`, or `in` and `lbf`; `None` if either is no unit of its kind.
+    #[must_use]
+    pub fn named(length: &str, force: &str) -> Option<Self> {
+        let length =
+            Unit::from_label(length).filter(|u| (u.length, u.force, u.time) == (1, 0, 0))?;
+        let force = Unit::from_label(force).filter(|u| (u.length, u.force, u.time) == (0, 1, 0))?;
+        Self::new(1.0 / length.to_si, 1.0 / force.to_si).ok()
     }
 
     /// How many lengths of the file make one metre.
@@ -206,6 +216,30 @@ mod tests {
                 .unwrap();
         assert_eq!(units, UnitSystem::new(1e3, 1.0).unwrap());
         assert_eq!(units.to_si(1, -1), 1e-3);
+    }
+
+    #[test]
+    fn names_of_units_make_a_system() {
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
+        for (length, force, per_metre, per_newton) in [
+            ("m", "N", 1.0, 1.0),
+            ("mm", "N", 1e3, 1.0),
+            ("in", "lbf", 1.0 / 0.0254, 1.0 / LBF),
+            ("µm", "kN", 1e6, 1e-3),
+        ] {
+            let units = UnitSystem::named(length, force).unwrap();
+            assert!(close(units.length_per_metre(), per_metre), "{length}");
+            assert!(close(units.force_per_newton(), per_newton), "{force}");
+        }
+        for (length, force) in [
+            ("N", "m"),
+            ("mm", "kg"),
+            ("furlong", "N"),
+            ("m^2", "N"),
+            ("", ""),
+        ] {
+            assert_eq!(UnitSystem::named(length, force), None, "{length} {force}");
+        }
     }
 
     #[test]

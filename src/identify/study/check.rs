@@ -1,9 +1,9 @@
 //! Checks of a study's tables: what passes is complete, physical and without contradiction.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::frf::Dof;
+use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
 use crate::structure::{Beam, Damping};
 
@@ -13,7 +13,7 @@ use super::super::estimator::NoiseLevel;
 use super::super::model::JointModel;
 use super::tables::{
     BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, NoiseTable, OneOrMore,
-    SubstructureTable, ThetaTable,
+    SubstructureTable, ThetaTable, UnitsTable,
 };
 use super::{FrfFile, Rotation, Source, Substructure};
 
@@ -125,18 +125,28 @@ impl Checker<'_> {
         folder: &Path,
         model: JointModel,
     ) -> Result<Substructure, IdentifyError> {
-        if table.quantity.is_some() && table.frf.is_none() {
-            return self.refuse(
-                format!("{key}.quantity"),
-                "a quantity",
-                "it beside `frf` only",
-            );
+        for (name, there) in [
+            ("quantity", table.quantity.is_some()),
+            ("units", table.units.is_some()),
+            ("averages", table.averages.is_some()),
+        ] {
+            if there && table.frf.is_none() {
+                let found = if name == "quantity" {
+                    "a quantity"
+                } else {
+                    name
+                };
+                return self.refuse(format!("{key}.{name}"), found, "it beside `frf` only");
+            }
         }
         let source = match (table.frf, table.modal, table.beam) {
-            (Some(path), None, None) => Source::Frf(FrfFile {
-                path: folder.join(path),
-                quantity: table.quantity,
-            }),
+            (Some(path), None, None) => Source::Frf(self.frf_file(
+                key,
+                folder.join(path),
+                table.quantity,
+                table.units.as_ref(),
+                table.averages,
+            )?),
             (None, Some(path), None) => Source::Modal(folder.join(path)),
             (None, None, Some(beam)) => {
                 let beam = self.beam(key, beam)?;
@@ -187,6 +197,43 @@ impl Checker<'_> {
             source,
             y,
             theta: self.rotation(&key, y, table.joint.theta, model)?,
+        })
+    }
+
+    /// A file of functions with what `[key]` states beside it.
+    pub(super) fn frf_file(
+        &self,
+        key: &str,
+        path: PathBuf,
+        quantity: Option<Quantity>,
+        units: Option<&UnitsTable>,
+        averages: Option<f64>,
+    ) -> Result<FrfFile, IdentifyError> {
+        let units = match units {
+            None => None,
+            Some(UnitsTable { length, force }) => {
+                let Some(units) = UnitSystem::named(length, force) else {
+                    return self.refuse(
+                        format!("{key}.units"),
+                        format!("length = {length:?}, force = {force:?}"),
+                        "units of length and force such as { length = \"mm\", force = \"N\" }",
+                    );
+                };
+                Some(units)
+            }
+        };
+        if let Some(found) = averages.filter(|n| !(n.is_finite() && *n >= 1.0)) {
+            return self.refuse(
+                format!("{key}.averages"),
+                found.to_string(),
+                "a number of at least 1",
+            );
+        }
+        Ok(FrfFile {
+            path,
+            quantity,
+            units,
+            averages,
         })
     }
 

@@ -6,7 +6,7 @@ mod tables;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::frf::{Dof, Quantity};
+use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
 use crate::structure::Beam;
 use crate::text_file;
@@ -79,13 +79,17 @@ pub enum Source {
     Modal(PathBuf),
 }
 
-/// A universal file, and what the study says about it.
+/// A file of functions, and what the study says about it.
 #[derive(Clone, Debug)]
 pub struct FrfFile {
     /// The file.
     pub path: PathBuf,
     /// What was measured, where the file contradicts itself or does not say.
     pub quantity: Option<Quantity>,
+    /// Its units, where the file contradicts itself or does not say.
+    pub units: Option<UnitSystem>,
+    /// Averages behind every function, which its coherence needs to become a variance.
+    pub averages: Option<f64>,
 }
 
 /// Where rotational receptances come from.
@@ -142,10 +146,13 @@ impl Study {
             name: file.name,
             a,
             b,
-            assembly: FrfFile {
-                path: folder.join(file.assembly.frf),
-                quantity: file.assembly.quantity,
-            },
+            assembly: check.frf_file(
+                "assembly",
+                folder.join(file.assembly.frf),
+                file.assembly.quantity,
+                file.assembly.units.as_ref(),
+                file.assembly.averages,
+            )?,
             points,
             model,
             frequency_range_hz,

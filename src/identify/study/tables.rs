@@ -49,11 +49,21 @@ pub(super) enum Method {
 pub(super) struct SubstructureTable {
     pub(super) frf: Option<PathBuf>,
     pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
     pub(super) joint: JointPlaceTable,
     #[serde(default)]
     pub(super) points: BTreeMap<Dof, f64>,
+}
+
+/// Units of a file of functions, by name.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UnitsTable {
+    pub(super) length: String,
+    pub(super) force: String,
 }
 
 #[derive(Deserialize)]
@@ -127,6 +137,8 @@ pub(super) struct DifferenceTable {
 pub(super) struct AssemblyTable {
     pub(super) frf: PathBuf,
     pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
     pub(super) points: Vec<Dof>,
 }
 

@@ -222,7 +222,7 @@ impl<R: BufRead> Rows<'_, R> {
                     self.problem(CsvProblem::NotANumber {
                         column: index + 1,
                         found: crate::frf::shown(cells[index]),
-                        comma_used: cells[index].contains(','),
+                        comma_used: cells[index].contains(',') || decimal == Decimal::Comma,
                     })
                 })?;
                 decimal = used;

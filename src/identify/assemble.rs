@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
@@ -11,7 +13,7 @@ use crate::structure::{
 };
 
 use super::error::IdentifyError;
-use super::lines::Lines;
+use super::lines::{Lines, MeasuredSubstructure};
 use super::model::JointMatrices;
 use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
@@ -30,17 +32,8 @@ pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError
         frequency_hz: assembly.frequency_hz(),
     };
     let points = &study.points;
-    let mut measured = Vec::new();
-    let mut entries = vec![Vec::new(); points.len() * points.len()];
-    for (column, &reference) in points.iter().enumerate() {
-        for (row, &response) in points.iter().enumerate() {
-            let receptance = assembly.receptance(response, reference).map_err(in_file)?;
-            if !receptance.is_reciprocal() {
-                measured.push((row, column));
-            }
-            entries[column * points.len() + row] = receptance.values().to_vec();
-        }
-    }
+    let labelled = labelled_functions(&assembly, points, Completeness::Any).map_err(in_file)?;
+    let measured = labelled.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
     let needed = study.model.unknowns().div_ceil(2 * measured.len()).max(2);
     if axis.frequency_hz.len() < needed {
@@ -55,7 +48,7 @@ pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError
         });
     }
     let lines = Lines {
-        assembly: matrices(points.len(), axis.frequency_hz.len(), &entries),
+        assembly: labelled.matrices,
         measured,
         ..substructures(study, &axis, &mut reader)?
     };
@@ -102,16 +95,20 @@ fn substructures(
     reader: &mut Reader,
 ) -> Result<Lines, IdentifyError> {
     let points = &study.points;
+    let (a_joint, a_measured) = joint_and_points(study, "a", &[], axis, reader)?;
+    let (b, b_measured) = joint_and_points(study, "b", points, axis, reader)?;
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
-        a_joint: joint_and_points(study, "a", &[], axis, reader)?,
-        b: joint_and_points(study, "b", points, axis, reader)?
-            .iter()
+        a_joint,
+        b: b.iter()
             .map(|receptance| Partition::of(receptance, study.model.dofs()))
             .collect(),
         assembly: Vec::new(),
         points: points.clone(),
         measured: Vec::new(),
+        relative_variance: None,
+        a_measured,
+        b_measured,
     })
 }
 
@@ -158,7 +155,7 @@ fn joint_and_points(
     points: &[Dof],
     axis: &Axis<'_>,
     reader: &mut Reader,
-) -> Result<Vec<ComplexMatrix>, IdentifyError> {
+) -> Result<(Vec<ComplexMatrix>, Option<Arc<MeasuredSubstructure>>), IdentifyError> {
     let joint_dofs = study.model.dofs();
     let substructure = if key == "a" { &study.a } else { &study.b };
     match substructure {
@@ -168,31 +165,43 @@ fn joint_and_points(
             positions_m,
         } => {
             let dofs = beam_dofs(joint_dofs, *joint_m, points, positions_m);
-            beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
-                path: study.path.clone(),
-                key,
-                source,
-            })
+            let receptances =
+                beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
+                    path: study.path.clone(),
+                    key,
+                    source,
+                })?;
+            Ok((receptances, None))
         }
         Substructure::Measured { source, y, theta } => {
             let (joint, transformation) = joint_labels(*y, theta.as_ref(), joint_dofs);
             let labels: Vec<Dof> = joint.iter().chain(points).copied().collect();
-            let receptances = labelled_receptances(source, &labels, axis, reader)?;
+            let labelled = labelled_receptances(source, &labels, axis, reader)?;
             // (joint, points) = T (labels): H = T H_labels Tᵀ   (Tol 3.54)
             let (joint_dofs, joint_labels) = transformation.shape();
-            let mut whole =
-                ComplexMatrix::zeros(joint_dofs + points.len(), joint_labels + points.len());
+            let mut whole = DMatrix::zeros(joint_dofs + points.len(), labels.len());
             whole
                 .view_mut((0, 0), (joint_dofs, joint_labels))
-                .copy_from(&transformation);
+                .copy_from(&transformation.map(|value| value.re));
             for point in 0..points.len() {
-                whole[(joint_dofs + point, joint_labels + point)] = Complex64::from(1.0);
+                whole[(joint_dofs + point, joint_labels + point)] = 1.0;
             }
-            let transposed = whole.transpose();
-            Ok(receptances
+            let complex = whole.map(Complex64::from);
+            let transposed = complex.transpose();
+            let receptances = labelled
+                .matrices
                 .iter()
-                .map(|receptance| &whole * receptance * &transposed)
-                .collect())
+                .map(|receptance| &complex * receptance * &transposed)
+                .collect();
+            let measured = (!labelled.measured.is_empty()).then(|| {
+                Arc::new(MeasuredSubstructure {
+                    transformation: whole,
+                    receptances: labelled.matrices,
+                    measured: labelled.measured,
+                    relative_variance: None,
+                })
+            });
+            Ok((receptances, measured))
         }
     }
 }
@@ -256,14 +265,20 @@ fn beam_receptances(
     Ok(receptances)
 }
 
+/// Receptances between labelled DOFs: a matrix for each line, and which entries were measured independently of the others.
+struct Labelled {
+    matrices: Vec<ComplexMatrix>,
+    /// Empty where the receptances come from modes.
+    measured: Vec<(usize, usize)>,
+}
+
 /// Receptances between all `labels` of a measured substructure.
 fn labelled_receptances(
     source: &Source,
     labels: &[Dof],
     axis: &Axis<'_>,
     reader: &mut Reader,
-) -> Result<Vec<ComplexMatrix>, IdentifyError> {
-    let mut entries = Vec::with_capacity(labels.len() * labels.len());
+) -> Result<Labelled, IdentifyError> {
     match source {
         Source::Frf(file) => {
             let set = reader.read(file)?;
@@ -272,25 +287,98 @@ fn labelled_receptances(
                 .restricted_to(from_hz, to_hz)
                 .map_err(|source| in_file(&file.path, source))?;
             axis.compare(&file.path, set.frequency_hz())?;
-            for &reference in labels {
-                for &response in labels {
-                    let receptance = set
-                        .receptance(response, reference)
-                        .map_err(|source| in_file(&file.path, source))?;
-                    entries.push(receptance.values().to_vec());
-                }
-            }
+            let mut labelled = labelled_functions(&set, labels, Completeness::All)
+                .map_err(|source| in_file(&file.path, source))?;
+            labelled.symmetrise();
+            Ok(labelled)
         }
         Source::Modal(path) => {
             let model = ModalModel::read(path)?;
+            let mut entries = Vec::with_capacity(labels.len() * labels.len());
             for &reference in labels {
                 for &response in labels {
                     entries.push(model.receptance(response, reference, axis.frequency_hz)?);
                 }
             }
+            Ok(Labelled {
+                matrices: matrices(labels.len(), axis.frequency_hz.len(), &entries),
+                measured: Vec::new(),
+            })
         }
     }
-    Ok(matrices(labels.len(), axis.frequency_hz.len(), &entries))
+}
+
+/// Whether every pair of labels has to be there.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Completeness {
+    All,
+    /// Only one; what is missing is not a number.
+    Any,
+}
+
+/// Functions of a set between all `labels`.
+fn labelled_functions(
+    set: &FrfSet,
+    labels: &[Dof],
+    completeness: Completeness,
+) -> Result<Labelled, FrfError> {
+    let mut measured = Vec::new();
+    let mut entries = Vec::with_capacity(labels.len() * labels.len());
+    let mut missing = None;
+    for (column, &reference) in labels.iter().enumerate() {
+        for (row, &response) in labels.iter().enumerate() {
+            match set.receptance(response, reference) {
+                Ok(receptance) => {
+                    if !receptance.is_reciprocal() && !is_copy(set, response, reference, column < row)
+                    {
+                        measured.push((row, column));
+                    }
+                    entries.push(receptance.values().to_vec());
+                }
+                Err(error) => {
+                    missing = missing.or(Some(error));
+                    entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
+                }
+            }
+        }
+    }
+    match missing {
+        Some(error) if completeness == Completeness::All || measured.is_empty() => Err(error),
+        _ => Ok(Labelled {
+            matrices: matrices(labels.len(), set.line_count(), &entries),
+            measured,
+        }),
+    }
+}
+
+/// Whether a function is, bit by bit, its transpose, and the one of the two that stands `below` the diagonal: an analyser
+/// that fills the matrix by reciprocity writes such copies, which are no measurements.
+fn is_copy(set: &FrfSet, response: Dof, reference: Dof, below: bool) -> bool {
+    let pair = (
+        set.receptance(response, reference),
+        set.receptance(reference, response),
+    );
+    match pair {
+        (Ok(one), Ok(other)) => {
+            below && !other.is_reciprocal() && one.values() == other.values()
+        }
+        _ => false,
+    }
+}
+
+impl Labelled {
+    /// Replaces H_pq and H_qp by their mean: by reciprocity they are one number, measured twice.
+    fn symmetrise(&mut self) {
+        for matrix in &mut self.matrices {
+            for column in 0..matrix.ncols() {
+                for row in column + 1..matrix.nrows() {
+                    let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
+                    matrix[(row, column)] = mean;
+                    matrix[(column, row)] = mean;
+                }
+            }
+        }
+    }
 }
 
 /// One size×size matrix a line from entries in column-major order, each over all lines.

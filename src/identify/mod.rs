@@ -4,25 +4,45 @@
 //! average by weighted least squares on the assembly's receptances and says how well the result is determined.
 
 mod assemble;
+mod assessment;
 mod bands;
+mod block;
+mod bootstrap;
+mod choice;
 mod decoupling;
 mod error;
 mod estimator;
+mod group;
 mod identification;
+mod kernel;
 mod lines;
+mod lines_estimate;
 mod model;
+mod noise;
+mod normal;
+mod objective;
+mod parallel;
+mod passive;
 mod provenance;
+mod search;
 mod starts;
 mod study;
+mod uncertainty;
 mod unknown;
+mod weights;
 
 pub use assemble::predict_assembly;
+pub use assessment::Assessment;
 pub use bands::Bands;
+pub use bootstrap::Bootstrap;
+pub use choice::{ModelChoice, ModelFit};
 pub use decoupling::{from_rr, from_rs, from_sr, from_ss};
 pub use error::IdentifyError;
-pub use estimator::NoiseLevel;
-pub use identification::{FunctionFit, Identification, LinesEstimate, identify, identify_lines};
-pub use lines::Lines;
+pub use identification::{FunctionFit, Identification, identify};
+pub use lines::{Lines, MeasuredSubstructure};
+pub use lines_estimate::{BootstrapResult, LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};
+pub use noise::{Noise, NoiseLevel, StatedLevel};
 pub use study::{FrfFile, Rotation, Source, Study, Substructure};
+pub use uncertainty::Covariance;
 pub use unknown::Unknown;

@@ -9,7 +9,7 @@ use crate::structure::{Beam, Damping};
 
 use super::super::bands::Bands;
 use super::super::error::IdentifyError;
-use super::super::estimator::NoiseLevel;
+use super::super::noise::NoiseLevel;
 use super::super::model::JointModel;
 use super::tables::{
     BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, NoiseTable, OneOrMore,

@@ -13,7 +13,7 @@ use crate::text_file;
 
 use super::bands::Bands;
 use super::error::IdentifyError;
-use super::estimator::NoiseLevel;
+use super::noise::NoiseLevel;
 use super::model::JointModel;
 use check::Checker;
 use tables::StudyFile;

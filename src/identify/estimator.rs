@@ -38,7 +38,6 @@ impl Chart for Free {
 pub(super) struct Estimate {
     /// Stiffness of each entry of the joint model, then damping.
     pub(super) unknowns: DVector<f64>,
-    pub(super) coordinates: DVector<f64>,
     /// χ²/2: Σ|residual|² with the final weights.
     pub(super) cost: f64,
     /// −2 log-likelihood up to a constant; where noise is not stated the common scale of the variances is profiled out.
@@ -125,7 +124,6 @@ pub(super) fn estimate<const N: usize>(
     };
     Some(Estimate {
         unknowns: state.unknowns,
-        coordinates,
         cost,
         misfit,
         measurements,
@@ -143,7 +141,7 @@ pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usiz
 }
 
 /// Levels to begin with: what is not stated is proportional to the receptance.
-fn first_levels<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> Levels {
+pub(super) fn first_levels<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> Levels {
     let floor = if noise.assembly.relative == Some(0.0) {
         let values = objective.groups.iter().flat_map(|group| &group.blocks);
         let largest = values.flat_map(|block| &block.measured);
@@ -155,6 +153,17 @@ fn first_levels<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> 
         relative: 1.0,
         floor,
     })
+}
+
+/// The unknowns at which the cost with these weights is lowest, roughly.
+pub(super) fn minimum<const N: usize>(
+    objective: &Objective<'_, N>,
+    weights: &[Weights],
+    start: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let none = vec![Vec::new(); objective.groups.len()];
+    let gain = GAIN_BEFORE_RENEWAL;
+    Some(levenberg_marquardt(objective, weights, &Free, start, none, gain)?.coordinates)
 }
 
 /// Where an iteration with held weights came to rest.

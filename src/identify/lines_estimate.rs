@@ -1,6 +1,6 @@
 //! From lines to a joint: decoupling, averages, the search, the passive estimate, and how sure all of it is.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, Partition};
@@ -440,12 +440,4 @@ impl BootstrapResult {
                 .collect(),
         }
     }
-}
-
-/// The rows of a matrix.
-pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
-    matrix
-        .row_iter()
-        .map(|row| row.iter().copied().collect())
-        .collect()
 }

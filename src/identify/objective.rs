@@ -14,6 +14,12 @@ use super::normal::Normal;
 
 /// Entries of K* on and above the diagonal that can be unknown.
 const MAX_ENTRIES: usize = 3;
+/// Gauss–Newton steps of one line's corrections for each step of the unknowns …
+const CORRECTION_ROUNDS: usize = 8;
+/// … as long as they promise to lower its cost by this fraction …
+const CORRECTION_GAIN: f64 = 1e-3;
+/// … each shortened to a quarter at most so many times.
+const CORRECTION_HALVINGS: usize = 6;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.
@@ -111,11 +117,7 @@ impl<const N: usize> Objective<'_, N> {
                 } else {
                     let at = index * group.sources.len();
                     let delta = &mut corrections[at..at + group.sources.len()];
-                    if let Some(from) = from {
-                        line.linearise(index, from.as_slice(), delta)?;
-                        line.follow(variances, from, &unknowns, delta)?;
-                    }
-                    line.linearise(index, unknowns.as_slice(), delta)?;
+                    line.settle(index, variances, from, &unknowns, delta)?;
                     line.whiten(variances, delta)?;
                 }
                 line.add_to(&mut normal);
@@ -176,8 +178,11 @@ pub(super) struct Line<'g, const N: usize> {
     /// Σ, then its Cholesky factor.
     factor: Vec<Complex64>,
     cost: f64,
+    /// The cost that is left once the corrections have followed, as linearised.
+    residual_cost: f64,
     signal: f64,
     log_determinant: f64,
+    trial: Vec<Complex64>,
 }
 
 impl<'g, const N: usize> Line<'g, N> {
@@ -196,8 +201,10 @@ impl<'g, const N: usize> Line<'g, N> {
             by_source: vec![ZERO; size * group.sources.len()],
             factor: vec![ZERO; if group.sources.is_empty() { 0 } else { size * size }],
             cost: 0.0,
+            residual_cost: 0.0,
             signal: 0.0,
             log_determinant: 0.0,
+            trial: Vec::new(),
         }
     }
 
@@ -308,17 +315,9 @@ impl<'g, const N: usize> Line<'g, N> {
             return Some(());
         }
         let size = self.residual.len();
-        self.signal = 0.0;
-        self.cost = 0.0;
-        for e in 0..size {
-            self.signal += self.computed[e].norm_sqr() / variances[e];
-            self.cost += self.residual[e].norm_sqr() / variances[e];
-        }
-        for (delta, variance) in delta.iter().zip(of_sources) {
-            if *variance > 0.0 {
-                self.cost += delta.norm_sqr() / variance;
-            }
-        }
+        let powers = self.computed.iter().zip(variances);
+        self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
+        self.cost = self.whole_cost((variances, of_sources), delta);
         self.add_corrections(delta);
         self.factorise(variances, of_sources)?;
         forward(&self.factor, size, &mut self.residual);
@@ -371,6 +370,85 @@ impl<'g, const N: usize> Line<'g, N> {
         Some(())
     }
 
+    /// Lets the corrections follow the unknowns, and linearises the line there: δ first as the step's own linear model says,
+    /// then by Gauss–Newton on this line alone, no step of which may raise its cost. Near a resonance the errors of the
+    /// substructures act far from linearly.
+    fn settle(
+        &mut self,
+        index: usize,
+        variances: (&[f64], &[f64]),
+        from: Option<&DVector<f64>>,
+        to: &DVector<f64>,
+        delta: &mut [Complex64],
+    ) -> Option<()> {
+        let mut trial = std::mem::take(&mut self.trial);
+        if let Some(from) = from {
+            trial.clear();
+            trial.extend_from_slice(delta);
+            if self.linearise(index, from.as_slice(), &trial).is_some() {
+                self.follow(variances, from, to, &mut trial)?;
+            }
+            let before = self.cost_at(index, variances, to, delta);
+            let after = self.cost_at(index, variances, to, &trial);
+            if after <= before {
+                delta.copy_from_slice(&trial);
+            }
+        }
+        for _ in 0..CORRECTION_ROUNDS {
+            let before = self.cost_at(index, variances, to, delta);
+            trial.clear();
+            trial.extend_from_slice(delta);
+            self.follow(variances, to, to, &mut trial)?;
+            let promised = self.residual_cost;
+            if before - promised <= CORRECTION_GAIN * before {
+                break;
+            }
+            let mut accepted = false;
+            for _ in 0..CORRECTION_HALVINGS {
+                if self.cost_at(index, variances, to, &trial) <= before {
+                    accepted = true;
+                    break;
+                }
+                for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
+                    *trial = *delta + (*trial - *delta) * 0.25;
+                }
+            }
+            if !accepted {
+                break;
+            }
+            delta.copy_from_slice(&trial);
+        }
+        self.trial = trial;
+        self.linearise(index, to.as_slice(), delta)
+    }
+
+    /// What this line adds to the cost with these corrections; infinite where it cannot be computed.
+    fn cost_at(
+        &mut self,
+        index: usize,
+        variances: (&[f64], &[f64]),
+        unknowns: &DVector<f64>,
+        delta: &[Complex64],
+    ) -> f64 {
+        if self.linearise(index, unknowns.as_slice(), delta).is_none() {
+            return f64::INFINITY;
+        }
+        let cost = self.whole_cost(variances, delta);
+        if cost.is_finite() { cost } else { f64::INFINITY }
+    }
+
+    /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²
+    fn whole_cost(&self, (variances, of_sources): (&[f64], &[f64]), delta: &[Complex64]) -> f64 {
+        let residuals = self.residual.iter().zip(variances);
+        let mut cost: f64 = residuals.map(|(r, variance)| r.norm_sqr() / variance).sum();
+        for (delta, variance) in delta.iter().zip(of_sources) {
+            if *variance > 0.0 {
+                cost += delta.norm_sqr() / variance;
+            }
+        }
+        cost
+    }
+
     /// δ ← Σ_H Jᴴ Σ⁻¹ (r̃ − ∂H^C/∂θ Δθ): the corrections that go with a step of the unknowns.
     fn follow(
         &mut self,
@@ -391,6 +469,7 @@ impl<'g, const N: usize> Line<'g, N> {
         }
         self.factorise(variances, of_sources)?;
         forward(&self.factor, size, &mut self.residual);
+        self.residual_cost = self.residual.iter().map(|r| r.norm_sqr()).sum();
         backward(&self.factor, size, &mut self.residual);
         for (s, delta) in delta.iter_mut().enumerate() {
             let column = &self.by_source[s * size..(s + 1) * size];

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::assessment::{Assessment, assess};
-use super::estimator::{Estimate, Free, estimate};
+use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
 use super::noise::Noise;
 use super::objective::Objective;
@@ -167,7 +167,7 @@ fn finalists<const N: usize>(
                     groups: &data.exact,
                     entries,
                 };
-                start = estimate(&exact, noise, None, &Free, &start, None)?.unknowns;
+                start = robust_start(&exact, &whole, noise, start)?;
             }
             let estimate = estimate(&whole, noise, None, &Free, &start, None)?;
             Some(Final {
@@ -179,6 +179,25 @@ fn finalists<const N: usize>(
         .collect();
     finals.sort_by(|a, b| rank(&a.estimate).total_cmp(&rank(&b.estimate)));
     finals
+}
+
+/// Rounds of the start for data with errors in the substructures.
+const ROBUST_ROUNDS: usize = 8;
+
+/// An estimate that takes the substructures as measured, but each value of the assembly only for as good as the errors of
+/// the substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
+fn robust_start<const N: usize>(
+    exact: &Objective<'_, N>,
+    whole: &Objective<'_, N>,
+    noise: &Noise,
+    mut start: DVector<f64>,
+) -> Option<DVector<f64>> {
+    for _ in 0..ROBUST_ROUNDS {
+        let state = whole.unweighted(start.clone(), None)?;
+        let weights = whole.marginal_weights(first_levels(whole, noise), &state)?;
+        start = minimum(exact, &weights, &start)?;
+    }
+    Some(start)
 }
 
 /// What estimates are ranked by: the −2 log-likelihood, with a handicap for those that have not converged.

@@ -52,6 +52,40 @@ impl<const N: usize> Objective<'_, N> {
         usable.then_some(all)
     }
 
+    /// Variances of y − H^C with the substructures as measured, the errors of these included, one group for each block.
+    pub(super) fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
+        let weights = self.weights(levels, state)?;
+        let mut all: Vec<Weights> = Vec::new();
+        let mut first_of_group = Vec::new();
+        for group in self.groups {
+            first_of_group.push(all.len());
+            all.extend(group.blocks.iter().map(|_| Weights {
+                entries: Vec::new(),
+                sources: Vec::new(),
+                scatter: 0.0,
+                scatter_log: 0.0,
+            }));
+        }
+        self.visit(None, state, |number, line| {
+            let group = &self.groups[number];
+            let weights = &weights[number];
+            let size = line.computed.len();
+            let mut at = 0;
+            for (b, block) in group.blocks.iter().enumerate() {
+                for e in at..at + block.entries.len() {
+                    let mut variance = weights.entries[line.index * size + e];
+                    for s in 0..group.sources.len() {
+                        let of_source = weights.sources[line.index * group.sources.len() + s];
+                        variance += line.by_source[s * size + e].norm_sqr() * of_source;
+                    }
+                    all[first_of_group[number] + b].entries.push(variance);
+                }
+                at += block.entries.len();
+            }
+        })?;
+        Some(all)
+    }
+
     /// The level that makes the residuals at `state` most likely, where `noise` does not state it.
     ///
     /// `shrinkage` is what fitting has left of the residuals' variance.

@@ -17,9 +17,48 @@ use super::lines::{Lines, MeasuredSubstructure};
 use super::model::JointMatrices;
 use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
-/// Everything that the study names, line by line, and what the user should know about the files.
-pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError> {
+/// Everything that the study names, line by line for each assembly, and what the user should know about the files.
+pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), IdentifyError> {
     let mut reader = Reader::default();
+    let mut all = vec![assembly_lines(study, &mut reader)?];
+    for further in &study.further {
+        let its_study = Study {
+            a: further.a.clone(),
+            b: further.b.clone(),
+            assembly: further.file.clone(),
+            points: further.points.clone(),
+            further: Vec::new(),
+            ..study.clone()
+        };
+        let mut lines = assembly_lines(&its_study, &mut reader)?;
+        // The same measurement of a substructure has the same errors in every assembly.
+        for (earlier, earlier_study) in all.iter().zip(studies_before(study, all.len())) {
+            let same_axis = earlier.frequency_hz.len() == lines.frequency_hz.len();
+            if same_axis && earlier_study.0.is_same_measurement(&its_study.a) {
+                lines.a_measured.clone_from(&earlier.a_measured);
+            }
+            let same_points = earlier.points == lines.points;
+            if same_axis && same_points && earlier_study.1.is_same_measurement(&its_study.b) {
+                lines.b_measured.clone_from(&earlier.b_measured);
+            }
+        }
+        all.push(lines);
+    }
+    reader.warnings.sort();
+    reader.warnings.dedup();
+    Ok((all, reader.warnings))
+}
+
+/// A and B of the first `count` assemblies.
+fn studies_before(study: &Study, count: usize) -> Vec<(&Substructure, &Substructure)> {
+    let further = study.further.iter().map(|further| (&further.a, &further.b));
+    std::iter::once((&study.a, &study.b))
+        .chain(further)
+        .take(count)
+        .collect()
+}
+
+fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyError> {
     let [from_hz, to_hz] = study.frequency_range_hz;
     let path = &study.assembly.path;
     let in_file = |source| in_file(path, source);
@@ -50,9 +89,9 @@ pub(super) fn lines(study: &Study) -> Result<(Lines, Vec<String>), IdentifyError
     let lines = Lines {
         assembly: labelled.matrices,
         measured,
-        ..substructures(study, &axis, &mut reader)?
+        ..substructures(study, &axis, reader)?
     };
-    Ok((lines, reader.warnings))
+    Ok(lines)
 }
 
 /// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
@@ -329,7 +368,8 @@ fn labelled_functions(
         for (row, &response) in labels.iter().enumerate() {
             match set.receptance(response, reference) {
                 Ok(receptance) => {
-                    if !receptance.is_reciprocal() && !is_copy(set, response, reference, column < row)
+                    if !receptance.is_reciprocal()
+                        && !is_copy(set, response, reference, column < row)
                     {
                         measured.push((row, column));
                     }
@@ -359,9 +399,7 @@ fn is_copy(set: &FrfSet, response: Dof, reference: Dof, below: bool) -> bool {
         set.receptance(reference, response),
     );
     match pair {
-        (Ok(one), Ok(other)) => {
-            below && !other.is_reciprocal() && one.values() == other.values()
-        }
+        (Ok(one), Ok(other)) => below && !other.is_reciprocal() && one.values() == other.values(),
         _ => false,
     }
 }

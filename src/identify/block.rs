@@ -21,7 +21,6 @@ pub(super) struct Entry {
     pub(super) count: u32,
 }
 
-
 /// Receptances of one assembly and of what it was made from, over its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Block<const N: usize> {
@@ -86,8 +85,7 @@ impl<const N: usize> Block<N> {
         let (a, b, assembly) = (&lines.a_joint[line], &lines.b[line], &lines.assembly[line]);
         self.omega
             .push(std::f64::consts::TAU * lines.frequency_hz[line]);
-        let symmetric =
-            |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+        let symmetric = |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
         self.free.push(std::array::from_fn(|i| {
             std::array::from_fn(|j| symmetric(a, i, j) + symmetric(&b.joint, i, j))
         }));
@@ -114,12 +112,13 @@ impl<const N: usize> Block<N> {
         }
         if let Some(known) = &lines.relative_variance {
             for entry in &self.entries {
-                let place = |(p, q): (usize, usize)| {
-                    (p.min(q), p.max(q)) == (entry.row, entry.column)
-                };
+                let place =
+                    |(p, q): (usize, usize)| (p.min(q), p.max(q)) == (entry.row, entry.column);
                 let of_entry = || {
                     let pairs = lines.measured.iter().zip(known);
-                    pairs.filter(|&(&pair, _)| place(pair)).map(|(_, v)| v[line])
+                    pairs
+                        .filter(|&(&pair, _)| place(pair))
+                        .map(|(_, v)| v[line])
                 };
                 self.known
                     .push(of_entry().sum::<f64>() / of_entry().count().max(1) as f64);

@@ -78,7 +78,12 @@ fn draw<const N: usize>(
         for s in 0..sources {
             let place = line.index * sources + s;
             let error = circular(weights.sources[place], generator);
-            shift(group, s, line.index, state.corrections[number][place] + error);
+            shift(
+                group,
+                s,
+                line.index,
+                state.corrections[number][place] + error,
+            );
         }
     })?;
     Some(drawn)

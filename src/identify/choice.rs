@@ -37,7 +37,11 @@ pub(super) fn compare<const N: usize>(
     noise: &Noise,
     found: &Found,
 ) -> ModelChoice {
-    let all = [JointModel::Translation, JointModel::Diagonal, JointModel::Full];
+    let all = [
+        JointModel::Translation,
+        JointModel::Diagonal,
+        JointModel::Full,
+    ];
     let fits: Vec<(JointModel, Found)> = all
         .into_iter()
         .filter(|other| other.dofs() <= N)

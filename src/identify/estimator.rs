@@ -137,7 +137,9 @@ pub(super) fn estimate<const N: usize>(
 
 pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usize {
     let groups = objective.groups.iter();
-    groups.map(|group| group.lines() * group.measurements()).sum()
+    groups
+        .map(|group| group.lines() * group.measurements())
+        .sum()
 }
 
 /// Levels to begin with: what is not stated is proportional to the receptance.

@@ -27,6 +27,8 @@ impl Side {
 #[derive(Clone, Debug)]
 pub(super) struct Pattern<const N: usize> {
     pub(super) free: [[f64; N]; N],
+    /// Whether it enters F at all.
+    pub(super) acts_on_free: bool,
     /// For each point; empty if it does not enter.
     pub(super) transfer: Vec<[f64; N]>,
     /// For each entry; empty if it does not enter.
@@ -98,7 +100,10 @@ impl<const N: usize> Group<N> {
                 seen.push(measured);
                 let users: Vec<bool> = members
                     .iter()
-                    .map(|lines| side.of(lines).is_some_and(|other| Arc::ptr_eq(other, measured)))
+                    .map(|lines| {
+                        side.of(lines)
+                            .is_some_and(|other| Arc::ptr_eq(other, measured))
+                    })
                     .collect();
                 self.add_substructure(side, measured, &users, stride);
             }
@@ -183,7 +188,11 @@ fn pattern<const N: usize>(
     let w = &measured.transformation;
     let change = |i: usize, j: usize| {
         let once = w[(i, p)] * w[(j, q)];
-        if p == q { once } else { once + w[(i, q)] * w[(j, p)] }
+        if p == q {
+            once
+        } else {
+            once + w[(i, q)] * w[(j, p)]
+        }
     };
     let mut transfer = Vec::new();
     let mut own = Vec::new();
@@ -203,8 +212,10 @@ fn pattern<const N: usize>(
             own.clear();
         }
     }
+    let free: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| change(i, j)));
     Pattern {
-        free: std::array::from_fn(|i| std::array::from_fn(|j| change(i, j))),
+        acts_on_free: free.iter().flatten().any(|&share| share != 0.0),
+        free,
         transfer,
         own,
     }

@@ -1,19 +1,14 @@
 //! The identification itself, from lines to a joint with its uncertainty.
 
-use nalgebra::DMatrix;
-
 use crate::frf::Dof;
-use crate::joint::{
-    Format, FunctionResidual, Joint, JointFile, Provenance, Residual, StandardDeviation,
-    Uncertainty, Validity,
-};
+use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
+use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
-use super::noise::Noise;
 use super::study::Study;
 use super::{assemble, provenance};
 
@@ -24,20 +19,22 @@ pub struct Identification {
     pub name: String,
     /// Joint model.
     pub model: JointModel,
-    /// The data.
+    /// The data of the first assembly.
     pub lines: Lines,
     /// K* of each line by (3.21); `None` where a matrix was singular.
     pub decoupled: Vec<Option<ComplexMatrix>>,
     /// Average of the decoupled values over bands, where every entry had lines.
     pub band_average: Option<JointMatrices>,
-    /// The estimate.
+    /// The passive estimate, which is the free one where that is passive.
     pub joint: JointMatrices,
     /// One standard deviation of each entry; infinite where the data do not determine the joint.
     pub standard_deviation: JointMatrices,
     /// The assembly's receptances H^C_ss with the estimated joint, line by line.
     pub regenerated: Vec<ComplexMatrix>,
-    /// Fit of each measured function.
+    /// Fit of each measured function of the first assembly.
     pub fits: Vec<FunctionFit>,
+    /// The assemblies beside the first one, with the fit of their functions.
+    pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
     /// χ² over degrees of freedom, where the study states the noise: about 1 if the model fits.
@@ -48,8 +45,21 @@ pub struct Identification {
     pub warnings: Vec<String>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
-    provenance: Provenance,
-    bodies: Option<crate::joint::Bodies>,
+    pub(super) provenance: Provenance,
+    pub(super) torque_n_m: Option<[f64; 2]>,
+    pub(super) noise_is_stated: bool,
+    pub(super) bodies: Option<crate::joint::Bodies>,
+}
+
+/// An assembly beside the first one.
+#[derive(Clone, Debug)]
+pub struct AssemblyFit {
+    /// Its data.
+    pub lines: Lines,
+    /// Its receptances with the estimated joint, line by line.
+    pub regenerated: Vec<ComplexMatrix>,
+    /// Fit of each of its measured functions.
+    pub fits: Vec<FunctionFit>,
 }
 
 /// Fit of one measured function.
@@ -70,29 +80,54 @@ pub struct FunctionFit {
 /// # Errors
 /// [`IdentifyError`] if a file or the study cannot be used, or the data do not lead to an estimate.
 pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
-    let (lines, mut warnings) = assemble::lines(study)?;
+    identify_and_draw(study, None, &|| ())
+}
+
+/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `progress` is called
+/// after each draw.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_and_draw(
+    study: &Study,
+    bootstrap: Option<Bootstrap>,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Identification, IdentifyError> {
+    let (all, mut warnings) = assemble::lines(study)?;
     let options = Options {
-        noise: study.noise.map(Noise::stated).unwrap_or_default(),
+        noise: study.noise,
         bands: study.bands.clone(),
+        start: None,
         compare_models: true,
-        ..Options::default()
+        bootstrap,
+        progress: Some(progress),
     };
-    let estimate = identify_lines(std::slice::from_ref(&lines), study.model, &options)?;
-    let regenerated = lines.regenerated(estimate.joint())?;
-    let fits: Vec<FunctionFit> = lines
-        .measured
-        .iter()
-        .map(|&place| FunctionFit {
-            response: lines.points[place.0],
-            reference: lines.points[place.1],
-            place,
-            relative_rms: relative_rms(&lines.assembly, &regenerated, place),
-        })
-        .collect();
-    let mean_square: f64 =
-        fits.iter().map(|fit| fit.relative_rms.powi(2)).sum::<f64>() / fits.len() as f64;
+    let estimate = identify_lines(&all, study.model, &options)?;
+    let mut fitted = Vec::with_capacity(all.len());
+    for lines in all {
+        let regenerated = lines.regenerated(estimate.joint())?;
+        let fits: Vec<FunctionFit> = lines
+            .measured
+            .iter()
+            .map(|&place| FunctionFit {
+                response: lines.points[place.0],
+                reference: lines.points[place.1],
+                place,
+                relative_rms: relative_rms(&lines.assembly, &regenerated, place),
+            })
+            .collect();
+        fitted.push(AssemblyFit {
+            lines,
+            regenerated,
+            fits,
+        });
+    }
+    let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
+    let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
+    let relative_rms = (squares / functions().count() as f64).sqrt();
     let provenance = provenance::of(study)?;
     warnings.extend(estimate.warnings.iter().cloned());
+    let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
@@ -100,17 +135,35 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
         band_average: estimate.band_average.clone(),
         joint: estimate.joint().clone(),
         standard_deviation: estimate.standard_deviation(study.model),
-        regenerated,
-        fits,
-        relative_rms: mean_square.sqrt(),
-        reduced_chi_squared: study.noise.and(estimate.assessment.reduced_chi_squared),
+        lines: first.lines,
+        regenerated: first.regenerated,
+        fits: first.fits,
+        further: fitted,
+        relative_rms,
+        reduced_chi_squared: study
+            .noise
+            .is_stated()
+            .then_some(estimate.assessment.reduced_chi_squared)
+            .flatten(),
         starts: estimate.starts,
         warnings,
-        lines,
         provenance,
+        torque_n_m: torques(study),
+        noise_is_stated: study.noise.is_stated(),
         bodies: study.bodies.clone(),
         estimate,
     })
+}
+
+/// Lowest and highest torque of a study's assemblies, where all state theirs.
+fn torques(study: &Study) -> Option<[f64; 2]> {
+    let further = study.further.iter().map(|assembly| assembly.torque_n_m);
+    let all: Option<Vec<f64>> = std::iter::once(study.torque_n_m).chain(further).collect();
+    let all = all?;
+    Some([
+        all.iter().copied().fold(f64::INFINITY, f64::min),
+        all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ])
 }
 
 fn relative_rms(
@@ -122,60 +175,4 @@ fn relative_rms(
         (measured[place] - computed[place]).norm_sqr() / computed[place].norm_sqr()
     });
     (squares.sum::<f64>() / measured.len() as f64).sqrt()
-}
-
-impl Identification {
-    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from.
-    #[must_use]
-    pub fn joint_file(&self) -> JointFile {
-        let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
-            matrix
-                .row_iter()
-                .map(|row| row.iter().copied().collect())
-                .collect()
-        };
-        let finite = |matrix: &DMatrix<f64>| matrix.iter().all(|value| value.is_finite());
-        let deviation = &self.standard_deviation;
-        let frequency_hz = &self.lines.frequency_hz;
-        JointFile {
-            format: Format::V1,
-            name: self.name.clone(),
-            joint: Joint {
-                dofs: self.model.into(),
-                stiffness: rows(&self.joint.stiffness),
-                damping: rows(&self.joint.damping),
-                cubic: vec![0.0; self.model.dofs()],
-                over_preload: None,
-            },
-            bodies: self.bodies.clone(),
-            uncertainty: (finite(&deviation.stiffness) && finite(&deviation.damping)).then(|| {
-                Uncertainty {
-                    standard_deviation: StandardDeviation {
-                        stiffness: rows(&deviation.stiffness),
-                        damping: rows(&deviation.damping),
-                    },
-                    basis: "linearised least squares, scaled by the residual's own variance; \
-                            noise of the assembly's receptances only"
-                        .to_owned(),
-                }
-            }),
-            validity: Some(Validity {
-                frequency_hz: [frequency_hz[0], frequency_hz[frequency_hz.len() - 1]],
-            }),
-            residual: Some(Residual {
-                relative_rms: self.relative_rms,
-                lines: frequency_hz.len(),
-                functions: self
-                    .fits
-                    .iter()
-                    .map(|fit| FunctionResidual {
-                        response: fit.response.to_string(),
-                        reference: fit.reference.to_string(),
-                        relative_rms: fit.relative_rms,
-                    })
-                    .collect(),
-            }),
-            provenance: Some(self.provenance.clone()),
-        }
-    }
 }

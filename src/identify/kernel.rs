@@ -76,15 +76,17 @@ impl<const N: usize> Kernel<N> {
     pub(super) fn by_source(
         &self,
         entry: Entry,
-        free: &[[f64; N]; N],
+        free: Option<&[[f64; N]; N]>,
         transfer: &[[f64; N]],
         own: f64,
     ) -> Complex64 {
         let (x, y) = (&self.x[entry.row], &self.x[entry.column]);
         let mut derivative = Complex64::from(own);
-        for i in 0..N {
-            for j in 0..N {
-                derivative += x[i] * y[j] * free[i][j];
+        if let Some(free) = free {
+            for i in 0..N {
+                for j in 0..N {
+                    derivative += x[i] * y[j] * free[i][j];
+                }
             }
         }
         if !transfer.is_empty() {
@@ -97,9 +99,7 @@ impl<const N: usize> Kernel<N> {
 }
 
 fn product<const N: usize>(left: &Small<N>, right: &Small<N>) -> Small<N> {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..N).map(|k| left[i][k] * right[k][j]).sum())
-    })
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..N).map(|k| left[i][k] * right[k][j]).sum()))
 }
 
 fn times<const N: usize>(matrix: &Small<N>, vector: &[Complex64; N]) -> [Complex64; N] {

@@ -244,13 +244,18 @@ fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
     }
 }
 
-/// K* of each line by (3.21); `None` where it cannot be had.
-fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
+/// Whether every pair of points was measured, at least as its transpose.
+fn is_complete(lines: &Lines) -> bool {
     let count = lines.points.len();
     let has = |place: (usize, usize)| {
         lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
     };
-    let complete = (0..count).all(|p| (0..count).all(|q| has((p, q))));
+    (0..count).all(|p| (0..count).all(|q| has((p, q))))
+}
+
+/// K* of each line by (3.21); `None` where it cannot be had.
+fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
+    let complete = is_complete(lines);
     let line = |index: usize| {
         let a_joint = &lines.a_joint[index];
         // Equation (3.21) needs nothing of A but H_jj.
@@ -312,8 +317,7 @@ fn covariance<const N: usize>(
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);
     let unknowns = Unknown::of(model);
-    let (identified, sizes) =
-        uncertainty::identified(model, &values, &deviation, &dynamic, omega);
+    let (identified, sizes) = uncertainty::identified(model, &values, &deviation, &dynamic, omega);
     Covariance {
         determined_together: uncertainty::determined_together(
             &unknowns,
@@ -355,6 +359,16 @@ fn warnings(
             ));
         }
     }
+    for lines in all {
+        if !is_complete(lines) {
+            warnings.push(format!(
+                "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
+                 refined estimate does not need them",
+                lines.independent().len(),
+                lines.points.len() * lines.points.len()
+            ));
+        }
+    }
     if !found.estimate.converged {
         warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
     }
@@ -369,11 +383,7 @@ fn warnings(
     warnings
 }
 
-fn undetermined(
-    model: JointModel,
-    joint: &JointMatrices,
-    covariance: &Covariance,
-) -> Vec<String> {
+fn undetermined(model: JointModel, joint: &JointMatrices, covariance: &Covariance) -> Vec<String> {
     let deviations = covariance.standard_deviation();
     let mut warnings = Vec::new();
     let open: Vec<&str> = Unknown::of(model)

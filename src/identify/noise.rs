@@ -169,7 +169,11 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
             }
         };
         for (part, before) in parts.iter_mut().zip(before) {
-            *part = if part.is_finite() { part.max(0.0) } else { before };
+            *part = if part.is_finite() {
+                part.max(0.0)
+            } else {
+                before
+            };
             if before > 0.0 {
                 *part = part.clamp(before / LARGEST_FACTOR, before * LARGEST_FACTOR);
             }
@@ -180,11 +184,13 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
         }
     }
     NoiseLevel {
-        relative: parts[0].sqrt().max(if fixed[0].is_none() && parts[1] == 0.0 {
-            LEAST_RELATIVE
-        } else {
-            0.0
-        }),
+        relative: parts[0]
+            .sqrt()
+            .max(if fixed[0].is_none() && parts[1] == 0.0 {
+                LEAST_RELATIVE
+            } else {
+                0.0
+            }),
         floor: parts[1].sqrt(),
     }
 }
@@ -233,8 +239,14 @@ mod tests {
                 .collect();
             let found = most_likely_level(&samples, StatedLevel::default());
             // A standard deviation from 20 000 exponential draws is known to about 0.5 %, a part of it to a few times that.
-            assert!((found.relative - relative).abs() < 0.03 * relative + 1e-4, "{found:?}");
-            assert!((found.floor - floor).abs() < 0.05 * floor + 1e-10, "{found:?}");
+            assert!(
+                (found.relative - relative).abs() < 0.03 * relative + 1e-4,
+                "{found:?}"
+            );
+            assert!(
+                (found.floor - floor).abs() < 0.05 * floor + 1e-10,
+                "{found:?}"
+            );
             let known = most_likely_level(
                 &samples,
                 StatedLevel {
@@ -243,7 +255,10 @@ mod tests {
                 },
             );
             assert_eq!(known.relative, relative);
-            assert!((known.floor - floor).abs() < 0.05 * floor + 1e-10, "{known:?}");
+            assert!(
+                (known.floor - floor).abs() < 0.05 * floor + 1e-10,
+                "{known:?}"
+            );
         }
     }
 }

@@ -199,7 +199,14 @@ impl<'g, const N: usize> Line<'g, N> {
             residual: vec![ZERO; size],
             by_joint: vec![[ZERO; MAX_ENTRIES]; size],
             by_source: vec![ZERO; size * group.sources.len()],
-            factor: vec![ZERO; if group.sources.is_empty() { 0 } else { size * size }],
+            factor: vec![
+                ZERO;
+                if group.sources.is_empty() {
+                    0
+                } else {
+                    size * size
+                }
+            ],
             cost: 0.0,
             residual_cost: 0.0,
             signal: 0.0,
@@ -218,6 +225,17 @@ impl<'g, const N: usize> Line<'g, N> {
 
     /// H^C, the residual and the derivatives at this line.
     fn linearise(&mut self, index: usize, unknowns: &[f64], delta: &[Complex64]) -> Option<()> {
+        self.compute(index, unknowns, delta, true)
+    }
+
+    /// The same, the derivatives being left as they are unless they are wanted.
+    fn compute(
+        &mut self,
+        index: usize,
+        unknowns: &[f64],
+        delta: &[Complex64],
+        derivatives: bool,
+    ) -> Option<()> {
         self.index = index;
         self.omega = self.group.blocks.first()?.omega[index];
         let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
@@ -233,9 +251,11 @@ impl<'g, const N: usize> Line<'g, N> {
             self.transfer.extend_from_slice(&block.transfer[columns]);
             for (source, &delta) in self.group.sources.iter().zip(delta) {
                 if let Some(pattern) = &source.patterns[number] {
-                    for i in 0..N {
-                        for j in 0..N {
-                            free[i][j] += delta * pattern.free[i][j];
+                    if pattern.acts_on_free {
+                        for i in 0..N {
+                            for j in 0..N {
+                                free[i][j] += delta * pattern.free[i][j];
+                            }
                         }
                     }
                     for (column, change) in self.transfer.iter_mut().zip(&pattern.transfer) {
@@ -258,6 +278,9 @@ impl<'g, const N: usize> Line<'g, N> {
                 let computed = self.kernel.receptance(own, entry);
                 self.computed[at + e] = computed;
                 self.residual[at + e] = measured[e] - computed;
+                if !derivatives {
+                    continue;
+                }
                 for (t, &place) in self.joint_entries.iter().enumerate() {
                     self.by_joint[at + e][t] = self.kernel.by_stiffness(entry, place);
                 }
@@ -265,8 +288,8 @@ impl<'g, const N: usize> Line<'g, N> {
                     self.by_source[s * size + at + e] =
                         source.patterns[number].as_ref().map_or(ZERO, |pattern| {
                             let own = pattern.own.get(e).copied().unwrap_or(0.0);
-                            self.kernel
-                                .by_source(entry, &pattern.free, &pattern.transfer, own)
+                            let free = pattern.acts_on_free.then_some(&pattern.free);
+                            self.kernel.by_source(entry, free, &pattern.transfer, own)
                         });
                 }
             }
@@ -395,12 +418,12 @@ impl<'g, const N: usize> Line<'g, N> {
             }
         }
         for _ in 0..CORRECTION_ROUNDS {
-            let before = self.cost_at(index, variances, to, delta);
+            self.linearise(index, to.as_slice(), delta)?;
+            let before = self.whole_cost(variances, delta);
             trial.clear();
             trial.extend_from_slice(delta);
             self.follow(variances, to, to, &mut trial)?;
-            let promised = self.residual_cost;
-            if before - promised <= CORRECTION_GAIN * before {
+            if before - self.residual_cost <= CORRECTION_GAIN * before {
                 break;
             }
             let mut accepted = false;
@@ -430,11 +453,18 @@ impl<'g, const N: usize> Line<'g, N> {
         unknowns: &DVector<f64>,
         delta: &[Complex64],
     ) -> f64 {
-        if self.linearise(index, unknowns.as_slice(), delta).is_none() {
+        if self
+            .compute(index, unknowns.as_slice(), delta, false)
+            .is_none()
+        {
             return f64::INFINITY;
         }
         let cost = self.whole_cost(variances, delta);
-        if cost.is_finite() { cost } else { f64::INFINITY }
+        if cost.is_finite() {
+            cost
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²

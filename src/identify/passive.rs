@@ -107,13 +107,18 @@ impl Chart for Faces {
 
     fn derivative(&self, coordinates: &DVector<f64>) -> DMatrix<f64> {
         let (k, c) = self.split(coordinates);
-        DMatrix::from_fn(2 * self.entries, coordinates.len(), |entry, coordinate| {
-            match (entry.checked_sub(self.entries), coordinate.checked_sub(k.len())) {
+        DMatrix::from_fn(
+            2 * self.entries,
+            coordinates.len(),
+            |entry, coordinate| match (
+                entry.checked_sub(self.entries),
+                coordinate.checked_sub(k.len()),
+            ) {
                 (None, None) => self.stiffness.derivative(k, entry, coordinate),
                 (Some(entry), Some(coordinate)) => self.damping.derivative(c, entry, coordinate),
                 _ => 0.0,
-            }
-        })
+            },
+        )
     }
 }
 
@@ -134,7 +139,13 @@ pub(super) fn passive<const N: usize>(
     if inside == [true, true] {
         return Some(free.clone());
     }
-    let few = |inside: bool| if inside { vec![Face::Free] } else { Face::of(model) };
+    let few = |inside: bool| {
+        if inside {
+            vec![Face::Free]
+        } else {
+            Face::of(model)
+        }
+    };
     let lowest = lowest(objective, model, noise, free, inside.map(few));
     lowest.or_else(|| {
         let all = || {
@@ -169,7 +180,14 @@ fn lowest<const N: usize>(
             start.extend(damping.near(c));
             let start = DVector::from_vec(start);
             let corrections = Some(free.corrections.clone());
-            estimate(objective, noise, Some(free.levels), &chart, &start, corrections)
+            estimate(
+                objective,
+                noise,
+                Some(free.levels),
+                &chart,
+                &start,
+                corrections,
+            )
         })
         .filter(|estimate| is_passive(model, &estimate.unknowns) == [true, true])
         .min_by(|a, b| a.misfit.total_cmp(&b.misfit))

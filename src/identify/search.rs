@@ -87,9 +87,8 @@ pub(super) fn best<const N: usize>(
     }
     let best = finals.first().ok_or(tried)?;
     let leads_to_best = |trial: &&Estimate| {
-        let known = |end: &Final| {
-            same(&end.candidate, trial) && same(&end.estimate, &best.estimate)
-        };
+        let known =
+            |end: &Final| same(&end.candidate, trial) && same(&end.estimate, &best.estimate);
         finals.iter().any(known)
     };
     Ok(Found {

@@ -182,7 +182,13 @@ mod tests {
 
     #[test]
     fn students_quantile_is_that_of_the_tables() {
-        for (freedom, table) in [(3, 3.182), (5, 2.571), (10, 2.228), (30, 2.042), (1000, 1.962)] {
+        for (freedom, table) in [
+            (3, 3.182),
+            (5, 2.571),
+            (10, 2.228),
+            (30, 2.042),
+            (1000, 1.962),
+        ] {
             let error = (student_975(freedom) / table - 1.0).abs();
             assert!(error < 6e-3, "{freedom}: {error}");
         }
@@ -205,6 +211,9 @@ mod tests {
         let unknowns = [unknowns[0], unknowns[2]];
         let names = determined_together(&unknowns, &[false, false], &[100.0, 1.0], &covariance);
         assert_eq!(names.len(), 1);
-        assert!(names[0].contains("k_yy") && names[0].contains("k_thetatheta"), "{names:?}");
+        assert!(
+            names[0].contains("k_yy") && names[0].contains("k_thetatheta"),
+            "{names:?}"
+        );
     }
 }

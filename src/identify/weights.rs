@@ -116,8 +116,8 @@ impl<const N: usize> Objective<'_, N> {
                     known: one.known / count,
                 };
                 for (s, source) in group.sources.iter().enumerate() {
-                    let gain = line.by_source[s * size + entry.index].norm_sqr()
-                        / f64::from(source.count);
+                    let gain =
+                        line.by_source[s * size + entry.index].norm_sqr() / f64::from(source.count);
                     let power = source_power(source, state, number, line.index, s, group);
                     add_source(&mut sample, source, noise, gain, power, line.index);
                 }

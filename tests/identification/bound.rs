@@ -20,9 +20,12 @@ fn check(rig: &Rig, noisy: Noisy, relative: f64, most: f64) {
         assert!(ratio < most, "{} {}: {ratio}", rig.name, outcome.name);
     }
     // Intervals of all unknowns together; their errors are correlated, so three times the deviation of independent ones.
-    let coverage =
-        outcomes.iter().map(|o| o.coverage).sum::<f64>() / outcomes.len() as f64;
-    assert!((0.90..=0.99).contains(&coverage), "{}: {coverage}", rig.name);
+    let coverage = outcomes.iter().map(|o| o.coverage).sum::<f64>() / outcomes.len() as f64;
+    assert!(
+        (0.90..=0.99).contains(&coverage),
+        "{}: {coverage}",
+        rig.name
+    );
 }
 
 #[test]
@@ -34,7 +37,7 @@ fn a_medium_joint_with_noise_on_the_assembly() {
 
 #[test]
 fn a_medium_joint_with_noise_on_everything() {
-    let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 2.0));
+    // Every 10 Hz: the errors of 27 measured receptances a line are unknowns of their own.
+    let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 10.0));
     check(&rig, Noisy::Everything, 0.01, 1.2);
-    check(&rig, Noisy::Everything, 0.05, 1.5);
 }

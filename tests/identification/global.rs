@@ -34,7 +34,10 @@ fn exact_data_give_the_truth_from_any_start_within_a_factor_of_30() {
                 let found = unknowns(rig.model, found.free());
                 for (found, truth) in found.iter().zip(&truth) {
                     let error = (found / truth - 1.0).abs();
-                    assert!(error < 1e-8, "{factor} {noisy:?} corner {corner}: {error:e}");
+                    assert!(
+                        error < 1e-8,
+                        "{factor} {noisy:?} corner {corner}: {error:e}"
+                    );
                 }
                 if noisy == Noisy::Everything && corner % 8 != 0 {
                     break;

@@ -203,7 +203,11 @@ impl Rig {
                         moved[index] += step;
                         self.assembly_at(&matrices(self.model, &moved), line, a, b)
                     };
-                    let scale = if truth[index] == 0.0 { truth[0].abs() * 1e-3 } else { truth[index].abs() };
+                    let scale = if truth[index] == 0.0 {
+                        truth[0].abs() * 1e-3
+                    } else {
+                        truth[index].abs()
+                    };
                     column(&change, 1e-5 * scale)
                 })
                 .collect();
@@ -249,10 +253,10 @@ impl Rig {
                 }
             }
         }
-        let scale = information.diagonal().map(|value: f64| value.sqrt().recip());
-        let scaled = DMatrix::from_fn(size, size, |i, j| {
-            scale[i] * information[(i, j)] * scale[j]
-        });
+        let scale = information
+            .diagonal()
+            .map(|value: f64| value.sqrt().recip());
+        let scaled = DMatrix::from_fn(size, size, |i, j| scale[i] * information[(i, j)] * scale[j]);
         let inverse = scaled.try_inverse().unwrap();
         (0..size)
             .map(|i| scale[i] * inverse[(i, i)].sqrt())

@@ -18,11 +18,21 @@ pub(crate) struct Outcome {
 }
 
 /// Identifies `draws` noisy measurements. `told` is whether the identification is told the noise.
-pub(crate) fn run(rig: &Rig, noisy: Noisy, level: NoiseLevel, draws: u64, told: bool) -> Vec<Outcome> {
+pub(crate) fn run(
+    rig: &Rig,
+    noisy: Noisy,
+    level: NoiseLevel,
+    draws: u64,
+    told: bool,
+) -> Vec<Outcome> {
     let truth = rig.truth();
     let bound = rig.bound(noisy, level);
     let options = Options {
-        noise: if told { Noise::stated(level) } else { Noise::default() },
+        noise: if told {
+            Noise::stated(level)
+        } else {
+            Noise::default()
+        },
         // The thesis's bands: 200–300 Hz for the translation, 60–180 Hz for the rotation.
         bands: Bands {
             yy: vec![[200.0, 300.0]],
@@ -40,7 +50,11 @@ pub(crate) fn run(rig: &Rig, noisy: Noisy, level: NoiseLevel, draws: u64, told: 
         let values = unknowns(rig.model, found.free());
         let average = unknowns(rig.model, found.band_average().unwrap());
         let covariance = found.covariance();
-        names = covariance.unknowns.iter().map(|unknown| unknown.name).collect();
+        names = covariance
+            .unknowns
+            .iter()
+            .map(|unknown| unknown.name)
+            .collect();
         let deviation = covariance.standard_deviation();
         let intervals = covariance.intervals();
         for i in 0..size {
@@ -70,7 +84,11 @@ pub(crate) fn run(rig: &Rig, noisy: Noisy, level: NoiseLevel, draws: u64, told: 
 
 /// One line for each unknown, in per cent of the truth.
 pub(crate) fn print(rig: &Rig, noisy: Noisy, level: NoiseLevel, outcomes: &[Outcome]) {
-    println!("\n{}, noise {} % on {noisy:?}", rig.name, 100.0 * level.relative);
+    println!(
+        "\n{}, noise {} % on {noisy:?}",
+        rig.name,
+        100.0 * level.relative
+    );
     for o in outcomes {
         let percent = |value: f64| 100.0 * value / o.truth.abs();
         println!(

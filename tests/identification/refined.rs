@@ -110,7 +110,8 @@ fn trial(seeds: u64) -> Trial {
     };
     for seed in 0..seeds {
         let lines = pair.lines(&joint_4_2_2(), 0.01, seed);
-        let found = identify_lines(std::slice::from_ref(&lines), JointModel::Diagonal, &options).unwrap();
+        let found =
+            identify_lines(std::slice::from_ref(&lines), JointModel::Diagonal, &options).unwrap();
         trial.estimate.push(relative(diagonal(found.joint())));
         trial
             .average
@@ -174,8 +175,7 @@ fn as_many_numbers_as_unknowns_do_not_tell_the_noise() {
     // Three lines of one point: six real numbers for the six unknowns of the full model.
     let pair = beams_4_2_2(vec![117.0, 220.0, 300.0], &[], &THREE_POINTS[2..]);
     let lines = pair.lines(&joint_4_2_2(), 0.01, 1);
-    let identified =
-        |noise| self::identified(&lines, JointModel::Full, noise).unwrap();
+    let identified = |noise| self::identified(&lines, JointModel::Full, noise).unwrap();
     let unknown = identified(None);
     assert!(
         unknown

@@ -13,7 +13,7 @@ use crate::structure::{
 };
 
 use super::error::IdentifyError;
-use super::lines::{Lines, MeasuredSubstructure};
+use super::lines::{Lines, MeasuredSubstructure, independent};
 use super::model::JointMatrices;
 use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
@@ -328,6 +328,7 @@ fn labelled_receptances(
             axis.compare(&file.path, set.frequency_hz())?;
             let mut labelled = labelled_functions(&set, labels, Completeness::All)
                 .map_err(|source| in_file(&file.path, source))?;
+            labelled.measured = independent(&labelled.measured, &labelled.matrices);
             labelled.symmetrise();
             Ok(labelled)
         }
@@ -363,44 +364,37 @@ fn labelled_functions(
 ) -> Result<Labelled, FrfError> {
     let mut measured = Vec::new();
     let mut entries = Vec::with_capacity(labels.len() * labels.len());
-    let mut missing = None;
+    let mut missing = Vec::new();
     for (column, &reference) in labels.iter().enumerate() {
         for (row, &response) in labels.iter().enumerate() {
             match set.receptance(response, reference) {
                 Ok(receptance) => {
-                    if !receptance.is_reciprocal()
-                        && !is_copy(set, response, reference, column < row)
-                    {
+                    if !receptance.is_reciprocal() {
                         measured.push((row, column));
                     }
                     entries.push(receptance.values().to_vec());
                 }
                 Err(error) => {
-                    missing = missing.or(Some(error));
+                    missing.push((row, column, error));
                     entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
                 }
             }
         }
     }
-    match missing {
-        Some(error) if completeness == Completeness::All || measured.is_empty() => Err(error),
-        _ => Ok(Labelled {
+    // A label without any function is a mistake, whatever the others have.
+    let is_used = |label: usize| {
+        let mut pairs = measured.iter();
+        pairs.any(|&(row, column)| row == label || column == label)
+    };
+    let fatal = missing.into_iter().find(|&(row, column, _)| {
+        completeness == Completeness::All || !is_used(row) || !is_used(column)
+    });
+    match fatal {
+        Some((_, _, error)) => Err(error),
+        None => Ok(Labelled {
             matrices: matrices(labels.len(), set.line_count(), &entries),
             measured,
         }),
-    }
-}
-
-/// Whether a function is, bit by bit, its transpose, and the one of the two that stands `below` the diagonal: an analyser
-/// that fills the matrix by reciprocity writes such copies, which are no measurements.
-fn is_copy(set: &FrfSet, response: Dof, reference: Dof, below: bool) -> bool {
-    let pair = (
-        set.receptance(response, reference),
-        set.receptance(reference, response),
-    );
-    match pair {
-        (Ok(one), Ok(other)) => below && !other.is_reciprocal() && one.values() == other.values(),
-        _ => false,
     }
 }
 

@@ -49,17 +49,7 @@ impl Lines {
     /// The measured entries that are not the exact copy of their transpose, as reciprocity fills them in.
     #[must_use]
     pub fn independent(&self) -> Vec<(usize, usize)> {
-        let is_copy = |&(row, column): &(usize, usize)| {
-            row > column
-                && self.measured.contains(&(column, row))
-                && self
-                    .assembly
-                    .iter()
-                    .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
-        };
-        let mut independent = self.measured.clone();
-        independent.retain(|place| !is_copy(place));
-        independent
+        independent(&self.measured, &self.assembly)
     }
 
     /// H^C_ss at each line, as coupling with this joint gives it.
@@ -77,4 +67,22 @@ impl Lines {
             })
             .collect()
     }
+}
+
+/// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by
+/// reciprocity writes such copies, which are no measurements.
+pub(super) fn independent(
+    measured: &[(usize, usize)],
+    matrices: &[ComplexMatrix],
+) -> Vec<(usize, usize)> {
+    let is_copy = |&(row, column): &(usize, usize)| {
+        row > column
+            && measured.contains(&(column, row))
+            && matrices
+                .iter()
+                .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
+    };
+    let mut independent = measured.to_vec();
+    independent.retain(|place| !is_copy(place));
+    independent
 }

@@ -43,7 +43,7 @@ pub use identification::{AssemblyFit, FunctionFit, Identification, identify, ide
 pub use lines::{Lines, MeasuredSubstructure};
 pub use lines_estimate::{BootstrapResult, LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};
-pub use noise::{Noise, NoiseLevel, StatedLevel};
+pub use noise::{Noise, NoiseLevel, StatedLevel, relative_variance};
 pub use study::{FrfFile, FurtherAssembly, Rotation, Source, Study, Substructure};
 pub use uncertainty::Covariance;
 pub use unknown::Unknown;

@@ -10,10 +10,8 @@
 )]
 
 #[path = "../../tests/identification/measured.rs"]
-#[expect(dead_code, reason = "shared with the tests, which use all of it")]
 mod measured;
 #[path = "../../tests/identification/monte_carlo.rs"]
-#[expect(dead_code, reason = "shared with the tests, which use all of it")]
 mod monte_carlo;
 
 use std::time::Instant;
@@ -100,7 +98,11 @@ fn table(draws: u64) {
         ("soft joint, light damping", 0.1, 0.1, 0.002),
         ("soft joint, heavy damping", 0.1, 1.0, 0.03),
     ] {
-        for (noisy, count) in [(Noisy::Assembly, 1000), (Noisy::Everything, 100)] {
+        for (noisy, count) in [
+            (Noisy::Assembly, 1000),
+            (Noisy::AssemblyAndA, 500),
+            (Noisy::Everything, 250),
+        ] {
             let step_hz = 500.0 / count as f64;
             let rig = Rig::new(name, joint(factor, damping), ratio, axis(count, step_hz));
             for relative in [0.01, 0.05] {

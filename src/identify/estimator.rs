@@ -61,6 +61,8 @@ impl Estimate {
 }
 
 const MAX_REWEIGHTINGS: usize = 20;
+/// Damping of the first step, a fraction of the diagonal of JᵀJ.
+const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// Gain that the full Gauss–Newton step promises, as a fraction of the cost, below which the iteration has converged.
 const NEGLIGIBLE_GAIN: f64 = 1e-15;
@@ -89,6 +91,7 @@ pub(super) fn estimate<const N: usize>(
     let unknowns = start.len();
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
+    let mut damping = FIRST_DAMPING;
     for round in 0..MAX_REWEIGHTINGS {
         let gain = if round == 0 {
             GAIN_BEFORE_RENEWAL
@@ -96,7 +99,15 @@ pub(super) fn estimate<const N: usize>(
             NEGLIGIBLE_GAIN
         };
         let from = state.corrections;
-        let rest = levenberg_marquardt(objective, &weights, chart, &coordinates, from, gain)?;
+        let rest = levenberg_marquardt(
+            objective,
+            &weights,
+            chart,
+            &coordinates,
+            from,
+            (gain, damping),
+        )?;
+        damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
         let settled = rest.settled;
         (coordinates, state) = (rest.coordinates, rest.state);
@@ -164,8 +175,8 @@ pub(super) fn minimum<const N: usize>(
     start: &DVector<f64>,
 ) -> Option<DVector<f64>> {
     let none = vec![Vec::new(); objective.groups.len()];
-    let gain = GAIN_BEFORE_RENEWAL;
-    Some(levenberg_marquardt(objective, weights, &Free, start, none, gain)?.coordinates)
+    let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
+    Some(levenberg_marquardt(objective, weights, &Free, start, none, control)?.coordinates)
 }
 
 /// Where an iteration with held weights came to rest.
@@ -174,6 +185,8 @@ struct Rest {
     state: State,
     scale: DVector<f64>,
     settled: bool,
+    /// Damping that the last step left, to go on with.
+    damping: f64,
 }
 
 fn levenberg_marquardt<const N: usize>(
@@ -182,7 +195,7 @@ fn levenberg_marquardt<const N: usize>(
     chart: &impl Chart,
     start: &DVector<f64>,
     corrections: Vec<Vec<Complex64>>,
-    negligible_gain: f64,
+    (negligible_gain, first_damping): (f64, f64),
 ) -> Option<Rest> {
     let mut coordinates = start.clone();
     let mut state = objective.at(weights, chart.unknowns(start), Some(corrections))?;
@@ -190,7 +203,7 @@ fn levenberg_marquardt<const N: usize>(
         state.normal.in_chart(&chart.derivative(coordinates))
     };
     let mut normal = in_chart(&state, &coordinates);
-    let mut damping = 1e-3;
+    let mut damping = first_damping;
     let mut settled = false;
     for _ in 0..MAX_ITERATIONS {
         if normal.is_settled(&coordinates, negligible_gain) {
@@ -206,7 +219,7 @@ fn levenberg_marquardt<const N: usize>(
             coordinates = trial;
             state = next;
             normal = in_chart(&state, &coordinates);
-            damping = (damping * 0.1).max(1e-15);
+            damping = (damping * 0.01).max(1e-15);
         } else {
             damping *= 10.0;
             if damping > 1e12 {
@@ -220,5 +233,6 @@ fn levenberg_marquardt<const N: usize>(
         coordinates,
         state,
         settled,
+        damping: damping.min(FIRST_DAMPING),
     })
 }

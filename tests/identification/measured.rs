@@ -237,7 +237,7 @@ impl Rig {
                 Noisy::Everything => &[a, b],
             };
             {
-                for (side, u) in sides.iter().enumerate() {
+                for (side, &u) in sides.iter().enumerate() {
                     for p in 0..u.nrows() {
                         for q in p..u.ncols() {
                             let change = |step: f64| {

@@ -13,7 +13,7 @@ use crate::structure::{
 };
 
 use super::error::IdentifyError;
-use super::lines::{Lines, MeasuredSubstructure, independent};
+use super::lines::{Lines, MeasuredSubstructure, Repeats, independent};
 use super::model::JointMatrices;
 use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
@@ -27,6 +27,7 @@ pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), Identify
             b: further.b.clone(),
             assembly: further.file.clone(),
             points: further.points.clone(),
+            repeats: further.repeats.clone(),
             further: Vec::new(),
             ..study.clone()
         };
@@ -72,6 +73,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     };
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any).map_err(in_file)?;
+    let (labelled, repeats) = repeated(study, labelled, &axis, reader)?;
     let measured = labelled.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
     let needed = study.model.unknowns().div_ceil(2 * measured.len()).max(2);
@@ -89,9 +91,64 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     let lines = Lines {
         assembly: labelled.matrices,
         measured,
+        repeats,
         ..substructures(study, &axis, reader)?
     };
     Ok(lines)
+}
+
+/// The mean of repeated measurements of the assembly, and their scatter; the `first` where there are no others.
+fn repeated(
+    study: &Study,
+    first: Labelled,
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<(Labelled, Option<Repeats>), IdentifyError> {
+    if study.repeats.is_empty() {
+        return Ok((first, None));
+    }
+    let mut all = vec![first];
+    for file in &study.repeats {
+        let in_file = |source| in_file(&file.path, source);
+        let (from_hz, to_hz) = axis.ends();
+        let set = reader
+            .read(file)?
+            .restricted_to(from_hz, to_hz)
+            .map_err(in_file)?;
+        axis.compare(&file.path, set.frequency_hz())?;
+        all.push(labelled_functions(&set, &study.points, Completeness::Any).map_err(in_file)?);
+    }
+    let count = all.len() as f64;
+    let measured = all[0].measured.clone();
+    // A function that one of the repetitions lacks is not repeated: it stays out.
+    let everywhere = |place: &(usize, usize)| all.iter().all(|one| one.measured.contains(place));
+    let measured: Vec<(usize, usize)> = measured.into_iter().filter(everywhere).collect();
+    let mut means = Vec::new();
+    let mut scatter = Vec::new();
+    for line in 0..axis.frequency_hz.len() {
+        let sum = |sum: ComplexMatrix, one: &Labelled| sum + &one.matrices[line];
+        let zero = ComplexMatrix::zeros(study.points.len(), study.points.len());
+        let mean = all.iter().fold(zero, sum) / Complex64::from(count);
+        let squares = |place: (usize, usize)| -> f64 {
+            let differences = all
+                .iter()
+                .map(|one| one.matrices[line][place] - mean[place]);
+            differences.map(|difference| difference.norm_sqr()).sum()
+        };
+        scatter.push(DMatrix::from_fn(mean.nrows(), mean.ncols(), |p, q| {
+            squares((p, q))
+        }));
+        means.push(mean);
+    }
+    let repeats = Repeats {
+        count: all.len() as u32,
+        scatter,
+    };
+    let mean = Labelled {
+        matrices: means,
+        measured,
+    };
+    Ok((mean, Some(repeats)))
 }
 
 /// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
@@ -146,6 +203,7 @@ fn substructures(
         points: points.clone(),
         measured: Vec::new(),
         relative_variance: None,
+        repeats: None,
         a_measured,
         b_measured,
     })

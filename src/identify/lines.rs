@@ -26,10 +26,21 @@ pub struct Lines {
     pub measured: Vec<(usize, usize)>,
     /// Variance of each of `measured` at each line as a fraction of |H|², where it is known line by line.
     pub relative_variance: Option<Vec<Vec<f64>>>,
+    /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
+    pub repeats: Option<Repeats>,
     /// What H_jj of A was formed from, where that was measured line by line. Assemblies may share it.
     pub a_measured: Option<Arc<MeasuredSubstructure>>,
     /// The same for B: the joint and the points.
     pub b_measured: Option<Arc<MeasuredSubstructure>>,
+}
+
+/// Repeated measurements of the same functions.
+#[derive(Clone, Debug)]
+pub struct Repeats {
+    /// Measurements of each function.
+    pub count: u32,
+    /// Σ|y − mean|² over them at each line.
+    pub scatter: Vec<DMatrix<f64>>,
 }
 
 /// Measured receptances from which those of a substructure were formed.

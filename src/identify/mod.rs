@@ -40,7 +40,7 @@ pub use choice::{ModelChoice, ModelFit};
 pub use decoupling::{from_rr, from_rs, from_sr, from_ss};
 pub use error::IdentifyError;
 pub use identification::{AssemblyFit, FunctionFit, Identification, identify, identify_and_draw};
-pub use lines::{Lines, MeasuredSubstructure};
+pub use lines::{Lines, MeasuredSubstructure, Repeats};
 pub use lines_estimate::{BootstrapResult, LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};
 pub use noise::{Noise, NoiseLevel, StatedLevel, relative_variance};

@@ -117,6 +117,8 @@ pub(super) struct Sample {
     pub(super) by_relative: f64,
     pub(super) by_floor: f64,
     pub(super) known: f64,
+    /// Independent residuals that `power` is the mean of.
+    pub(super) count: f64,
 }
 
 /// Relative standard deviations below this are rounding.
@@ -147,11 +149,11 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
             }
             let (a, b) = (a / variance, b / variance);
             let power = (sample.power - sample.known) / variance;
-            aa += a * a;
-            ab += a * b;
-            bb += b * b;
-            ap += a * power;
-            bp += b * power;
+            aa += sample.count * a * a;
+            ab += sample.count * a * b;
+            bb += sample.count * b * b;
+            ap += sample.count * a * power;
+            bp += sample.count * b * power;
         }
         let only_relative = [ap / aa, 0.0];
         let only_floor = [0.0, bp / bb];
@@ -270,6 +272,7 @@ mod tests {
                         by_relative: magnitude * magnitude,
                         by_floor: 1.0,
                         known: 0.0,
+                        count: 1.0,
                     }
                 })
                 .collect();

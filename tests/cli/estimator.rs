@@ -148,3 +148,40 @@ fn a_bootstrap_is_reproducible_and_agrees_with_the_linear_theory() {
         }
     }
 }
+
+#[test]
+fn repeated_measurements_tell_the_noise() {
+    let bench = Bench::new();
+    for seed in ["1", "2", "3"] {
+        bench.done(&["demo", "-o", &format!("d{seed}"), "--seed", seed]);
+    }
+    let identify = |name: &str| {
+        bench.done(&["identify", "d1/study.toml", "-o", name]);
+        bench.json(name)
+    };
+    let once = identify("o.joint.json");
+    for seed in ["2", "3"] {
+        let name = format!("assembly{seed}.uff");
+        std::fs::copy(
+            bench.path(&format!("d{seed}/assembly.uff")),
+            bench.path(&format!("d1/{name}")),
+        )
+        .unwrap();
+    }
+    let text = bench.text("d1/study.toml").replace(
+        "frf = \"assembly.uff\"",
+        "frf = \"assembly.uff\"\nrepeats = [\"assembly2.uff\", \"assembly3.uff\"]",
+    );
+    bench.write("d1/study.toml", text);
+    let thrice = identify("p.joint.json");
+    // 1 % of noise, known from about 10⁵ residuals, and deviations smaller by √3.
+    let level = thrice["residual"]["noise"]["relative"].as_f64().unwrap();
+    assert!((level / 0.01 - 1.0).abs() < 0.01, "{level}");
+    let deviation = |file: &serde_json::Value| {
+        file["uncertainty"]["standard_deviation"]["stiffness"][0][0]
+            .as_f64()
+            .unwrap()
+    };
+    let gain = deviation(&once) / deviation(&thrice);
+    assert!((gain / 3.0_f64.sqrt() - 1.0).abs() < 0.05, "{gain}");
+}

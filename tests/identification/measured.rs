@@ -159,6 +159,7 @@ impl Rig {
                 .collect(),
             measured: all(3),
             relative_variance: None,
+            repeats: None,
             a_measured: measured(&self.a_transformation, a, noisy != Noisy::Assembly),
             b_measured: measured(&self.b_transformation, b, noisy == Noisy::Everything),
         }

@@ -9,10 +9,10 @@ use crate::structure::{Beam, Damping};
 
 use super::super::bands::Bands;
 use super::super::error::IdentifyError;
-use super::super::estimator::NoiseLevel;
 use super::super::model::JointModel;
+use super::super::noise::{Noise, StatedLevel};
 use super::tables::{
-    BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, NoiseTable, OneOrMore,
+    BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, LevelTable, NoiseTable, OneOrMore,
     SubstructureTable, ThetaTable, UnitsTable,
 };
 use super::{FrfFile, Rotation, Source, Substructure};
@@ -73,17 +73,56 @@ impl Checker<'_> {
         Ok(())
     }
 
-    pub(super) fn noise(&self, table: &NoiseTable) -> Result<NoiseLevel, IdentifyError> {
-        let &NoiseTable { relative, floor } = table;
-        let usable = |value: f64| value.is_finite() && value >= 0.0;
-        if usable(relative) && usable(floor) && relative + floor > 0.0 {
-            return Ok(NoiseLevel { relative, floor });
+    pub(super) fn noise(&self, table: &NoiseTable) -> Result<Noise, IdentifyError> {
+        let assembly = LevelTable {
+            relative: table.relative,
+            floor: table.floor,
+        };
+        let of = |key: &str, table: LevelTable| {
+            let usable = |value: f64| value.is_finite() && value >= 0.0;
+            let LevelTable { relative, floor } = table;
+            if relative.is_none_or(usable) && floor.is_none_or(usable) {
+                return Ok(StatedLevel { relative, floor });
+            }
+            let show = |name: &str, value: Option<f64>| Some(format!("{name} = {}", value?));
+            let given = [show("relative", relative), show("floor", floor)];
+            self.refuse(
+                key,
+                given.into_iter().flatten().collect::<Vec<_>>().join(", "),
+                "standard deviations that are finite and not negative",
+            )
+        };
+        let noise = Noise {
+            assembly: of("noise", assembly)?,
+            a: of("noise.a", table.a)?,
+            b: of("noise.b", table.b)?,
+        };
+        if noise.assembly.relative == Some(0.0) && noise.assembly.floor == Some(0.0) {
+            return self.refuse(
+                "noise",
+                "relative = 0, floor = 0",
+                "at least one of them above zero, or left out to be estimated",
+            );
         }
-        self.refuse(
-            "noise",
-            format!("relative = {relative}, floor = {floor}"),
-            "standard deviations that are not negative, at least one of them above zero",
-        )
+        Ok(noise)
+    }
+
+    pub(super) fn torque(&self, torque: Option<f64>) -> Result<Option<f64>, IdentifyError> {
+        match torque {
+            Some(value) if !(value.is_finite() && value >= 0.0) => self.refuse(
+                "assembly.torque",
+                value.to_string(),
+                "a tightening torque in N·m that is not negative",
+            ),
+            _ => Ok(torque),
+        }
+    }
+
+    pub(super) fn at_least_one<T>(&self, tables: &[T]) -> Result<(), IdentifyError> {
+        if tables.is_empty() {
+            return self.refuse("assembly", "an empty list", "one [[assembly]] or more");
+        }
+        Ok(())
     }
 
     pub(super) fn name(&self, name: &str) -> Result<(), IdentifyError> {

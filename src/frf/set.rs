@@ -253,13 +253,14 @@ impl FrfSet {
             .ok_or_else(|| FrfError::MissingPair {
                 response,
                 reference,
-                present: self
-                    .receptances
-                    .keys()
-                    .chain(&self.left_out)
-                    .copied()
-                    .collect(),
+                present: self.present(),
             })
+    }
+
+    /// Every pair of the file, sorted, whether it was asked for or not.
+    fn present(&self) -> Vec<(Dof, Dof)> {
+        let pairs: BTreeSet<_> = self.receptances.keys().chain(&self.left_out).collect();
+        pairs.into_iter().copied().collect()
     }
 
     fn find(&self, response: Dof, reference: Dof, reciprocal: bool) -> Option<Receptance<'_>> {

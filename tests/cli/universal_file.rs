@@ -123,8 +123,8 @@ fn a_missing_pair_is_named_beside_those_that_are_there() {
         &IDENTIFY,
         &[
             "b.uff: no function with response 23:+Y and reference 23:+Y",
-            "21:+Y / 21:+Y, 21:+Y / 22:+Y",
-            "23:+Y / 22:+Y",
+            "20:+Y / 20:+Y, 20:+Y / 20:+RZ",
+            "and 12 more",
             "use other points",
         ],
     );
@@ -197,12 +197,24 @@ fn files_with_different_axes_are_both_named() {
 
 #[test]
 fn other_functions_than_frequency_responses_are_not_enough() {
-    // Function type 6: coherence.
+    // Function type 3: cross spectrum.
+    let bench = with("c.uff", |text| {
+        text.replace("\n    4         0", "\n    3         0")
+            .into_bytes()
+    });
+    bench.refused(&IDENTIFY, &["c.uff: found no frequency response function"]);
+    // Function type 6 says that these receptances are coherences.
     let bench = with("c.uff", |text| {
         text.replace("\n    4         0", "\n    6         0")
             .into_bytes()
     });
-    bench.refused(&IDENTIFY, &["c.uff: found no frequency response function"]);
+    bench.refused(
+        &IDENTIFY,
+        &[
+            "c.uff, line 1: coherence 21:+Y / 21:+Y",
+            "expected a number from 0 to 1",
+        ],
+    );
     // Data type 9 over 8: a load per motion.
     let bench = with("c.uff", |text| {
         text.replace("         8    0", "         9    0")

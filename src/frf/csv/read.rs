@@ -97,7 +97,14 @@ pub fn read_csv_from(
         });
     }
     rows.read_all(&header, &mut wanted, options)?;
-    let function = |source| at_header(CsvProblem::Function(Box::new(source)));
+    let function = |source| match source {
+        // No fault of the function: the file has other lines than those that are asked for.
+        source @ FrfError::EmptyBand { .. } => FrfError::InFile {
+            path: path.to_owned(),
+            source: Box::new(source),
+        },
+        source => at_header(CsvProblem::Function(Box::new(source))),
+    };
     let (mut functions, mut coherences, mut units_stated) = (Vec::new(), Vec::new(), true);
     for Wanted {
         columns,

@@ -319,8 +319,16 @@ impl<R: BufRead> Scan<'_, R> {
                     .lines
                     .into_frf(pair, meaning.quantity, meaning.to_si, self.selection);
             functions.push(frf.map_err(|source| {
-                self.lines
-                    .problem_at(begun_at, UffProblem::Function(Box::new(source)))
+                match source {
+                    // No fault of the function: the file has other lines than those that are asked for.
+                    source @ FrfError::EmptyBand { .. } => FrfError::InFile {
+                        path: self.lines.path().to_owned(),
+                        source: Box::new(source),
+                    },
+                    source => self
+                        .lines
+                        .problem_at(begun_at, UffProblem::Function(Box::new(source))),
+                }
             })?);
         }
         Ok(FrfReading {

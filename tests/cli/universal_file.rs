@@ -119,8 +119,8 @@ fn a_missing_pair_is_named_beside_those_that_are_there() {
         &IDENTIFY,
         &[
             "b.uff: no function with response 23:+Y and reference 23:+Y",
-            "21:+Y / 21:+Y, 21:+Y / 22:+Y",
-            "23:+Y / 22:+Y",
+            "20:+Y / 20:+Y, 20:+Y / 20:+RZ",
+            "12 more",
             "use other points",
         ],
     );

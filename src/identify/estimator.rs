@@ -65,9 +65,11 @@ const MAX_REWEIGHTINGS: usize = 20;
 const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// Gain that the full Gauss–Newton step promises, as a fraction of the cost, below which the iteration has converged.
-const NEGLIGIBLE_GAIN: f64 = 1e-15;
+const NEGLIGIBLE_GAIN: f64 = 1e-13;
 /// The same where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
+/// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
+const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 
@@ -109,13 +111,17 @@ pub(super) fn estimate<const N: usize>(
         )?;
         damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
+        // In standard deviations, at least: σ ≥ 1/√(JᵀΣ⁻¹J)_ii times that of the residual, S/N.
+        let deviation = &rest.scale * (rest.state.normal.cost / measurements as f64).sqrt();
+        let step = (&rest.coordinates - &coordinates).component_div(&deviation);
+        let shift = step.amax();
         let settled = rest.settled;
         (coordinates, state) = (rest.coordinates, rest.state);
         if estimates_level && shrinkage > 0.0 {
             levels = noise.levels(objective.level(noise, &state, shrinkage)?);
         }
         weights = objective.weights(levels, &state)?;
-        if round > 0 && moved < 100.0 * TOLERANCE {
+        if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;
         }

@@ -605,7 +605,9 @@ impl Sums {
         row: &[Complex64; MAX_ENTRIES],
         count: usize,
     ) {
-        for i in 0..count {
+        // Rows beyond `count` are zero, so that the loops can be unrolled.
+        debug_assert!(count <= MAX_ENTRIES);
+        for i in 0..MAX_ENTRIES {
             let conjugate = row[i].conj() * weight;
             self.right[i] += conjugate * residual;
             for j in 0..=i {

@@ -124,7 +124,7 @@ fn a_missing_pair_is_named_beside_those_that_are_there() {
         &[
             "b.uff: no function with response 23:+Y and reference 23:+Y",
             "20:+Y / 20:+Y, 20:+Y / 20:+RZ",
-            "and 12 more",
+            "12 more",
             "use other points",
         ],
     );

@@ -264,7 +264,7 @@ pub enum FrfError {
         line: usize,
         /// What is wrong there.
         #[source]
-        problem: CsvProblem,
+        problem: Box<CsvProblem>,
     },
     /// A NumPy archive is not usable.
     #[error("{}: {problem}", path.display())]
@@ -273,7 +273,7 @@ pub enum FrfError {
         path: PathBuf,
         /// What is wrong with it.
         #[source]
-        problem: NpzProblem,
+        problem: Box<NpzProblem>,
     },
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]

@@ -84,7 +84,7 @@ pub fn read_frfs(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfRea
         }
         Format::SingleArray => Err(FrfError::Npz {
             path: path.to_owned(),
-            problem: NpzProblem::SingleArray,
+            problem: Box::new(NpzProblem::SingleArray),
         }),
     }
 }

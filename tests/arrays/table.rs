@@ -14,7 +14,7 @@ fn read(text: impl AsRef<[u8]>) -> Result<FrfReading, FrfError> {
 /// The line and the problem of a table that is not usable.
 fn problem_of(text: impl AsRef<[u8]>) -> (usize, CsvProblem) {
     match read(text).unwrap_err() {
-        FrfError::Csv { line, problem, .. } => (line, problem),
+        FrfError::Csv { line, problem, .. } => (line, *problem),
         other => panic!("{other}"),
     }
 }

@@ -70,7 +70,7 @@ pub fn read_csv_from(
     let at_header = |problem| FrfError::Csv {
         path: path.to_owned(),
         line: header_line,
-        problem,
+        problem: Box::new(problem),
     };
     let mut not_selected = BTreeSet::new();
     let mut wanted = Vec::new();
@@ -194,7 +194,7 @@ impl<R: BufRead> Rows<'_, R> {
         FrfError::Csv {
             path: self.path.to_owned(),
             line: self.number,
-            problem,
+            problem: Box::new(problem),
         }
     }
 

@@ -62,7 +62,7 @@ pub fn read_npz_from(
     let path = name.as_ref();
     read(reader, path, options).map_err(|problem| FrfError::Npz {
         path: path.to_owned(),
-        problem,
+        problem: Box::new(problem),
     })
 }
 

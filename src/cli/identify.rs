@@ -5,12 +5,15 @@ use std::fmt::Write as _;
 use num_complex::Complex64;
 use serde_json::json;
 
-use crate::identify::{Identification, Study, Unknown, identify};
+use crate::identify::{
+    Bootstrap, BootstrapResult, Identification, Study, Unknown, identify_and_draw,
+};
 use crate::report::{FrfFigure, FrfPanel};
 
 use super::IdentifyArguments;
 use super::error::CliError;
 use super::output::{check_output, message, print, write_file};
+use super::progress::Progress;
 use super::table::{Table, number};
 
 /// At most so many functions are drawn.
@@ -32,7 +35,13 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         check_output(figure, &[&arguments.study, &arguments.output])?;
     }
     let study = Study::read(&arguments.study)?;
-    let found = identify(&study)?;
+    let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
+        draws: draws as usize,
+        seed: arguments.seed.unwrap_or(1),
+    });
+    let progress = Progress::new(bootstrap.map_or(0, |bootstrap| bootstrap.draws));
+    let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
+    progress.finish();
     let joint_file = found.joint_file();
     let drawing = arguments
         .figure
@@ -53,6 +62,14 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
             "warnings": warnings(&found),
+            "models": found.estimate.model_choice().map(|choice| json!({
+                "recommended": choice.recommended,
+                "compared": choice.models.iter().map(|fit| json!({
+                    "model": fit.model,
+                    "bic_difference": fit.bic_difference,
+                    "adequate": fit.adequate,
+                })).collect::<Vec<_>>(),
+            })),
         });
         return print(&serde_json::to_string_pretty(&value)?);
     }
@@ -76,22 +93,98 @@ pub(super) fn warnings(found: &Identification) -> Vec<String> {
 /// The result for people.
 fn summary(found: &Identification) -> String {
     let mut text = format!("{}\n{}\n\n", found.name, basis(found));
-    let mut table = Table::new(&["", "identified", "± std. dev.", "band average", "unit"]);
-    for unknown in Unknown::of(found.model) {
+    let covariance = found.estimate.covariance();
+    let active = found.estimate.free() != &found.joint;
+    let mut header = vec!["", "identified", "± std. dev.", "95 % interval"];
+    if active {
+        header.push("free estimate");
+    }
+    header.extend(["band average", "unit"]);
+    let mut table = Table::new(&header);
+    let intervals = covariance.intervals();
+    for (index, unknown) in Unknown::of(found.model).into_iter().enumerate() {
         let average = found.band_average.as_ref();
-        table.row(vec![
-            unknown.name.to_owned(),
-            number(unknown.value(&found.joint), 5),
-            number(unknown.value(&found.standard_deviation), 2),
-            average.map_or_else(
-                || "none".to_owned(),
-                |average| number(unknown.value(average), 5),
-            ),
-            unknown.unit.to_owned(),
-        ]);
+        let [low, high] = intervals[index];
+        let mut cells = vec![unknown.name.to_owned()];
+        if covariance.identified[index] {
+            cells.extend([
+                number(unknown.value(&found.joint), 5),
+                number(unknown.value(&found.standard_deviation), 2),
+                format!("{} … {}", number(low, 5), number(high, 5)),
+            ]);
+        } else {
+            cells.extend(["not identified", "", ""].map(str::to_owned));
+        }
+        if active {
+            cells.push(number(unknown.value(found.estimate.free()), 5));
+        }
+        cells.push(average.map_or_else(
+            || "none".to_owned(),
+            |average| number(unknown.value(average), 5),
+        ));
+        cells.push(unknown.unit.to_owned());
+        table.row(cells);
     }
     text += &table.render();
+    if active {
+        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
+    }
     let _ = writeln!(text, "\n{}", fit(found));
+    text += &models(found);
+    if let Some(result) = found.estimate.bootstrap() {
+        text += &bootstrap(result, &covariance.unknowns);
+    }
+    text
+}
+
+/// The joint models beside each other.
+fn models(found: &Identification) -> String {
+    let Some(choice) = found.estimate.model_choice() else {
+        return String::new();
+    };
+    let compared: Vec<String> = choice
+        .models
+        .iter()
+        .map(|fit| {
+            let residual = if fit.adequate {
+                "leaves noise"
+            } else {
+                "leaves more than noise"
+            };
+            format!("{} +{:.1} ({residual})", fit.model, fit.bic_difference)
+        })
+        .collect();
+    let advice = if !choice.any_is_adequate {
+        format!("none is adequate, \"{}\" comes closest", choice.recommended)
+    } else if choice.recommended == found.model {
+        format!("\"{}\" is the simplest adequate one", choice.recommended)
+    } else {
+        format!(
+            "\"{}\" is the simplest adequate one: consider it instead of \"{}\"",
+            choice.recommended, found.model
+        )
+    };
+    format!("joint models by BIC: {}; {advice}\n", compared.join(", "))
+}
+
+fn bootstrap(result: &BootstrapResult, unknowns: &[Unknown]) -> String {
+    let mut text = format!(
+        "\nbootstrap: {} draws, seed {}, {} converged\n",
+        result.draws, result.seed, result.converged
+    );
+    if result.converged > 1 {
+        let mut table = Table::new(&["", "± std. dev.", "95 % interval", "unit"]);
+        for (index, unknown) in unknowns.iter().enumerate() {
+            let [low, high] = result.intervals[index];
+            table.row(vec![
+                unknown.name.to_owned(),
+                number(result.standard_deviation[index], 2),
+                format!("{} … {}", number(low, 5), number(high, 5)),
+                unknown.unit.to_owned(),
+            ]);
+        }
+        text += &table.render();
+    }
     text
 }
 
@@ -105,7 +198,15 @@ pub(super) fn basis(found: &Identification) -> String {
     format!(
         "joint model \"{}\" from {} at {}, {} from {} to {} Hz",
         found.model,
-        counted(found.fits.len(), "function"),
+        counted(
+            found.fits.len()
+                + found
+                    .further
+                    .iter()
+                    .map(|assembly| assembly.fits.len())
+                    .sum::<usize>(),
+            "function"
+        ),
         counted(found.lines.points.len(), "point"),
         counted(frequency_hz.len(), "line"),
         number(frequency_hz[0], 4),

@@ -7,6 +7,7 @@ mod error;
 mod export;
 mod identify;
 mod output;
+mod progress;
 mod table;
 
 use std::path::PathBuf;
@@ -73,6 +74,12 @@ struct IdentifyArguments {
     /// Also draw measured and regenerated FRFs
     #[arg(long, value_name = "NAME.svg")]
     figure: Option<PathBuf>,
+    /// Repeat the estimate on so many data sets drawn from the fitted model
+    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    bootstrap: Option<u32>,
+    /// Seed of the bootstrap [default: 1]
+    #[arg(long, requires = "bootstrap")]
+    seed: Option<u64>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::{Dof, UffProblem};
+use super::{CsvProblem, Dof, NpzProblem, UffProblem};
 
 /// How many pairs an error message lists before it only counts.
 const LISTED_PAIRS: usize = 12;
@@ -94,6 +94,16 @@ pub enum FrfError {
     /// A set without functions.
     #[error("found no frequency response function, expected at least one")]
     NoFunctions,
+    /// A file with functions, but none that was asked for.
+    #[error(
+        "found no function between the degrees of freedom that are asked for; there are (response / reference) {}; \
+         correct the labels in the study",
+        list(present)
+    )]
+    NoneSelected {
+        /// Every pair that is there, sorted.
+        present: Vec<(Dof, Dof)>,
+    },
     /// Two functions of one set are given at different frequencies.
     #[error(
         "functions {} and {} have different frequencies: line {line} is at {first_hz} Hz in the first and {second_hz} Hz \
@@ -140,6 +150,54 @@ pub enum FrfError {
         response: Dof,
         /// Reference.
         reference: Dof,
+    },
+    /// A coherence outside 0 to 1.
+    #[error(
+        "coherence {response} / {reference}, line {line} ({frequency_hz} Hz): found {found}, expected a number from 0 to 1; \
+         export γ² itself, neither in per cent nor in decibel, or remove the coherence"
+    )]
+    CoherenceNotAllowed {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the coherence.
+        line: usize,
+        /// Frequency of the line, Hz.
+        frequency_hz: f64,
+        /// The value.
+        found: f64,
+    },
+    /// A coherence whose lines are not those of its function.
+    #[error(
+        "coherence {response} / {reference}: found no value for line {line} at {frequency_hz} Hz, expected one for every line of \
+         its function; export both with the same analyser settings, or remove the coherence"
+    )]
+    CoherenceAxis {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// Line of the function.
+        line: usize,
+        /// Frequency of that line, Hz.
+        frequency_hz: f64,
+    },
+    /// Two coherences of one function.
+    #[error(
+        "found two coherences from {reference} to {response}, expected one; remove the one that is not wanted"
+    )]
+    DuplicateCoherence {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+    },
+    /// A number of averages that cannot be.
+    #[error("found {found} averages, expected a number of at least 1")]
+    Averages {
+        /// The number.
+        found: f64,
     },
     /// A pair that was not measured, nor its transpose.
     #[error(
@@ -196,6 +254,26 @@ pub enum FrfError {
         /// What is wrong there.
         #[source]
         problem: UffProblem,
+    },
+    /// A table of functions is not usable.
+    #[error("{}, line {line}: {problem}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong there.
+        #[source]
+        problem: Box<CsvProblem>,
+    },
+    /// A NumPy archive is not usable.
+    #[error("{}: {problem}", path.display())]
+    Npz {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        #[source]
+        problem: Box<NpzProblem>,
     },
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]

@@ -1,12 +1,13 @@
 //! The functions of one structure over one frequency axis, looked up by pair of degrees of freedom.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
 use num_complex::Complex64;
 
-use super::{Dof, Frf, FrfError};
+use super::coherence::relative_variance;
+use super::{Coherence, Dof, Frf, FrfError};
 
 /// Two axes agree where the standard's six printed digits cannot tell them apart …
 const AXIS_PRINT_RESOLUTION: f64 = 6e-6;
@@ -20,6 +21,10 @@ const AXIS_ROUNDING: f64 = 1e-12;
 pub struct FrfSet {
     frequency_hz: Vec<f64>,
     receptances: BTreeMap<(Dof, Dof), Vec<Complex64>>,
+    gamma_squared: BTreeMap<(Dof, Dof), Vec<f64>>,
+    averages: Option<f64>,
+    /// Pairs that the file has but nobody asked for.
+    left_out: BTreeSet<(Dof, Dof)>,
 }
 
 /// A receptance found in a set, with how it was found. Dereferences to its values, one for each line, SI units.
@@ -109,6 +114,9 @@ impl FrfSet {
         Ok(Self {
             frequency_hz,
             receptances,
+            gamma_squared: BTreeMap::new(),
+            averages: None,
+            left_out: BTreeSet::new(),
         })
     }
 
@@ -122,6 +130,107 @@ impl FrfSet {
     #[must_use]
     pub fn line_count(&self) -> usize {
         self.frequency_hz.len()
+    }
+
+    /// The same set with the ordinary coherences of its functions, and the number of averages behind them if it is known.
+    ///
+    /// A coherence belongs to the function of the same two degrees of freedom, whatever their signs; one whose function is
+    /// not in the set is left out. Lines that the set does not have (0 Hz of an accelerance) are left out of it.
+    ///
+    /// # Errors
+    /// [`FrfError::CoherenceAxis`] if a line of the set has no coherence; [`FrfError::DuplicateCoherence`];
+    /// [`FrfError::Averages`] if the number is below 1 or not finite.
+    pub fn with_coherences(
+        mut self,
+        coherences: Vec<Coherence>,
+        averages: Option<f64>,
+    ) -> Result<Self, FrfError> {
+        if let Some(found) = averages.filter(|n| !(n.is_finite() && *n >= 1.0)) {
+            return Err(FrfError::Averages { found });
+        }
+        self.averages = averages;
+        for coherence in coherences {
+            let (response, reference) = (coherence.response(), coherence.reference());
+            let Some(pair) = self.measured_pair(response, reference) else {
+                continue;
+            };
+            let values = self.on_own_lines(&coherence)?;
+            if self.gamma_squared.insert(pair, values).is_some() {
+                return Err(FrfError::DuplicateCoherence {
+                    response,
+                    reference,
+                });
+            }
+        }
+        Ok(self)
+    }
+
+    pub(super) fn knowing_of(mut self, left_out: BTreeSet<(Dof, Dof)>) -> Self {
+        self.left_out = left_out;
+        self
+    }
+
+    /// The pair of a measured function between these two, whatever the signs of either.
+    fn measured_pair(&self, response: Dof, reference: Dof) -> Option<(Dof, Dof)> {
+        let (turned, other) = (response.flipped(), reference.flipped());
+        [
+            (response, reference),
+            (turned, other),
+            (turned, reference),
+            (response, other),
+        ]
+        .into_iter()
+        .find(|pair| self.receptances.contains_key(pair))
+    }
+
+    fn on_own_lines(&self, coherence: &Coherence) -> Result<Vec<f64>, FrfError> {
+        let missing = |line: usize| FrfError::CoherenceAxis {
+            response: coherence.response(),
+            reference: coherence.reference(),
+            line: line + 1,
+            frequency_hz: self.frequency_hz[line],
+        };
+        // Only lines before the set's first one may be more: 0 Hz of a mobility or accelerance.
+        let surplus = coherence
+            .frequency_hz()
+            .len()
+            .checked_sub(self.frequency_hz.len())
+            .ok_or_else(|| missing(coherence.frequency_hz().len()))?;
+        match first_difference(&self.frequency_hz, &coherence.frequency_hz()[surplus..]) {
+            Some(line) => Err(missing(line)),
+            None => Ok(coherence.gamma_squared()[surplus..].to_vec()),
+        }
+    }
+
+    /// Ordinary coherence γ² at each line of the measured function behind [`FrfSet::receptance`], if it came with the set.
+    #[must_use]
+    pub fn coherence(&self, response: Dof, reference: Dof) -> Option<&[f64]> {
+        let measured = self
+            .measured_pair(response, reference)
+            .or_else(|| self.measured_pair(reference, response))?;
+        self.gamma_squared.get(&measured).map(Vec::as_slice)
+    }
+
+    /// The number of averages behind the functions, where it is known.
+    #[must_use]
+    pub fn averages(&self) -> Option<f64> {
+        self.averages
+    }
+
+    /// σ²/|H|² at each line of the measured function behind [`FrfSet::receptance`], from its coherence and the averages.
+    ///
+    /// σ² is that of the complex error, E|Ĥ − H|²: real and imaginary part have half of it each. See
+    /// [`relative_variance`](super::relative_variance). `None` without coherence or without the number of averages.
+    #[must_use]
+    pub fn relative_variance(&self, response: Dof, reference: Dof) -> Option<Vec<f64>> {
+        let averages = self.averages?;
+        let gamma_squared = self.coherence(response, reference)?;
+        Some(
+            gamma_squared
+                .iter()
+                .map(|&gamma_squared| relative_variance(gamma_squared, averages))
+                .collect(),
+        )
     }
 
     /// Response, reference and receptance (SI units) of every measured function, sorted by response, then reference.
@@ -144,8 +253,14 @@ impl FrfSet {
             .ok_or_else(|| FrfError::MissingPair {
                 response,
                 reference,
-                present: self.receptances.keys().copied().collect(),
+                present: self.present(),
             })
+    }
+
+    /// Every pair of the file, sorted, whether it was asked for or not.
+    fn present(&self) -> Vec<(Dof, Dof)> {
+        let pairs: BTreeSet<_> = self.receptances.keys().chain(&self.left_out).collect();
+        pairs.into_iter().copied().collect()
     }
 
     fn find(&self, response: Dof, reference: Dof, reciprocal: bool) -> Option<Receptance<'_>> {
@@ -196,6 +311,13 @@ impl FrfSet {
                 .iter()
                 .map(|(&pair, values)| (pair, values[start..end].to_vec()))
                 .collect(),
+            gamma_squared: self
+                .gamma_squared
+                .iter()
+                .map(|(&pair, values)| (pair, values[start..end].to_vec()))
+                .collect(),
+            averages: self.averages,
+            left_out: self.left_out.clone(),
         })
     }
 }

@@ -1,6 +1,8 @@
 //! What the estimator works on: receptances of the substructures and of the assembly, line by line.
 
-use num_complex::Complex64;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
 
 use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, CouplingError, Partition, transmission};
@@ -22,22 +24,43 @@ pub struct Lines {
     pub points: Vec<Dof>,
     /// Entries (row, column) of H^C_ss that were measured; the others follow from them by reciprocity.
     pub measured: Vec<(usize, usize)>,
+    /// Variance of each of `measured` at each line as a fraction of |H|², where it is known line by line.
+    pub relative_variance: Option<Vec<Vec<f64>>>,
+    /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
+    pub repeats: Option<Repeats>,
+    /// What H_jj of A was formed from, where that was measured line by line. Assemblies may share it.
+    pub a_measured: Option<Arc<MeasuredSubstructure>>,
+    /// The same for B: the joint and the points.
+    pub b_measured: Option<Arc<MeasuredSubstructure>>,
+}
+
+/// Repeated measurements of the same functions.
+#[derive(Clone, Debug)]
+pub struct Repeats {
+    /// Measurements of each function.
+    pub count: u32,
+    /// Σ|y − mean|² over them at each line.
+    pub scatter: Vec<DMatrix<f64>>,
+}
+
+/// Measured receptances from which those of a substructure were formed.
+#[derive(Clone, Debug)]
+pub struct MeasuredSubstructure {
+    /// W: motion of the joint's DOFs, then of the points, by that of the measured DOFs: H = W U Wᵀ.
+    pub transformation: DMatrix<f64>,
+    /// U at each line, symmetric.
+    pub receptances: Vec<ComplexMatrix>,
+    /// Entries (row, column) of U that were measured, each independently of the others.
+    pub measured: Vec<(usize, usize)>,
+    /// Variance of each of `measured` at each line as a fraction of |U|², where it is known line by line.
+    pub relative_variance: Option<Vec<Vec<f64>>>,
 }
 
 impl Lines {
-    /// Every `stride`th line.
-    pub(super) fn thinned(&self, stride: usize) -> Self {
-        fn every<T: Clone>(items: &[T], stride: usize) -> Vec<T> {
-            items.iter().step_by(stride).cloned().collect()
-        }
-        Self {
-            frequency_hz: every(&self.frequency_hz, stride),
-            a_joint: every(&self.a_joint, stride),
-            b: every(&self.b, stride),
-            assembly: every(&self.assembly, stride),
-            points: self.points.clone(),
-            measured: self.measured.clone(),
-        }
+    /// The measured entries that are not the exact copy of their transpose, as reciprocity fills them in.
+    #[must_use]
+    pub fn independent(&self) -> Vec<(usize, usize)> {
+        independent(&self.measured, &self.assembly)
     }
 
     /// H^C_ss at each line, as coupling with this joint gives it.
@@ -55,46 +78,22 @@ impl Lines {
             })
             .collect()
     }
-
-    /// H^C_ss at one line with the two factors of its derivative, dH^C_ss = −P dK* Q.
-    pub(super) fn linearised(&self, line: usize, joint: &JointMatrices) -> Option<Linearised> {
-        let stiffness = joint.complex_stiffness(self.frequency_hz[line]);
-        let b = &self.b[line];
-        let free = &self.a_joint[line] + &b.joint;
-        let size = stiffness.nrows();
-        let unit = ComplexMatrix::identity(size, size);
-        // P = H_sk Z⁻¹ K*⁻¹ = H_sk (I + K*H)⁻¹,  Q = K*⁻¹ Z⁻¹ H_ks = (I + H K*)⁻¹ H_ks,  H = H_jj + H_kk:
-        // dH^C_ss = H_sk Z⁻¹ d(K*⁻¹) Z⁻¹ H_ks with d(K*⁻¹) = −K*⁻¹ dK* K*⁻¹, free of inverses of K*.
-        let left = (&unit + &stiffness * &free)
-            .transpose()
-            .lu()
-            .solve(&b.points_joint.transpose())?
-            .transpose();
-        let right = (&unit + &free * &stiffness).lu().solve(&b.joint_points)?;
-        let assembly = &b.points - &left * stiffness * &b.joint_points;
-        Some(Linearised {
-            assembly,
-            left,
-            right,
-        })
-    }
 }
 
-/// H^C_ss of a joint at one line and its derivative −P dK* Q.
-pub(super) struct Linearised {
-    pub(super) assembly: ComplexMatrix,
-    left: ComplexMatrix,
-    right: ComplexMatrix,
-}
-
-impl Linearised {
-    /// Derivative of entry `place` of H^C_ss with respect to the symmetric entry `(i, j)` of K*.
-    pub(super) fn sensitivity(&self, place: (usize, usize), (i, j): (usize, usize)) -> Complex64 {
-        let (row, column) = place;
-        let mut derivative = self.left[(row, i)] * self.right[(j, column)];
-        if i != j {
-            derivative += self.left[(row, j)] * self.right[(i, column)];
-        }
-        -derivative
-    }
+/// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by
+/// reciprocity writes such copies, which are no measurements.
+pub(super) fn independent(
+    measured: &[(usize, usize)],
+    matrices: &[ComplexMatrix],
+) -> Vec<(usize, usize)> {
+    let is_copy = |&(row, column): &(usize, usize)| {
+        row > column
+            && measured.contains(&(column, row))
+            && matrices
+                .iter()
+                .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
+    };
+    let mut independent = measured.to_vec();
+    independent.retain(|place| !is_copy(place));
+    independent
 }

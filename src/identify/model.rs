@@ -111,6 +111,18 @@ impl JointMatrices {
     }
 }
 
+/// Whether a symmetric matrix of a joint is passive; the judgement of the joint file.
+pub(super) fn is_positive_semidefinite(matrix: &DMatrix<f64>) -> bool {
+    match matrix.nrows() {
+        1 => bolted_joint_dynamics::is_positive_semidefinite(&[[matrix[(0, 0)]]]),
+        2 => bolted_joint_dynamics::is_positive_semidefinite(&[
+            [matrix[(0, 0)], matrix[(0, 1)]],
+            [matrix[(1, 0)], matrix[(1, 1)]],
+        ]),
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

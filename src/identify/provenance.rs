@@ -20,12 +20,29 @@ pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
         }),
         Substructure::Beam { .. } => None,
     };
-    let named = [
+    let mut named = vec![
         ("study", Some(study.path.clone())),
         ("substructure a", file_of(&study.a)),
         ("substructure b", file_of(&study.b)),
         ("assembly", Some(study.assembly.path.clone())),
     ];
+    for further in &study.further {
+        let its_own = |role, path: Option<PathBuf>, named: &[(&str, Option<PathBuf>)]| {
+            let known = named.contains(&(role, path.clone()));
+            (!known).then_some((role, path))
+        };
+        for (role, path) in [
+            ("substructure a", file_of(&further.a)),
+            ("substructure b", file_of(&further.b)),
+            ("assembly", Some(further.file.path.clone())),
+        ] {
+            let entry = its_own(role, path, &named);
+            named.extend(entry);
+        }
+    }
+    let repeats = study.further.iter().flat_map(|further| &further.repeats);
+    let repeats = study.repeats.iter().chain(repeats);
+    named.extend(repeats.map(|file| ("assembly, repeated", Some(file.path.clone()))));
     let inputs = named
         .into_iter()
         .filter_map(|(role, path)| Some((role, path?)))

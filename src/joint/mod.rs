@@ -20,6 +20,7 @@ pub use law::LawError;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
-    Bodies, Body, Format, FunctionResidual, InputFile, Joint, JointFile, OverPreload, Provenance,
-    Residual, StandardDeviation, Uncertainty, Validity,
+    Bodies, Body, BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, InputFile,
+    Intervals, Joint, JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation,
+    Uncertainty, Validity,
 };

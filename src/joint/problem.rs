@@ -29,17 +29,17 @@ pub enum Problem {
         /// DOFs of the joint.
         dofs: DofSet,
     },
-    /// A list over the preload has not one entry for each preload.
-    #[error(
-        "{path}: found {found} entries, expected {expected}, one for each of joint.over_preload.preload"
-    )]
+    /// A list has not one entry for each entry of another.
+    #[error("{path}: found {found} entries, expected {expected}, one for each of {of}")]
     TableLength {
         /// Path of the list.
         path: String,
         /// Its number of entries.
         found: usize,
-        /// Number of preloads.
+        /// Number of entries of the other.
         expected: usize,
+        /// Path of the other.
+        of: &'static str,
     },
     /// A table with too few preloads to interpolate.
     #[error(

@@ -128,6 +128,72 @@ pub struct Uncertainty {
     pub standard_deviation: StandardDeviation,
     /// What the standard deviations rest on, in words.
     pub basis: String,
+    /// Correlation of the unknowns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<Correlation>,
+    /// Interval of 95 % of each entry of the joint's matrices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval_95: Option<Intervals>,
+    /// By how much the standard deviations were raised because the residual is not the assumed noise, at most of all unknowns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub inflation: Option<f64>,
+    /// Unknowns that the data do not determine: their values are not to be believed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_identified: Vec<String>,
+    /// The estimate without the constraint that the joint be passive, where that is another one. The intervals are about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_estimate: Option<FreeEstimate>,
+    /// Scatter of the estimate over data drawn from the fitted model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bootstrap: Option<BootstrapRecord>,
+}
+
+/// Correlation of the unknowns of a joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Correlation {
+    /// Names of the unknowns, such as `k_yy`, in the order of the rows.
+    pub unknowns: Vec<String>,
+    /// The matrix, symmetric with a unit diagonal.
+    #[schemars(inner(inner(range(min = -1, max = 1))))]
+    pub matrix: Vec<Vec<f64>>,
+}
+
+/// Lower and upper end of an interval for each entry of the joint's matrices; entries that are no unknowns have `[0, 0]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Intervals {
+    /// Of K, in its units.
+    pub stiffness: Vec<Vec<[f64; 2]>>,
+    /// Of C, in its units.
+    pub damping: Vec<Vec<[f64; 2]>>,
+}
+
+/// Matrices of a joint that may be active.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FreeEstimate {
+    /// K, in its units.
+    pub stiffness: Vec<Vec<f64>>,
+    /// C, in its units.
+    pub damping: Vec<Vec<f64>>,
+}
+
+/// A parametric bootstrap.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BootstrapRecord {
+    /// Draws from the fitted model.
+    pub draws: usize,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Draws whose estimate converged.
+    pub converged: usize,
+    /// One standard deviation of each entry over them.
+    pub standard_deviation: StandardDeviation,
+    /// From the 2.5th to the 97.5th percentile of each entry.
+    pub interval_95: Intervals,
 }
 
 /// One standard deviation of each entry of the joint's matrices.
@@ -156,6 +222,12 @@ pub struct Validity {
     #[serde(deserialize_with = "super::read::pair")]
     #[schemars(inner(range(min = 0)))]
     pub frequency_hz: [f64; 2],
+    /// Lowest and highest tightening torque of the assemblies measured, N·m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque_n_m: Option<[f64; 2]>,
+    /// Level of force or response at which was measured, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<String>,
 }
 
 /// How far the model is from the measurement that it was identified from.
@@ -170,6 +242,30 @@ pub struct Residual {
     /// The same for each function compared.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub functions: Vec<FunctionResidual>,
+    /// χ² over degrees of freedom, where the noise was stated: about 1 if the model fits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub reduced_chi_squared: Option<f64>,
+    /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line_correlation: Option<f64>,
+    /// Noise of the assembly's functions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseRecord>,
+}
+
+/// Noise of measured functions: standard deviation √((relative·|H|)² + floor²) of the complex error.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseRecord {
+    /// Fraction of the receptance.
+    #[schemars(range(min = 0))]
+    pub relative: f64,
+    /// Part that does not depend on it, in its unit (m/N).
+    #[schemars(range(min = 0))]
+    pub floor: f64,
+    /// Whether the study stated it; else it was estimated from the residual.
+    pub stated: bool,
 }
 
 /// How far the model is from one measured function.

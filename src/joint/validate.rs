@@ -37,6 +37,23 @@ impl JointFile {
                 }
             }
         }
+        if let Some(uncertainty) = &self.uncertainty {
+            if let Some(correlation) = &uncertainty.correlation {
+                const OF: &str = "uncertainty.correlation.unknowns";
+                let path = "uncertainty.correlation.matrix";
+                let size = correlation.unknowns.len();
+                check.table_length(path, correlation.matrix.len(), size, OF);
+                for (i, row) in correlation.matrix.iter().enumerate() {
+                    let path = format!("{path}[{i}]");
+                    check.table_length(&path, row.len(), size, OF);
+                    check.finite_list(&path, row);
+                }
+            }
+            if let Some(free) = &uncertainty.free_estimate {
+                check.matrix("uncertainty.free_estimate.stiffness", &free.stiffness);
+                check.matrix("uncertainty.free_estimate.damping", &free.damping);
+            }
+        }
         if let Some(validity) = &self.validity {
             check.band(&validity.frequency_hz);
         }
@@ -89,6 +106,7 @@ impl Check {
 
     fn over_preload(&mut self, table: &OverPreload) {
         const PATH: &str = "joint.over_preload";
+        const PRELOADS: &str = "joint.over_preload.preload";
         let path = format!("{PATH}.preload");
         let preloads = &table.preload;
         if preloads.len() < 2 {
@@ -118,14 +136,14 @@ impl Check {
         }
         for (key, matrices) in [("stiffness", &table.stiffness), ("damping", &table.damping)] {
             let path = format!("{PATH}.{key}");
-            self.table_length(&path, matrices.len(), preloads.len());
+            self.table_length(&path, matrices.len(), preloads.len(), PRELOADS);
             for (i, matrix) in matrices.iter().enumerate() {
                 self.matrix(&format!("{path}[{i}]"), matrix);
             }
         }
         if !table.cubic.is_empty() {
             let path = format!("{PATH}.cubic");
-            self.table_length(&path, table.cubic.len(), preloads.len());
+            self.table_length(&path, table.cubic.len(), preloads.len(), PRELOADS);
             for (i, cubic) in table.cubic.iter().enumerate() {
                 self.list(&format!("{path}[{i}]"), cubic);
             }
@@ -194,13 +212,14 @@ impl Check {
         fits
     }
 
-    fn table_length(&mut self, path: &str, found: usize, expected: usize) {
+    fn table_length(&mut self, path: &str, found: usize, expected: usize, of: &'static str) {
         if found != expected {
             let path = path.to_owned();
             self.problems.push(Problem::TableLength {
                 path,
                 found,
                 expected,
+                of,
             });
         }
     }

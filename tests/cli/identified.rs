@@ -143,3 +143,40 @@ fn what_was_identified_can_be_checked_and_exported() {
         bench.done(&["check", "o.fmu"]);
     }
 }
+
+/// The rig's universal files as binary ones and as a table lead where they lead.
+#[test]
+fn binary_files_and_tables_give_the_joint_too() {
+    use bolted_joint::frf::{ByteOrder, FrfSet, ReadOptions, read_frfs, write_uff58b};
+    use std::fmt::Write as _;
+
+    let bench = Bench::new();
+    measure(&bench, &TRANSLATION, [Quantity::Accelerance; 3]);
+    let set = |name: &str| -> FrfSet {
+        let reading = read_frfs(bench.path(name), &ReadOptions::default()).unwrap();
+        reading.into_set().unwrap()
+    };
+    write_uff58b(&set("a.uff"), bench.path("a.bin"), "", ByteOrder::Little).unwrap();
+    write_uff58b(&set("c.uff"), bench.path("c.bin"), "", ByteOrder::Big).unwrap();
+    let b = set("b.uff");
+    let mut table = "# quantity = receptance\nfrequency [Hz]".to_owned();
+    for (response, reference, _) in b.functions() {
+        let pair = format!("{response}/{reference}");
+        write!(table, ";{pair} real;{pair} imaginary").unwrap();
+    }
+    for (line, hz) in b.frequency_hz().iter().enumerate() {
+        write!(table, "\n{hz}").unwrap();
+        for (_, _, values) in b.functions() {
+            write!(table, ";{:e};{:e}", values[line].re, values[line].im).unwrap();
+        }
+    }
+    bench.write("b.csv", table.replace('.', ","));
+    let study = study("translation", &[21, 23])
+        .replace("a.uff", "a.bin")
+        .replace("b.uff", "b.csv")
+        .replace("c.uff", "c.bin");
+    bench.write("study.toml", study);
+    identify(&bench);
+    let error = deviation(&bench, &TRANSLATION);
+    assert!(error < 1e-6, "{error}");
+}

@@ -10,6 +10,7 @@ mod check;
 mod check_run;
 mod communication_step;
 mod demo;
+mod estimator;
 mod export;
 mod identified;
 mod joint_file;

@@ -106,7 +106,8 @@ fn json_has_its_keys() {
             "joint_file",
             "starts",
             "reduced_chi_squared",
-            "warnings"
+            "warnings",
+            "models"
         ]
     );
     assert_eq!(identified["joint_file"], bench.json("o.joint.json"));

@@ -448,7 +448,7 @@ fn values_that_cannot_be_are_named_by_key() {
         ),
         (
             "relative = 0.01",
-            "relative = 0",
+            "relative = 0\nfloor = 0",
             ["`noise`: found relative = 0, floor = 0", "above zero"],
         ),
         (
@@ -459,7 +459,17 @@ fn values_that_cannot_be_are_named_by_key() {
         (
             "relative = 0.01",
             "floor = inf",
-            ["`noise`: found relative = 0, floor = inf", "not negative"],
+            ["`noise`: found floor = inf", "not negative"],
+        ),
+        (
+            "relative = 0.01",
+            "relative = 0.01\na = { floor = -1 }",
+            ["`noise.a`: found floor = -1", "not negative"],
+        ),
+        (
+            "[joint]",
+            "torque = -3\n[joint]",
+            ["`assembly.torque`: found -3", "N·m"],
         ),
         (
             "a = { inertia = [1, 2]",

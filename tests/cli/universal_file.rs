@@ -49,14 +49,18 @@ fn what_is_no_universal_file_is_said_to_be_none() {
 }
 
 #[test]
-fn binary_data_sets_are_known_but_not_read() {
+fn a_binary_header_over_ascii_values_is_refused() {
     let bench = with("c.uff", |text| {
         let header = "    58b     1     2          11     3184     0     0           0           0";
         text.replacen("    58", header, 1).into_bytes()
     });
     bench.refused(
         &IDENTIFY,
-        &["c.uff, line 2: found binary dataset 58b", "export as ASCII"],
+        &[
+            "c.uff, line 1: binary data set 58b: found no \"    -1\"",
+            "says 3184 bytes",
+            "export as ASCII",
+        ],
     );
 }
 
@@ -110,17 +114,17 @@ fn numbers_that_are_not_finite_or_missing_are_located() {
 
 #[test]
 fn a_missing_pair_is_named_beside_those_that_are_there() {
-    // Without its last function, whose transpose is itself.
-    let bench = with("c.uff", |text| {
+    // Without the last function of B, whose transpose is itself.
+    let bench = with("b.uff", |text| {
         let end = text.rfind(BEGIN).unwrap();
         text.as_bytes()[..end].to_vec()
     });
     bench.refused(
         &IDENTIFY,
         &[
-            "c.uff: no function with response 23:+Y and reference 23:+Y",
-            "21:+Y / 21:+Y, 21:+Y / 22:+Y",
-            "23:+Y / 22:+Y",
+            "b.uff: no function with response 23:+Y and reference 23:+Y",
+            "20:+Y / 20:+Y, 20:+Y / 20:+RZ",
+            "12 more",
             "use other points",
         ],
     );
@@ -193,12 +197,24 @@ fn files_with_different_axes_are_both_named() {
 
 #[test]
 fn other_functions_than_frequency_responses_are_not_enough() {
-    // Function type 6: coherence.
+    // Function type 3: cross spectrum.
+    let bench = with("c.uff", |text| {
+        text.replace("\n    4         0", "\n    3         0")
+            .into_bytes()
+    });
+    bench.refused(&IDENTIFY, &["c.uff: found no frequency response function"]);
+    // Function type 6 says that these receptances are coherences.
     let bench = with("c.uff", |text| {
         text.replace("\n    4         0", "\n    6         0")
             .into_bytes()
     });
-    bench.refused(&IDENTIFY, &["c.uff: found no frequency response function"]);
+    bench.refused(
+        &IDENTIFY,
+        &[
+            "c.uff, line 1: coherence 21:+Y / 21:+Y",
+            "expected a number from 0 to 1",
+        ],
+    );
     // Data type 9 over 8: a load per motion.
     let bench = with("c.uff", |text| {
         text.replace("         8    0", "         9    0")

@@ -90,6 +90,10 @@ impl Pair {
             assembly,
             points: (0..count).map(dof).collect(),
             measured: places,
+            relative_variance: None,
+            repeats: None,
+            a_measured: None,
+            b_measured: None,
         }
     }
 }

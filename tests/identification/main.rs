@@ -5,7 +5,11 @@
     reason = "a test whose preparation fails has nothing better to do than panic"
 )]
 
+mod bound;
 mod cases;
 mod decoupling;
+mod global;
+mod measured;
+mod monte_carlo;
 mod published;
 mod refined;

@@ -1,11 +1,26 @@
 //! The refined estimate: exact on exact data, calibrated and near the bound on noisy data.
 
-use bolted_joint::identify::{Bands, JointMatrices, JointModel, Lines, NoiseLevel, identify_lines};
+use bolted_joint::identify::{
+    Bands, IdentifyError, JointMatrices, JointModel, Lines, LinesEstimate, Noise, NoiseLevel,
+    Options, identify_lines,
+};
 use nalgebra::dmatrix;
 
 use crate::cases::{axis, beams_4_2_2, joint_4_2_2};
 
 const THREE_POINTS: [f64; 3] = [0.195, 0.21, 0.225];
+
+fn identified(
+    lines: &Lines,
+    model: JointModel,
+    noise: Option<NoiseLevel>,
+) -> Result<LinesEstimate, IdentifyError> {
+    let options = Options {
+        noise: noise.map(Noise::stated).unwrap_or_default(),
+        ..Options::default()
+    };
+    identify_lines(std::slice::from_ref(lines), model, &options)
+}
 
 #[test]
 fn exact_data_give_the_exact_joint_with_every_model() {
@@ -20,7 +35,7 @@ fn exact_data_give_the_exact_joint_with_every_model() {
         (JointModel::Full, full, &THREE_POINTS[..1]),
     ] {
         let lines = beams_4_2_2(axis(500.0, 1.0), &[], points).lines(&joint, 0.0, 1);
-        let found = identify_lines(&lines, model, None, &Bands::default()).unwrap();
+        let found = identified(&lines, model, None).unwrap();
         for (found, exact) in [
             (&found.joint().stiffness, &joint.stiffness),
             (&found.joint().damping, &joint.damping),
@@ -49,7 +64,7 @@ fn a_translational_joint_is_found_by_model_1() {
         part.points_joint = part.points_joint.columns(0, 1).into_owned();
     }
     let lines = pair.lines(&joint, 0.0, 1);
-    let found = identify_lines(&lines, JointModel::Translation, None, &Bands::default()).unwrap();
+    let found = identified(&lines, JointModel::Translation, None).unwrap();
     assert!((found.joint().stiffness[(0, 0)] / 1e5 - 1.0).abs() < 1e-8);
     assert!((found.joint().damping[(0, 0)] / 5.0 - 1.0).abs() < 1e-7);
 }
@@ -79,10 +94,14 @@ fn trial(seeds: u64) -> Trial {
         ytheta: Vec::new(),
         thetatheta: vec![[60.0, 180.0]],
     };
-    let noise = Some(NoiseLevel {
-        relative: 0.01,
-        floor: 0.0,
-    });
+    let options = Options {
+        noise: Noise::stated(NoiseLevel {
+            relative: 0.01,
+            floor: 0.0,
+        }),
+        bands,
+        ..Options::default()
+    };
     let relative = |found: [f64; 4]| std::array::from_fn(|i| found[i] / truth[i] - 1.0);
     let mut trial = Trial {
         estimate: Vec::new(),
@@ -91,12 +110,13 @@ fn trial(seeds: u64) -> Trial {
     };
     for seed in 0..seeds {
         let lines = pair.lines(&joint_4_2_2(), 0.01, seed);
-        let found = identify_lines(&lines, JointModel::Diagonal, noise, &bands).unwrap();
+        let found =
+            identify_lines(std::slice::from_ref(&lines), JointModel::Diagonal, &options).unwrap();
         trial.estimate.push(relative(diagonal(found.joint())));
         trial
             .average
             .push(relative(diagonal(found.band_average().unwrap())));
-        let deviation = diagonal(found.standard_deviation());
+        let deviation = diagonal(&found.standard_deviation(JointModel::Diagonal));
         trial
             .deviation
             .push(std::array::from_fn(|i| deviation[i] / truth[i]));
@@ -142,7 +162,7 @@ fn one_per_cent_noise_leaves_the_estimate_near_the_bound() {
 #[test]
 fn a_coupling_of_zero_is_a_result_and_not_a_doubt() {
     let lines = beams_4_2_2(axis(500.0, 1.0), &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1);
-    let found = identify_lines(&lines, JointModel::Full, None, &Bands::default()).unwrap();
+    let found = identified(&lines, JointModel::Full, None).unwrap();
     assert_eq!(found.warnings(), [""; 0]);
     // √(k_Fy k_Mθ) = 1e4 N is the largest coupling of a passive joint.
     assert!(found.joint().stiffness[(0, 1)].abs() < 1e-12 * 1e4);
@@ -155,12 +175,11 @@ fn as_many_numbers_as_unknowns_do_not_tell_the_noise() {
     // Three lines of one point: six real numbers for the six unknowns of the full model.
     let pair = beams_4_2_2(vec![117.0, 220.0, 300.0], &[], &THREE_POINTS[2..]);
     let lines = pair.lines(&joint_4_2_2(), 0.01, 1);
-    let identified =
-        |noise| identify_lines(&lines, JointModel::Full, noise, &Bands::default()).unwrap();
+    let identified = |noise| self::identified(&lines, JointModel::Full, noise).unwrap();
     let unknown = identified(None);
     assert!(
         unknown
-            .standard_deviation()
+            .standard_deviation(JointModel::Full)
             .stiffness
             .iter()
             .all(|value| *value == f64::INFINITY)
@@ -177,7 +196,7 @@ fn as_many_numbers_as_unknowns_do_not_tell_the_noise() {
     }));
     let exact = joint_4_2_2().stiffness;
     for (i, j) in [(0, 0), (0, 1), (1, 1)] {
-        let deviation = stated.standard_deviation().stiffness[(i, j)];
+        let deviation = stated.standard_deviation(JointModel::Full).stiffness[(i, j)];
         let error = stated.joint().stiffness[(i, j)] - exact[(i, j)];
         assert!(
             deviation > 0.0 && (error / deviation).abs() < 4.0,
@@ -195,7 +214,7 @@ fn structures_that_are_not_joined_have_a_joint_without_stiffness() {
     let pair = beams_4_2_2(axis(500.0, 1.0), &[], &THREE_POINTS);
     let identified = |noise, seed| {
         let lines = pair.lines(&apart, noise, seed);
-        identify_lines(&lines, JointModel::Full, None, &Bands::default()).unwrap()
+        self::identified(&lines, JointModel::Full, None).unwrap()
     };
     // N/m and N·m/rad, against about 10⁴ N/m and 10² N·m/rad of the beams themselves.
     let exact = identified(0.0, 1);
@@ -220,7 +239,7 @@ fn structures_that_are_not_joined_have_a_joint_without_stiffness() {
 fn no_line_is_an_error_and_no_panic() {
     let mut lines = beams_4_2_2(vec![117.0], &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1);
     lines.measured.clear();
-    assert!(identify_lines(&lines, JointModel::Full, None, &Bands::default()).is_err());
+    assert!(identified(&lines, JointModel::Full, None).is_err());
     let lines = Lines {
         frequency_hz: Vec::new(),
         a_joint: Vec::new(),
@@ -228,5 +247,5 @@ fn no_line_is_an_error_and_no_panic() {
         assembly: Vec::new(),
         ..beams_4_2_2(vec![117.0], &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1)
     };
-    assert!(identify_lines(&lines, JointModel::Full, None, &Bands::default()).is_err());
+    assert!(identified(&lines, JointModel::Full, None).is_err());
 }

@@ -1,7 +1,7 @@
 //! Broken files: every fault is named with its line; and harmless differences are no faults.
 
 use bolted_joint::frf::{
-    FrfError, UffOptions, UffProblem, UnitSystem, read_uff58, read_uff58_from,
+    FrfError, ReadOptions, UffProblem, UnitSystem, read_uff58, read_uff58_from,
 };
 use num_complex::Complex64;
 use proptest::prelude::*;
@@ -79,7 +79,7 @@ fn what_is_no_universal_file_is_said_to_be_none() {
         problem_of(random),
         (1, UffProblem::LineTooLong { .. })
     ));
-    let error = read_uff58("no/such.uff", &UffOptions::default()).unwrap_err();
+    let error = read_uff58("no/such.uff", &ReadOptions::default()).unwrap_err();
     assert!(matches!(&error, FrfError::Read { .. }) && error.to_string().contains("no/such.uff"));
 }
 
@@ -257,9 +257,9 @@ fn units_hold_for_the_whole_file_and_may_stand_after_the_functions() {
         (3, UffProblem::UnitsCode { code: 1, .. })
     ));
     let inches = UnitSystem::new(1.0 / 0.0254, 1.0).ok();
-    let stated = UffOptions {
-        quantity: None,
+    let stated = ReadOptions {
         units: inches,
+        ..ReadOptions::default()
     };
     let reading = read_uff58_from(good.as_bytes(), "memory.uff", &stated).unwrap();
     assert!((reading.functions()[0].receptance()[0].re - 0.0254).abs() < 1e-16);

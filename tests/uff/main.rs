@@ -5,6 +5,7 @@
     reason = "helpers of tests fail as the tests do"
 )]
 
+mod binary;
 mod broken;
 mod foreign;
 mod written;
@@ -13,7 +14,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use bolted_joint::frf::{
-    Dof, FrfError, UffOptions, UffProblem, UffReading, read_uff58, read_uff58_from,
+    Dof, FrfError, FrfReading, ReadOptions, UffProblem, read_uff58, read_uff58_from,
 };
 use num_complex::Complex64;
 
@@ -21,12 +22,12 @@ fn dof(text: &str) -> Dof {
     text.parse().unwrap()
 }
 
-fn read(path: &Path) -> UffReading {
-    read_uff58(path, &UffOptions::default()).unwrap()
+fn read(path: &Path) -> FrfReading {
+    read_uff58(path, &ReadOptions::default()).unwrap()
 }
 
-fn read_text(text: impl AsRef<[u8]>) -> Result<UffReading, FrfError> {
-    read_uff58_from(text.as_ref(), "memory.uff", &UffOptions::default())
+fn read_text(text: impl AsRef<[u8]>) -> Result<FrfReading, FrfError> {
+    read_uff58_from(text.as_ref(), "memory.uff", &ReadOptions::default())
 }
 
 /// The line and the problem of a text that is not usable.

@@ -11,6 +11,9 @@ pub(super) const RECORDS: usize = 11;
 /// Function type of a frequency response function.
 pub(super) const FREQUENCY_RESPONSE: i64 = 4;
 
+/// Function type of an ordinary coherence.
+pub(super) const COHERENCE: i64 = 6;
+
 /// The standard's names of the function types, by their code.
 const FUNCTION_TYPES: [&str; 28] = [
     "general function",

@@ -1,27 +1,38 @@
-//! Lines of a universal file as bytes with their numbers, so that junk is met early and binary data sets can be added.
+//! A universal file as lines with their numbers, and as bytes where a data set is binary.
 
 use std::borrow::Cow;
-use std::io::{BufRead, Read};
+use std::io::{BufRead, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::UffProblem;
+use super::ahead::Ahead;
 use crate::frf::FrfError;
 
 /// The longest line that is still taken for text, bytes.
 const LONGEST_LINE: usize = 65_536;
 
+/// Width of the standard's records: writers fill the closing `-1` with blanks up to it.
+const RECORD_WIDTH: usize = 80;
+/// What ends a binary data set, straight after its values.
+const DELIMITER: &[u8] = b"    -1";
+/// Bytes of binary values that are read at a time.
+const PIECE: u64 = 1 << 16;
+
 /// The lines of one file, one at a time.
 pub(super) struct Lines<R> {
-    reader: R,
+    reader: Ahead<R>,
     path: PathBuf,
     number: usize,
+    /// Bytes that are left, where that is known.
+    remaining: Option<u64>,
     line: Vec<u8>,
 }
 
 impl<R: BufRead> Lines<R> {
-    pub(super) fn new(reader: R, path: &Path) -> Self {
+    pub(super) fn new(reader: R, path: &Path, length: Option<u64>) -> Self {
         Self {
-            reader,
+            remaining: length,
+            reader: Ahead::new(reader),
             path: path.to_owned(),
             number: 0,
             line: Vec::new(),
@@ -40,6 +51,7 @@ impl<R: BufRead> Lines<R> {
                 path: self.path.clone(),
                 source,
             })?;
+        self.took(read as u64);
         if self.line.len() > LONGEST_LINE {
             return Err(self.problem(UffProblem::LineTooLong {
                 limit: LONGEST_LINE,
@@ -52,6 +64,83 @@ impl<R: BufRead> Lines<R> {
             self.line.pop();
         }
         Ok(read > 0)
+    }
+
+    fn took(&mut self, bytes: u64) {
+        self.remaining = self.remaining.map(|left| left.saturating_sub(bytes));
+    }
+
+    fn failed(&self, source: std::io::Error) -> FrfError {
+        FrfError::Read {
+            path: self.path.clone(),
+            source,
+        }
+    }
+
+    /// Whether the file is known to hold fewer than so many bytes more.
+    pub(super) fn ends_within(&self, bytes: u64) -> bool {
+        self.remaining.is_some_and(|left| left < bytes)
+    }
+
+    /// Takes `count` bytes that follow the current line, into `kept` if it is there; fewer at the end of the file.
+    ///
+    /// Line feeds among them count as ends of lines, as they do in an editor.
+    pub(super) fn take_bytes(
+        &mut self,
+        count: u64,
+        mut kept: Option<&mut Vec<u8>>,
+    ) -> Result<u64, FrfError> {
+        let mut taken = 0;
+        while taken < count {
+            let wanted = usize::try_from((count - taken).min(PIECE)).unwrap_or(0);
+            let piece = match self.reader.fill_buf() {
+                Ok(piece) => &piece[..piece.len().min(wanted)],
+                Err(source) if source.kind() == ErrorKind::Interrupted => continue,
+                Err(source) => return Err(self.failed(source)),
+            };
+            if piece.is_empty() {
+                break;
+            }
+            self.number += piece.iter().filter(|byte| **byte == b'\n').count();
+            if let Some(kept) = &mut kept {
+                kept.extend_from_slice(piece);
+            }
+            let length = piece.len();
+            self.reader.consume(length);
+            self.took(length as u64);
+            taken += length as u64;
+        }
+        Ok(taken)
+    }
+
+    /// Whether a closing `-1` follows straight away, or on a line of its own, as some writers have it.
+    pub(super) fn delimiter_follows(&mut self) -> Result<bool, FrfError> {
+        let next = match self.reader.peek(RECORD_WIDTH + 2) {
+            Ok(next) => next,
+            Err(source) => return Err(self.failed(source)),
+        };
+        let next = next.strip_prefix(b"\r").unwrap_or(next);
+        let next = next.strip_prefix(b"\n").unwrap_or(next);
+        Ok(next
+            .get(..RECORD_WIDTH.min(next.len()))
+            .and_then(|line| line.strip_prefix(DELIMITER))
+            .is_some_and(|rest| {
+                rest.iter()
+                    .take_while(|byte| !matches!(byte, b'\n' | b'\r'))
+                    .all(|byte| *byte == b' ')
+            }))
+    }
+
+    /// Passes over bytes up to a closing `-1`, which stays; `false` if there is none up to the end of the file.
+    pub(super) fn skip_to_delimiter(&mut self) -> Result<bool, FrfError> {
+        loop {
+            if self.delimiter_follows()? {
+                return Ok(true);
+            }
+            if self.take_bytes(1, None)? == 0 {
+                return Ok(false);
+            }
+        }
     }
 
     /// The current line without its end: UTF-8 where it is valid, Latin-1 where it is not.
@@ -100,7 +189,7 @@ mod tests {
     use super::*;
 
     fn lines(bytes: &[u8]) -> Lines<&[u8]> {
-        Lines::new(bytes, Path::new("memory.uff"))
+        Lines::new(bytes, Path::new("memory.uff"), None)
     }
 
     #[test]
@@ -143,6 +232,7 @@ mod tests {
         let mut lines = Lines::new(
             std::io::BufReader::new(std::io::repeat(b'x')),
             Path::new("endless"),
+            None,
         );
         assert!(matches!(
             lines.advance().unwrap_err(),

@@ -1,10 +1,10 @@
 //! What the numbers of a function mean: data types, labels and units put together, and refused where they disagree.
 
+use super::UffProblem;
 use super::header::{Axis, Header, InRecord};
 use super::scale::{UnitLabels, decide_scale};
 use super::units::UnitSystem;
-use super::{UffOptions, UffProblem};
-use crate::frf::Quantity;
+use crate::frf::{Quantity, ReadOptions};
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,7 +87,7 @@ struct Statement {
 pub(super) fn decide(
     header: &Header,
     dataset_164: Option<UnitSystem>,
-    options: &UffOptions,
+    options: &ReadOptions,
 ) -> Result<Meaning, InRecord> {
     check_abscissa(&header.abscissa)?;
     let labels = UnitLabels::read(header)?;
@@ -100,7 +100,7 @@ pub(super) fn decide(
     })
 }
 
-fn check_abscissa(axis: &Axis) -> Result<(), InRecord> {
+pub(super) fn check_abscissa(axis: &Axis) -> Result<(), InRecord> {
     let other_unit = [
         "rad/s", "rad/sec", "1/min", "rpm", "cpm", "khz", "s", "sec", "ms",
     ]
@@ -116,7 +116,7 @@ fn check_abscissa(axis: &Axis) -> Result<(), InRecord> {
 fn decide_quantity(
     header: &Header,
     labels: &UnitLabels,
-    options: &UffOptions,
+    options: &ReadOptions,
 ) -> Result<Quantity, InRecord> {
     let (numerator, denominator) = (header.numerator.data_type, header.denominator.data_type);
     let by_type = match (kind(numerator), kind(denominator)) {
@@ -227,6 +227,7 @@ fn quantity_of_axis_label(label: &str) -> Result<Option<Statement>, InRecord> {
 pub(super) mod examples {
     use super::super::header::Layout;
     use super::*;
+    use crate::frf::Selection;
 
     pub(in crate::frf::uff) fn axis(data_type: i64, label: &str, units_label: &str) -> Axis {
         Axis {
@@ -254,9 +255,11 @@ pub(super) mod examples {
         }
     }
 
-    pub(in crate::frf::uff) const NO_OPTIONS: UffOptions = UffOptions {
+    pub(in crate::frf::uff) const NO_OPTIONS: ReadOptions = ReadOptions {
         quantity: None,
         units: None,
+        averages: None,
+        selection: Selection::ALL,
     };
 
     pub(in crate::frf::uff) fn decided(
@@ -358,9 +361,9 @@ mod tests {
                 other => panic!("{other}"),
             };
             assert_eq!((record, found), (9, (first, second)));
-            let stated = UffOptions {
+            let stated = ReadOptions {
                 quantity: Some(Quantity::Mobility),
-                units: None,
+                ..ReadOptions::default()
             };
             assert_eq!(
                 decide(&header, None, &stated).unwrap().quantity,

@@ -1,8 +1,10 @@
 //! Universal files, data set 58: the format in which every modal analysis system can export its functions.
 //!
-//! Read are ASCII data sets 58 of function type 4 (frequency response function), with data set 164 for the units.
-//! Whatever else the file holds is skipped and counted.
+//! Read are data sets 58, ASCII and binary, of function types 4 (frequency response function) and 6 (ordinary coherence), with
+//! data set 164 for the units. Whatever else the file holds is skipped and counted.
 
+mod ahead;
+mod binary;
 mod fields;
 mod header;
 mod lines;
@@ -11,12 +13,13 @@ mod numbers;
 mod problem;
 mod read;
 mod scale;
-mod unit_label;
 mod units;
 mod values;
 mod write;
 
+pub use binary::ByteOrder;
 pub use problem::UffProblem;
-pub use read::{SkippedFunction, UffOptions, UffReading, read_uff58, read_uff58_from};
+pub use read::{read_uff58, read_uff58_from};
+pub(in crate::frf) use units::{KGF, LBF};
 pub use units::{UnitFactorError, UnitSystem};
-pub use write::{write_uff58, write_uff58_to};
+pub use write::{write_uff58, write_uff58_to, write_uff58b, write_uff58b_to};

@@ -55,11 +55,22 @@ pub enum UffProblem {
         /// The line of its opening `-1`.
         begun_at: usize,
     },
-    /// A binary data set.
+    /// A binary data set that does not end where its header says.
     #[error(
-        "found binary dataset 58b, which is not read yet, expected dataset 58; export as ASCII"
+        "binary data set 58b: found no \"    -1\" after {} bytes of values, expected it there by the {lines} lines of its \
+         record 7{}; the file is cut short, or was changed by a transfer in text mode, or the count in record 7 is wrong: \
+         copy it again in binary mode, or export as ASCII",
+        either(expected),
+        stated.map_or_else(String::new, |bytes| format!(" (its first line says {bytes} bytes)"))
     )]
-    BinaryDataset58,
+    BinaryLength {
+        /// Lines by record 7.
+        lines: usize,
+        /// Bytes that so many lines take, for every way to store them.
+        expected: Vec<u64>,
+        /// Bytes by the first line.
+        stated: Option<u64>,
+    },
     /// The data set ends within its header.
     #[error(
         "data set {dataset} that begins at line {begun_at} ends after {found} records, expected {expected} before its values; \
@@ -76,9 +87,9 @@ pub enum UffProblem {
         expected: usize,
     },
     /// A field of the header that cannot be read.
-    #[error("record {record}: found \"{found}\" as {field}, expected {expected}")]
+    #[error("{}found \"{found}\" as {field}, expected {expected}", in_record(*record))]
     Field {
-        /// The record's number in the standard.
+        /// The record's number in the standard; 0 for the line of the data set's number.
         record: usize,
         /// What the field is.
         field: &'static str,
@@ -189,7 +200,8 @@ pub enum UffProblem {
     /// Two statements about units.
     #[error(
         "found {first_statement}, by which one unit of the file is {first_factor} SI units, and {second_statement}, \
-         by which it is {second_factor}; expected one unit. Find out which is right and correct the other in the file"
+         by which it is {second_factor}; expected one unit. Find out which is right and state the units in the study, \
+         such as units = {{ length = \"mm\", force = \"N\" }} beside frf"
     )]
     ContradictingUnits {
         /// Where the first statement stands and how it reads.
@@ -204,7 +216,8 @@ pub enum UffProblem {
     /// A unit that does not fit the degrees of freedom.
     #[error(
         "found {statement}, which does not fit a response along {response} and a reference along {reference}; \
-         expected the unit of that ratio. Correct the directions or the unit in the file"
+         expected the unit of that ratio. Correct the directions or the unit in the file, or state the units in the study, \
+         such as units = {{ length = \"mm\", force = \"N\" }} beside frf"
     )]
     UnitNotOfDirections {
         /// Where the unit stands and how it reads.
@@ -245,4 +258,18 @@ pub enum UffProblem {
     /// The function is not usable as it is.
     #[error("{0}")]
     Function(#[source] Box<FrfError>),
+}
+
+/// Where a field stands.
+fn in_record(record: usize) -> String {
+    match record {
+        0 => String::new(),
+        _ => format!("record {record}: "),
+    }
+}
+
+/// Numbers, with "or" between them.
+fn either(numbers: &[u64]) -> String {
+    let shown: Vec<String> = numbers.iter().map(u64::to_string).collect();
+    shown.join(" or ")
 }

@@ -1,98 +1,22 @@
 //! The data sets of a universal file from first to last.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use num_complex::Complex64;
-
+use super::binary::Form;
 use super::header::{
-    FREQUENCY_RESPONSE, Header, InRecord, RECORDS, function_type, function_type_name,
+    COHERENCE, FREQUENCY_RESPONSE, Header, InRecord, RECORDS, function_type, function_type_name,
 };
 use super::lines::Lines;
-use super::meaning::{Meaning, decide};
-use super::{UffProblem, UnitSystem, values};
-use crate::frf::{Frf, FrfError, FrfSet, Quantity};
-
-/// How much of a line an error message shows.
-const SHOWN_CHARACTERS: usize = 40;
-
-/// What the caller knows better than the file.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct UffOptions {
-    /// Takes the place of data types and labels: needed where they contradict each other or say nothing.
-    pub quantity: Option<Quantity>,
-    /// Takes the place of data set 164 and unit labels: needed where they contradict each other or are wrong.
-    pub units: Option<UnitSystem>,
-}
-
-/// A data set 58 that is no frequency response function and was passed over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SkippedFunction {
-    line: usize,
-    kind: &'static str,
-}
-
-impl SkippedFunction {
-    /// The line at which its data set begins.
-    #[must_use]
-    pub fn line(self) -> usize {
-        self.line
-    }
-
-    /// The standard's name of its function type, such as "coherence".
-    #[must_use]
-    pub fn kind(self) -> &'static str {
-        self.kind
-    }
-}
-
-/// What was read from a universal file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UffReading {
-    path: PathBuf,
-    functions: Vec<Frf>,
-    skipped_functions: Vec<SkippedFunction>,
-    skipped_datasets: usize,
-    units_stated: bool,
-}
-
-impl UffReading {
-    /// The functions in the file's order, as receptances in SI units.
-    #[must_use]
-    pub fn functions(&self) -> &[Frf] {
-        &self.functions
-    }
-
-    /// Data sets 58 that hold something else than a frequency response function.
-    #[must_use]
-    pub fn skipped_functions(&self) -> &[SkippedFunction] {
-        &self.skipped_functions
-    }
-
-    /// The number of data sets that are neither functions (58) nor units (164).
-    #[must_use]
-    pub fn skipped_datasets(&self) -> usize {
-        self.skipped_datasets
-    }
-
-    /// Whether the file (or the caller) states the units of every function; where it does not, SI was assumed.
-    #[must_use]
-    pub fn units_are_stated(&self) -> bool {
-        self.units_stated
-    }
-
-    /// The functions as one set.
-    ///
-    /// # Errors
-    /// [`FrfError::InFile`] around what [`FrfSet::new`] refuses.
-    pub fn into_set(self) -> Result<FrfSet, FrfError> {
-        FrfSet::new(self.functions).map_err(|source| FrfError::InFile {
-            path: self.path,
-            source: Box::new(source),
-        })
-    }
-}
+use super::meaning::{check_abscissa, decide};
+use super::{UffProblem, UnitSystem, binary, values};
+use crate::frf::gathered::Gathered;
+use crate::frf::shown;
+use crate::frf::{
+    Coherence, Dof, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
+};
 
 /// Reads the frequency response functions of a universal file.
 ///
@@ -100,16 +24,22 @@ impl UffReading {
 /// data types of records 9 and 10; unit and axis labels must agree with them, or decide where the types are unknown.
 /// Units follow from data set 164 and from unit labels, which must agree; with neither, values are taken as SI.
 /// Lines at 0 Hz of mobilities and accelerances are left out. Real ordinates are taken as real receptances and so on.
+/// Ordinary coherences are read too. Functions that are not selected are passed over without a look at their values.
 ///
 /// # Errors
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Uff`] with line and cause if it cannot be used.
-pub fn read_uff58(path: impl AsRef<Path>, options: &UffOptions) -> Result<UffReading, FrfError> {
+pub fn read_uff58(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
     let file = File::open(path).map_err(|source| FrfError::Read {
         path: path.to_owned(),
         source,
     })?;
-    read_uff58_from(BufReader::new(file), path, options)
+    let length = file
+        .metadata()
+        .ok()
+        .filter(|m| m.is_file())
+        .map(|m| m.len());
+    read(BufReader::new(file), path, length, options)
 }
 
 /// As [`read_uff58`], from any reader; `name` stands for the path in messages.
@@ -119,11 +49,23 @@ pub fn read_uff58(path: impl AsRef<Path>, options: &UffOptions) -> Result<UffRea
 pub fn read_uff58_from(
     reader: impl BufRead,
     name: impl AsRef<Path>,
-    options: &UffOptions,
-) -> Result<UffReading, FrfError> {
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    read(reader, name.as_ref(), None, options)
+}
+
+fn read(
+    reader: impl BufRead,
+    name: &Path,
+    length: Option<u64>,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
     let mut scan = Scan {
-        lines: Lines::new(reader, name.as_ref()),
+        lines: Lines::new(reader, name, length),
+        selection: &options.selection,
         pending: Vec::new(),
+        coherences: Vec::new(),
+        not_selected: BTreeSet::new(),
         units: None,
         skipped_functions: Vec::new(),
         skipped_datasets: 0,
@@ -136,20 +78,22 @@ pub fn read_uff58_from(
 struct Pending {
     begun_at: usize,
     header: Header,
-    frequency_hz: Vec<f64>,
-    values: Vec<Complex64>,
+    lines: Gathered,
 }
 
-struct Scan<R> {
+struct Scan<'options, R> {
     lines: Lines<R>,
+    selection: &'options Selection,
     pending: Vec<Pending>,
+    coherences: Vec<Coherence>,
+    not_selected: BTreeSet<(Dof, Dof)>,
     /// Units of the first data set 164 and the line at which it begins.
     units: Option<(usize, UnitSystem)>,
     skipped_functions: Vec<SkippedFunction>,
     skipped_datasets: usize,
 }
 
-impl<R: BufRead> Scan<R> {
+impl<R: BufRead> Scan<'_, R> {
     /// Reads or skips one data set; `false` at the end of the file.
     fn dataset(&mut self) -> Result<bool, FrfError> {
         loop {
@@ -178,10 +122,19 @@ impl<R: BufRead> Scan<R> {
             .unwrap_or_default()
             .to_lowercase();
         match number.as_str() {
-            "58" => self.function(begun_at)?,
-            // The byte order, the format and the byte count of the values follow on this line.
-            "58b" => return Err(self.lines.problem(UffProblem::BinaryDataset58)),
+            "58" => self.function(None, begun_at)?,
+            "58b" => {
+                let form = Form::from_line(&text).map_err(|problem| self.lines.problem(problem))?;
+                self.function(Some(form), begun_at)?;
+            }
             "164" => self.units(begun_at)?,
+            _ if is_binary(&number) => {
+                if !self.lines.skip_to_delimiter()? {
+                    return Err(self.ends_inside(&number, begun_at));
+                }
+                self.skip_rest(&number, begun_at)?;
+                self.skipped_datasets += 1;
+            }
             _ if number.starts_with(|c: char| c.is_ascii_digit()) => {
                 self.skip_rest(&number, begun_at)?;
                 self.skipped_datasets += 1;
@@ -196,6 +149,8 @@ impl<R: BufRead> Scan<R> {
 
     fn nothing_yet(&self) -> bool {
         self.pending.is_empty()
+            && self.coherences.is_empty()
+            && self.not_selected.is_empty()
             && self.units.is_none()
             && self.skipped_functions.is_empty()
             && self.skipped_datasets == 0
@@ -219,7 +174,59 @@ impl<R: BufRead> Scan<R> {
         }
     }
 
-    fn function(&mut self, begun_at: usize) -> Result<(), FrfError> {
+    fn function(&mut self, form: Option<Form>, begun_at: usize) -> Result<(), FrfError> {
+        let records = self.records(begun_at)?;
+        for _ in RECORDS..form.map_or(RECORDS, |form| form.text_lines) {
+            self.lines.advance()?;
+        }
+        let in_header = |lines: &Lines<R>, problem| in_header(lines, begun_at, problem);
+        let kind = function_type(&records).map_err(|problem| in_header(&self.lines, problem))?;
+        let skipped = |line| SkippedFunction {
+            line,
+            kind: function_type_name(kind),
+        };
+        let header = match Header::from_records(&records) {
+            Ok(header) => header,
+            // What is passed over need not be understood, unless it takes that to know where it ends.
+            Err(_) if kind != FREQUENCY_RESPONSE && form.is_none() => {
+                self.skip_rest("58", begun_at)?;
+                self.skipped_functions.push(skipped(begun_at));
+                return Ok(());
+            }
+            Err(problem) => return Err(in_header(&self.lines, problem)),
+        };
+        let (response, reference) = (header.response, header.reference);
+        let is_read = matches!(kind, FREQUENCY_RESPONSE | COHERENCE);
+        let selection = Some(self.selection).filter(|s| is_read && s.wants(response, reference));
+        let gathered = match (form, selection) {
+            (Some(form), selection) => {
+                binary::read(&mut self.lines, header.layout, form, begun_at, selection)?
+            }
+            (None, Some(selection)) => {
+                values::read(&mut self.lines, header.layout, begun_at, selection)?
+            }
+            (None, None) => {
+                self.skip_rest("58", begun_at)?;
+                Gathered::default()
+            }
+        };
+        match (kind, selection) {
+            (FREQUENCY_RESPONSE, Some(_)) => self.pending.push(Pending {
+                begun_at,
+                header,
+                lines: gathered,
+            }),
+            (FREQUENCY_RESPONSE, None) => {
+                self.not_selected.insert((response, reference));
+            }
+            (COHERENCE, Some(_)) => self.coherence(&header, gathered, begun_at)?,
+            (COHERENCE, None) => {}
+            _ => self.skipped_functions.push(skipped(begun_at)),
+        }
+        Ok(())
+    }
+
+    fn records(&mut self, begun_at: usize) -> Result<[String; RECORDS], FrfError> {
         let mut records: [String; RECORDS] = Default::default();
         for (index, record) in records.iter_mut().enumerate() {
             if !self.lines.advance()? {
@@ -235,25 +242,28 @@ impl<R: BufRead> Scan<R> {
             }
             *record = self.lines.text().into_owned();
         }
-        let kind =
-            function_type(&records).map_err(|problem| in_header(&self.lines, begun_at, problem))?;
-        if kind != FREQUENCY_RESPONSE {
-            self.skip_rest("58", begun_at)?;
-            self.skipped_functions.push(SkippedFunction {
-                line: begun_at,
-                kind: function_type_name(kind),
-            });
-            return Ok(());
-        }
-        let header = Header::from_records(&records)
+        Ok(records)
+    }
+
+    fn coherence(
+        &mut self,
+        header: &Header,
+        lines: Gathered,
+        begun_at: usize,
+    ) -> Result<(), FrfError> {
+        check_abscissa(&header.abscissa)
             .map_err(|problem| in_header(&self.lines, begun_at, problem))?;
-        let (frequency_hz, values) = values::read(&mut self.lines, header.layout, begun_at)?;
-        self.pending.push(Pending {
-            begun_at,
-            header,
-            frequency_hz,
-            values,
-        });
+        let gamma_squared = lines.values.iter().map(|value| value.re).collect();
+        let coherence = Coherence::new(
+            header.response,
+            header.reference,
+            lines.frequency_hz,
+            gamma_squared,
+        );
+        self.coherences.push(coherence.map_err(|source| {
+            self.lines
+                .problem_at(begun_at, UffProblem::Function(Box::new(source)))
+        })?);
         Ok(())
     }
 
@@ -291,7 +301,7 @@ impl<R: BufRead> Scan<R> {
         Ok(())
     }
 
-    fn finish(self, options: &UffOptions) -> Result<UffReading, FrfError> {
+    fn finish(self, options: &ReadOptions) -> Result<FrfReading, FrfError> {
         if self.nothing_yet() {
             return Err(self.lines.problem_at(1, UffProblem::Empty));
         }
@@ -303,14 +313,30 @@ impl<R: BufRead> Scan<R> {
             let meaning = decide(&function.header, units, options)
                 .map_err(|problem| in_header(&self.lines, begun_at, problem))?;
             units_stated &= meaning.units_stated;
-            functions.push(function.into_frf(meaning).map_err(|source| {
-                self.lines
-                    .problem_at(begun_at, UffProblem::Function(Box::new(source)))
+            let pair = (function.header.response, function.header.reference);
+            let frf: Result<Frf, FrfError> =
+                function
+                    .lines
+                    .into_frf(pair, meaning.quantity, meaning.to_si, self.selection);
+            functions.push(frf.map_err(|source| {
+                match source {
+                    // No fault of the function: the file has other lines than those that are asked for.
+                    source @ FrfError::EmptyBand { .. } => FrfError::InFile {
+                        path: self.lines.path().to_owned(),
+                        source: Box::new(source),
+                    },
+                    source => self
+                        .lines
+                        .problem_at(begun_at, UffProblem::Function(Box::new(source))),
+                }
             })?);
         }
-        Ok(UffReading {
+        Ok(FrfReading {
             path: self.lines.path().to_owned(),
             functions,
+            coherences: self.coherences,
+            averages: options.averages,
+            not_selected: self.not_selected,
             skipped_functions: self.skipped_functions,
             skipped_datasets: self.skipped_datasets,
             units_stated,
@@ -318,21 +344,11 @@ impl<R: BufRead> Scan<R> {
     }
 }
 
-impl Pending {
-    fn into_frf(self, meaning: Meaning) -> Result<Frf, FrfError> {
-        let values = self
-            .values
-            .into_iter()
-            .map(|value| value * meaning.to_si)
-            .collect();
-        Frf::from_measured(
-            self.header.response,
-            self.header.reference,
-            meaning.quantity,
-            self.frequency_hz,
-            values,
-        )
-    }
+/// Whether a data set's number is that of a binary one, such as `2414b`.
+fn is_binary(number: &str) -> bool {
+    number.strip_suffix('b').is_some_and(|digits| {
+        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+    })
 }
 
 /// An error in a header record, at that record's line: record 1 is two lines below the opening `-1`.
@@ -342,18 +358,4 @@ fn in_header<R: BufRead>(
     (record, problem): InRecord,
 ) -> FrfError {
     lines.problem_at(begun_at + 1 + record, problem)
-}
-
-/// The beginning of a line, fit for a message.
-fn shown(text: &str) -> String {
-    let mut shown: String = text
-        .trim()
-        .chars()
-        .take(SHOWN_CHARACTERS)
-        .flat_map(char::escape_debug)
-        .collect();
-    if text.trim().chars().count() > SHOWN_CHARACTERS {
-        shown.push('…');
-    }
-    shown
 }

@@ -1,11 +1,11 @@
 //! From the units of a file to SI: data set 164, unit labels and the caller's word, refused where they disagree.
 
+use super::UffProblem;
 use super::header::{Axis, Header, InRecord};
 use super::meaning::{inverse_name, is_load};
-use super::unit_label::Unit;
 use super::units::{UnitSystem, agree};
-use super::{UffOptions, UffProblem};
-use crate::frf::Direction;
+use crate::frf::unit_label::Unit;
+use crate::frf::{Direction, ReadOptions};
 
 /// The unit labels of records 9 and 10, as far as they can be read.
 pub(super) struct UnitLabels {
@@ -59,7 +59,7 @@ pub(super) fn decide_scale(
     header: &Header,
     labels: &UnitLabels,
     dataset_164: Option<UnitSystem>,
-    options: &UffOptions,
+    options: &ReadOptions,
 ) -> Result<(f64, bool), InRecord> {
     // Motion is a length or an angle; the load is a force or a moment (Addendum A of the standard).
     let motion = exponents(
@@ -184,9 +184,10 @@ mod tests {
                 "{problem}"
             );
         }
-        let stated = UffOptions {
+        let stated = ReadOptions {
             quantity: None,
             units: Some(UnitSystem::SI),
+            ..ReadOptions::default()
         };
         let meaning = decide(
             &header(axis(12, "", "g"), force()),

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::numbers::parse_line;
 use super::{UffProblem, fields};
+use crate::frf::unit_label::Unit;
 
 /// Two statements of a factor agree within this share; labels and factors are often rounded.
 pub(super) const FACTOR_TOLERANCE: f64 = 1e-3;
@@ -54,9 +55,9 @@ const BY_CODE: [(i64, &str, UnitSystem); 8] = [
 ];
 
 /// Pound-force, N (exact: 0.45359237 kg · 9.80665 m/s²).
-pub(super) const LBF: f64 = 4.448_221_615_260_5;
+pub(in crate::frf) const LBF: f64 = 4.448_221_615_260_5;
 /// Kilogram-force, N (exact).
-pub(super) const KGF: f64 = 9.806_65;
+pub(in crate::frf) const KGF: f64 = 9.806_65;
 /// Poundal, N (exact: 0.45359237 kg · 0.3048 m/s²).
 const POUNDAL: f64 = 0.138_254_954_376;
 
@@ -84,6 +85,15 @@ impl UnitSystem {
         Ok(Self::of(length_per_metre, force_per_newton))
     }
 
+    /// The units with these names, such as `mm` and `N`, or `in` and `lbf`; `None` if either is no unit of its kind.
+    #[must_use]
+    pub fn named(length: &str, force: &str) -> Option<Self> {
+        let length =
+            Unit::from_label(length).filter(|u| (u.length, u.force, u.time) == (1, 0, 0))?;
+        let force = Unit::from_label(force).filter(|u| (u.length, u.force, u.time) == (0, 1, 0))?;
+        Self::new(1.0 / length.to_si, 1.0 / force.to_si).ok()
+    }
+
     /// How many lengths of the file make one metre.
     #[must_use]
     pub fn length_per_metre(self) -> f64 {
@@ -97,7 +107,7 @@ impl UnitSystem {
     }
 
     /// SI units in one file unit of lengthᵃ·forceᵇ.
-    pub(super) fn to_si(self, length_exponent: i32, force_exponent: i32) -> f64 {
+    pub(in crate::frf) fn to_si(self, length_exponent: i32, force_exponent: i32) -> f64 {
         // SI = file / (Lᵃ Fᵇ)
         self.length_per_metre.powi(-length_exponent) * self.force_per_newton.powi(-force_exponent)
     }
@@ -206,6 +216,30 @@ mod tests {
                 .unwrap();
         assert_eq!(units, UnitSystem::new(1e3, 1.0).unwrap());
         assert_eq!(units.to_si(1, -1), 1e-3);
+    }
+
+    #[test]
+    fn names_of_units_make_a_system() {
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
+        for (length, force, per_metre, per_newton) in [
+            ("m", "N", 1.0, 1.0),
+            ("mm", "N", 1e3, 1.0),
+            ("in", "lbf", 1.0 / 0.0254, 1.0 / LBF),
+            ("µm", "kN", 1e6, 1e-3),
+        ] {
+            let units = UnitSystem::named(length, force).unwrap();
+            assert!(close(units.length_per_metre(), per_metre), "{length}");
+            assert!(close(units.force_per_newton(), per_newton), "{force}");
+        }
+        for (length, force) in [
+            ("N", "m"),
+            ("mm", "kg"),
+            ("furlong", "N"),
+            ("m^2", "N"),
+            ("", ""),
+        ] {
+            assert_eq!(UnitSystem::named(length, force), None, "{length} {force}");
+        }
     }
 
     #[test]

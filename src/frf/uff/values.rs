@@ -1,4 +1,4 @@
-//! The numbers of data set 58, gathered line by line and split into frequencies and values.
+//! The numbers of an ASCII data set 58, gathered line by line and made into frequencies and values as they come.
 
 use std::io::BufRead;
 
@@ -8,21 +8,22 @@ use super::UffProblem;
 use super::header::Layout;
 use super::lines::Lines;
 use super::numbers::parse_line;
-use crate::frf::FrfError;
-
-/// More numbers than this are not reserved in advance, whatever the header says.
-const RESERVED_AT_MOST: usize = 1 << 16;
+use crate::frf::gathered::Gathered;
+use crate::frf::{FrfError, Selection};
 
 /// Reads the values of a data set that began at line `begun_at`, up to and including the closing `-1`.
 ///
-/// Returns the frequencies (Hz) and the values in the file's units; real values have no imaginary part.
+/// Frequencies are Hz, values are in the file's units; real values have no imaginary part.
 pub(super) fn read<R: BufRead>(
     lines: &mut Lines<R>,
     layout: Layout,
     begun_at: usize,
-) -> Result<(Vec<f64>, Vec<Complex64>), FrfError> {
+    selection: &Selection,
+) -> Result<Gathered, FrfError> {
     let expected = layout.lines.saturating_mul(layout.numbers_per_line());
-    let mut numbers: Vec<f64> = Vec::with_capacity(expected.min(RESERVED_AT_MOST));
+    let mut count = 0;
+    let mut gathered = Gathered::default();
+    let mut line = Vec::with_capacity(layout.numbers_per_line());
     loop {
         if !lines.advance()? {
             let dataset = "58".to_owned();
@@ -39,35 +40,37 @@ pub(super) fn read<R: BufRead>(
             return Err(lines.problem(UffProblem::NotFinite { found }));
         }
         // Some writers fill the last line with zeros.
-        let (wanted, filling) = found.split_at(found.len().min(expected - numbers.len()));
+        let (wanted, filling) = found.split_at(found.len().min(expected - count));
         let is_filling = !wanted.is_empty() && filling.iter().all(|number| *number == 0.0);
         if !(filling.is_empty() || is_filling) {
             return Err(lines.problem(UffProblem::TooManyNumbers { expected, begun_at }));
         }
-        numbers.extend_from_slice(wanted);
+        for &number in wanted {
+            line.push(number);
+            count += 1;
+            if line.len() == layout.numbers_per_line() {
+                let index = count / layout.numbers_per_line() - 1;
+                let (hz, value) = as_line(&line, index, layout);
+                gathered.push(selection, hz, value);
+                line.clear();
+            }
+        }
     }
-    if numbers.len() < expected {
-        let found = numbers.len();
+    if count < expected {
         return Err(lines.problem(UffProblem::TooFewNumbers {
-            found,
+            found: count,
             expected,
             begun_at,
         }));
     }
-    Ok(split(&numbers, layout))
+    Ok(gathered)
 }
 
-fn split(numbers: &[f64], layout: Layout) -> (Vec<f64>, Vec<Complex64>) {
-    numbers
-        .chunks_exact(layout.numbers_per_line())
-        .enumerate()
-        .map(|(index, line)| {
-            let (frequency_hz, ordinate) = match layout.even {
-                Some((minimum, increment)) => (minimum + index as f64 * increment, line),
-                None => (line[0], &line[1..]),
-            };
-            let imaginary = ordinate.get(1).copied().unwrap_or(0.0);
-            (frequency_hz, Complex64::new(ordinate[0], imaginary))
-        })
-        .unzip()
+fn as_line(numbers: &[f64], index: usize, layout: Layout) -> (f64, Complex64) {
+    let (hz, ordinate) = match layout.even {
+        Some((minimum, increment)) => (minimum + index as f64 * increment, numbers),
+        None => (numbers[0], &numbers[1..]),
+    };
+    let imaginary = ordinate.get(1).copied().unwrap_or(0.0);
+    (hz, Complex64::new(ordinate[0], imaginary))
 }

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
+use super::ByteOrder;
+use super::header::RECORDS;
 use crate::frf::{Direction, Dof, FrfError, FrfSet};
 
 /// The longest ID line of the standard, characters.
@@ -30,14 +32,40 @@ pub fn write_uff58(
     path: impl AsRef<Path>,
     description: &str,
 ) -> Result<(), FrfError> {
-    let path = path.as_ref();
+    whole_file(path.as_ref(), |writer| {
+        write_uff58_to(set, writer, description)
+    })
+}
+
+/// As [`write_uff58`], in binary (58b): IEEE 754, complex values and uneven frequencies in double precision.
+///
+/// Nothing is rounded but an even axis, which is written as in ASCII.
+///
+/// # Errors
+/// [`FrfError::Write`].
+pub fn write_uff58b(
+    set: &FrfSet,
+    path: impl AsRef<Path>,
+    description: &str,
+    order: ByteOrder,
+) -> Result<(), FrfError> {
+    whole_file(path.as_ref(), |writer| {
+        write_uff58b_to(set, writer, description, order)
+    })
+}
+
+/// Writes a file beside its place and moves it there when it is complete.
+fn whole_file(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), FrfError> {
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{}.part", std::process::id()));
     let temporary = Path::new(&temporary);
     let written = File::create(temporary)
         .and_then(|file| {
             let mut writer = BufWriter::new(file);
-            write_uff58_to(set, &mut writer, description)?;
+            write(&mut writer)?;
             writer
                 .into_inner()
                 .map_err(io::IntoInnerError::into_error)?
@@ -60,44 +88,11 @@ pub fn write_uff58(
 /// Those of the writer.
 pub fn write_uff58_to(set: &FrfSet, writer: &mut impl Write, description: &str) -> io::Result<()> {
     write_units(writer)?;
-    let description = id_line(description);
     let axis = even_axis(set.frequency_hz());
     for (response, reference, receptance) in set.functions() {
         writeln!(writer, "{:>6}\n{:>6}", -1, 58)?;
-        writeln!(writer, "{description}")?;
-        for _ in 2..=5 {
-            writeln!(writer, "NONE")?;
-        }
-        // 2(I5,I10),2(1X,10A1,I10,I4)
-        write!(writer, "{:>5}{:>10}{:>5}{:>10}", 4, 0, 0, 0)?;
-        for dof in [response, reference] {
-            write!(
-                writer,
-                " {:<10}{:>10}{:>4}",
-                "NONE",
-                dof.node(),
-                dof.uff_direction_code()
-            )?;
-        }
-        writeln!(writer)?;
-        // 3I10,3E13.5
-        let (minimum, increment) = axis.unwrap_or((0.0, 0.0));
-        writeln!(
-            writer,
-            "{:>10}{:>10}{:>10}{}{}{}",
-            6,
-            receptance.len(),
-            u8::from(axis.is_some()),
-            columns_13(minimum),
-            columns_13(increment),
-            columns_13(0.0)
-        )?;
-        write_axis(writer, 18, "Frequency", "Hz")?;
-        let (motion, motion_unit) = motion(response);
-        write_axis(writer, 8, motion, motion_unit)?;
-        let (load, load_unit) = load(reference);
-        write_axis(writer, 13, load, load_unit)?;
-        write_axis(writer, 0, "NONE", "NONE")?;
+        let lines = receptance.len();
+        write_header(writer, description, (response, reference), lines, axis)?;
         match axis {
             Some(_) => write_even(writer, receptance)?,
             None => write_uneven(writer, set.frequency_hz(), receptance)?,
@@ -105,6 +100,89 @@ pub fn write_uff58_to(set: &FrfSet, writer: &mut impl Write, description: &str) 
         writeln!(writer, "{:>6}", -1)?;
     }
     writer.flush()
+}
+
+/// As [`write_uff58b`], to any writer.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_uff58b_to(
+    set: &FrfSet,
+    writer: &mut impl Write,
+    description: &str,
+    order: ByteOrder,
+) -> io::Result<()> {
+    write_units(writer)?;
+    let axis = even_axis(set.frequency_hz());
+    for (response, reference, receptance) in set.functions() {
+        let numbers_per_line = if axis.is_some() { 2 } else { 3 };
+        let bytes = receptance.len() * numbers_per_line * size_of::<f64>();
+        // I6,1A1,I6,I6,I12,I12,I6,I6,I12,I12: byte order, IEEE 754, text lines, bytes
+        let order_code = match order {
+            ByteOrder::Little => 1,
+            ByteOrder::Big => 2,
+        };
+        writeln!(
+            writer,
+            "{:>6}\n{:>6}b{order_code:>6}{:>6}{RECORDS:>12}{bytes:>12}{:>6}{:>6}{:>12}{:>12}",
+            -1, 58, 2, 0, 0, 0, 0
+        )?;
+        let lines = receptance.len();
+        write_header(writer, description, (response, reference), lines, axis)?;
+        let mut number = |number: f64| {
+            writer.write_all(&match order {
+                ByteOrder::Little => number.to_le_bytes(),
+                ByteOrder::Big => number.to_be_bytes(),
+            })
+        };
+        for (&hz, value) in set.frequency_hz().iter().zip(receptance) {
+            if axis.is_none() {
+                number(hz)?;
+            }
+            number(value.re)?;
+            number(value.im)?;
+        }
+        writeln!(writer, "{:>6}", -1)?;
+    }
+    writer.flush()
+}
+
+/// The eleven records before the values.
+fn write_header(
+    writer: &mut impl Write,
+    description: &str,
+    (response, reference): (Dof, Dof),
+    lines: usize,
+    axis: Option<(f64, f64)>,
+) -> io::Result<()> {
+    writeln!(writer, "{}", id_line(description))?;
+    for _ in 2..=5 {
+        writeln!(writer, "NONE")?;
+    }
+    // 2(I5,I10),2(1X,10A1,I10,I4)
+    write!(writer, "{:>5}{:>10}{:>5}{:>10}", 4, 0, 0, 0)?;
+    for dof in [response, reference] {
+        let (node, code) = (dof.node(), dof.uff_direction_code());
+        write!(writer, " {:<10}{node:>10}{code:>4}", "NONE")?;
+    }
+    writeln!(writer)?;
+    // 3I10,3E13.5
+    let (minimum, increment) = axis.unwrap_or((0.0, 0.0));
+    writeln!(
+        writer,
+        "{:>10}{lines:>10}{:>10}{}{}{}",
+        6,
+        u8::from(axis.is_some()),
+        columns_13(minimum),
+        columns_13(increment),
+        columns_13(0.0)
+    )?;
+    write_axis(writer, 18, "Frequency", "Hz")?;
+    let (motion, motion_unit) = motion(response);
+    write_axis(writer, 8, motion, motion_unit)?;
+    let (load, load_unit) = load(reference);
+    write_axis(writer, 13, load, load_unit)?;
+    write_axis(writer, 0, "NONE", "NONE")
 }
 
 fn write_units(writer: &mut impl Write) -> io::Result<()> {

@@ -1,19 +1,19 @@
 //! Checks of a study's tables: what passes is complete, physical and without contradiction.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::frf::Dof;
+use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
 use crate::structure::{Beam, Damping};
 
 use super::super::bands::Bands;
 use super::super::error::IdentifyError;
-use super::super::estimator::NoiseLevel;
 use super::super::model::JointModel;
+use super::super::noise::{Noise, StatedLevel};
 use super::tables::{
-    BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, NoiseTable, OneOrMore,
-    SubstructureTable, ThetaTable,
+    BeamTable, DifferenceTable, FrequencyTable, JointPlaceTable, LevelTable, NoiseTable, OneOrMore,
+    SubstructureTable, ThetaTable, UnitsTable,
 };
 use super::{FrfFile, Rotation, Source, Substructure};
 
@@ -73,17 +73,56 @@ impl Checker<'_> {
         Ok(())
     }
 
-    pub(super) fn noise(&self, table: &NoiseTable) -> Result<NoiseLevel, IdentifyError> {
-        let &NoiseTable { relative, floor } = table;
-        let usable = |value: f64| value.is_finite() && value >= 0.0;
-        if usable(relative) && usable(floor) && relative + floor > 0.0 {
-            return Ok(NoiseLevel { relative, floor });
+    pub(super) fn noise(&self, table: &NoiseTable) -> Result<Noise, IdentifyError> {
+        let assembly = LevelTable {
+            relative: table.relative,
+            floor: table.floor,
+        };
+        let of = |key: &str, table: LevelTable| {
+            let usable = |value: f64| value.is_finite() && value >= 0.0;
+            let LevelTable { relative, floor } = table;
+            if relative.is_none_or(usable) && floor.is_none_or(usable) {
+                return Ok(StatedLevel { relative, floor });
+            }
+            let show = |name: &str, value: Option<f64>| Some(format!("{name} = {}", value?));
+            let given = [show("relative", relative), show("floor", floor)];
+            self.refuse(
+                key,
+                given.into_iter().flatten().collect::<Vec<_>>().join(", "),
+                "standard deviations that are finite and not negative",
+            )
+        };
+        let noise = Noise {
+            assembly: of("noise", assembly)?,
+            a: of("noise.a", table.a)?,
+            b: of("noise.b", table.b)?,
+        };
+        if noise.assembly.relative == Some(0.0) && noise.assembly.floor == Some(0.0) {
+            return self.refuse(
+                "noise",
+                "relative = 0, floor = 0",
+                "at least one of them above zero, or left out to be estimated",
+            );
         }
-        self.refuse(
-            "noise",
-            format!("relative = {relative}, floor = {floor}"),
-            "standard deviations that are not negative, at least one of them above zero",
-        )
+        Ok(noise)
+    }
+
+    pub(super) fn torque(&self, torque: Option<f64>) -> Result<Option<f64>, IdentifyError> {
+        match torque {
+            Some(value) if !(value.is_finite() && value >= 0.0) => self.refuse(
+                "assembly.torque",
+                value.to_string(),
+                "a tightening torque in N·m that is not negative",
+            ),
+            _ => Ok(torque),
+        }
+    }
+
+    pub(super) fn at_least_one<T>(&self, tables: &[T]) -> Result<(), IdentifyError> {
+        if tables.is_empty() {
+            return self.refuse("assembly", "an empty list", "one [[assembly]] or more");
+        }
+        Ok(())
     }
 
     pub(super) fn name(&self, name: &str) -> Result<(), IdentifyError> {
@@ -125,18 +164,28 @@ impl Checker<'_> {
         folder: &Path,
         model: JointModel,
     ) -> Result<Substructure, IdentifyError> {
-        if table.quantity.is_some() && table.frf.is_none() {
-            return self.refuse(
-                format!("{key}.quantity"),
-                "a quantity",
-                "it beside `frf` only",
-            );
+        for (name, there) in [
+            ("quantity", table.quantity.is_some()),
+            ("units", table.units.is_some()),
+            ("averages", table.averages.is_some()),
+        ] {
+            if there && table.frf.is_none() {
+                let found = if name == "quantity" {
+                    "a quantity"
+                } else {
+                    name
+                };
+                return self.refuse(format!("{key}.{name}"), found, "it beside `frf` only");
+            }
         }
         let source = match (table.frf, table.modal, table.beam) {
-            (Some(path), None, None) => Source::Frf(FrfFile {
-                path: folder.join(path),
-                quantity: table.quantity,
-            }),
+            (Some(path), None, None) => Source::Frf(self.frf_file(
+                key,
+                folder.join(path),
+                table.quantity,
+                table.units.as_ref(),
+                table.averages,
+            )?),
             (None, Some(path), None) => Source::Modal(folder.join(path)),
             (None, None, Some(beam)) => {
                 let beam = self.beam(key, beam)?;
@@ -187,6 +236,43 @@ impl Checker<'_> {
             source,
             y,
             theta: self.rotation(&key, y, table.joint.theta, model)?,
+        })
+    }
+
+    /// A file of functions with what `[key]` states beside it.
+    pub(super) fn frf_file(
+        &self,
+        key: &str,
+        path: PathBuf,
+        quantity: Option<Quantity>,
+        units: Option<&UnitsTable>,
+        averages: Option<f64>,
+    ) -> Result<FrfFile, IdentifyError> {
+        let units = match units {
+            None => None,
+            Some(UnitsTable { length, force }) => {
+                let Some(units) = UnitSystem::named(length, force) else {
+                    return self.refuse(
+                        format!("{key}.units"),
+                        format!("length = {length:?}, force = {force:?}"),
+                        "units of length and force such as { length = \"mm\", force = \"N\" }",
+                    );
+                };
+                Some(units)
+            }
+        };
+        if let Some(found) = averages.filter(|n| !(n.is_finite() && *n >= 1.0)) {
+            return self.refuse(
+                format!("{key}.averages"),
+                found.to_string(),
+                "a number of at least 1",
+            );
+        }
+        Ok(FrfFile {
+            path,
+            quantity,
+            units,
+            averages,
         })
     }
 

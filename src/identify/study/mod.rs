@@ -6,15 +6,15 @@ mod tables;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::frf::{Dof, Quantity};
+use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
 use crate::structure::Beam;
 use crate::text_file;
 
 use super::bands::Bands;
 use super::error::IdentifyError;
-use super::estimator::NoiseLevel;
 use super::model::JointModel;
+use super::noise::Noise;
 use check::Checker;
 use tables::StudyFile;
 
@@ -29,22 +29,45 @@ pub struct Study {
     pub a: Substructure,
     /// Substructure B.
     pub b: Substructure,
-    /// File with the assembly's FRFs.
+    /// File with the first assembly's FRFs.
     pub assembly: FrfFile,
-    /// Points of B at which the assembly was measured.
+    /// Points of B at which the first assembly was measured.
     pub points: Vec<Dof>,
+    /// Further measurements of the first assembly's functions.
+    pub repeats: Vec<FrfFile>,
+    /// Tightening torque of the first assembly, N·m.
+    pub torque_n_m: Option<f64>,
+    /// Further assemblies with the same joint.
+    pub further: Vec<FurtherAssembly>,
     /// Joint model to identify.
     pub model: JointModel,
     /// Lowest and highest frequency to use, Hz.
     pub frequency_range_hz: [f64; 2],
     /// Bands of the averages.
     pub bands: Bands,
-    /// Noise of the assembly's receptances, if known.
-    pub noise: Option<NoiseLevel>,
+    /// Noise of the measured receptances, as far as the study states it.
+    pub noise: Noise,
     /// Bodies of a lap model, which go into the joint file.
     pub bodies: Option<Bodies>,
     /// Remarks that go into the joint file.
     pub notes: Vec<String>,
+}
+
+/// An assembly beside the first one, with the same joint in it.
+#[derive(Clone, Debug)]
+pub struct FurtherAssembly {
+    /// File with its FRFs.
+    pub file: FrfFile,
+    /// Points of B at which it was measured.
+    pub points: Vec<Dof>,
+    /// Further measurements of the same functions.
+    pub repeats: Vec<FrfFile>,
+    /// Tightening torque, N·m.
+    pub torque_n_m: Option<f64>,
+    /// Its substructure A.
+    pub a: Substructure,
+    /// Its substructure B.
+    pub b: Substructure,
 }
 
 /// One substructure: where its receptances come from, and where its joint is.
@@ -79,13 +102,17 @@ pub enum Source {
     Modal(PathBuf),
 }
 
-/// A universal file, and what the study says about it.
+/// A file of functions, and what the study says about it.
 #[derive(Clone, Debug)]
 pub struct FrfFile {
     /// The file.
     pub path: PathBuf,
     /// What was measured, where the file contradicts itself or does not say.
     pub quantity: Option<Quantity>,
+    /// Its units, where the file contradicts itself or does not say.
+    pub units: Option<UnitSystem>,
+    /// Averages behind every function, which its coherence needs to become a variance.
+    pub averages: Option<f64>,
 }
 
 /// Where rotational receptances come from.
@@ -100,6 +127,20 @@ pub enum Rotation {
         /// Distance between neighbouring points, m.
         spacing_m: f64,
     },
+}
+
+impl Substructure {
+    /// Whether both are the same functions of the same file at the same joint.
+    pub(super) fn is_same_measurement(&self, other: &Self) -> bool {
+        let key = |substructure: &Self| match substructure {
+            Self::Measured { source, y, theta } => match source {
+                Source::Frf(file) => Some((file.path.clone(), *y, theta.clone())),
+                Source::Modal(_) => None,
+            },
+            Self::Beam { .. } => None,
+        };
+        key(self).is_some() && key(self) == key(other)
+    }
 }
 
 impl Study {
@@ -127,26 +168,61 @@ impl Study {
         let a = check.substructure("a", file.a, folder, model)?;
         let b = check.substructure("b", file.b, folder, model)?;
         check.name(&file.name)?;
-        let points = check.points(file.assembly.points)?;
-        if let Substructure::Beam { positions_m, .. } = &b {
-            check.points_on_beam(&points, positions_m)?;
+        check.at_least_one(&file.assembly.0)?;
+        let mut assemblies = Vec::new();
+        for table in file.assembly.0 {
+            let own = |key, table: Option<_>, otherwise: &Substructure| match table {
+                Some(table) => check.substructure(key, table, folder, model),
+                None => Ok(otherwise.clone()),
+            };
+            let measured_in = |path: PathBuf| {
+                let (units, averages) = (table.units.as_ref(), table.averages);
+                check.frf_file(
+                    "assembly",
+                    folder.join(path),
+                    table.quantity,
+                    units,
+                    averages,
+                )
+            };
+            let assembly = FurtherAssembly {
+                file: measured_in(table.frf)?,
+                points: check.points(table.points)?,
+                repeats: table
+                    .repeats
+                    .into_iter()
+                    .map(measured_in)
+                    .collect::<Result<_, _>>()?,
+                torque_n_m: check.torque(table.torque)?,
+                a: own("assembly.a", table.a, &a)?,
+                b: own("assembly.b", table.b, &b)?,
+            };
+            if let Substructure::Beam { positions_m, .. } = &assembly.b {
+                check.points_on_beam(&assembly.points, positions_m)?;
+            }
+            assemblies.push(assembly);
         }
+        let first = assemblies.remove(0);
         let frequency_range_hz = check.frequency_range(&file.frequency)?;
         check.bands(&file.bands)?;
-        let noise = file.noise.map(|table| check.noise(&table)).transpose()?;
+        let noise = file
+            .noise
+            .map(|table| check.noise(&table))
+            .transpose()?
+            .unwrap_or_default();
         if let Some(bodies) = &file.bodies {
             check.bodies(bodies, model.dofs())?;
         }
         Ok(Self {
             path: path.to_owned(),
             name: file.name,
-            a,
-            b,
-            assembly: FrfFile {
-                path: folder.join(file.assembly.frf),
-                quantity: file.assembly.quantity,
-            },
-            points,
+            a: first.a,
+            b: first.b,
+            assembly: first.file,
+            points: first.points,
+            repeats: first.repeats,
+            torque_n_m: first.torque_n_m,
+            further: assemblies,
             model,
             frequency_range_hz,
             bands: file.bands,

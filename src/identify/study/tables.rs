@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{self, MapAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::frf::{Dof, Quantity};
@@ -26,7 +26,7 @@ pub(super) struct StudyFile {
     pub(super) name: String,
     pub(super) a: SubstructureTable,
     pub(super) b: SubstructureTable,
-    pub(super) assembly: AssemblyTable,
+    pub(super) assembly: AssemblyTables,
     pub(super) joint: JointTable,
     #[serde(default)]
     pub(super) frequency: FrequencyTable,
@@ -49,11 +49,21 @@ pub(super) enum Method {
 pub(super) struct SubstructureTable {
     pub(super) frf: Option<PathBuf>,
     pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
     pub(super) joint: JointPlaceTable,
     #[serde(default)]
     pub(super) points: BTreeMap<Dof, f64>,
+}
+
+/// Units of a file of functions, by name.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UnitsTable {
+    pub(super) length: String,
+    pub(super) force: String,
 }
 
 #[derive(Deserialize)]
@@ -122,12 +132,46 @@ pub(super) struct DifferenceTable {
     pub(super) spacing: f64,
 }
 
+/// One `[assembly]`, or several `[[assembly]]`.
+pub(super) struct AssemblyTables(pub(super) Vec<AssemblyTable>);
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for AssemblyTables {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TablesVisitor;
+        impl<'de> Visitor<'de> for TablesVisitor {
+            type Value = AssemblyTables;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table [assembly], or several [[assembly]]")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<AssemblyTables, A::Error> {
+                AssemblyTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(|table| AssemblyTables(vec![table]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<AssemblyTables, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(AssemblyTables)
+            }
+        }
+        deserializer.deserialize_any(TablesVisitor)
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AssemblyTable {
     pub(super) frf: PathBuf,
     pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
     pub(super) points: Vec<Dof>,
+    #[serde(default)]
+    pub(super) repeats: Vec<PathBuf>,
+    pub(super) torque: Option<f64>,
+    pub(super) a: Option<SubstructureTable>,
+    pub(super) b: Option<SubstructureTable>,
 }
 
 #[derive(Deserialize)]
@@ -143,11 +187,21 @@ pub(super) struct FrequencyTable {
     pub(super) to: Option<f64>,
 }
 
+/// Noise of the assembly's functions, and of the measured substructures' where that is another.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseTable {
+    pub(super) relative: Option<f64>,
+    pub(super) floor: Option<f64>,
     #[serde(default)]
-    pub(super) relative: f64,
+    pub(super) a: LevelTable,
     #[serde(default)]
-    pub(super) floor: f64,
+    pub(super) b: LevelTable,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LevelTable {
+    pub(super) relative: Option<f64>,
+    pub(super) floor: Option<f64>,
 }

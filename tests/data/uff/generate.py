@@ -5,6 +5,10 @@ the pairs apart, so that a test can compute what must be read.
 """
 
 import os
+import struct
+import sys
+import types
+from unittest import mock
 
 import numpy as np
 import pyuff
@@ -42,6 +46,24 @@ def write(name, sets, force_double=True):
     pyuff.UFF(path).write_sets(sets, mode="add", force_double=force_double)
 
 
+def binary(name, order, ord_data_types=(6, 4), width="d"):
+    """Four binary data sets: complex even, complex uneven, real even, real uneven.
+
+    pyuff stores doubles whatever the type says, in the order of the machine, and counts a complex value once. With
+    `width` "f" its call that packs a number is made to store singles, as analysers do.
+    """
+    sets = []
+    for ord_data_type, part in zip(ord_data_types, (lambda v: v, np.real)):
+        for frequency, even in ((EVEN, True), (UNEVEN, False)):
+            one = function(frequency, part(accelerance(frequency)), even, (11, 2), (2, 2))
+            sets.append({**one, "binary": 1, "ord_data_type": ord_data_type})
+    packing = types.SimpleNamespace(
+        pack=lambda form, number: struct.pack(form.replace("d", width), number), unpack=struct.unpack
+    )
+    with mock.patch.object(sys, "byteorder", order), mock.patch("pyuff.datasets.dataset_58.struct", packing):
+        write(name, sets, force_double=False)
+
+
 def main():
     a = accelerance(EVEN)
     b = accelerance(UNEVEN)
@@ -54,10 +76,25 @@ def main():
     write("millimetres.uff", [
         units(9, "mm, N", 1e3, 1.0),
         function(EVEN, 1e3 * a, True, (11, 2), (2, 2)),
-        function(EVEN, ones, True, (11, 2), (2, 2), func_type=6, numerator=0, denominator=0),
+        {**function(EVEN, ones, True, (11, 2), (2, 2), func_type=6, numerator=0, denominator=0), "ord_data_type": 2},
         function(EVEN, 2.0 * a, True, (11, 6), (2, 2)),
         function(EVEN, 3e-3 * a, True, (11, 6), (2, 6)),
     ], force_double=False)
+    for order in ("little", "big"):
+        binary(f"binary_double_{order}.uff", order)
+        binary(f"binary_single_{order}.uff", order, ord_data_types=(5, 2), width="f")
+    # Doubles under types of single precision, which is what pyuff writes with force_double=False.
+    binary("binary_mislabelled.uff", "little", ord_data_types=(5, 2))
+    # Coherence before its function, another one without, in one file of mixed forms.
+    gamma_squared = 1.0 / (1.0 + 0.01 * np.arange(1, len(EVEN) + 1))
+    coherence = function(EVEN, gamma_squared, True, (11, 2), (2, 2), func_type=6, numerator=0, denominator=0)
+    write("coherence.uff", [
+        {**coherence, "ord_data_type": 4},
+        {**function(EVEN, a, True, (11, 2), (2, 2)), "binary": 1},
+        function(EVEN, 0.5 * a, True, (12, -2), (2, 2)),
+        {**function(EVEN, np.abs(a), True, (11, 2), (11, 2), func_type=2), "binary": 1, "ord_data_type": 4},
+        units(1, "SI", 1.0, 1.0),
+    ])
 
 
 if __name__ == "__main__":

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use super::units::{KGF, LBF};
+use super::uff::{KGF, LBF};
 
 /// lengthᵃ · forceᵇ · timeᶜ, and how many SI units one of it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Unit {
-    pub(super) length: i32,
-    pub(super) force: i32,
-    pub(super) time: i32,
-    pub(super) to_si: f64,
+pub(in crate::frf) struct Unit {
+    pub(in crate::frf) length: i32,
+    pub(in crate::frf) force: i32,
+    pub(in crate::frf) time: i32,
+    pub(in crate::frf) to_si: f64,
 }
 
 const ONE: Unit = unit(0, 0, 0, 1.0);
@@ -69,14 +69,14 @@ impl Unit {
     }
 
     /// The unit divided by another.
-    pub(super) fn per(self, other: Self) -> Self {
+    pub(in crate::frf) fn per(self, other: Self) -> Self {
         self.times(other.power(-1))
     }
 
     /// Reads a label; `None` if it holds anything that is not a known unit.
     ///
     /// A product binds tighter than a quotient, since `rad/N·m` never means radian metre per newton.
-    pub(super) fn from_label(label: &str) -> Option<Self> {
+    pub(in crate::frf) fn from_label(label: &str) -> Option<Self> {
         let characters: Vec<char> = label.trim().chars().collect();
         let mut cursor = Cursor {
             characters: &characters,

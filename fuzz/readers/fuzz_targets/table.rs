@@ -1,0 +1,10 @@
+//! A table (CSV): refused with a reason, or a set of functions.
+#![no_main]
+
+use bolted_joint::frf::{ReadOptions, read_csv_from};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let _ = read_csv_from(bytes, "bytes.csv", &ReadOptions::default())
+        .and_then(|reading| reading.into_set());
+});

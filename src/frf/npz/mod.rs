@@ -1,0 +1,9 @@
+//! Functions as NumPy arrays: an archive of a frequency axis, a matrix of functions and the names of its rows and columns.
+
+mod array;
+mod axes;
+mod problem;
+mod read;
+
+pub use problem::NpzProblem;
+pub use read::{read_npz, read_npz_from};

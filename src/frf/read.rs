@@ -1,0 +1,90 @@
+//! Functions from a file of any format that is known: universal file, table or NumPy archive.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Seek};
+use std::path::Path;
+
+use super::csv::read_csv_from;
+use super::npz::read_npz_from;
+use super::uff::read_uff58;
+use super::{FrfError, FrfReading, NpzProblem, ReadOptions};
+
+/// How much of a file is looked at to tell what it is.
+const LOOKED_AT: u64 = 4096;
+
+/// What a file is by its first bytes and its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Universal,
+    Table,
+    Archive,
+    SingleArray,
+}
+
+impl Format {
+    fn of(path: &Path, beginning: &[u8]) -> Self {
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let named = |names: &[&str]| names.iter().any(|name| extension == *name);
+        let text = String::from_utf8_lossy(beginning);
+        let first = text
+            .trim_start_matches('\u{feff}')
+            .lines()
+            .map(str::trim)
+            .find(|line| !line.is_empty())
+            .unwrap_or_default()
+            .to_lowercase();
+        if beginning.starts_with(b"PK") {
+            Self::Archive
+        } else if beginning.starts_with(b"\x93NUMPY") {
+            Self::SingleArray
+        } else if first == "-1" {
+            Self::Universal
+        } else if named(&["npz"]) {
+            Self::Archive
+        } else if named(&["csv", "tsv", "txt"])
+            || !named(&["uff", "unv", "uf", "bunv"])
+                && (first.starts_with('#') || first.starts_with("freq"))
+        {
+            Self::Table
+        } else {
+            Self::Universal
+        }
+    }
+}
+
+/// Reads the frequency response functions of a universal file (58 or 58b), a table (CSV) or a NumPy archive (npz).
+///
+/// What the file is, is told by how it begins, and by its extension where that leaves it open. Values become receptances in SI
+/// units; see [`read_uff58`], [`read_csv`](super::read_csv) and [`read_npz`](super::read_npz).
+///
+/// # Errors
+/// [`FrfError::Read`], [`FrfError::Uff`], [`FrfError::Csv`] or [`FrfError::Npz`].
+pub fn read_frfs(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+    let path = path.as_ref();
+    let failed = |source| FrfError::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let mut reader = BufReader::new(File::open(path).map_err(failed)?);
+    let mut beginning = Vec::new();
+    (&mut reader)
+        .take(LOOKED_AT)
+        .read_to_end(&mut beginning)
+        .map_err(failed)?;
+    match Format::of(path, &beginning) {
+        Format::Universal => read_uff58(path, options),
+        Format::Table => {
+            reader.rewind().map_err(failed)?;
+            let lines: &mut dyn BufRead = &mut reader;
+            read_csv_from(lines, path, options)
+        }
+        Format::Archive => {
+            reader.rewind().map_err(failed)?;
+            read_npz_from(reader, path, options)
+        }
+        Format::SingleArray => Err(FrfError::Npz {
+            path: path.to_owned(),
+            problem: Box::new(NpzProblem::SingleArray),
+        }),
+    }
+}

@@ -1,0 +1,104 @@
+//! What was read from a file of functions, whatever its format.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use super::{Coherence, Dof, Frf, FrfError, FrfSet};
+
+/// A function of a file that is no frequency response function and was passed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SkippedFunction {
+    pub(super) line: usize,
+    pub(super) kind: &'static str,
+}
+
+impl SkippedFunction {
+    /// The line at which its data set begins.
+    #[must_use]
+    pub fn line(self) -> usize {
+        self.line
+    }
+
+    /// The standard's name of its function type, such as "auto spectrum".
+    #[must_use]
+    pub fn kind(self) -> &'static str {
+        self.kind
+    }
+}
+
+/// What was read from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrfReading {
+    pub(super) path: PathBuf,
+    pub(super) functions: Vec<Frf>,
+    pub(super) coherences: Vec<Coherence>,
+    /// Averages as the caller or the file state them.
+    pub(super) averages: Option<f64>,
+    pub(super) not_selected: BTreeSet<(Dof, Dof)>,
+    pub(super) skipped_functions: Vec<SkippedFunction>,
+    pub(super) skipped_datasets: usize,
+    pub(super) units_stated: bool,
+}
+
+impl FrfReading {
+    /// The functions in the file's order, as receptances in SI units.
+    #[must_use]
+    pub fn functions(&self) -> &[Frf] {
+        &self.functions
+    }
+
+    /// Ordinary coherences in the file's order.
+    #[must_use]
+    pub fn coherences(&self) -> &[Coherence] {
+        &self.coherences
+    }
+
+    /// The number of averages behind the functions, where the caller or the file states it.
+    #[must_use]
+    pub fn averages(&self) -> Option<f64> {
+        self.averages
+    }
+
+    /// Response and reference of the functions that are in the file but were not asked for.
+    #[must_use]
+    pub fn not_selected(&self) -> &BTreeSet<(Dof, Dof)> {
+        &self.not_selected
+    }
+
+    /// Data sets 58 that hold something else than a frequency response function or an ordinary coherence.
+    #[must_use]
+    pub fn skipped_functions(&self) -> &[SkippedFunction] {
+        &self.skipped_functions
+    }
+
+    /// The number of data sets that are neither functions (58) nor units (164).
+    #[must_use]
+    pub fn skipped_datasets(&self) -> usize {
+        self.skipped_datasets
+    }
+
+    /// Whether the file (or the caller) states the units of every function; where it does not, SI was assumed.
+    #[must_use]
+    pub fn units_are_stated(&self) -> bool {
+        self.units_stated
+    }
+
+    /// The functions as one set, with the coherences that belong to them.
+    ///
+    /// # Errors
+    /// [`FrfError::InFile`] around what [`FrfSet::new`] and [`FrfSet::with_coherences`] refuse.
+    pub fn into_set(self) -> Result<FrfSet, FrfError> {
+        let set = match self.functions.is_empty() && !self.not_selected.is_empty() {
+            true => Err(FrfError::NoneSelected {
+                present: self.not_selected.iter().copied().collect(),
+            }),
+            false => FrfSet::new(self.functions),
+        };
+        set.and_then(|set| set.with_coherences(self.coherences, self.averages))
+            .map(|set| set.knowing_of(self.not_selected))
+            .map_err(|source| FrfError::InFile {
+                path: self.path,
+                source: Box::new(source),
+            })
+    }
+}

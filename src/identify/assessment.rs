@@ -1,0 +1,184 @@
+//! Whether what a fit leaves is noise: the gate that tells the joint from a local minimum or a model that is too simple.
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use super::estimator::Estimate;
+use super::noise::Noise;
+use super::objective::{Objective, Weights};
+
+/// Standard deviations beyond which a statistic is not chance.
+pub(super) const SIGNIFICANT: f64 = 5.0;
+
+/// Squared residuals of this part of the squared signal are rounding.
+const ROUNDING_POWER: f64 = 1e-20;
+
+/// Lines below which no test has power.
+const FEWEST_LINES: usize = 30;
+
+/// What the residuals of a fit say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assessment {
+    /// χ² over degrees of freedom; `None` without degrees of freedom.
+    pub reduced_chi_squared: Option<f64>,
+    /// Whether the noise was stated, so that χ² is a test.
+    pub noise_is_stated: bool,
+    /// χ² too high, in its standard deviations.
+    pub chi_squared_excess: f64,
+    /// Correlation of the residuals of neighbouring lines: 0 for noise.
+    pub line_correlation: f64,
+    /// The same in its standard deviations.
+    pub line_correlation_excess: f64,
+    /// Whether there were lines enough for a test.
+    pub has_power: bool,
+    /// Whether the residual is rounding.
+    pub is_exact: bool,
+}
+
+impl Assessment {
+    /// Whether χ², where the noise is stated, and the order of the residuals are those of noise.
+    #[must_use]
+    pub fn fits(&self) -> bool {
+        self.is_exact
+            || !(self.noise_is_stated && self.chi_squared_excess > SIGNIFICANT)
+                && self.line_correlation_excess <= SIGNIFICANT
+    }
+
+    /// Whether the fit is good beyond doubt: no other minimum can be better.
+    pub(super) fn is_certain(&self) -> bool {
+        self.is_exact || self.has_power && self.fits()
+    }
+
+    /// What is wrong, in words.
+    #[must_use]
+    pub fn complaint(&self) -> Option<String> {
+        if self.fits() {
+            return None;
+        }
+        let mut findings = Vec::new();
+        if let (true, Some(chi)) = (self.noise_is_stated, self.reduced_chi_squared)
+            && self.chi_squared_excess > SIGNIFICANT
+        {
+            findings.push(format!("χ² per degree of freedom is {chi:.3}"));
+        }
+        if self.line_correlation_excess > SIGNIFICANT {
+            findings.push(format!(
+                "the residuals of neighbouring lines are correlated ({:.2})",
+                self.line_correlation
+            ));
+        }
+        Some(findings.join(" and "))
+    }
+}
+
+/// Judges the residuals of `estimate`.
+pub(super) fn assess<const N: usize>(
+    objective: &Objective<'_, N>,
+    estimate: &Estimate,
+    noise: &Noise,
+) -> Option<Assessment> {
+    let (weights, state) = objective.reached(estimate)?;
+    let mut last: Vec<Complex64> = Vec::new();
+    let mut last_group = usize::MAX;
+    let (mut product, mut power, mut pairs) = (0.0, 0.0, 0_usize);
+    objective.visit(Some(&weights), &state, |group, line| {
+        power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
+        if group == last_group {
+            let both = last.iter().zip(&line.residual);
+            product += both.map(|(a, b)| (a.conj() * b).re).sum::<f64>();
+            pairs += line.residual.len();
+        }
+        last.clear();
+        last.extend_from_slice(&line.residual);
+        last_group = group;
+    })?;
+    let line_correlation = if power > 0.0 { product / power } else { 0.0 };
+    // The real part of a product of two complex circular residuals has half the variance.
+    let deviation = (2.0 * pairs.max(1) as f64).sqrt().recip();
+    let reduced = estimate.reduced_chi_squared();
+    let freedom = estimate.degrees_of_freedom as f64;
+    let lines: usize = objective.groups.iter().map(|group| group.lines()).sum();
+    Some(Assessment {
+        reduced_chi_squared: reduced,
+        noise_is_stated: noise.is_stated(),
+        chi_squared_excess: reduced.map_or(0.0, |chi| (chi - 1.0) / (2.0 / freedom).sqrt()),
+        line_correlation,
+        line_correlation_excess: line_correlation / deviation,
+        has_power: lines >= FEWEST_LINES,
+        is_exact: residual_power(objective, estimate)? < ROUNDING_POWER,
+    })
+}
+
+/// Σ|y − H^C|²/|H^C|² over entries and lines, as a mean.
+fn residual_power<const N: usize>(
+    objective: &Objective<'_, N>,
+    estimate: &Estimate,
+) -> Option<f64> {
+    let state = objective.unweighted(
+        estimate.unknowns.clone(),
+        Some(estimate.corrections.clone()),
+    )?;
+    let (mut sum, mut count) = (0.0, 0_usize);
+    objective.visit(None, &state, |_, line| {
+        for (residual, computed) in line.residual.iter().zip(&line.computed) {
+            sum += residual.norm_sqr() / computed.norm_sqr();
+            count += 1;
+        }
+    })?;
+    Some(sum / count.max(1) as f64)
+}
+
+/// By how much the standard deviation of each unknown has to grow because the residuals of neighbouring lines are
+/// correlated: √ of the variance of the scores beside the one that the information promises (a sandwich with Bartlett's
+/// weights; Newey and West), at least one. `unit` times `scale` is the covariance that it promises.
+pub(super) fn inflation<const N: usize>(
+    objective: &Objective<'_, N>,
+    estimate: &Estimate,
+    unit: &DMatrix<f64>,
+    scale: f64,
+) -> Option<DVector<f64>> {
+    let (weights, state) = objective.reached(estimate)?;
+    let mut scores: Vec<Vec<(usize, DVector<f64>)>> = Vec::new();
+    objective.visit(Some(&weights), &state, |group, line| {
+        if scores.len() <= group {
+            scores.resize_with(group + 1, Vec::new);
+        }
+        scores[group].push((line.index, DVector::from_vec(line.score())));
+    })?;
+    let size = estimate.unknowns.len();
+    let mut variance = DMatrix::zeros(size, size);
+    for scores in &scores {
+        let lags = (scores.len() as f64).cbrt().ceil() as usize;
+        for lag in 0..=lags {
+            let weight = 1.0 - lag as f64 / (lags as f64 + 1.0);
+            for (early, late) in scores.iter().zip(&scores[lag.min(scores.len())..]) {
+                let product = &early.1 * late.1.transpose() * weight;
+                if lag == 0 {
+                    variance += product;
+                } else {
+                    variance += product.transpose();
+                    variance += product;
+                }
+            }
+        }
+    }
+    // cov = A⁻¹ B A⁻¹ with A⁻¹ = 2 cov₀ for cov₀ = ½ A⁻¹, which `unit` is
+    let sandwich = 4.0 * unit * variance * unit;
+    Some(DVector::from_fn(size, |i, _| {
+        (sandwich[(i, i)] / (scale * unit[(i, i)])).max(1.0).sqrt()
+    }))
+}
+
+impl<const N: usize> Objective<'_, N> {
+    /// The point at which an estimate came to rest, with its weights.
+    pub(super) fn reached(
+        &self,
+        estimate: &Estimate,
+    ) -> Option<(Vec<Weights>, super::objective::State)> {
+        let state = self.unweighted(
+            estimate.unknowns.clone(),
+            Some(estimate.corrections.clone()),
+        )?;
+        Some((self.weights(estimate.levels, &state)?, state))
+    }
+}

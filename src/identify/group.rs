@@ -1,0 +1,222 @@
+//! Assemblies that share measured substructures, with the measured receptances whose errors they have in common.
+
+use std::sync::Arc;
+
+use num_complex::Complex64;
+
+use super::block::Block;
+use super::lines::{Lines, MeasuredSubstructure};
+
+/// Which substructure a measured receptance belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    A,
+    B,
+}
+
+impl Side {
+    fn of(self, lines: &Lines) -> Option<&Arc<MeasuredSubstructure>> {
+        match self {
+            Self::A => lines.a_measured.as_ref(),
+            Self::B => lines.b_measured.as_ref(),
+        }
+    }
+}
+
+/// How a measured receptance enters F = H_jj + H_kk, H_ks and H_ss of one assembly.
+#[derive(Clone, Debug)]
+pub(super) struct Pattern<const N: usize> {
+    pub(super) free: [[f64; N]; N],
+    /// Whether it enters F at all.
+    pub(super) acts_on_free: bool,
+    /// For each point; empty if it does not enter.
+    pub(super) transfer: Vec<[f64; N]>,
+    /// For each entry; empty if it does not enter.
+    pub(super) own: Vec<f64>,
+}
+
+/// A measured receptance of a substructure with an error of its own.
+#[derive(Clone, Debug)]
+pub(super) struct Source<const N: usize> {
+    pub(super) side: Side,
+    /// Independent measurements that its value is the mean of.
+    pub(super) count: u32,
+    /// The value at each line.
+    pub(super) value: Vec<Complex64>,
+    /// Variance of one measurement as a fraction of |H|² at each line; empty where it follows from a level.
+    pub(super) known: Vec<f64>,
+    /// For each block of the group, whether and how it enters.
+    pub(super) patterns: Vec<Option<Pattern<N>>>,
+}
+
+/// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
+#[derive(Clone, Debug)]
+pub(super) struct Group<const N: usize> {
+    pub(super) blocks: Vec<Block<N>>,
+    pub(super) sources: Vec<Source<N>>,
+}
+
+impl<const N: usize> Group<N> {
+    /// Groups of the assemblies `all`, of which every `stride`th line is taken; the measured receptances of substructures
+    /// that are `noisy` become sources.
+    pub(super) fn all(all: &[Lines], stride: usize, noisy: impl Fn(Side) -> bool) -> Vec<Self> {
+        let mut groups: Vec<(Vec<&Lines>, Self)> = Vec::new();
+        for lines in all {
+            let joins = |(members, _): &(Vec<&Lines>, Self)| {
+                members.iter().any(|member| share(member, lines, &noisy))
+            };
+            let position = groups.iter().position(joins);
+            let position = position.unwrap_or_else(|| {
+                let empty = Self {
+                    blocks: Vec::new(),
+                    sources: Vec::new(),
+                };
+                groups.push((Vec::new(), empty));
+                groups.len() - 1
+            });
+            let (members, group) = &mut groups[position];
+            members.push(lines);
+            group.blocks.push(Block::new(lines, stride));
+        }
+        groups
+            .into_iter()
+            .map(|(members, mut group)| {
+                group.add_sources(&members, stride, &noisy);
+                group
+            })
+            .collect()
+    }
+
+    fn add_sources(&mut self, members: &[&Lines], stride: usize, noisy: &impl Fn(Side) -> bool) {
+        let mut seen: Vec<&Arc<MeasuredSubstructure>> = Vec::new();
+        for side in [Side::A, Side::B] {
+            if !noisy(side) {
+                continue;
+            }
+            for measured in members.iter().filter_map(|lines| side.of(lines)) {
+                if seen.iter().any(|other| Arc::ptr_eq(other, measured)) {
+                    continue;
+                }
+                seen.push(measured);
+                let users: Vec<bool> = members
+                    .iter()
+                    .map(|lines| {
+                        side.of(lines)
+                            .is_some_and(|other| Arc::ptr_eq(other, measured))
+                    })
+                    .collect();
+                self.add_substructure(side, measured, &users, stride);
+            }
+        }
+    }
+
+    fn add_substructure(
+        &mut self,
+        side: Side,
+        measured: &MeasuredSubstructure,
+        users: &[bool],
+        stride: usize,
+    ) {
+        let labels = measured.transformation.ncols();
+        for column in 0..labels {
+            for row in 0..=column {
+                let indices: Vec<usize> = measured
+                    .measured
+                    .iter()
+                    .enumerate()
+                    .filter(|&(_, &(p, q))| (p.min(q), p.max(q)) == (row, column))
+                    .map(|(index, _)| index)
+                    .collect();
+                if indices.is_empty() {
+                    continue;
+                }
+                let chosen = || measured.receptances.iter().enumerate().step_by(stride);
+                let known = measured.relative_variance.as_ref().map(|known| {
+                    let mean = |line: usize| {
+                        let sum: f64 = indices.iter().map(|&index| known[index][line]).sum();
+                        sum / indices.len() as f64
+                    };
+                    chosen().map(|(line, _)| mean(line)).collect()
+                });
+                let patterns = self.blocks.iter().zip(users).map(|(block, &user)| {
+                    user.then(|| pattern(side, measured, (row, column), block))
+                });
+                let patterns = patterns.collect();
+                self.sources.push(Source {
+                    side,
+                    count: indices.len() as u32,
+                    value: chosen().map(|(_, matrix)| matrix[(row, column)]).collect(),
+                    known: known.unwrap_or_default(),
+                    patterns,
+                });
+            }
+        }
+    }
+
+    pub(super) fn lines(&self) -> usize {
+        self.blocks.first().map_or(0, Block::lines)
+    }
+
+    /// Complex entries of all blocks at one line.
+    pub(super) fn entries(&self) -> usize {
+        self.blocks.iter().map(|block| block.entries.len()).sum()
+    }
+
+    /// Measured complex numbers of the assemblies at one line.
+    pub(super) fn measurements(&self) -> usize {
+        let entries = self.blocks.iter().flat_map(|block| &block.entries);
+        entries.map(|entry| entry.count as usize).sum()
+    }
+}
+
+fn share(one: &Lines, other: &Lines, noisy: &impl Fn(Side) -> bool) -> bool {
+    let same = |one: &Option<Arc<MeasuredSubstructure>>, other: &Option<_>| match (one, other) {
+        (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+        _ => false,
+    };
+    noisy(Side::A) && same(&one.a_measured, &other.a_measured)
+        || noisy(Side::B) && same(&one.b_measured, &other.b_measured)
+}
+
+/// dH = W dU Wᵀ for a symmetric entry of U, split into the joint's and the points' part.
+fn pattern<const N: usize>(
+    side: Side,
+    measured: &MeasuredSubstructure,
+    (p, q): (usize, usize),
+    block: &Block<N>,
+) -> Pattern<N> {
+    let w = &measured.transformation;
+    let change = |i: usize, j: usize| {
+        let once = w[(i, p)] * w[(j, q)];
+        if p == q {
+            once
+        } else {
+            once + w[(i, q)] * w[(j, p)]
+        }
+    };
+    let mut transfer = Vec::new();
+    let mut own = Vec::new();
+    if side == Side::B {
+        transfer = (0..block.points)
+            .map(|point| std::array::from_fn(|i| change(i, N + point)))
+            .collect();
+        own = block
+            .entries
+            .iter()
+            .map(|entry| change(N + entry.row, N + entry.column))
+            .collect();
+        if transfer.iter().flatten().all(|&share: &f64| share == 0.0) {
+            transfer.clear();
+        }
+        if own.iter().all(|&share| share == 0.0) {
+            own.clear();
+        }
+    }
+    let free: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| change(i, j)));
+    Pattern {
+        acts_on_free: free.iter().flatten().any(|&share| share != 0.0),
+        free,
+        transfer,
+        own,
+    }
+}

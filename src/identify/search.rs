@@ -1,0 +1,223 @@
+//! Which start leads to the joint: candidates that the data themselves give, then a grid, until what is left is noise.
+
+use nalgebra::DVector;
+
+use super::assessment::{Assessment, assess};
+use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
+use super::group::Group;
+use super::noise::Noise;
+use super::objective::Objective;
+use super::starts;
+
+/// Lines that are enough to tell which start leads to the best estimate.
+pub(super) const LINES_FOR_STARTS: usize = 200;
+
+/// Two estimates are the same if their −2 log-likelihoods agree to this …
+const SAME_MISFIT: f64 = 2e-3;
+
+/// … or each of their unknowns does, relative to its value or to what would change the residual by its assumed standard
+/// deviation: data without noise leave a misfit of rounding alone.
+const SAME_UNKNOWN: f64 = 1e-6;
+
+/// By how much the −2 log-likelihood of an estimate that has not converged must be lower to rank before one that has.
+const DECISIVE_MISFIT: f64 = 20.0;
+
+/// How many different estimates from thinned lines are refined on all lines.
+const FINALISTS: usize = 4;
+
+/// A minimum whose weighted mean square residual is so many times that of the best is not refined: no resonance between
+/// the thinned lines makes up for it.
+const COMPARABLE: f64 = 10.0;
+
+/// The data in the three forms that the search goes through.
+pub(super) struct Data<const N: usize> {
+    /// Few lines, substructures taken as exact.
+    pub(super) thinned: Vec<Group<N>>,
+    /// All lines, substructures taken as exact: where they are, this is empty and `whole` serves.
+    pub(super) exact: Vec<Group<N>>,
+    /// All lines with the errors of the substructures.
+    pub(super) whole: Vec<Group<N>>,
+}
+
+/// How far to search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Effort {
+    /// Until the fit is beyond doubt, or the grid is exhausted.
+    Whole,
+    /// From starts that come from the estimate of another joint model.
+    Related,
+}
+
+/// What the search came to.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) estimate: Estimate,
+    pub(super) assessment: Assessment,
+    /// Starts tried.
+    pub(super) tried: usize,
+    /// Starts that led to the estimate.
+    pub(super) agreeing: usize,
+}
+
+/// The best estimate from `first` and from the search's own starts; `Err` with the number of starts if there is none.
+pub(super) fn best<const N: usize>(
+    data: &Data<N>,
+    entries: &[(usize, usize)],
+    noise: &Noise,
+    first: Vec<DVector<f64>>,
+    effort: Effort,
+) -> Result<Found, usize> {
+    let thinned = Objective {
+        groups: &data.thinned,
+        entries,
+    };
+    let mut candidates = first;
+    for guess in [None, candidates.last().cloned()] {
+        candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
+    }
+    let mut trials = refine_all(&thinned, noise, &candidates);
+    let mut tried = candidates.len();
+    let mut finals = finalists(data, entries, noise, &trials);
+    let certain = |finals: &[Final]| finals.first().is_some_and(|f| f.assessment.is_certain());
+    if effort == Effort::Whole && !certain(&finals) {
+        let grid = starts::grid(&data.thinned, entries);
+        tried += grid.len();
+        trials.extend(refine_all(&thinned, noise, &grid));
+        finals = finalists(data, entries, noise, &trials);
+    }
+    let best = finals.first().ok_or(tried)?;
+    let leads_to_best = |trial: &&Estimate| {
+        let known =
+            |end: &Final| same(&end.candidate, trial) && same(&end.estimate, &best.estimate);
+        finals.iter().any(known)
+    };
+    Ok(Found {
+        estimate: best.estimate.clone(),
+        assessment: best.assessment.clone(),
+        tried,
+        agreeing: trials.iter().filter(leads_to_best).count(),
+    })
+}
+
+/// A minimum on thinned lines and where it lies on all of them.
+struct Final {
+    candidate: Estimate,
+    estimate: Estimate,
+    assessment: Assessment,
+}
+
+fn refine_all<const N: usize>(
+    objective: &Objective<'_, N>,
+    noise: &Noise,
+    starts: &[DVector<f64>],
+) -> Vec<Estimate> {
+    // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
+    let sought = if noise.is_stated() {
+        *noise
+    } else {
+        Noise::default()
+    };
+    let levels = (!noise.is_stated()).then(|| {
+        sought.levels(super::noise::NoiseLevel {
+            relative: 1.0,
+            floor: 0.0,
+        })
+    });
+    let of = |start: &DVector<f64>| estimate(objective, &sought, levels, &Free, start, None);
+    super::parallel::map(starts, of)
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// The best few different `trials`, on all lines, best first.
+fn finalists<const N: usize>(
+    data: &Data<N>,
+    entries: &[(usize, usize)],
+    noise: &Noise,
+    trials: &[Estimate],
+) -> Vec<Final> {
+    let mut ranked: Vec<&Estimate> = trials.iter().collect();
+    ranked.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    let mut chosen: Vec<&Estimate> = Vec::new();
+    for candidate in ranked {
+        let comparable = chosen.first().is_none_or(|best| {
+            let residuals = 2.0 * best.measurements as f64;
+            candidate.misfit <= best.misfit + residuals * COMPARABLE.ln()
+        });
+        if chosen.len() < FINALISTS
+            && comparable
+            && !chosen.iter().any(|known| same(known, candidate))
+        {
+            chosen.push(candidate);
+        }
+    }
+    let whole = Objective {
+        groups: &data.whole,
+        entries,
+    };
+    // Thinned lines may have passed over the resonances that tell two minima apart.
+    let mut finals: Vec<Final> = chosen
+        .into_iter()
+        .filter_map(|candidate| {
+            let mut start = candidate.unknowns.clone();
+            if !data.exact.is_empty() {
+                let exact = Objective {
+                    groups: &data.exact,
+                    entries,
+                };
+                start = robust_start(&exact, &whole, noise, start)?;
+            }
+            let estimate = estimate(&whole, noise, None, &Free, &start, None)?;
+            Some(Final {
+                candidate: candidate.clone(),
+                assessment: assess(&whole, &estimate, noise)?,
+                estimate,
+            })
+        })
+        .collect();
+    finals.sort_by(|a, b| rank(&a.estimate).total_cmp(&rank(&b.estimate)));
+    finals
+}
+
+/// Rounds of the start for data with errors in the substructures.
+const ROBUST_ROUNDS: usize = 8;
+
+/// An estimate that takes the substructures as measured, but each value of the assembly only for as good as the errors of
+/// the substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
+fn robust_start<const N: usize>(
+    exact: &Objective<'_, N>,
+    whole: &Objective<'_, N>,
+    noise: &Noise,
+    mut start: DVector<f64>,
+) -> Option<DVector<f64>> {
+    for _ in 0..ROBUST_ROUNDS {
+        let state = whole.unweighted(start.clone(), None)?;
+        let weights = whole.marginal_weights(first_levels(whole, noise), &state)?;
+        start = minimum(exact, &weights, &start)?;
+    }
+    Some(start)
+}
+
+/// What estimates are ranked by: the −2 log-likelihood, with a handicap for those that have not converged.
+fn rank(estimate: &Estimate) -> f64 {
+    let handicap = if estimate.converged {
+        0.0
+    } else {
+        DECISIVE_MISFIT
+    };
+    estimate.misfit + handicap
+}
+
+/// Whether two estimates from the same lines are one minimum.
+pub(super) fn same(one: &Estimate, other: &Estimate) -> bool {
+    let close = |index: usize| {
+        let (a, b) = (one.unknowns[index], other.unknowns[index]);
+        let scale = one.information[(index, index)]
+            .max(f64::MIN_POSITIVE)
+            .sqrt()
+            .recip();
+        (a - b).abs() <= SAME_UNKNOWN * a.abs().max(b.abs()).max(scale)
+    };
+    (one.misfit - other.misfit).abs() <= SAME_MISFIT || (0..one.unknowns.len()).all(close)
+}

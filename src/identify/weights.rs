@@ -1,0 +1,210 @@
+//! Variances of everything measured, from the computed receptances, and the noise level that the residuals show.
+//!
+//! Weights come from the model: with the measured |H| a line on which noise happens to reduce the receptance would get
+//! more weight, which biases the damping.
+
+use num_complex::Complex64;
+
+use super::group::{Group, Side, Source};
+use super::noise::{Levels, Noise, NoiseLevel, Sample, StatedLevel, most_likely_level};
+use super::objective::{Line, Objective, State, Weights};
+
+/// No measured receptance of an assembly is taken for better than this fraction of itself.
+const LEAST_RELATIVE: f64 = 1e-14;
+
+impl<const N: usize> Objective<'_, N> {
+    /// Variances at `state`; `None` where one is not a number above zero.
+    pub(super) fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
+        let mut all: Vec<Weights> = self
+            .groups
+            .iter()
+            .map(|group| Weights {
+                entries: Vec::with_capacity(group.lines() * group.entries()),
+                sources: Vec::with_capacity(group.lines() * group.sources.len()),
+                scatter: 0.0,
+                scatter_log: 0.0,
+            })
+            .collect();
+        let mut usable = true;
+        self.visit(None, state, |number, line| {
+            let group = &self.groups[number];
+            let weights = &mut all[number];
+            for_each_entry(group, line, |entry| {
+                let variance = entry.known.map_or_else(
+                    || levels.assembly.variance(entry.power),
+                    |known| known * entry.power,
+                );
+                let variance = variance.max(LEAST_RELATIVE * LEAST_RELATIVE * entry.power);
+                usable &= variance.is_finite() && variance > 0.0;
+                weights.entries.push(variance / f64::from(entry.count));
+                weights.scatter += entry.scatter / variance;
+                weights.scatter_log += f64::from(entry.count - 1) * variance.ln();
+            });
+            for (s, source) in group.sources.iter().enumerate() {
+                let power = source_power(source, state, number, line.index, s, group);
+                let variance = source
+                    .known
+                    .get(line.index)
+                    .map_or_else(|| level_of(source, levels).variance(power), |k| k * power);
+                weights.sources.push(variance / f64::from(source.count));
+            }
+        })?;
+        usable.then_some(all)
+    }
+
+    /// Variances of y − H^C with the substructures as measured, the errors of these included, one group for each block.
+    pub(super) fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
+        let weights = self.weights(levels, state)?;
+        let mut all: Vec<Weights> = Vec::new();
+        let mut first_of_group = Vec::new();
+        for group in self.groups {
+            first_of_group.push(all.len());
+            all.extend(group.blocks.iter().map(|_| Weights {
+                entries: Vec::new(),
+                sources: Vec::new(),
+                scatter: 0.0,
+                scatter_log: 0.0,
+            }));
+        }
+        self.visit(None, state, |number, line| {
+            let group = &self.groups[number];
+            let weights = &weights[number];
+            let size = line.computed.len();
+            let mut at = 0;
+            for (b, block) in group.blocks.iter().enumerate() {
+                for e in at..at + block.entries.len() {
+                    let mut variance = weights.entries[line.index * size + e];
+                    for s in 0..group.sources.len() {
+                        let of_source = weights.sources[line.index * group.sources.len() + s];
+                        variance += line.by_source[s * size + e].norm_sqr() * of_source;
+                    }
+                    all[first_of_group[number] + b].entries.push(variance);
+                }
+                at += block.entries.len();
+            }
+        })?;
+        Some(all)
+    }
+
+    /// The level that makes the residuals at `state` most likely, where `noise` does not state it.
+    ///
+    /// `shrinkage` is what fitting has left of the residuals' variance.
+    pub(super) fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel> {
+        let mut samples = Vec::new();
+        self.visit(None, state, |number, line| {
+            let group = &self.groups[number];
+            let size = line.computed.len();
+            for_each_entry(group, line, |entry| {
+                let count = f64::from(entry.count);
+                let of_one = |known: Option<f64>| Sample {
+                    power: 0.0,
+                    by_relative: if known.is_some() { 0.0 } else { entry.power },
+                    by_floor: if known.is_some() { 0.0 } else { 1.0 },
+                    known: known.map_or(0.0, |known| known * entry.power),
+                    count: 1.0,
+                };
+                let one = of_one(entry.known);
+                if entry.count > 1 {
+                    samples.push(Sample {
+                        power: entry.scatter / (count - 1.0),
+                        count: count - 1.0,
+                        ..one
+                    });
+                }
+                let mut sample = Sample {
+                    power: line.residual[entry.index].norm_sqr() / shrinkage,
+                    by_relative: one.by_relative / count,
+                    by_floor: one.by_floor / count,
+                    known: one.known / count,
+                    count: 1.0,
+                };
+                for (s, source) in group.sources.iter().enumerate() {
+                    let gain =
+                        line.by_source[s * size + entry.index].norm_sqr() / f64::from(source.count);
+                    let power = source_power(source, state, number, line.index, s, group);
+                    add_source(&mut sample, source, noise, gain, power, line.index);
+                }
+                samples.push(sample);
+            });
+        })?;
+        Some(most_likely_level(&samples, noise.assembly))
+    }
+}
+
+fn add_source<const N: usize>(
+    sample: &mut Sample,
+    source: &Source<N>,
+    noise: &Noise,
+    gain: f64,
+    power: f64,
+    line: usize,
+) {
+    if let Some(known) = source.known.get(line) {
+        sample.known += known * gain * power;
+        return;
+    }
+    let stated: StatedLevel = match source.side {
+        Side::A => noise.a,
+        Side::B => noise.b,
+    };
+    match stated.relative {
+        Some(relative) => sample.known += relative * relative * gain * power,
+        None => sample.by_relative += gain * power,
+    }
+    match stated.floor {
+        Some(floor) => sample.known += floor * floor * gain,
+        None => sample.by_floor += gain,
+    }
+}
+
+fn level_of<const N: usize>(source: &Source<N>, levels: Levels) -> NoiseLevel {
+    match source.side {
+        Side::A => levels.a,
+        Side::B => levels.b,
+    }
+}
+
+/// |û + δ|² of a source.
+fn source_power<const N: usize>(
+    source: &Source<N>,
+    state: &State,
+    number: usize,
+    line: usize,
+    s: usize,
+    group: &Group<N>,
+) -> f64 {
+    let delta: Complex64 = state.corrections[number][line * group.sources.len() + s];
+    (source.value[line] + delta).norm_sqr()
+}
+
+/// One entry of one block at one line.
+struct EntryView {
+    /// Index among the entries of all blocks of the group.
+    index: usize,
+    count: u32,
+    /// |H^C|² as computed.
+    power: f64,
+    scatter: f64,
+    known: Option<f64>,
+}
+
+fn for_each_entry<const N: usize>(
+    group: &Group<N>,
+    line: &Line<'_, N>,
+    mut visit: impl FnMut(EntryView),
+) {
+    let mut index = 0;
+    for block in &group.blocks {
+        let count = block.entries.len();
+        for (e, entry) in block.entries.iter().enumerate() {
+            visit(EntryView {
+                index,
+                count: entry.count,
+                power: line.computed[index].norm_sqr(),
+                scatter: block.scatter[line.index * count + e],
+                known: block.known.get(line.index * count + e).copied(),
+            });
+            index += 1;
+        }
+    }
+}

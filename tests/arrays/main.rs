@@ -1,0 +1,82 @@
+//! Tables and NumPy archives: those of NumPy, every fault by its place, and none that panics.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+mod archive;
+mod junk;
+mod table;
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use bolted_joint::frf::{Dof, FrfSet, ReadOptions, read_frfs};
+use num_complex::Complex64;
+
+fn dof(text: &str) -> Dof {
+    text.parse().unwrap()
+}
+
+fn own_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data/arrays")
+        .join(name)
+}
+
+fn set(name: &str) -> FrfSet {
+    read_frfs(own_file(name), &ReadOptions::default())
+        .unwrap()
+        .into_set()
+        .unwrap()
+}
+
+fn message(name: &str) -> String {
+    read_frfs(own_file(name), &ReadOptions::default())
+        .unwrap_err()
+        .to_string()
+}
+
+/// Receptance of the oscillator behind the files of this test, m/N.
+fn oscillator(frequency_hz: f64) -> Complex64 {
+    let s = Complex64::new(0.0, TAU * frequency_hz);
+    // H = 1/(m s² + c s + k)
+    1.0 / (2.0 * s * s + 8.0 * s + 8e4)
+}
+
+const FACTORS: [(&str, &str, f64); 6] = [
+    ("11:+Y", "2:+Y", 1.0),
+    ("11:+Y", "3:+Y", 0.5),
+    ("12:-Y", "2:+Y", -2.0),
+    ("12:-Y", "3:+Y", 3.0),
+    ("13:+RZ", "2:+Y", 0.25),
+    ("13:+RZ", "3:+Y", 7.0),
+];
+
+fn is_oscillator(set: &FrfSet, pairs: &[(&str, &str, f64)], tolerance: f64) {
+    assert_eq!(set.functions().len(), pairs.len());
+    assert_eq!(set.frequency_hz(), [5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0]);
+    for &(response, reference, factor) in pairs {
+        let found = set.receptance(dof(response), dof(reference)).unwrap();
+        for (&value, &hz) in found.iter().zip(set.frequency_hz()) {
+            let expected = factor * oscillator(hz);
+            assert!(
+                (value - expected).norm() <= tolerance * expected.norm(),
+                "{response} / {reference}, {hz} Hz: {value}, not {expected}"
+            );
+        }
+    }
+}
+
+/// γ² = 1/(1 + 0.01 i) and ten averages, so that (1 − γ²)/(n γ²) is 0.001 i.
+fn has_variance(set: &FrfSet, tolerance: f64) {
+    let variance = set.relative_variance(dof("11:Y"), dof("2:Y")).unwrap();
+    assert_eq!(variance.len(), 7);
+    for (index, found) in variance.iter().enumerate() {
+        assert!(
+            (found - 1e-3 * (index + 1) as f64).abs() < tolerance,
+            "{found}"
+        );
+    }
+}

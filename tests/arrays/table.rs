@@ -1,0 +1,280 @@
+//! Tables.
+
+use bolted_joint::frf::{
+    CsvProblem, FrfError, FrfReading, Quantity, ReadOptions, Selection, UnitSystem, read_csv_from,
+};
+use num_complex::Complex64;
+
+use super::{FACTORS, dof, has_variance, is_oscillator, set};
+
+fn read(text: impl AsRef<[u8]>) -> Result<FrfReading, FrfError> {
+    read_csv_from(text.as_ref(), "memory.csv", &ReadOptions::default())
+}
+
+/// The line and the problem of a table that is not usable.
+fn problem_of(text: impl AsRef<[u8]>) -> (usize, CsvProblem) {
+    match read(text).unwrap_err() {
+        FrfError::Csv { line, problem, .. } => (line, *problem),
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_table_of_numpy_gives_the_oscillator() {
+    let set = set("table.csv");
+    is_oscillator(&set, &FACTORS, 1e-13);
+    has_variance(&set, 1e-12);
+}
+
+const SMALL: &str = "# measured on the bench
+# quantity = receptance
+frequency [Hz],11:+Y/2:+Y real,11:+Y/2:+Y imaginary
+1,0.5,-1.5
+2.5,1e-3,2E+4
+";
+
+#[test]
+fn a_small_table_is_good_in_every_dress() {
+    let expected = [Complex64::new(0.5, -1.5), Complex64::new(1e-3, 2e4)];
+    let semicolons = SMALL.replace(',', ";");
+    for dress in [
+        SMALL.to_owned(),
+        SMALL.replace('\n', "\r\n"),
+        format!("\u{feff}{SMALL}"),
+        SMALL.trim_end().to_owned(),
+        semicolons.clone(),
+        semicolons
+            .replace("0.5", "0,5")
+            .replace("1.5", "1,5")
+            .replace("2.5", "2,5"),
+        SMALL.replace(',', "\t"),
+        SMALL
+            .replace("# quantity = receptance\n", "")
+            .replace(" real", " receptance real"),
+        SMALL
+            .replace("# quantity = receptance\n", "")
+            .replace(" real", " real [m/N]"),
+        SMALL.replace("# quantity = receptance", "# unit: m/N"),
+        SMALL.replace("11:+Y/2:+Y real", " \"11:Y/2:Y RE\" "),
+        format!("{SMALL}\n# the end\n"),
+    ] {
+        let reading = read(&dress).unwrap_or_else(|error| panic!("{dress}: {error}"));
+        let [function] = reading.functions() else {
+            panic!()
+        };
+        assert_eq!(
+            (function.response(), function.reference()),
+            (dof("11:Y"), dof("2:Y"))
+        );
+        assert_eq!(function.receptance(), expected, "{dress}");
+        assert_eq!(function.frequency_hz(), [1.0, 2.5]);
+    }
+    let latin_1: Vec<u8> = SMALL
+        .replace("bench", "pr\u{fc}fstand")
+        .chars()
+        .map(|c| c as u8)
+        .collect();
+    assert_eq!(read(latin_1).unwrap().functions()[0].receptance(), expected);
+}
+
+#[test]
+fn degrees_and_radians_are_told_apart() {
+    for (unit, quarter) in [
+        ("deg", 90.0),
+        ("rad", std::f64::consts::FRAC_PI_2),
+        ("°", 90.0),
+    ] {
+        let text = format!("f,1:Y/2:Y magnitude [mm/N],1:Y/2:Y phase [{unit}]\n1,2,{quarter}\n");
+        let value = read(text).unwrap().functions()[0].receptance()[0];
+        assert!(
+            (value - Complex64::new(0.0, 2e-3)).norm() < 1e-18,
+            "{value}"
+        );
+    }
+}
+
+#[test]
+fn every_fault_is_located_and_named() {
+    let header = |columns: &str| format!("frequency [Hz],{columns}\n1,2,3\n");
+    for (text, line, named) in [
+        ("".to_owned(), 1, "no header row"),
+        ("# only a comment\n".to_owned(), 2, "no header row"),
+        ("1,2,3\n".to_owned(), 1, "column 1: found \"1\""),
+        (
+            "frequency [kHz],1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(),
+            1,
+            "frequency [kHz]",
+        ),
+        (
+            "omega,1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(),
+            1,
+            "omega",
+        ),
+        (
+            header("1:Y real,1:Y imaginary"),
+            1,
+            "column 2: found the name \"1:Y real\"",
+        ),
+        (
+            header("1:Y/2:W real,1:Y/2:W imaginary"),
+            1,
+            "direction \"W\"",
+        ),
+        (header("1:Y/2:Y [m/N],1:Y/2:Y imaginary"), 1, "column 2"),
+        (header("1:Y/2:Y real part,1:Y/2:Y imaginary"), 1, "column 2"),
+        (
+            header("1:Y/2:Y real [m/N],1:Y/3:Y imaginary"),
+            1,
+            "found real part, expected",
+        ),
+        (
+            header("1:Y/2:Y real [m/N],1:Y/2:Y phase [deg]"),
+            1,
+            "real part and phase",
+        ),
+        (
+            header("1:Y/2:Y magnitude [m/N],1:Y/2:Y phase"),
+            1,
+            "column 3: found a phase in \"no unit\"",
+        ),
+        (
+            header("1:Y/2:Y real [m/N],1:Y/2:Y real [m/N]"),
+            1,
+            "a second real part",
+        ),
+        (
+            header("1:Y/2:Y real [m/N],1:Y/2:Y imaginary [mm/N]"),
+            1,
+            "\"m/N\" in one column and \"mm/N\"",
+        ),
+        (
+            header("1:Y/2:Y real,1:Y/2:Y imaginary"),
+            1,
+            "neither a quantity nor a unit",
+        ),
+        (
+            header("1:Y/2:Y real mobility [m/N],1:Y/2:Y imaginary"),
+            1,
+            "means receptance",
+        ),
+        (
+            header("1:Y/2:Y real [dB],1:Y/2:Y imaginary"),
+            1,
+            "the unit \"dB\"",
+        ),
+        (
+            header("1:Y/2:Y real [N/m],1:Y/2:Y imaginary"),
+            1,
+            "the unit \"N/m\"",
+        ),
+        (
+            header("1:RZ/2:Y real [m/N],1:RZ/2:Y imaginary"),
+            1,
+            "directions",
+        ),
+        (
+            SMALL.replace("receptance", "stiffness"),
+            2,
+            "quantity = \"stiffness\"",
+        ),
+        (
+            SMALL.replace("quantity = receptance", "averages = 0"),
+            2,
+            "averages = \"0\"",
+        ),
+        (
+            SMALL.replace("0.5,-1.5", "0,5,-1,5"),
+            4,
+            "found 5 fields, expected 3",
+        ),
+        (SMALL.replace("0.5,-1.5", "0.5"), 4, "found 2 fields"),
+        (
+            SMALL.replace("-1.5", "-1.5x"),
+            4,
+            "column 3: found \"-1.5x\"",
+        ),
+        (SMALL.replace("-1.5", ""), 4, "column 3: found \"\""),
+        (
+            SMALL.replace(',', ";").replace("0.5", "0,5"),
+            4,
+            "commas and points",
+        ),
+        (
+            SMALL.replace(',', ";").replace("2E+4", "2.000,5"),
+            5,
+            "separators of thousands",
+        ),
+        (
+            SMALL.replace("-1.5", "NaN"),
+            3,
+            "line 1 (1 Hz): found value",
+        ),
+        (SMALL.replace("2.5,1e", "1,1e"), 3, "strictly increasing"),
+        (
+            SMALL.lines().take(3).collect::<Vec<_>>().join("\n"),
+            3,
+            "no usable line",
+        ),
+        (
+            "f,1:Y/2:Y magnitude [m/N],1:Y/2:Y phase [deg]\n1,-2,0\n".to_owned(),
+            2,
+            "magnitude -2",
+        ),
+        (
+            "f,1:Y/2:Y real [m/N],1:Y/2:Y imaginary,1:Y/2:Y coherence\n1,2,3,98\n".to_owned(),
+            1,
+            "found 98, expected a number from 0 to 1",
+        ),
+    ] {
+        let (found_line, problem) = problem_of(&text);
+        let message = problem.to_string();
+        assert!(message.contains(named), "{text}: {message}");
+        assert_eq!(found_line, line, "{text}: {message}");
+    }
+    assert!(matches!(problem_of(b"\xFF\xFEf\0"), (1, CsvProblem::Utf16)));
+    let endless = vec![b'x'; 2 << 20];
+    assert!(matches!(
+        problem_of(endless),
+        (1, CsvProblem::LineTooLong { .. })
+    ));
+}
+
+#[test]
+fn the_callers_word_settles_what_contradicts_itself() {
+    let text = "f,1:Y/2:Y mobility real [mm/N],1:Y/2:Y imaginary\n1,2,3\n";
+    let options = ReadOptions {
+        quantity: Some(Quantity::Receptance),
+        ..ReadOptions::default()
+    };
+    let value = |options: &ReadOptions| {
+        read_csv_from(text.as_bytes(), "m", options)
+            .unwrap()
+            .functions()[0]
+            .receptance()[0]
+    };
+    assert!((value(&options) - Complex64::new(2e-3, 3e-3)).norm() < 1e-18);
+    let units = ReadOptions {
+        units: UnitSystem::named("m", "kN"),
+        ..options
+    };
+    assert!((value(&units) - Complex64::new(2e-3, 3e-3)).norm() < 1e-18);
+}
+
+#[test]
+fn only_what_is_asked_for_is_kept() {
+    let options = ReadOptions {
+        selection: Selection::between([dof("1:Y"), dof("2:Y")]).within(2.0, 3.0),
+        ..ReadOptions::default()
+    };
+    // What is not asked for need not be usable.
+    let text = "f,1:Y/2:Y real [m/N],1:Y/2:Y imaginary,9:Y/2:Y real,9:Y/2:Y imaginary\n1,1,1,x,y\n2,2,2,,\n4,4,4,,\n";
+    let reading = read_csv_from(text.as_bytes(), "memory.csv", &options).unwrap();
+    let [function] = reading.functions() else {
+        panic!()
+    };
+    assert_eq!(function.frequency_hz(), [2.0]);
+    assert_eq!(
+        reading.not_selected().first(),
+        Some(&(dof("9:Y"), dof("2:Y")))
+    );
+}

@@ -1,0 +1,323 @@
+//! Beams of section 4.2.2 measured at every point that the joint needs, with noise on the assembly or on everything, and
+//! the Cramér–Rao bound of such data.
+//!
+//! The bound is computed here from finite differences of the coupled receptances; no derivative of the program is used.
+
+use std::sync::Arc;
+
+use bolted_joint::identify::{JointMatrices, JointModel, Lines, MeasuredSubstructure, NoiseLevel};
+use bolted_joint::structure::{
+    Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition, couple,
+};
+use nalgebra::{DMatrix, DVector, dmatrix};
+use num_complex::Complex64;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// Distance of the three points about the joint, m.
+const SPACING_M: f64 = 0.015;
+
+/// A test rig: what is measured without noise, and the joint in it.
+pub(crate) struct Rig {
+    pub(crate) name: &'static str,
+    pub(crate) joint: JointMatrices,
+    pub(crate) model: JointModel,
+    frequency_hz: Vec<f64>,
+    /// A's receptances at three points, B's at three points and where the assembly is measured.
+    a: Vec<ComplexMatrix>,
+    b: Vec<ComplexMatrix>,
+    a_transformation: DMatrix<f64>,
+    b_transformation: DMatrix<f64>,
+}
+
+/// What carries noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Noisy {
+    Assembly,
+    /// B is computed, as in the thesis.
+    AssemblyAndA,
+    Everything,
+}
+
+fn beam(length_m: f64, boundary: Boundary, damping_ratio: f64) -> Beam {
+    Beam {
+        length_m,
+        width_m: 0.025,
+        height_m: 0.006,
+        youngs_modulus_pa: 67e9,
+        density_kg_per_m3: 2700.0,
+        boundary,
+        damping: Damping::Ratios(vec![damping_ratio]),
+    }
+}
+
+impl Rig {
+    pub(crate) fn new(
+        name: &'static str,
+        joint: JointMatrices,
+        damping_ratio: f64,
+        frequency_hz: Vec<f64>,
+    ) -> Self {
+        let receptances = |beam: Beam, positions: &[f64]| {
+            let points: Vec<BeamPoint> = positions
+                .iter()
+                .map(|&position_m| BeamPoint {
+                    position_m,
+                    motion: Motion::Translation,
+                })
+                .collect();
+            beam.receptances(&points, &frequency_hz).unwrap()
+        };
+        let slope = 0.5 / SPACING_M;
+        let difference = dmatrix![0.0, 1.0, 0.0; -slope, 0.0, slope];
+        let a = receptances(
+            beam(0.3, Boundary::FixedFree, damping_ratio),
+            &[0.27, 0.285, 0.3],
+        );
+        let b = receptances(
+            beam(0.225, Boundary::FreeFree, damping_ratio),
+            &[0.0, 0.015, 0.03, 0.195, 0.21, 0.225],
+        );
+        let mut whole = DMatrix::zeros(5, 6);
+        whole.view_mut((0, 0), (2, 3)).copy_from(&difference);
+        whole.view_mut((2, 3), (3, 3)).fill_with_identity();
+        let model = if joint.stiffness[(0, 1)] == 0.0 && joint.damping[(0, 1)] == 0.0 {
+            JointModel::Diagonal
+        } else {
+            JointModel::Full
+        };
+        Self {
+            name,
+            joint,
+            model,
+            frequency_hz,
+            a,
+            b,
+            a_transformation: difference,
+            b_transformation: whole,
+        }
+    }
+
+    pub(crate) fn truth(&self) -> Vec<f64> {
+        unknowns(self.model, &self.joint)
+    }
+
+    /// Lines with multiplicative noise of this level, everything measured by all pairs.
+    pub(crate) fn lines(&self, noisy: Noisy, level: NoiseLevel, seed: u64) -> Lines {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut polluted = |matrix: &ComplexMatrix| {
+            matrix.map(|value| {
+                let sigma = (level.relative * level.relative * value.norm_sqr()
+                    + level.floor * level.floor)
+                    .sqrt();
+                let part = sigma * std::f64::consts::FRAC_1_SQRT_2;
+                let mut normal = || -> f64 { StandardNormal.sample(&mut generator) };
+                value + Complex64::new(part * normal(), part * normal())
+            })
+        };
+        let (mut a, mut b) = (self.a.clone(), self.b.clone());
+        let mut assembly = self.assembly(&self.joint, &a, &b);
+        for matrix in &mut assembly {
+            *matrix = polluted(matrix);
+        }
+        let of_b = if noisy == Noisy::Everything {
+            &mut b[..]
+        } else {
+            &mut []
+        };
+        if noisy != Noisy::Assembly {
+            for matrix in a.iter_mut().chain(of_b) {
+                let noisy = polluted(matrix);
+                *matrix = (&noisy + noisy.transpose()) * Complex64::from(0.5);
+            }
+        }
+        let joint = |u: &[ComplexMatrix], w: &DMatrix<f64>| formed(u, w);
+        let b_formed = joint(&b, &self.b_transformation);
+        let all = |count: usize| {
+            (0..count)
+                .flat_map(|row| (0..count).map(move |column| (row, column)))
+                .collect::<Vec<_>>()
+        };
+        let measured = |w: &DMatrix<f64>, u: Vec<ComplexMatrix>, is_noisy: bool| {
+            is_noisy.then(|| {
+                Arc::new(MeasuredSubstructure {
+                    transformation: w.clone(),
+                    measured: all(w.ncols()),
+                    receptances: u,
+                    relative_variance: None,
+                })
+            })
+        };
+        Lines {
+            frequency_hz: self.frequency_hz.clone(),
+            a_joint: joint(&a, &self.a_transformation),
+            b: b_formed.iter().map(|h| Partition::of(h, 2)).collect(),
+            assembly,
+            points: (1..=3)
+                .map(|point| format!("{point}:+Y").parse().unwrap())
+                .collect(),
+            measured: all(3),
+            relative_variance: None,
+            repeats: None,
+            a_measured: measured(&self.a_transformation, a, noisy != Noisy::Assembly),
+            b_measured: measured(&self.b_transformation, b, noisy == Noisy::Everything),
+        }
+    }
+
+    fn assembly(
+        &self,
+        joint: &JointMatrices,
+        a: &[ComplexMatrix],
+        b: &[ComplexMatrix],
+    ) -> Vec<ComplexMatrix> {
+        (0..self.frequency_hz.len())
+            .map(|line| self.assembly_at(joint, line, &a[line], &b[line]))
+            .collect()
+    }
+
+    fn assembly_at(
+        &self,
+        joint: &JointMatrices,
+        line: usize,
+        a: &ComplexMatrix,
+        b: &ComplexMatrix,
+    ) -> ComplexMatrix {
+        let of = |u: &ComplexMatrix, w: &DMatrix<f64>| {
+            let w = w.map(Complex64::from);
+            Partition::of(&(&w * u * w.transpose()), 2)
+        };
+        let (a, b) = (of(a, &self.a_transformation), of(b, &self.b_transformation));
+        let stiffness = joint.complex_stiffness(self.frequency_hz[line]);
+        couple(&a, &b, &stiffness).unwrap().ss
+    }
+
+    /// The smallest standard deviation that an unbiased estimate of each unknown can have.
+    pub(crate) fn bound(&self, noisy: Noisy, level: NoiseLevel) -> Vec<f64> {
+        let truth = self.truth();
+        let size = truth.len();
+        let mut information = DMatrix::zeros(size, size);
+        for line in 0..self.frequency_hz.len() {
+            let (a, b) = (&self.a[line], &self.b[line]);
+            let column = |change: &dyn Fn(f64) -> ComplexMatrix, step: f64| -> DVector<Complex64> {
+                let difference = (change(step) - change(-step)) / Complex64::from(2.0 * step);
+                let upper = (0..3).flat_map(|i| (i..3).map(move |j| (i, j)));
+                DVector::from_iterator(6, upper.map(|place| difference[place]))
+            };
+            let derivatives: Vec<DVector<Complex64>> = (0..size)
+                .map(|index| {
+                    let change = |step: f64| {
+                        let mut moved = truth.clone();
+                        moved[index] += step;
+                        self.assembly_at(&matrices(self.model, &moved), line, a, b)
+                    };
+                    let scale = if truth[index] == 0.0 {
+                        truth[0].abs() * 1e-3
+                    } else {
+                        truth[index].abs()
+                    };
+                    column(&change, 1e-5 * scale)
+                })
+                .collect();
+            let whole = self.assembly_at(&self.joint, line, a, b);
+            let variance = |value: Complex64| {
+                level.relative * level.relative * value.norm_sqr() + level.floor * level.floor
+            };
+            // Off the diagonal two measurements of one number.
+            let count = |i: usize, j: usize| if i == j { 1.0 } else { 2.0 };
+            let mut covariance = DMatrix::from_diagonal(&DVector::from_iterator(
+                6,
+                (0..3).flat_map(|i| {
+                    let whole = &whole;
+                    (i..3).map(move |j| Complex64::from(variance(whole[(i, j)]) / count(i, j)))
+                }),
+            ));
+            let sides: &[&ComplexMatrix] = match noisy {
+                Noisy::Assembly => &[],
+                Noisy::AssemblyAndA => &[a],
+                Noisy::Everything => &[a, b],
+            };
+            {
+                for (side, &u) in sides.iter().enumerate() {
+                    for p in 0..u.nrows() {
+                        for q in p..u.ncols() {
+                            let change = |step: f64| {
+                                let mut moved = u.clone();
+                                moved[(p, q)] += step;
+                                if p != q {
+                                    moved[(q, p)] += step;
+                                }
+                                let (a, b) = if side == 0 { (&moved, b) } else { (a, &moved) };
+                                self.assembly_at(&self.joint, line, a, b)
+                            };
+                            let j = column(&change, 1e-6 * u[(p, q)].norm());
+                            let s = variance(u[(p, q)]) / count(p, q);
+                            covariance += &j * j.adjoint() * Complex64::from(s);
+                        }
+                    }
+                }
+            }
+            // Fisher information of complex circular errors: 2 Re Jᴴ Σ⁻¹ J.
+            let inverse = covariance.try_inverse().unwrap();
+            for i in 0..size {
+                for j in 0..size {
+                    let product = derivatives[i].adjoint() * &inverse * &derivatives[j];
+                    information[(i, j)] += 2.0 * product[(0, 0)].re;
+                }
+            }
+        }
+        let scale = information
+            .diagonal()
+            .map(|value: f64| value.sqrt().recip());
+        let scaled = DMatrix::from_fn(size, size, |i, j| scale[i] * information[(i, j)] * scale[j]);
+        let inverse = scaled.try_inverse().unwrap();
+        (0..size)
+            .map(|i| scale[i] * inverse[(i, i)].sqrt())
+            .collect()
+    }
+}
+
+fn formed(u: &[ComplexMatrix], w: &DMatrix<f64>) -> Vec<ComplexMatrix> {
+    let w = w.map(Complex64::from);
+    u.iter().map(|u| &w * u * w.transpose()).collect()
+}
+
+fn places(model: JointModel) -> &'static [(usize, usize)] {
+    match model {
+        JointModel::Translation => &[(0, 0)],
+        JointModel::Diagonal => &[(0, 0), (1, 1)],
+        JointModel::Full => &[(0, 0), (0, 1), (1, 1)],
+    }
+}
+
+/// Stiffness of each entry, then damping.
+pub(crate) fn unknowns(model: JointModel, joint: &JointMatrices) -> Vec<f64> {
+    [&joint.stiffness, &joint.damping]
+        .into_iter()
+        .flat_map(|matrix| places(model).iter().map(|&place| matrix[place]))
+        .collect()
+}
+
+pub(crate) fn matrices(model: JointModel, unknowns: &[f64]) -> JointMatrices {
+    let (k, c) = unknowns.split_at(places(model).len());
+    let matrix = |values: &[f64]| {
+        let mut matrix = DMatrix::zeros(2, 2);
+        for (&(i, j), &value) in places(model).iter().zip(values) {
+            matrix[(i, j)] = value;
+            matrix[(j, i)] = value;
+        }
+        matrix
+    };
+    JointMatrices {
+        stiffness: matrix(k),
+        damping: matrix(c),
+    }
+}
+
+/// The joint of section 4.2.2 with coupling, `factor` times as stiff and `damping` times as damped.
+pub(crate) fn joint(factor: f64, damping: f64) -> JointMatrices {
+    JointMatrices {
+        stiffness: dmatrix![1e5, 2e3; 2e3, 1e3] * factor,
+        damping: dmatrix![5.0, -0.1; -0.1, 0.05] * damping,
+    }
+}

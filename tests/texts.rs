@@ -1,0 +1,109 @@
+//! Damaged studies, modal data and joint files: an error or a file that is still good, and never a panic.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+use std::path::Path;
+
+use bolted_joint::identify::Study;
+use bolted_joint::joint::JointFile;
+use bolted_joint::structure::ModalModel;
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+
+const STUDY: &str = include_str!("../examples/tol-m10x16/study.toml");
+const MODES: &str = include_str!("../examples/tol-m10x16/a-modes.toml");
+const JOINT: &str = include_str!("data/joint/m10-aluminium.joint.json");
+const PRELOAD: &str = include_str!("data/joint/over-preload.joint.json");
+
+/// What a writer by hand, or by accident, puts into such files.
+const TOKENS: [&str; 24] = [
+    "-1",
+    "1e999",
+    "nan",
+    "inf",
+    "99999999999999999999",
+    "\"",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    "=",
+    "\n",
+    "null",
+    "true",
+    "[[",
+    "\\u0000",
+    "\u{0}",
+    "ü",
+    "[a]\n",
+    "frf = \"x.csv\"\n",
+    "units = { length = \"mm\", force = \"N\" }\n",
+    "averages = 0\n",
+    "\"11:+Y\"",
+];
+
+fn damaged(text: &str, damages: &[(usize, usize, Option<usize>)]) -> String {
+    let mut characters: Vec<char> = text.chars().collect();
+    for &(at, length, token) in damages {
+        let at = at % (characters.len() + 1);
+        let to = (at + length).min(characters.len());
+        let inserted = token.map_or("", |token| TOKENS[token]).chars();
+        drop(characters.splice(at..to, inserted));
+    }
+    characters.into_iter().collect()
+}
+
+fn run(text: &'static str, read: fn(&str) -> bool) {
+    assert!(read(text), "the file is good as it is");
+    let config = ProptestConfig {
+        cases: 1500,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    let token = prop::option::of(0..TOKENS.len());
+    let damages = prop::collection::vec((any::<usize>(), 0..12_usize, token), 1..5);
+    TestRunner::new(config)
+        .run(&damages, |damages| {
+            read(&damaged(text, &damages));
+            Ok(())
+        })
+        .unwrap();
+}
+
+#[test]
+fn damaged_studies_do_not_panic() {
+    run(STUDY, |text| {
+        Study::from_toml(text, Path::new("study.toml")).is_ok()
+    });
+}
+
+#[test]
+fn damaged_modal_data_do_not_panic() {
+    run(MODES, |text| {
+        ModalModel::from_toml(text, Path::new("modes.toml")).is_ok()
+    });
+}
+
+#[test]
+fn damaged_joint_files_do_not_panic() {
+    run(JOINT, |text| {
+        JointFile::from_json(text, "joint.json").is_ok()
+    });
+    run(PRELOAD, |text| {
+        JointFile::from_json(text, "joint.json").is_ok()
+    });
+}
+
+/// Nesting takes no more stack than the readers allow.
+#[test]
+fn deep_nesting_is_an_error() {
+    for open in ["[", "{\"a\":", "a = [", "[[a.", "a = {a = "] {
+        let text = open.repeat(100_000);
+        assert!(JointFile::from_json(&text, "joint.json").is_err());
+        assert!(Study::from_toml(&text, Path::new("study.toml")).is_err());
+    }
+}

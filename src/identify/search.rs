@@ -89,13 +89,33 @@ pub(super) fn best<const N: usize>(
         trials.extend(parallel::map(&grid, trial).into_iter().flatten());
         finals = finalists(data, entries, noise, &trials);
     }
-    let best = finals.first().ok_or(tried)?;
+    let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
     Ok(Found {
         estimate: best.estimate.clone(),
         assessment: best.assessment.clone(),
         tried,
         agreeing: agreeing(&trials, &finals, &best.estimate),
     })
+}
+
+/// The best estimate; of several that explain the data equally well, as when there are no more numbers than unknowns, the
+/// one that is softest beside the substructures.
+fn softest_of_the_best<'f, const N: usize>(
+    finals: &'f [Final],
+    groups: &[Group<N>],
+    entries: &[(usize, usize)],
+) -> Option<&'f Final> {
+    let lowest = rank(&finals.first()?.estimate);
+    let own = groups.first()?.blocks.first()?.dynamic_stiffness;
+    let size = |end: &&Final| -> f64 {
+        let places = entries.iter().enumerate();
+        let parts = places.map(|(t, &(i, j))| end.estimate.unknowns[t].powi(2) / (own[i] * own[j]));
+        parts.sum()
+    };
+    finals
+        .iter()
+        .filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
+        .min_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
 /// How many of the trials led to `best`.

@@ -16,7 +16,10 @@ pub(super) const LINES_FOR_STARTS: usize = 200;
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;
 
-/// … or each of their unknowns does, relative to its value or to what would change the residual by its assumed standard
+/// … and their unknowns to this (with no more numbers than unknowns several joints fit exactly) …
+const NEAR_UNKNOWN: f64 = 0.05;
+
+/// … or if their unknowns agree to this, relative to its value or to what would change the residual by its assumed standard
 /// deviation: data without noise leave a misfit of rounding alone.
 const SAME_UNKNOWN: f64 = 1e-6;
 
@@ -232,13 +235,16 @@ fn rank(estimate: &Estimate) -> f64 {
 
 /// Whether two estimates from the same lines are one minimum.
 pub(super) fn same(one: &Estimate, other: &Estimate) -> bool {
-    let close = |index: usize| {
-        let (a, b) = (one.unknowns[index], other.unknowns[index]);
-        let scale = one.information[(index, index)]
-            .max(f64::MIN_POSITIVE)
-            .sqrt()
-            .recip();
-        (a - b).abs() <= SAME_UNKNOWN * a.abs().max(b.abs()).max(scale)
+    let close = |tolerance: f64| {
+        (0..one.unknowns.len()).all(|index| {
+            let (a, b) = (one.unknowns[index], other.unknowns[index]);
+            let scale = one.information[(index, index)]
+                .max(f64::MIN_POSITIVE)
+                .sqrt()
+                .recip();
+            (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(scale)
+        })
     };
-    (one.misfit - other.misfit).abs() <= SAME_MISFIT || (0..one.unknowns.len()).all(close)
+    let equally_good = (one.misfit - other.misfit).abs() <= SAME_MISFIT;
+    equally_good && close(NEAR_UNKNOWN) || close(SAME_UNKNOWN)
 }

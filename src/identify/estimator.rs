@@ -127,10 +127,11 @@ pub(super) fn estimate<const N: usize>(
         }
     }
     let state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
-    let mut log_determinant: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
-    objective.visit(Some(&weights), &state, |_, line| {
-        log_determinant += line.log_determinant();
-    })?;
+    let log_determinant = if noise.is_stated() {
+        log_variances(&weights)
+    } else {
+        log_determinant(objective, &weights, &state)?
+    };
     let cost = state.normal.linearised_cost;
     let count = measurements as f64;
     // −2 ln L = 2 Σ|r|²/σ² + 2 Σ ln σ², with the scale of σ profiled out 2 N ln(Σ|r|²/σ² / N) + 2 Σ ln σ² + 2 N
@@ -150,6 +151,29 @@ pub(super) fn estimate<const N: usize>(
         converged,
         corrections: state.corrections,
     })
+}
+
+/// Σ ln σ² of everything measured: the likelihood with the corrections as unknowns.
+fn log_variances(weights: &[Weights]) -> f64 {
+    let of = |weights: &Weights| {
+        let all = weights.entries.iter().chain(&weights.sources);
+        let logarithms = all.filter(|variance| **variance > 0.0).map(|v| v.ln());
+        weights.scatter_log + logarithms.sum::<f64>()
+    };
+    weights.iter().map(of).sum()
+}
+
+/// Σ ln det Σ: the likelihood with the corrections integrated out, in which the level of the noise can be estimated.
+fn log_determinant<const N: usize>(
+    objective: &Objective<'_, N>,
+    weights: &[Weights],
+    state: &State,
+) -> Option<f64> {
+    let mut sum: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
+    objective.visit(Some(weights), state, |_, line| {
+        sum += line.log_determinant()
+    })?;
+    Some(sum)
 }
 
 pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usize {
@@ -219,6 +243,7 @@ fn levenberg_marquardt<const N: usize>(
         let trial = normal.step(damping).map(|step| &coordinates + step);
         let improved = trial
             .as_ref()
+            .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
             .and_then(|trial| objective.step(weights, &state, chart.unknowns(trial)))
             .filter(|next| next.normal.cost <= state.normal.cost);
         if let (Some(trial), Some(next)) = (trial, improved) {

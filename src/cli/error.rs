@@ -9,12 +9,15 @@ use crate::export::{ExportError, InspectError};
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::JointFileError;
+use crate::reproduce::ReproduceError;
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
 pub(super) enum CliError {
     #[error(transparent)]
     Identify(Box<IdentifyError>),
+    #[error(transparent)]
+    Reproduce(#[from] ReproduceError),
     #[error(transparent)]
     Frf(#[from] FrfError),
     #[error(transparent)]

@@ -7,6 +7,7 @@ mod export;
 mod identify;
 mod output;
 mod progress;
+mod reproduce;
 mod table;
 
 use std::path::PathBuf;
@@ -15,6 +16,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::Interface;
+use crate::reproduce::PublishedTable;
 
 /// Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #[derive(Debug, Parser)]
@@ -38,6 +40,8 @@ enum Command {
     Export(ExportArguments),
     /// Check a joint file or an FMU
     Check(CheckArguments),
+    /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
+    Reproduce(ReproduceArguments),
 }
 
 /// `demo`
@@ -124,6 +128,25 @@ struct CheckArguments {
     json: bool,
 }
 
+/// `reproduce`
+#[derive(Debug, Args)]
+struct ReproduceArguments {
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
+    tables: Vec<PublishedTable>,
+    /// Draws of the noise, for mean and spread
+    #[arg(long, value_name = "NUMBER", default_value_t = 100)]
+    draws: u32,
+    /// Seed of the first draw
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Samples of each harmonic test in response pollution, which the thesis does not give
+    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
+    samples: u32,
+    /// Print the tables as JSON
+    #[arg(long)]
+    json: bool,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum InterfaceArgument {
     /// The massless joint between two structures: motion in, force out
@@ -157,6 +180,7 @@ pub fn main() -> ExitCode {
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -45,7 +45,8 @@ impl Bands {
 }
 
 /// K and C of `model` from the decoupled K* of each line; `None` if an entry has no line to average.
-pub(super) fn average(
+#[must_use]
+pub fn band_average(
     model: JointModel,
     frequency_hz: &[f64],
     decoupled: &[Option<ComplexMatrix>],
@@ -117,7 +118,7 @@ mod tests {
         let decoupled = [line(1.0, 1.0), line(5.0, 2.0), line(100.0, 3.0)];
         let entry = |bands: &Bands| {
             let average =
-                average(JointModel::Translation, &frequency_hz, &decoupled, bands).unwrap();
+                band_average(JointModel::Translation, &frequency_hz, &decoupled, bands).unwrap();
             (average.stiffness[(0, 0)], average.damping[(0, 0)])
         };
         let (k, c) = entry(&Bands::default());
@@ -132,6 +133,8 @@ mod tests {
             yy: vec![[7.0, 8.0]],
             ..Bands::default()
         };
-        assert!(average(JointModel::Translation, &frequency_hz, &decoupled, &nowhere).is_none());
+        assert!(
+            band_average(JointModel::Translation, &frequency_hz, &decoupled, &nowhere).is_none()
+        );
     }
 }

@@ -34,7 +34,7 @@ mod weights;
 
 pub use assemble::predict_assembly;
 pub use assessment::Assessment;
-pub use bands::Bands;
+pub use bands::{Bands, band_average};
 pub use bootstrap::Bootstrap;
 pub use choice::{ModelChoice, ModelFit};
 pub use decoupling::{from_rr, from_rs, from_sr, from_ss};

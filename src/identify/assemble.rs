@@ -8,9 +8,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
-use crate::structure::{
-    Beam, BeamError, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
-};
+use crate::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion, Partition};
 
 use super::error::IdentifyError;
 use super::lines::{Lines, MeasuredSubstructure};
@@ -248,10 +246,7 @@ fn joint_and_points(
 /// Labels of the measured DOFs from which the joint's follow, and the matrix that takes one to the other.
 fn joint_labels(y: Dof, theta: Option<&Rotation>, joint_dofs: usize) -> (Vec<Dof>, ComplexMatrix) {
     match theta {
-        Some(Rotation::Difference { points, spacing_m }) if joint_dofs == 2 => {
-            let difference = CentralDifference {
-                spacing_m: *spacing_m,
-            };
+        Some(Rotation::Difference { points, difference }) if joint_dofs == 2 => {
             (points.to_vec(), difference.transformation())
         }
         Some(Rotation::Measured(theta)) if joint_dofs == 2 => {

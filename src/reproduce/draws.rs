@@ -2,7 +2,8 @@
 
 use num_complex::Complex64;
 
-use crate::identify::{Bands, JointMatrices, JointModel, Unknown, band_average};
+use crate::identify::parallel;
+use crate::identify::{Bands, JointMatrices, JointModel, Unknown};
 use crate::respond::{Generator, Pollution};
 use crate::structure::ComplexMatrix;
 
@@ -28,10 +29,24 @@ impl Draws {
         }
     }
 
-    /// The generators of all draws.
-    pub(super) fn generators(&self) -> impl Iterator<Item = Generator> + use<> {
-        let seed = self.seed;
-        (0..u64::from(self.count)).map(move |draw| Generator::new(seed.wrapping_add(draw)))
+    /// What was taken for the samples that the thesis does not give.
+    pub(super) fn samples_taken(&self) -> String {
+        format!(
+            "samples of each harmonic test: {} taken (--samples; the noise of a line falls with their square root)",
+            self.samples
+        )
+    }
+
+    /// `identify` with the noise of each draw; draws that give no joint are left out.
+    pub(super) fn joints(
+        &self,
+        identify: impl Fn(&mut Generator) -> Option<JointMatrices> + Sync,
+    ) -> Vec<JointMatrices> {
+        let seeds: Vec<u64> = (0..u64::from(self.count))
+            .map(|draw| self.seed.wrapping_add(draw))
+            .collect();
+        let joints = parallel::map(&seeds, |&seed| identify(&mut Generator::new(seed)));
+        joints.into_iter().flatten().collect()
     }
 }
 
@@ -57,51 +72,44 @@ pub(super) fn polluted(
     noisy
 }
 
-/// Averages of a decoupled joint over bands, one set of values a draw.
-pub(super) struct Averages {
-    model: JointModel,
-    values: Vec<Vec<f64>>,
+/// `decouple` at the lines within any of the bands; the others are not needed.
+pub(super) fn decoupled_within(
+    bands: &Bands,
+    frequency_hz: &[f64],
+    decouple: impl Fn(usize) -> Option<ComplexMatrix>,
+) -> Vec<Option<ComplexMatrix>> {
+    let all = [&bands.yy, &bands.ytheta, &bands.thetatheta];
+    let is_within = |hz: &f64| {
+        let mut bands = all.iter().flat_map(|bands| bands.iter());
+        bands.any(|band| (band[0]..=band[1]).contains(hz))
+    };
+    let lines = frequency_hz.iter().enumerate();
+    lines
+        .map(|(line, hz)| is_within(hz).then(|| decouple(line)).flatten())
+        .collect()
 }
 
-impl Averages {
-    pub(super) fn new(model: JointModel) -> Self {
-        Self {
-            model,
-            values: vec![Vec::new(); model.unknowns()],
-        }
-    }
-
-    /// Adds a draw; one without any line to average is left out.
-    pub(super) fn add(
-        &mut self,
-        frequency_hz: &[f64],
-        decoupled: &[Option<ComplexMatrix>],
-        bands: &Bands,
-    ) {
-        if let Some(joint) = band_average(self.model, frequency_hz, decoupled, bands) {
-            self.add_joint(&joint);
-        }
-    }
-
-    pub(super) fn add_joint(&mut self, joint: &JointMatrices) {
-        for (values, unknown) in self.values.iter_mut().zip(Unknown::of(self.model)) {
-            values.push(unknown.value(joint));
-        }
-    }
-
-    /// One row for each unknown; `published` in the order of [`Unknown::of`].
-    pub(super) fn rows(&self, case: &str, truth: &JointMatrices, published: &[f64]) -> Vec<Row> {
-        Unknown::of(self.model)
-            .iter()
-            .enumerate()
-            .map(|(index, unknown)| Row {
+/// One row for each unknown of `model`; `published` in their order, empty where there is nothing published.
+pub(super) fn rows(
+    case: &str,
+    model: JointModel,
+    truth: Option<&JointMatrices>,
+    published: &[f64],
+    obtained: &[JointMatrices],
+) -> Vec<Row> {
+    Unknown::of(model)
+        .iter()
+        .enumerate()
+        .map(|(index, unknown)| {
+            let values: Vec<f64> = obtained.iter().map(|joint| unknown.value(joint)).collect();
+            Row {
                 case: case.to_owned(),
                 quantity: unknown.name.to_owned(),
                 unit: unknown.unit,
-                truth: Some(unknown.value(truth)),
+                truth: truth.map(|truth| unknown.value(truth)),
                 published: published.get(index).copied(),
-                obtained: Spread::of(&self.values[index]),
-            })
-            .collect()
-    }
+                obtained: Spread::of(&values),
+            }
+        })
+        .collect()
 }

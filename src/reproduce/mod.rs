@@ -1,5 +1,7 @@
 //! The case studies of Tol's thesis computed anew, published and obtained values side by side.
 
+mod approaches;
+mod beams;
 mod draws;
 mod error;
 mod lumped;
@@ -18,5 +20,12 @@ pub use published::{PublishedTable, UnknownTable};
 pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, ReproduceError> {
     match table {
         PublishedTable::Table4_2 => lumped::table_4_2(draws),
+        PublishedTable::Table4_3 => Ok(beams::table_4_3()),
+        PublishedTable::Table4_4 => beams::table_4_4(draws),
+        PublishedTable::Table4_5 => beams::table_4_5(draws),
+        PublishedTable::Table4_6 => approaches::table_4_6(draws),
+        PublishedTable::Table4_7 => approaches::table_4_7(draws),
+        PublishedTable::Table4_8 => approaches::table_4_8(draws),
+        PublishedTable::Table4_9 => approaches::table_4_9(draws),
     }
 }

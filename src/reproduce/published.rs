@@ -40,6 +40,20 @@ macro_rules! tables {
 tables! {
     /// Lumped chain, equations (3.18), (3.19) and (3.21).
     Table4_2 = "4.2", "Table 4.2: lumped chain, decoupling equations compared (5 % response pollution)";
+    /// The joint of section 4.2.1.
+    Table4_3 = "4.3", "Table 4.3: joint of the steel beams";
+    /// Beams with a fully populated joint, equations (3.18), (3.19) and (3.21).
+    Table4_4 = "4.4", "Table 4.4: steel beams, decoupling equations compared (5 % response pollution)";
+    /// The same with measured and with estimated rotations.
+    Table4_5 = "4.5", "Table 4.5: steel beams, rotations measured or estimated (5 % response pollution)";
+    /// Approaches 1 to 4.
+    Table4_6 = "4.6", "Table 4.6: approaches 1 to 4 (1 % response pollution)";
+    /// Approach 4 with FRF pollution.
+    Table4_7 = "4.7", "Table 4.7: approach 4 with FRF pollution";
+    /// Approach 4 with response pollution.
+    Table4_8 = "4.8", "Table 4.8: approach 4 with response pollution";
+    /// Both procedures at 1 %.
+    Table4_9 = "4.9", "Table 4.9: both noise procedures at 1 %";
 }
 
 /// A name that is no table.

@@ -147,7 +147,7 @@ impl Case {
 }
 
 /// Some of a substructure's points.
-fn at(part: &Partition, places: &[usize]) -> Partition {
+pub(super) fn at(part: &Partition, places: &[usize]) -> Partition {
     Partition {
         joint: part.joint.clone(),
         joint_points: part.joint_points.select_columns(places),

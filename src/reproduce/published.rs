@@ -54,6 +54,24 @@ tables! {
     Table4_8 = "4.8", "Table 4.8: approach 4 with response pollution";
     /// Both procedures at 1 %.
     Table4_9 = "4.9", "Table 4.9: both noise procedures at 1 %";
+    /// The joint at two lines of the M10x16 assembly.
+    Table5_2 = "5.2", "Table 5.2: M10x16, decoupled at 112.5 and 344 Hz";
+    /// Aluminium beams, Table 5.3.
+    M10x16 = "m10x16", "Table 5.3: M10x16, aluminium beams";
+    /// Aluminium beams, Table 5.4.
+    M8x16 = "m8x16", "Table 5.4: M8x16, aluminium beams";
+    /// Steel beams, Table 5.5.
+    M10x35 = "m10x35", "Table 5.5: M10x35, steel beams";
+    /// Steel beams, Table 5.6.
+    M8x35 = "m8x35", "Table 5.6: M8x35, steel beams";
+    /// The bolt of Table 5.6 with a longer A.
+    LongM8x35 = "long-m8x35", "Section 5.3.2.3: M8x35 in an assembly with a longer substructure A";
+    /// Tables 5.7 and 5.8.
+    Torques = "torques", "Tables 5.7 and 5.8: M8x35 at four torques";
+    /// Steel beams, Table 5.9.
+    M6x30 = "m6x30", "Table 5.9: M6x30, steel beams";
+    /// Two bolts of Table 5.9.
+    TwoM6x30 = "two-m6x30", "Section 5.3.3.3: two M6x30 bolts";
 }
 
 /// A name that is no table.

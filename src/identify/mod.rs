@@ -48,6 +48,6 @@ pub use model::{JointMatrices, JointModel};
 pub use noise::{Noise, NoiseLevel, StatedLevel};
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use study::{FrfFile, FurtherAssembly, Rotation, Source, Study, Substructure};
-pub use two_step::{TwoStep, update_in_two_steps};
+pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::Covariance;
 pub use unknown::Unknown;

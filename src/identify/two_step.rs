@@ -1,19 +1,28 @@
-//! The update of the thesis: squared amplitudes, first over the stiffnesses, then over the dampings (Tol 5.2.1.2).
-
-use std::f64::consts::TAU;
+//! The update of the thesis: amplitudes only, first over the stiffnesses, then over the dampings (Tol 5.2.1.2).
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::structure::CouplingError;
 
+use super::block::Block;
+use super::kernel::{Kernel, complex_stiffness};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::sensitivity::{Linearised, bolt_place};
+use super::sensitivity::bolt_place;
 
 /// A step that would move no unknown by more than this part of itself ends an iteration.
 const CONVERGED: f64 = 1e-9;
 /// So many steps at most.
-const STEPS: usize = 200;
+const STEPS: usize = 100;
+
+/// What of the amplitudes is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Amplitudes {
+    /// Σ (|H|² − |Ĥ|²)², as the thesis does it: the highest resonance outweighs all others.
+    Squared,
+    /// Σ (ln|H| − ln|Ĥ|)², in which every line counts the same.
+    Logarithmic,
+}
 
 /// What the update found.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,191 +33,236 @@ pub struct TwoStep {
     pub joint: JointMatrices,
     /// Whether each step came to rest.
     pub converged: [bool; 2],
-    /// Sum of the squared differences of squared amplitudes at the start and after each step, as a part of the sum of
-    /// the measured amplitudes' fourth powers.
+    /// The sum at the start and after each step, as a part of Σ |H|⁴ for squared amplitudes, of the number of values for
+    /// logarithmic ones.
     pub objective: [f64; 3],
 }
 
-#[derive(Clone, Copy)]
-enum Step {
-    Stiffness,
-    Damping,
-}
-
-/// Minimises Σ (|H^C|² − |Ĥ^C|²)² over all lines and measured receptances without bounds, first over the stiffnesses of
-/// `start`, then over its dampings. `start` holds the matrices of one bolt, or of several, block diagonal.
+/// Minimises the sum over all lines and measured receptances without bounds, first over the stiffnesses of `start`, then
+/// over its dampings. `start` holds the matrices of one bolt, or of several, block diagonal.
 ///
 /// The thesis uses MATLAB's `fminunc`; this is Levenberg–Marquardt with exact derivatives on the same sum.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance.
+/// [`CouplingError::Singular`] at an undamped resonance, or if the joint has more than eight DOFs.
 pub fn update_in_two_steps(
     lines: &Lines,
     model: JointModel,
     start: &JointMatrices,
+    amplitudes: Amplitudes,
 ) -> Result<TwoStep, CouplingError> {
-    let problem = Problem::new(lines, model, start.stiffness.nrows() / model.dofs());
-    let (after_stiffness, stiffness_converged, [before, between]) =
-        problem.minimise(start, Step::Stiffness)?;
-    let (joint, damping_converged, [_, after]) =
-        problem.minimise(&after_stiffness, Step::Damping)?;
+    let update = match start.stiffness.nrows() {
+        1 => updated::<1>,
+        2 => updated::<2>,
+        3 => updated::<3>,
+        4 => updated::<4>,
+        6 => updated::<6>,
+        8 => updated::<8>,
+        _ => return Err(CouplingError::Singular),
+    };
+    update(lines, model, start, amplitudes)
+}
+
+fn updated<const N: usize>(
+    lines: &Lines,
+    model: JointModel,
+    start: &JointMatrices,
+    amplitudes: Amplitudes,
+) -> Result<TwoStep, CouplingError> {
+    let problem = Problem::<N>::new(lines, model, amplitudes);
+    let count = problem.entries.len();
+    let stiffness: Vec<f64> = problem
+        .entries
+        .iter()
+        .map(|&place| start.stiffness[place])
+        .collect();
+    let damping: Vec<f64> = problem
+        .entries
+        .iter()
+        .map(|&place| start.damping[place])
+        .collect();
+    let mut unknowns = [stiffness, damping].concat();
+    let first = problem.minimise(&mut unknowns, 0..count)?;
+    let after_stiffness = problem.joint(&unknowns);
+    let second = problem.minimise(&mut unknowns, count..2 * count)?;
     Ok(TwoStep {
         after_stiffness,
-        joint,
-        converged: [stiffness_converged, damping_converged],
-        objective: [before, between, after].map(|sum| sum / problem.fourth_powers),
+        joint: problem.joint(&unknowns),
+        converged: [first.converged, second.converged],
+        objective: [first.before, first.after, second.after].map(|sum| sum / problem.scale),
     })
 }
 
-struct Problem<'a> {
-    lines: &'a Lines,
-    /// Measured receptances.
-    places: Vec<(usize, usize)>,
+struct Problem<const N: usize> {
+    block: Block<N>,
     /// Unknown entries of the whole joint.
     entries: Vec<(usize, usize)>,
-    /// Σ |H^C|⁴.
-    fourth_powers: f64,
+    amplitudes: Amplitudes,
+    /// What the sum is reported as a part of.
+    scale: f64,
 }
 
-/// The sum of squares, and its normal equations.
+/// The sum of squares, and its normal equations over the unknowns of one step.
 struct Normal {
     sum: f64,
     gradient: DVector<f64>,
     curvature: DMatrix<f64>,
 }
 
-impl<'a> Problem<'a> {
-    fn new(lines: &'a Lines, model: JointModel, bolts: usize) -> Self {
-        let places = lines.independent();
-        let entries = (0..bolts)
+struct Minimum {
+    before: f64,
+    after: f64,
+    converged: bool,
+}
+
+impl<const N: usize> Problem<N> {
+    fn new(lines: &Lines, model: JointModel, amplitudes: Amplitudes) -> Self {
+        let block = Block::new(lines, 1);
+        let entries = (0..N / model.dofs())
             .flat_map(|bolt| {
                 let place = move |&entry| bolt_place(model, bolt, entry);
                 model.entries().iter().map(place)
             })
             .collect();
-        let fourth_powers = lines
-            .assembly
-            .iter()
-            .flat_map(|matrix| places.iter().map(|&place| matrix[place].norm_sqr().powi(2)))
-            .sum();
+        let scale = match amplitudes {
+            Amplitudes::Squared => block.measured.iter().map(|h| h.norm_sqr().powi(2)).sum(),
+            Amplitudes::Logarithmic => block.measured.len() as f64,
+        };
         Self {
-            lines,
-            places,
+            block,
             entries,
-            fourth_powers,
+            amplitudes,
+            scale,
         }
     }
 
+    fn joint(&self, unknowns: &[f64]) -> JointMatrices {
+        let (stiffness, damping) = unknowns.split_at(self.entries.len());
+        let matrix = |values: &[f64]| {
+            let mut matrix = DMatrix::zeros(N, N);
+            for (&(i, j), &value) in self.entries.iter().zip(values) {
+                matrix[(i, j)] = value;
+                matrix[(j, i)] = value;
+            }
+            matrix
+        };
+        JointMatrices {
+            stiffness: matrix(stiffness),
+            damping: matrix(damping),
+        }
+    }
+
+    /// Minimises over some of the unknowns, the others held.
     fn minimise(
         &self,
-        start: &JointMatrices,
-        step: Step,
-    ) -> Result<(JointMatrices, bool, [f64; 2]), CouplingError> {
-        let mut joint = start.clone();
-        let mut normal = self.normal(&joint, step)?;
-        let first = normal.sum;
+        unknowns: &mut Vec<f64>,
+        moving: std::ops::Range<usize>,
+    ) -> Result<Minimum, CouplingError> {
+        let mut normal = self.normal(unknowns, &moving)?;
+        let before = normal.sum;
         let mut damping = 1e-3;
+        let mut converged = false;
         for _ in 0..STEPS {
             // Columns of unit length, so that the damping means the same to every unknown.
-            let scale = normal
-                .curvature
-                .diagonal()
-                .map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
-            let scaled = DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
-                let damped = if i == j { damping } else { 0.0 };
-                normal.curvature[(i, j)] / (scale[i] * scale[j]) + damped
+            let diagonal = normal.curvature.diagonal();
+            let length = diagonal.map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
+            let damped = DMatrix::from_fn(length.len(), length.len(), |i, j| {
+                let extra = if i == j { damping } else { 0.0 };
+                normal.curvature[(i, j)] / (length[i] * length[j]) + extra
             });
-            let right = normal.gradient.component_div(&scale);
-            let Some(factor) = scaled.cholesky() else {
+            let right = normal.gradient.component_div(&length);
+            let Some(factor) = damped.cholesky() else {
                 damping *= 10.0;
                 continue;
             };
-            let change = factor.solve(&right).component_div(&scale);
-            let trial = self.moved(&joint, step, &change);
-            let rest = self.entries.iter().zip(&change).all(|(&(i, j), change)| {
-                let matrix = step.matrix(&joint);
-                let size = matrix[(i, j)]
-                    .abs()
-                    .max((matrix[(i, i)] * matrix[(j, j)]).abs().sqrt());
-                change.abs() <= CONVERGED * size
-            });
+            let change = factor.solve(&right).component_div(&length);
+            let mut trial = unknowns.clone();
+            for (index, change) in moving.clone().zip(&change) {
+                trial[index] += change;
+            }
+            let mut steps = moving.clone().zip(&change);
+            let is_short =
+                steps.all(|(index, step)| step.abs() <= CONVERGED * unknowns[index].abs());
             // Nothing left to gain: exact data, or an unknown that stays at zero.
             let gain = change.dot(&normal.gradient);
-            let rest = rest || gain <= 1e-14 * normal.sum + 1e-28 * self.fourth_powers;
-            let candidate = self.normal(&trial, step)?;
+            let rest = is_short || gain <= 1e-12 * normal.sum + 1e-26 * self.scale;
+            let candidate = self.normal(&trial, &moving)?;
             if candidate.sum <= normal.sum {
-                joint = trial;
+                *unknowns = trial;
                 normal = candidate;
                 damping = (damping / 10.0).max(1e-12);
-                if rest && damping < 1e-2 {
-                    return Ok((joint, true, [first, normal.sum]));
-                }
-            } else if rest {
-                // Rounding: no step this short can be told from none.
-                return Ok((joint, true, [first, normal.sum]));
             } else {
                 damping *= 10.0;
             }
-        }
-        Ok((joint, false, [first, normal.sum]))
-    }
-
-    fn moved(&self, joint: &JointMatrices, step: Step, change: &DVector<f64>) -> JointMatrices {
-        let mut moved = joint.clone();
-        let matrix = match step {
-            Step::Stiffness => &mut moved.stiffness,
-            Step::Damping => &mut moved.damping,
-        };
-        for (&(i, j), change) in self.entries.iter().zip(change) {
-            matrix[(i, j)] += change;
-            if i != j {
-                matrix[(j, i)] += change;
+            if rest {
+                converged = true;
+                break;
             }
         }
-        moved
+        Ok(Minimum {
+            before,
+            after: normal.sum,
+            converged,
+        })
     }
 
-    fn normal(&self, joint: &JointMatrices, step: Step) -> Result<Normal, CouplingError> {
-        let size = self.entries.len();
+    fn normal(
+        &self,
+        unknowns: &[f64],
+        moving: &std::ops::Range<usize>,
+    ) -> Result<Normal, CouplingError> {
+        let count = self.entries.len();
+        let is_damping = moving.start == count;
         let mut normal = Normal {
             sum: 0.0,
-            gradient: DVector::zeros(size),
-            curvature: DMatrix::zeros(size, size),
+            gradient: DVector::zeros(count),
+            curvature: DMatrix::zeros(count, count),
         };
-        let mut slopes = vec![0.0; size];
-        for line in 0..self.lines.frequency_hz.len() {
-            let linearised = Linearised::new(self.lines, line, joint)?;
-            let omega = TAU * self.lines.frequency_hz[line];
-            for &place in &self.places {
-                let value = linearised.assembly[place];
-                let residual = self.lines.assembly[line][place].norm_sqr() - value.norm_sqr();
-                for (slope, &entry) in slopes.iter_mut().zip(&self.entries) {
-                    // ∂|Ĥ|²/∂p = 2 Re(Ĥ* ∂Ĥ/∂p),  ∂Ĥ/∂c = jω ∂Ĥ/∂k
-                    let product = value.conj() * linearised.by_stiffness(place, entry);
-                    *slope = 2.0
-                        * match step {
-                            Step::Stiffness => product.re,
-                            Step::Damping => -omega * product.im,
-                        };
+        let mut slopes = vec![0.0; count];
+        let mut kernel = Kernel::<N>::new();
+        let block = &self.block;
+        for (line, &omega) in block.omega.iter().enumerate() {
+            let stiffness = complex_stiffness::<N>(&self.entries, unknowns, omega);
+            let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
+            kernel
+                .solve(&block.free[line], transfer, &stiffness)
+                .ok_or(CouplingError::Singular)?;
+            for (index, &entry) in block.entries.iter().enumerate() {
+                let place = line * block.entries.len() + index;
+                let measured = block.measured[place];
+                let value = kernel.receptance(block.own[place], entry);
+                let (residual, factor) = match self.amplitudes {
+                    // ∂|Ĥ|²/∂p = 2 Re(Ĥ* ∂Ĥ/∂p)
+                    Amplitudes::Squared => {
+                        (measured.norm_sqr() - value.norm_sqr(), 2.0 * value.conj())
+                    }
+                    // ∂ ln|Ĥ|/∂p = Re(∂Ĥ/∂p / Ĥ)
+                    Amplitudes::Logarithmic => (
+                        0.5 * (measured.norm_sqr() / value.norm_sqr()).ln(),
+                        value.inv(),
+                    ),
+                };
+                if !residual.is_finite() {
+                    continue;
+                }
+                for (slope, &unknown) in slopes.iter_mut().zip(&self.entries) {
+                    let product = factor * kernel.by_stiffness(entry, unknown);
+                    // ∂Ĥ/∂c = jω ∂Ĥ/∂k
+                    *slope = if is_damping {
+                        -omega * product.im
+                    } else {
+                        product.re
+                    };
                 }
                 normal.sum += residual * residual;
-                for i in 0..size {
+                for i in 0..count {
                     normal.gradient[i] += slopes[i] * residual;
-                    for j in 0..size {
+                    for j in 0..count {
                         normal.curvature[(i, j)] += slopes[i] * slopes[j];
                     }
                 }
             }
         }
         Ok(normal)
-    }
-}
-
-impl Step {
-    fn matrix(self, joint: &JointMatrices) -> &DMatrix<f64> {
-        match self {
-            Self::Stiffness => &joint.stiffness,
-            Self::Damping => &joint.damping,
-        }
     }
 }

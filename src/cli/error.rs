@@ -10,6 +10,7 @@ use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::JointFileError;
 use crate::reproduce::ReproduceError;
+use crate::respond::PollutionError;
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
@@ -18,6 +19,8 @@ pub(super) enum CliError {
     Identify(Box<IdentifyError>),
     #[error(transparent)]
     Reproduce(#[from] ReproduceError),
+    #[error(transparent)]
+    Pollution(#[from] PollutionError),
     #[error(transparent)]
     Frf(#[from] FrfError),
     #[error(transparent)]

@@ -8,6 +8,7 @@ mod identify;
 mod output;
 mod progress;
 mod reproduce;
+mod respond;
 mod table;
 
 use std::path::PathBuf;
@@ -40,6 +41,8 @@ enum Command {
     Export(ExportArguments),
     /// Check a joint file or an FMU
     Check(CheckArguments),
+    /// Compute what a test of a study's assembly would measure, with or without noise
+    Respond(RespondArguments),
     /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
@@ -128,6 +131,67 @@ struct CheckArguments {
     json: bool,
 }
 
+/// `respond`
+#[derive(Debug, Args)]
+struct RespondArguments {
+    /// The study that the test is for (TOML); the file of its assembly need not exist yet
+    study: PathBuf,
+    /// The joint that the assembly is to have (joint file)
+    #[arg(long, value_name = "NAME.joint.json")]
+    joint: PathBuf,
+    /// File to write: a table or a universal file
+    #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
+    output: PathBuf,
+    /// Distance between the lines, Hz
+    #[arg(
+        long,
+        value_name = "HZ",
+        default_value_t = 0.25,
+        allow_hyphen_values = true
+    )]
+    step: f64,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(subcommand)]
+    noise: Option<RespondNoise>,
+}
+
+#[derive(Debug, Subcommand)]
+enum RespondNoise {
+    /// Give the functions the noise of a measurement
+    Noise(NoiseArguments),
+}
+
+#[derive(Debug, Args)]
+struct NoiseArguments {
+    /// How the noise gets into the functions
+    #[arg(value_enum)]
+    procedure: NoiseProcedure,
+    /// Standard deviation: of the factor, or as a fraction of the highest response
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.01,
+        allow_hyphen_values = true
+    )]
+    level: f64,
+    /// Samples of each harmonic test, for `response`
+    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
+    samples: u32,
+    /// Seed of the noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NoiseProcedure {
+    /// Every value times a real normal factor of mean one
+    Frf,
+    /// White noise on response and force of a harmonic test at each line
+    Response,
+}
+
 /// `reproduce`
 #[derive(Debug, Args)]
 struct ReproduceArguments {
@@ -139,9 +203,9 @@ struct ReproduceArguments {
     /// Seed of the first draw
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Samples of each harmonic test in response pollution, which the thesis does not give
-    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
-    samples: u32,
+    /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
+    #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
+    samples: Vec<u32>,
     /// Print the tables as JSON
     #[arg(long)]
     json: bool,
@@ -180,6 +244,7 @@ pub fn main() -> ExitCode {
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Respond(arguments) => respond::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
     };
     match result {

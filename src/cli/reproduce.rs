@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     let draws = Draws {
         count: arguments.draws,
         seed: arguments.seed,
-        samples: arguments.samples,
+        samples: arguments.samples.clone(),
     };
     let tables = if arguments.tables.is_empty() {
         PublishedTable::ALL.to_vec()

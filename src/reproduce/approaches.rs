@@ -138,7 +138,7 @@ impl Case {
         let one = Draws {
             count: 1,
             seed: 0,
-            samples: 3,
+            samples: Vec::new(),
         };
         let none = Pollution::Frf { level: 0.0 };
         let joints = self.joints(&one, Approach::Two, Inverse::AsPrinted, none)?;
@@ -194,7 +194,6 @@ const FRF_1: [f64; 4] = [9.89e4, 9.93e2, 4.998, 0.067];
 
 pub(super) fn table_4_6(draws: &Draws) -> Result<Reproduction, ReproduceError> {
     let case = Case::new()?;
-    let noise = draws.response(0.01);
     let mut found = Vec::new();
     for (name, approach, published) in [
         (
@@ -214,8 +213,10 @@ pub(super) fn table_4_6(draws: &Draws) -> Result<Reproduction, ReproduceError> {
             [1.00e5, 9.78e2, 5.0, 0.049],
         ),
     ] {
-        let joints = case.joints(draws, approach, Inverse::AsPrinted, noise)?;
-        found.extend(joint_rows(name, &published, &joints));
+        for (samples, noise) in draws.responses(0.01) {
+            let joints = case.joints(draws, approach, Inverse::AsPrinted, noise)?;
+            found.extend(joint_rows(&format!("{name}{samples}"), &published, &joints));
+        }
     }
     found.extend(case.single_point()?);
     let mut not_given = not_given();
@@ -267,9 +268,10 @@ pub(super) fn table_4_8(draws: &Draws) -> Result<Reproduction, ReproduceError> {
         ("3 %", 0.03, [9.89e4, 9.70e2, 4.995, 0.012]),
         ("1 %", 0.01, RESPONSE_1),
     ] {
-        let noise = draws.response(level);
-        let joints = case.joints(draws, Approach::Four, Inverse::AsPrinted, noise)?;
-        found.extend(joint_rows(name, &published, &joints));
+        for (samples, noise) in draws.responses(level) {
+            let joints = case.joints(draws, Approach::Four, Inverse::AsPrinted, noise)?;
+            found.extend(joint_rows(&format!("{name}{samples}"), &published, &joints));
+        }
     }
     found.extend(case.single_point()?);
     let mut not_given = not_given();
@@ -289,20 +291,20 @@ pub(super) fn table_4_8(draws: &Draws) -> Result<Reproduction, ReproduceError> {
 pub(super) fn table_4_9(draws: &Draws) -> Result<Reproduction, ReproduceError> {
     let case = Case::new()?;
     let mut found = Vec::new();
-    for (name, noise, published) in [
+    let response = draws.responses(0.01).into_iter();
+    let response = response.map(|(samples, noise)| {
         (
-            "response pollution (4.3.2)",
-            draws.response(0.01),
+            format!("response pollution (4.3.2){samples}"),
+            noise,
             RESPONSE_1,
-        ),
-        (
-            "FRF pollution (4.3.1)",
-            Pollution::Frf { level: 0.01 },
-            FRF_1,
-        ),
-    ] {
+        )
+    });
+    let frf = Pollution::Frf { level: 0.01 };
+    for (name, noise, published) in
+        response.chain([("FRF pollution (4.3.1)".to_owned(), frf, FRF_1)])
+    {
         let joints = case.joints(draws, Approach::Four, Inverse::AsPrinted, noise)?;
-        found.extend(joint_rows(name, &published, &joints));
+        found.extend(joint_rows(&name, &published, &joints));
     }
     let mut not_given = not_given();
     not_given.push(draws.samples_taken());

@@ -5,6 +5,7 @@ use nalgebra::dmatrix;
 use crate::identify::{
     Bands, Equation, Inverse, JointMatrices, JointModel, band_average, decouple,
 };
+use crate::respond::Pollution;
 use crate::structure::{
     Assembly, Beam, BeamPoint, Boundary, ComplexMatrix, Damping, FiniteDifference, Motion,
     Partition, couple,
@@ -128,6 +129,7 @@ impl Case {
     fn joints(
         &self,
         draws: &Draws,
+        noise: Pollution,
         equation: Equation,
     ) -> Result<Vec<JointMatrices>, ReproduceError> {
         let exact: Vec<ComplexMatrix> = self
@@ -135,13 +137,14 @@ impl Case {
             .iter()
             .map(|assembly| block(equation, assembly).clone())
             .collect();
-        self.averages(draws, equation, &exact, |noisy| noisy)
+        self.averages(draws, noise, equation, &exact, |noisy| noisy)
     }
 
     /// The same by (3.18), rotations of the assembly estimated from noisy translations around r.
     fn joints_with_estimated_rotations(
         &self,
         draws: &Draws,
+        noise: Pollution,
     ) -> Result<Vec<JointMatrices>, ReproduceError> {
         let points = [R_M - SPACING_M, R_M, R_M + SPACING_M].map(translation);
         let a = beam(Boundary::FixedFree);
@@ -150,7 +153,7 @@ impl Case {
         let exact: Vec<ComplexMatrix> = assembly.into_iter().map(|line| line.rr).collect();
         let transformation = FiniteDifference::central(SPACING_M).transformation();
         let transposed = transformation.transpose();
-        self.averages(draws, Equation::Rr, &exact, |noisy| {
+        self.averages(draws, noise, Equation::Rr, &exact, |noisy| {
             let estimated = noisy.iter().map(|h| &transformation * h * &transposed);
             estimated.collect()
         })
@@ -159,11 +162,12 @@ impl Case {
     fn averages(
         &self,
         draws: &Draws,
+        noise: Pollution,
         equation: Equation,
         exact: &[ComplexMatrix],
         prepare: impl Fn(Vec<ComplexMatrix>) -> Vec<ComplexMatrix> + Sync,
     ) -> Result<Vec<JointMatrices>, ReproduceError> {
-        let noise = draws.response(LEVEL).checked()?;
+        let noise = noise.checked()?;
         let bands = bands();
         Ok(draws.joints(|generator| {
             let measured = prepare(polluted(exact, &noise, generator));
@@ -219,19 +223,19 @@ pub(super) fn table_4_3() -> Reproduction {
 
 pub(super) fn table_4_4(draws: &Draws) -> Result<Reproduction, ReproduceError> {
     let case = Case::new()?;
-    let mut found = joint_rows("(3.18), r", &BY_RR, &case.joints(draws, Equation::Rr)?);
     let by_rs = [9.91e5, 8.60e3, 178.0, 43.2, 8.19, 3.52];
-    found.extend(joint_rows(
-        "(3.19), r and s",
-        &by_rs,
-        &case.joints(draws, Equation::Rs)?,
-    ));
     let by_ss = [9.02e5, 2.38e4, 9.66e2, 76.3, 13.5, 3.36];
-    found.extend(joint_rows(
-        "(3.21), s",
-        &by_ss,
-        &case.joints(draws, Equation::Ss)?,
-    ));
+    let mut found = Vec::new();
+    for (name, equation, published) in [
+        ("(3.18), r", Equation::Rr, BY_RR),
+        ("(3.19), r and s", Equation::Rs, by_rs),
+        ("(3.21), s", Equation::Ss, by_ss),
+    ] {
+        for (samples, noise) in draws.responses(LEVEL) {
+            let joints = case.joints(draws, noise, equation)?;
+            found.extend(joint_rows(&format!("{name}{samples}"), &published, &joints));
+        }
+    }
     Ok(Reproduction {
         table: PublishedTable::Table4_4,
         conditions: conditions(),
@@ -246,11 +250,24 @@ pub(super) fn table_4_4(draws: &Draws) -> Result<Reproduction, ReproduceError> {
 
 pub(super) fn table_4_5(draws: &Draws) -> Result<Reproduction, ReproduceError> {
     let case = Case::new()?;
-    let measured = case.joints(draws, Equation::Rr)?;
-    let mut found = joint_rows("1: rotations measured", &BY_RR, &measured);
-    let published = [9.02e5, 0.0, 5.30e2, 47.6, 0.0, 2.79];
-    let estimated = case.joints_with_estimated_rotations(draws)?;
-    found.extend(joint_rows("2: rotations estimated", &published, &estimated));
+    let estimated = [9.02e5, 0.0, 5.30e2, 47.6, 0.0, 2.79];
+    let mut found = Vec::new();
+    for (samples, noise) in draws.responses(LEVEL) {
+        let joints = case.joints(draws, noise, Equation::Rr)?;
+        found.extend(joint_rows(
+            &format!("1: measured{samples}"),
+            &BY_RR,
+            &joints,
+        ));
+    }
+    for (samples, noise) in draws.responses(LEVEL) {
+        let joints = case.joints_with_estimated_rotations(draws, noise)?;
+        found.extend(joint_rows(
+            &format!("2: estimated{samples}"),
+            &estimated,
+            &joints,
+        ));
+    }
     Ok(Reproduction {
         table: PublishedTable::Table4_5,
         conditions: conditions(),

@@ -10,30 +10,32 @@ use crate::structure::ComplexMatrix;
 use super::outcome::{Row, Spread};
 
 /// How often the noise is drawn, and what the thesis does not say about it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Draws {
     /// Number of draws.
     pub count: u32,
     /// Seed of the first one.
     pub seed: u64,
-    /// Samples of each harmonic test in response pollution.
-    pub samples: u32,
+    /// Samples of each harmonic test in response pollution: one set of rows for each number.
+    pub samples: Vec<u32>,
 }
 
 impl Draws {
-    /// Response pollution of `level`.
-    pub(super) fn response(&self, level: f64) -> Pollution {
-        Pollution::Response {
-            level,
-            samples: self.samples,
-        }
+    /// Response pollution of `level`, once for each number of samples, with what a row's case says about it.
+    pub(super) fn responses(&self, level: f64) -> Vec<(String, Pollution)> {
+        let noise = |&samples: &u32| {
+            let named = format!(", N = {samples}");
+            (named, Pollution::Response { level, samples })
+        };
+        self.samples.iter().map(noise).collect()
     }
 
     /// What was taken for the samples that the thesis does not give.
     pub(super) fn samples_taken(&self) -> String {
+        let numbers: Vec<String> = self.samples.iter().map(u32::to_string).collect();
         format!(
-            "samples of each harmonic test: {} taken (--samples; the noise of a line falls with their square root)",
-            self.samples
+            "samples N of each harmonic test: {} taken (--samples); the noise of a line falls with √N",
+            numbers.join(", ")
         )
     }
 

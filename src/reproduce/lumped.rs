@@ -47,7 +47,6 @@ pub(super) fn block(equation: Equation, assembly: &Assembly) -> &ComplexMatrix {
 }
 
 pub(super) fn table_4_2(draws: &Draws) -> Result<Reproduction, ReproduceError> {
-    let noise = draws.response(LEVEL).checked()?;
     let truth = JointMatrices {
         stiffness: dmatrix![2000.0],
         damping: dmatrix![3.0],
@@ -81,26 +80,29 @@ pub(super) fn table_4_2(draws: &Draws) -> Result<Reproduction, ReproduceError> {
             .iter()
             .map(|assembly| block(equation, assembly).clone())
             .collect();
-        let joints = draws.joints(|generator| {
-            let noisy = polluted(&exact, &noise, generator);
-            let decoupled = decoupled_within(&bands, &frequency_hz, |line| {
-                decouple(
-                    equation,
-                    Inverse::LeastSquares,
-                    &a[line],
-                    &b[line],
-                    &noisy[line],
-                )
+        for (samples, noise) in draws.responses(LEVEL) {
+            let noise = noise.checked()?;
+            let joints = draws.joints(|generator| {
+                let noisy = polluted(&exact, &noise, generator);
+                let decoupled = decoupled_within(&bands, &frequency_hz, |line| {
+                    decouple(
+                        equation,
+                        Inverse::LeastSquares,
+                        &a[line],
+                        &b[line],
+                        &noisy[line],
+                    )
+                });
+                band_average(JointModel::Translation, &frequency_hz, &decoupled, &bands)
             });
-            band_average(JointModel::Translation, &frequency_hz, &decoupled, &bands)
-        });
-        found.extend(rows(
-            case,
-            JointModel::Translation,
-            Some(&truth),
-            published,
-            &joints,
-        ));
+            found.extend(rows(
+                &format!("{case}{samples}"),
+                JointModel::Translation,
+                Some(&truth),
+                published,
+                &joints,
+            ));
+        }
     }
     Ok(Reproduction {
         table: PublishedTable::Table4_2,

@@ -1,12 +1,13 @@
 //! `respond`: what a test of a study's assembly would measure if its joint were the given one.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use nalgebra::DMatrix;
 use serde_json::json;
 
 use crate::frf::write_uff58;
-use crate::identify::{JointMatrices, Study, predict_assembly};
+use crate::identify::{Bands, JointMatrices, Study, choose_bands, predict_assembly, predict_lines};
 use crate::joint::JointFile;
 use crate::respond::{Pollution, to_csv, with_noise};
 
@@ -56,23 +57,52 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         }
     }
     let functions = measured.functions().count();
+    let lines = predict_lines(&study, &joint, &frequency_hz)?;
+    let bands = choose_bands(&lines, study.model, &joint, &study.bands)?;
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),
             "functions": functions,
             "lines": frequency_hz.len(),
             "noise": what,
+            "bands": { "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta },
         });
         return print(&serde_json::to_string_pretty(&value)?);
     }
     print(&format!(
-        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\nwrote {}",
+        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\nwrote {}",
         study.name,
         frequency_hz.len(),
         frequency_hz[0],
         frequency_hz[frequency_hz.len() - 1],
+        band_table(&bands, &study.bands),
         arguments.output.display()
     ))
+}
+
+/// The bands as the study's own table, to be copied there.
+fn band_table(bands: &Bands, given: &Bands) -> String {
+    let mut text = "[bands]  # most sensitive lines, 10 % or more away from the substructures' own resonances\n".to_owned();
+    for (name, bands, given) in [
+        ("yy", &bands.yy, &given.yy),
+        ("ytheta", &bands.ytheta, &given.ytheta),
+        ("thetatheta", &bands.thetatheta, &given.thetatheta),
+    ] {
+        if bands.is_empty() {
+            continue;
+        }
+        let list: Vec<String> = bands
+            .iter()
+            .map(|[from, to]| format!("[{from}, {to}]"))
+            .collect();
+        let origin = if given.is_empty() {
+            ""
+        } else {
+            "  # as in the study"
+        };
+        let _ = writeln!(text, "{name} = [{}]{origin}", list.join(", "));
+    }
+    text
 }
 
 fn format(path: &Path) -> Result<Format, CliError> {

@@ -125,6 +125,28 @@ pub fn predict_assembly(
     Ok(FrfSet::new(functions)?)
 }
 
+/// Lines of the study's first assembly as its substructures and `joint` make them, every pair of points measured.
+///
+/// # Errors
+/// As [`predict_assembly`].
+pub fn predict_lines(
+    study: &Study,
+    joint: &JointMatrices,
+    frequency_hz: &[f64],
+) -> Result<Lines, IdentifyError> {
+    let axis = Axis {
+        path: &study.assembly.path,
+        frequency_hz,
+    };
+    let mut lines = substructures(study, &axis, &mut Reader::default())?;
+    lines.assembly = lines.regenerated(joint)?;
+    let count = study.points.len();
+    lines.measured = (0..count)
+        .flat_map(|column| (0..count).map(move |row| (row, column)))
+        .collect();
+    Ok(lines)
+}
+
 /// Lines without the assembly: what A and B contribute.
 fn substructures(
     study: &Study,

@@ -34,9 +34,9 @@ mod uncertainty;
 mod unknown;
 mod weights;
 
-pub use assemble::predict_assembly;
+pub use assemble::{predict_assembly, predict_lines};
 pub use assessment::Assessment;
-pub use bands::{Bands, band_average};
+pub use bands::{Bands, band_average, choose_bands};
 pub use bootstrap::Bootstrap;
 pub use choice::{ModelChoice, ModelFit};
 pub use decoupling::{Equation, Inverse, decouple, from_rr, from_rs, from_sr, from_ss, of_bolt};

@@ -1,8 +1,8 @@
 //! Several bolts, sensitivities, and the two-step update, against joints that are known.
 
 use bolted_joint::identify::{
-    Amplitudes, JointMatrices, JointModel, Lines, from_ss, of_bolt, sensitivities,
-    update_in_two_steps,
+    Amplitudes, Bands, JointMatrices, JointModel, Lines, choose_bands, from_ss, of_bolt,
+    sensitivities, update_in_two_steps,
 };
 use bolted_joint::structure::{
     Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition,
@@ -215,4 +215,32 @@ fn two_bolts_are_updated_together() {
         "{found:?}"
     );
     assert_eq!(found.joint.stiffness[(0, 2)], 0.0);
+}
+
+#[test]
+fn bands_avoid_the_substructures_resonances_and_can_be_given() {
+    let frequency_hz: Vec<f64> = (20..1000).map(|line| 0.5 * f64::from(line)).collect();
+    let joint = bolt(1.0);
+    let lines = lines(&[0.03], &[0.2, 0.25, 0.3], &joint, frequency_hz);
+    let given = Bands {
+        ytheta: vec![[100.0, 120.0]],
+        ..Bands::default()
+    };
+    let found = choose_bands(&lines, JointModel::Full, &joint, &given).unwrap();
+    assert_eq!(found.ytheta, given.ytheta);
+    // A alone: 0.3 m fixed-free, λ = 1.8751, 4.6941; B alone: 0.3 m free-free, λ = 4.7300 (Blevins, table 8-1).
+    let natural = |root: f64| {
+        let bending = 67e9 * 0.006_f64.powi(2) / (12.0 * 2700.0);
+        (root / 0.3).powi(2) * bending.sqrt() / std::f64::consts::TAU
+    };
+    for bands in [&found.yy, &found.thetatheta] {
+        assert!(!bands.is_empty());
+        let width: f64 = bands.iter().map(|[from, to]| to - from).sum();
+        assert!(width > 20.0 && width < 150.0, "{bands:?}");
+        for own in [1.875_104, 4.694_091, 4.730_041].map(natural) {
+            for [from, to] in bands {
+                assert!(*to < 0.91 * own || *from > 1.09 * own, "{own} in {bands:?}");
+            }
+        }
+    }
 }

@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let study = Study::read(&arguments.study)?;
     let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
         draws: draws as usize,
-        seed: arguments.seed,
+        seed: arguments.seed.unwrap_or(1),
     });
     let progress = Progress::new(bootstrap.map_or(0, |bootstrap| bootstrap.draws));
     let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;

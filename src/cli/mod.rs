@@ -80,9 +80,9 @@ struct IdentifyArguments {
     /// Repeat the estimate on so many data sets drawn from the fitted model
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     bootstrap: Option<u32>,
-    /// Seed of the bootstrap
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Seed of the bootstrap [default: 1]
+    #[arg(long, requires = "bootstrap")]
+    seed: Option<u64>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,

@@ -7,7 +7,9 @@ use nalgebra::DMatrix;
 use serde_json::json;
 
 use crate::frf::write_uff58;
-use crate::identify::{Bands, JointMatrices, Study, choose_bands, predict_assembly, predict_lines};
+use crate::identify::{
+    Bands, IdentifyError, JointMatrices, Study, choose_bands, predict_assembly, predict_lines,
+};
 use crate::joint::JointFile;
 use crate::respond::{Pollution, to_csv, with_noise};
 
@@ -58,7 +60,8 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     }
     let functions = measured.functions().count();
     let lines = predict_lines(&study, &joint, &frequency_hz)?;
-    let bands = choose_bands(&lines, study.model, &joint, &study.bands)?;
+    let bands =
+        choose_bands(&lines, study.model, &joint, &study.bands).map_err(IdentifyError::from)?;
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),

@@ -11,7 +11,7 @@ use crate::frf::{Dof, Frf, FrfError, FrfSet, UffOptions, read_uff58};
 use crate::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion, Partition};
 
 use super::error::IdentifyError;
-use super::lines::{Lines, MeasuredSubstructure};
+use super::lines::{Lines, MeasuredSubstructure, Repeats, independent};
 use super::model::JointMatrices;
 use super::study::{FrfFile, Rotation, Source, Study, Substructure};
 
@@ -25,6 +25,7 @@ pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), Identify
             b: further.b.clone(),
             assembly: further.file.clone(),
             points: further.points.clone(),
+            repeats: further.repeats.clone(),
             further: Vec::new(),
             ..study.clone()
         };
@@ -70,6 +71,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     };
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any).map_err(in_file)?;
+    let (labelled, repeats) = repeated(study, labelled, &axis, reader)?;
     let measured = labelled.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
     let needed = study.model.unknowns().div_ceil(2 * measured.len()).max(2);
@@ -87,9 +89,64 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     let lines = Lines {
         assembly: labelled.matrices,
         measured,
+        repeats,
         ..substructures(study, &axis, reader)?
     };
     Ok(lines)
+}
+
+/// The mean of repeated measurements of the assembly, and their scatter; the `first` where there are no others.
+fn repeated(
+    study: &Study,
+    first: Labelled,
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<(Labelled, Option<Repeats>), IdentifyError> {
+    if study.repeats.is_empty() {
+        return Ok((first, None));
+    }
+    let mut all = vec![first];
+    for file in &study.repeats {
+        let in_file = |source| in_file(&file.path, source);
+        let (from_hz, to_hz) = axis.ends();
+        let set = reader
+            .read(file)?
+            .restricted_to(from_hz, to_hz)
+            .map_err(in_file)?;
+        axis.compare(&file.path, set.frequency_hz())?;
+        all.push(labelled_functions(&set, &study.points, Completeness::Any).map_err(in_file)?);
+    }
+    let count = all.len() as f64;
+    let measured = all[0].measured.clone();
+    // A function that one of the repetitions lacks is not repeated: it stays out.
+    let everywhere = |place: &(usize, usize)| all.iter().all(|one| one.measured.contains(place));
+    let measured: Vec<(usize, usize)> = measured.into_iter().filter(everywhere).collect();
+    let mut means = Vec::new();
+    let mut scatter = Vec::new();
+    for line in 0..axis.frequency_hz.len() {
+        let sum = |sum: ComplexMatrix, one: &Labelled| sum + &one.matrices[line];
+        let zero = ComplexMatrix::zeros(study.points.len(), study.points.len());
+        let mean = all.iter().fold(zero, sum) / Complex64::from(count);
+        let squares = |place: (usize, usize)| -> f64 {
+            let differences = all
+                .iter()
+                .map(|one| one.matrices[line][place] - mean[place]);
+            differences.map(|difference| difference.norm_sqr()).sum()
+        };
+        scatter.push(DMatrix::from_fn(mean.nrows(), mean.ncols(), |p, q| {
+            squares((p, q))
+        }));
+        means.push(mean);
+    }
+    let repeats = Repeats {
+        count: all.len() as u32,
+        scatter,
+    };
+    let mean = Labelled {
+        matrices: means,
+        measured,
+    };
+    Ok((mean, Some(repeats)))
 }
 
 /// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
@@ -166,6 +223,7 @@ fn substructures(
         points: points.clone(),
         measured: Vec::new(),
         relative_variance: None,
+        repeats: None,
         a_measured,
         b_measured,
     })
@@ -345,6 +403,7 @@ fn labelled_receptances(
             axis.compare(&file.path, set.frequency_hz())?;
             let mut labelled = labelled_functions(&set, labels, Completeness::All)
                 .map_err(|source| in_file(&file.path, source))?;
+            labelled.measured = independent(&labelled.measured, &labelled.matrices);
             labelled.symmetrise();
             Ok(labelled)
         }
@@ -380,44 +439,37 @@ fn labelled_functions(
 ) -> Result<Labelled, FrfError> {
     let mut measured = Vec::new();
     let mut entries = Vec::with_capacity(labels.len() * labels.len());
-    let mut missing = None;
+    let mut missing = Vec::new();
     for (column, &reference) in labels.iter().enumerate() {
         for (row, &response) in labels.iter().enumerate() {
             match set.receptance(response, reference) {
                 Ok(receptance) => {
-                    if !receptance.is_reciprocal()
-                        && !is_copy(set, response, reference, column < row)
-                    {
+                    if !receptance.is_reciprocal() {
                         measured.push((row, column));
                     }
                     entries.push(receptance.values().to_vec());
                 }
                 Err(error) => {
-                    missing = missing.or(Some(error));
+                    missing.push((row, column, error));
                     entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
                 }
             }
         }
     }
-    match missing {
-        Some(error) if completeness == Completeness::All || measured.is_empty() => Err(error),
-        _ => Ok(Labelled {
+    // A label without any function is a mistake, whatever the others have.
+    let is_used = |label: usize| {
+        let mut pairs = measured.iter();
+        pairs.any(|&(row, column)| row == label || column == label)
+    };
+    let fatal = missing.into_iter().find(|&(row, column, _)| {
+        completeness == Completeness::All || !is_used(row) || !is_used(column)
+    });
+    match fatal {
+        Some((_, _, error)) => Err(error),
+        None => Ok(Labelled {
             matrices: matrices(labels.len(), set.line_count(), &entries),
             measured,
         }),
-    }
-}
-
-/// Whether a function is, bit by bit, its transpose, and the one of the two that stands `below` the diagonal: an analyser
-/// that fills the matrix by reciprocity writes such copies, which are no measurements.
-fn is_copy(set: &FrfSet, response: Dof, reference: Dof, below: bool) -> bool {
-    let pair = (
-        set.receptance(response, reference),
-        set.receptance(reference, response),
-    );
-    match pair {
-        (Ok(one), Ok(other)) => below && !other.is_reciprocal() && one.values() == other.values(),
-        _ => false,
     }
 }
 

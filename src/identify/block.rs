@@ -12,7 +12,7 @@ use super::lines::Lines;
 /// A symmetric matrix or a vector of the joint's DOFs at one line.
 pub(super) type Small<const N: usize> = [[Complex64; N]; N];
 
-/// One entry of the symmetric H^C_ss, measured once or twice.
+/// One entry of the symmetric H^C_ss, measured once or more often.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
     pub(super) row: usize,
@@ -30,6 +30,8 @@ pub(super) struct Block<const N: usize> {
     pub(super) omega: Vec<f64>,
     /// H_jj + H_kk of each line.
     pub(super) free: Vec<Small<N>>,
+    /// Median over the lines of 1/|H_jj + H_kk| on each DOF.
+    pub(super) dynamic_stiffness: [f64; N],
     /// H_ks: one column for each point, of each line.
     pub(super) transfer: Vec<[Complex64; N]>,
     /// H_ss at the entries, of each line.
@@ -46,6 +48,7 @@ impl<const N: usize> Block<N> {
     /// Every `stride`th line of `lines`, whose joint has N DOFs.
     pub(super) fn new(lines: &Lines, stride: usize) -> Self {
         let measured = lines.independent();
+        let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let mut entries: Vec<Entry> = Vec::new();
         for &(p, q) in &measured {
             let (row, column) = (p.min(q), p.max(q));
@@ -53,11 +56,11 @@ impl<const N: usize> Block<N> {
                 .iter_mut()
                 .find(|entry| (entry.row, entry.column) == (row, column))
             {
-                Some(entry) => entry.count += 1,
+                Some(entry) => entry.count += repeats,
                 None => entries.push(Entry {
                     row,
                     column,
-                    count: 1,
+                    count: repeats,
                 }),
             }
         }
@@ -68,6 +71,7 @@ impl<const N: usize> Block<N> {
             points,
             omega: Vec::with_capacity(count),
             free: Vec::with_capacity(count),
+            dynamic_stiffness: [0.0; N],
             transfer: Vec::with_capacity(count * points),
             own: Vec::with_capacity(count * entries.len()),
             measured: Vec::with_capacity(count * entries.len()),
@@ -78,6 +82,12 @@ impl<const N: usize> Block<N> {
         for line in chosen() {
             block.push(lines, &measured, line);
         }
+        block.dynamic_stiffness = std::array::from_fn(|dof| {
+            let diagonal = block.free.iter().map(|free| free[dof][dof]);
+            let mut values: Vec<f64> = diagonal.map(|value| value.norm().recip()).collect();
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied().unwrap_or(1.0)
+        });
         block
     }
 
@@ -98,17 +108,25 @@ impl<const N: usize> Block<N> {
             let (row, column) = (entry.row, entry.column);
             self.own.push(symmetric(&b.points, row, column));
             let places = [(row, column), (column, row)];
-            let values = || {
-                let distinct = if row == column { 1 } else { 2 };
+            let distinct = if row == column { 1 } else { 2 };
+            let own = || {
                 places[..distinct]
                     .iter()
                     .filter(|place| measured.contains(place))
-                    .map(|&place| assembly[place])
             };
-            let mean = values().sum::<Complex64>() / f64::from(entry.count);
+            let mean =
+                own().map(|&place| assembly[place]).sum::<Complex64>() / own().count() as f64;
             self.measured.push(mean);
-            self.scatter
-                .push(values().map(|value| (value - mean).norm_sqr()).sum());
+            let between: f64 = own()
+                .map(|&place| (assembly[place] - mean).norm_sqr())
+                .sum();
+            self.scatter.push(match &lines.repeats {
+                Some(repeats) => {
+                    let within: f64 = own().map(|&place| repeats.scatter[line][place]).sum();
+                    within + f64::from(repeats.count) * between
+                }
+                None => between,
+            });
         }
         if let Some(known) = &lines.relative_variance {
             for entry in &self.entries {

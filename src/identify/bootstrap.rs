@@ -68,8 +68,9 @@ fn draw<const N: usize>(
                 block.measured[place] = line.computed[at + e] + circular(variance, generator);
                 let measurements = block.entries[e].count;
                 if measurements > 1 {
-                    let draw: f64 = Exp1.sample(generator);
-                    block.scatter[place] = draw * variance * f64::from(measurements);
+                    let draws = (1..measurements).map(|_| -> f64 { Exp1.sample(generator) });
+                    let sum: f64 = draws.sum();
+                    block.scatter[place] = sum * variance * f64::from(measurements);
                 }
             }
             at += count;

@@ -61,11 +61,15 @@ impl Estimate {
 }
 
 const MAX_REWEIGHTINGS: usize = 20;
+/// Damping of the first step, a fraction of the diagonal of JᵀJ.
+const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// Gain that the full Gauss–Newton step promises, as a fraction of the cost, below which the iteration has converged.
-const NEGLIGIBLE_GAIN: f64 = 1e-15;
+const NEGLIGIBLE_GAIN: f64 = 1e-13;
 /// The same where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
+/// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
+const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 
@@ -89,6 +93,7 @@ pub(super) fn estimate<const N: usize>(
     let unknowns = start.len();
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
+    let mut damping = FIRST_DAMPING;
     for round in 0..MAX_REWEIGHTINGS {
         let gain = if round == 0 {
             GAIN_BEFORE_RENEWAL
@@ -96,24 +101,37 @@ pub(super) fn estimate<const N: usize>(
             NEGLIGIBLE_GAIN
         };
         let from = state.corrections;
-        let rest = levenberg_marquardt(objective, &weights, chart, &coordinates, from, gain)?;
+        let rest = levenberg_marquardt(
+            objective,
+            &weights,
+            chart,
+            &coordinates,
+            from,
+            (gain, damping),
+        )?;
+        damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
+        // In standard deviations, at least: σ ≥ 1/√(JᵀΣ⁻¹J)_ii times that of the residual, S/N.
+        let deviation = &rest.scale * (rest.state.normal.cost / measurements as f64).sqrt();
+        let step = (&rest.coordinates - &coordinates).component_div(&deviation);
+        let shift = step.amax();
         let settled = rest.settled;
         (coordinates, state) = (rest.coordinates, rest.state);
         if estimates_level && shrinkage > 0.0 {
             levels = noise.levels(objective.level(noise, &state, shrinkage)?);
         }
         weights = objective.weights(levels, &state)?;
-        if round > 0 && moved < 100.0 * TOLERANCE {
+        if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;
         }
     }
     let state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
-    let mut log_determinant: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
-    objective.visit(Some(&weights), &state, |_, line| {
-        log_determinant += line.log_determinant();
-    })?;
+    let log_determinant = if noise.is_stated() {
+        log_variances(&weights)
+    } else {
+        log_determinant(objective, &weights, &state)?
+    };
     let cost = state.normal.linearised_cost;
     let count = measurements as f64;
     // −2 ln L = 2 Σ|r|²/σ² + 2 Σ ln σ², with the scale of σ profiled out 2 N ln(Σ|r|²/σ² / N) + 2 Σ ln σ² + 2 N
@@ -133,6 +151,29 @@ pub(super) fn estimate<const N: usize>(
         converged,
         corrections: state.corrections,
     })
+}
+
+/// Σ ln σ² of everything measured: the likelihood with the corrections as unknowns.
+fn log_variances(weights: &[Weights]) -> f64 {
+    let of = |weights: &Weights| {
+        let all = weights.entries.iter().chain(&weights.sources);
+        let logarithms = all.filter(|variance| **variance > 0.0).map(|v| v.ln());
+        weights.scatter_log + logarithms.sum::<f64>()
+    };
+    weights.iter().map(of).sum()
+}
+
+/// Σ ln det Σ: the likelihood with the corrections integrated out, in which the level of the noise can be estimated.
+fn log_determinant<const N: usize>(
+    objective: &Objective<'_, N>,
+    weights: &[Weights],
+    state: &State,
+) -> Option<f64> {
+    let mut sum: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
+    objective.visit(Some(weights), state, |_, line| {
+        sum += line.log_determinant()
+    })?;
+    Some(sum)
 }
 
 pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usize {
@@ -164,8 +205,8 @@ pub(super) fn minimum<const N: usize>(
     start: &DVector<f64>,
 ) -> Option<DVector<f64>> {
     let none = vec![Vec::new(); objective.groups.len()];
-    let gain = GAIN_BEFORE_RENEWAL;
-    Some(levenberg_marquardt(objective, weights, &Free, start, none, gain)?.coordinates)
+    let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
+    Some(levenberg_marquardt(objective, weights, &Free, start, none, control)?.coordinates)
 }
 
 /// Where an iteration with held weights came to rest.
@@ -174,6 +215,8 @@ struct Rest {
     state: State,
     scale: DVector<f64>,
     settled: bool,
+    /// Damping that the last step left, to go on with.
+    damping: f64,
 }
 
 fn levenberg_marquardt<const N: usize>(
@@ -182,7 +225,7 @@ fn levenberg_marquardt<const N: usize>(
     chart: &impl Chart,
     start: &DVector<f64>,
     corrections: Vec<Vec<Complex64>>,
-    negligible_gain: f64,
+    (negligible_gain, first_damping): (f64, f64),
 ) -> Option<Rest> {
     let mut coordinates = start.clone();
     let mut state = objective.at(weights, chart.unknowns(start), Some(corrections))?;
@@ -190,7 +233,7 @@ fn levenberg_marquardt<const N: usize>(
         state.normal.in_chart(&chart.derivative(coordinates))
     };
     let mut normal = in_chart(&state, &coordinates);
-    let mut damping = 1e-3;
+    let mut damping = first_damping;
     let mut settled = false;
     for _ in 0..MAX_ITERATIONS {
         if normal.is_settled(&coordinates, negligible_gain) {
@@ -200,13 +243,14 @@ fn levenberg_marquardt<const N: usize>(
         let trial = normal.step(damping).map(|step| &coordinates + step);
         let improved = trial
             .as_ref()
+            .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
             .and_then(|trial| objective.step(weights, &state, chart.unknowns(trial)))
             .filter(|next| next.normal.cost <= state.normal.cost);
         if let (Some(trial), Some(next)) = (trial, improved) {
             coordinates = trial;
             state = next;
             normal = in_chart(&state, &coordinates);
-            damping = (damping * 0.1).max(1e-15);
+            damping = (damping * 0.01).max(1e-15);
         } else {
             damping *= 10.0;
             if damping > 1e12 {
@@ -220,5 +264,6 @@ fn levenberg_marquardt<const N: usize>(
         coordinates,
         state,
         settled,
+        damping: damping.min(FIRST_DAMPING),
     })
 }

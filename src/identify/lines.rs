@@ -26,10 +26,21 @@ pub struct Lines {
     pub measured: Vec<(usize, usize)>,
     /// Variance of each of `measured` at each line as a fraction of |H|², where it is known line by line.
     pub relative_variance: Option<Vec<Vec<f64>>>,
+    /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
+    pub repeats: Option<Repeats>,
     /// What H_jj of A was formed from, where that was measured line by line. Assemblies may share it.
     pub a_measured: Option<Arc<MeasuredSubstructure>>,
     /// The same for B: the joint and the points.
     pub b_measured: Option<Arc<MeasuredSubstructure>>,
+}
+
+/// Repeated measurements of the same functions.
+#[derive(Clone, Debug)]
+pub struct Repeats {
+    /// Measurements of each function.
+    pub count: u32,
+    /// Σ|y − mean|² over them at each line.
+    pub scatter: Vec<DMatrix<f64>>,
 }
 
 /// Measured receptances from which those of a substructure were formed.
@@ -49,17 +60,7 @@ impl Lines {
     /// The measured entries that are not the exact copy of their transpose, as reciprocity fills them in.
     #[must_use]
     pub fn independent(&self) -> Vec<(usize, usize)> {
-        let is_copy = |&(row, column): &(usize, usize)| {
-            row > column
-                && self.measured.contains(&(column, row))
-                && self
-                    .assembly
-                    .iter()
-                    .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
-        };
-        let mut independent = self.measured.clone();
-        independent.retain(|place| !is_copy(place));
-        independent
+        independent(&self.measured, &self.assembly)
     }
 
     /// H^C_ss at each line, as coupling with this joint gives it.
@@ -77,4 +78,22 @@ impl Lines {
             })
             .collect()
     }
+}
+
+/// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by
+/// reciprocity writes such copies, which are no measurements.
+pub(super) fn independent(
+    measured: &[(usize, usize)],
+    matrices: &[ComplexMatrix],
+) -> Vec<(usize, usize)> {
+    let is_copy = |&(row, column): &(usize, usize)| {
+        row > column
+            && measured.contains(&(column, row))
+            && matrices
+                .iter()
+                .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
+    };
+    let mut independent = measured.to_vec();
+    independent.retain(|place| !is_copy(place));
+    independent
 }

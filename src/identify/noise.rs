@@ -92,6 +92,16 @@ impl Noise {
     }
 }
 
+/// Variance of a function as a fraction of |H|², from the coherence γ² and the number of averages (H₁ estimate).
+///
+/// Infinite where the coherence is zero; a coherence above one counts as one.
+#[must_use]
+pub fn relative_variance(coherence: f64, averages: u32) -> f64 {
+    // σ²/|H|² = (1 − γ²)/(γ² n); half of it is the square of Bendat and Piersol's error of |H|
+    let coherence = coherence.clamp(0.0, 1.0);
+    (1.0 - coherence) / (coherence * f64::from(averages.max(1)))
+}
+
 /// Levels with every part known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
@@ -107,6 +117,8 @@ pub(super) struct Sample {
     pub(super) by_relative: f64,
     pub(super) by_floor: f64,
     pub(super) known: f64,
+    /// Independent residuals that `power` is the mean of.
+    pub(super) count: f64,
 }
 
 /// Relative standard deviations below this are rounding.
@@ -137,11 +149,11 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
             }
             let (a, b) = (a / variance, b / variance);
             let power = (sample.power - sample.known) / variance;
-            aa += a * a;
-            ab += a * b;
-            bb += b * b;
-            ap += a * power;
-            bp += b * power;
+            aa += sample.count * a * a;
+            ab += sample.count * a * b;
+            bb += sample.count * b * b;
+            ap += sample.count * a * power;
+            bp += sample.count * b * power;
         }
         let only_relative = [ap / aa, 0.0];
         let only_floor = [0.0, bp / bb];
@@ -219,6 +231,32 @@ mod tests {
     use rand_distr::{Distribution, Exp1};
 
     #[test]
+    fn coherence_gives_the_variance_of_averaged_spectra() {
+        let mut generator = ChaCha8Rng::seed_from_u64(5);
+        let mut normal = || -> f64 { rand_distr::StandardNormal.sample(&mut generator) };
+        // Response y = x + n with noise of 0.3 of the input's deviation; H₁ = Σ conj(x) y / Σ |x|².
+        let (averages, trials, noise) = (20, 20_000, 0.3_f64);
+        let mut variance = 0.0;
+        for _ in 0..trials {
+            let (mut cross, mut power) = (num_complex::Complex64::default(), 0.0);
+            for _ in 0..averages {
+                let x = num_complex::Complex64::new(normal(), normal());
+                let n = num_complex::Complex64::new(normal(), normal());
+                cross += x.conj() * (x + n * noise);
+                power += x.norm_sqr();
+            }
+            variance += (cross / power - 1.0).norm_sqr() / f64::from(trials);
+        }
+        let coherence = 1.0 / (1.0 + noise * noise);
+        // The formula is that of many averages: n − 1 takes the place of n in the exact one.
+        let expected = relative_variance(coherence, averages - 1);
+        assert!(
+            (variance / expected - 1.0).abs() < 0.03,
+            "{variance} {expected}"
+        );
+    }
+
+    #[test]
     fn both_parts_of_a_level_return_from_residuals() {
         let mut generator = ChaCha8Rng::seed_from_u64(3);
         // |H| from 1e-8 to 1e-4 m/N, as between antiresonance and resonance.
@@ -234,6 +272,7 @@ mod tests {
                         by_relative: magnitude * magnitude,
                         by_floor: 1.0,
                         known: 0.0,
+                        count: 1.0,
                     }
                 })
                 .collect();

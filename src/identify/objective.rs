@@ -14,6 +14,8 @@ use super::normal::Normal;
 
 /// Entries of K* on and above the diagonal that can be unknown.
 const MAX_ENTRIES: usize = 3;
+/// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
+const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
 const CORRECTION_ROUNDS: usize = 8;
 /// … as long as they promise to lower its cost by this fraction …
@@ -53,6 +55,19 @@ pub(super) struct Objective<'a, const N: usize> {
 }
 
 impl<const N: usize> Objective<'_, N> {
+    /// Whether no unknown is so large that the joint would be rigid whatever its value: there a search must not run away to.
+    pub(super) fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool {
+        let Some(block) = self.groups.first().and_then(|group| group.blocks.first()) else {
+            return false;
+        };
+        let (own, omega) = (&block.dynamic_stiffness, block.omega[block.lines() / 2]);
+        let count = self.entries.len();
+        self.entries.iter().enumerate().all(|(index, &(i, j))| {
+            let limit = RIGID * (own[i] * own[j]).sqrt();
+            unknowns[index].abs() <= limit && omega * unknowns[count + index].abs() <= limit
+        })
+    }
+
     /// The point `unknowns` with these corrections (none at all: zero).
     pub(super) fn at(
         &self,
@@ -112,9 +127,10 @@ impl<const N: usize> Objective<'_, N> {
             for index in 0..group.lines() {
                 let variances = line.weights(weights, index);
                 if group.sources.is_empty() {
-                    line.linearise(index, unknowns.as_slice(), &[])?;
-                    line.whiten_independent(variances.0);
-                } else {
+                    line.accumulate(index, unknowns.as_slice(), variances.0, &mut normal)?;
+                    continue;
+                }
+                {
                     let at = index * group.sources.len();
                     let delta = &mut corrections[at..at + group.sources.len()];
                     line.settle(index, variances, from, &unknowns, delta)?;
@@ -295,6 +311,47 @@ impl<'g, const N: usize> Line<'g, N> {
             }
             at += count;
         }
+        Some(())
+    }
+
+    /// Linearises a line whose entries all have errors of their own and adds it to the normal equations, in one go.
+    fn accumulate(
+        &mut self,
+        index: usize,
+        unknowns: &[f64],
+        variances: &[f64],
+        normal: &mut Normal,
+    ) -> Option<()> {
+        let count = self.joint_entries.len();
+        let block = self.group.blocks.first()?;
+        self.omega = block.omega[index];
+        let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
+        let mut sums = Sums::default();
+        let mut variances = variances.iter();
+        for block in &self.group.blocks {
+            let entries = block.entries.len();
+            let transfer = &block.transfer[index * block.points..(index + 1) * block.points];
+            let own = &block.own[index * entries..(index + 1) * entries];
+            let measured = &block.measured[index * entries..(index + 1) * entries];
+            self.kernel
+                .solve(&block.free[index], transfer, &stiffness)?;
+            let values = block.entries.iter().zip(own).zip(measured);
+            for (((&entry, &own), &measured), variance) in values.zip(&mut variances) {
+                let weight = variance.recip();
+                let residual = measured - self.kernel.receptance(own, entry);
+                let mut row = [ZERO; MAX_ENTRIES];
+                for (value, &place) in row.iter_mut().zip(self.joint_entries) {
+                    *value = self.kernel.by_stiffness(entry, place);
+                }
+                sums.signal += weight * measured.norm_sqr();
+                sums.cost += weight * residual.norm_sqr();
+                sums.add(weight, residual, &row, count);
+            }
+        }
+        normal.signal += sums.signal;
+        normal.cost += sums.cost;
+        normal.linearised_cost += sums.cost;
+        sums.add_to(normal, self.omega, count);
         Some(())
     }
 
@@ -514,34 +571,13 @@ impl<'g, const N: usize> Line<'g, N> {
         let count = self.joint_entries.len();
         normal.cost += self.cost;
         normal.signal += self.signal;
-        let mut products = [[ZERO; MAX_ENTRIES]; MAX_ENTRIES];
-        let mut right = [ZERO; MAX_ENTRIES];
-        let mut linearised = 0.0;
+        let mut sums = Sums::default();
         for (residual, row) in self.residual.iter().zip(&self.by_joint) {
-            linearised += residual.norm_sqr();
-            for i in 0..count {
-                let conjugate = row[i].conj();
-                right[i] += conjugate * residual;
-                for j in 0..count {
-                    products[i][j] += conjugate * row[j];
-                }
-            }
+            sums.cost += residual.norm_sqr();
+            sums.add(1.0, *residual, row, count);
         }
-        normal.linearised_cost += linearised;
-        // ∂K*/∂k = E, ∂K*/∂c = jωE
-        let omega = self.omega;
-        for i in 0..count {
-            normal.gradient[i] += right[i].re;
-            normal.gradient[count + i] += omega * right[i].im;
-            for j in 0..count {
-                let product = products[i][j];
-                if j <= i {
-                    normal.matrix[(i, j)] += product.re;
-                    normal.matrix[(count + i, count + j)] += omega * omega * product.re;
-                }
-                normal.matrix[(count + i, j)] += omega * product.im;
-            }
-        }
+        normal.linearised_cost += sums.cost;
+        sums.add_to(normal, self.omega, count);
     }
 
     /// Jᵀr of this whitened line by the unknowns: what it adds to the gradient.
@@ -561,6 +597,55 @@ impl<'g, const N: usize> Line<'g, N> {
     /// ln det Σ of the whitened line.
     pub(super) fn log_determinant(&self) -> f64 {
         self.log_determinant
+    }
+}
+
+/// Sums over the entries of one line.
+#[derive(Default)]
+struct Sums {
+    cost: f64,
+    signal: f64,
+    /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
+    products: [[Complex64; MAX_ENTRIES]; MAX_ENTRIES],
+    /// Σ conj(∂H/∂K*_i) r / σ²
+    right: [Complex64; MAX_ENTRIES],
+}
+
+impl Sums {
+    #[inline]
+    fn add(
+        &mut self,
+        weight: f64,
+        residual: Complex64,
+        row: &[Complex64; MAX_ENTRIES],
+        count: usize,
+    ) {
+        // Rows beyond `count` are zero, so that the loops can be unrolled.
+        debug_assert!(count <= MAX_ENTRIES);
+        for i in 0..MAX_ENTRIES {
+            let conjugate = row[i].conj() * weight;
+            self.right[i] += conjugate * residual;
+            for j in 0..=i {
+                self.products[i][j] += conjugate * row[j];
+            }
+        }
+    }
+
+    /// ∂K*/∂k = E, ∂K*/∂c = jωE
+    fn add_to(&self, normal: &mut Normal, omega: f64, count: usize) {
+        for i in 0..count {
+            normal.gradient[i] += self.right[i].re;
+            normal.gradient[count + i] += omega * self.right[i].im;
+            for j in 0..=i {
+                let product = self.products[i][j];
+                normal.matrix[(i, j)] += product.re;
+                normal.matrix[(count + i, count + j)] += omega * omega * product.re;
+                normal.matrix[(count + i, j)] += omega * product.im;
+                if i != j {
+                    normal.matrix[(count + j, i)] -= omega * product.im;
+                }
+            }
+        }
     }
 }
 

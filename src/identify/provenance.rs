@@ -40,6 +40,9 @@ pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
             named.extend(entry);
         }
     }
+    let repeats = study.further.iter().flat_map(|further| &further.repeats);
+    let repeats = study.repeats.iter().chain(repeats);
+    named.extend(repeats.map(|file| ("assembly, repeated", Some(file.path.clone()))));
     let inputs = named
         .into_iter()
         .filter_map(|(role, path)| Some((role, path?)))

@@ -7,6 +7,7 @@ use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
 use super::noise::Noise;
 use super::objective::Objective;
+use super::parallel;
 use super::starts;
 
 /// Lines that are enough to tell which start leads to the best estimate.
@@ -33,8 +34,8 @@ const COMPARABLE: f64 = 10.0;
 pub(super) struct Data<const N: usize> {
     /// Few lines, substructures taken as exact.
     pub(super) thinned: Vec<Group<N>>,
-    /// All lines, substructures taken as exact: where they are, this is empty and `whole` serves.
-    pub(super) exact: Vec<Group<N>>,
+    /// Few lines with the errors of the substructures; empty where these are exact.
+    pub(super) thinned_whole: Vec<Group<N>>,
     /// All lines with the errors of the substructures.
     pub(super) whole: Vec<Group<N>>,
 }
@@ -67,36 +68,43 @@ pub(super) fn best<const N: usize>(
     first: Vec<DVector<f64>>,
     effort: Effort,
 ) -> Result<Found, usize> {
-    let thinned = Objective {
-        groups: &data.thinned,
-        entries,
-    };
     let mut candidates = first;
     for guess in [None, candidates.last().cloned()] {
         candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
     }
-    let mut trials = refine_all(&thinned, noise, &candidates);
+    let trial = |start: &DVector<f64>| try_start(data, entries, noise, start);
+    let mut trials: Vec<Estimate> = parallel::map(&candidates, trial)
+        .into_iter()
+        .flatten()
+        .collect();
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials);
-    let certain = |finals: &[Final]| finals.first().is_some_and(|f| f.assessment.is_certain());
-    if effort == Effort::Whole && !certain(&finals) {
+    // With errors in the substructures a wrong minimum can pass for noise: then two starts have to agree.
+    let certain = finals.first().is_some_and(|best| {
+        best.assessment.is_certain() && agreeing(&trials, &finals, &best.estimate) > 1
+    });
+    if effort == Effort::Whole && !certain {
         let grid = starts::grid(&data.thinned, entries);
         tried += grid.len();
-        trials.extend(refine_all(&thinned, noise, &grid));
+        trials.extend(parallel::map(&grid, trial).into_iter().flatten());
         finals = finalists(data, entries, noise, &trials);
     }
     let best = finals.first().ok_or(tried)?;
-    let leads_to_best = |trial: &&Estimate| {
-        let known =
-            |end: &Final| same(&end.candidate, trial) && same(&end.estimate, &best.estimate);
-        finals.iter().any(known)
-    };
     Ok(Found {
         estimate: best.estimate.clone(),
         assessment: best.assessment.clone(),
         tried,
-        agreeing: trials.iter().filter(leads_to_best).count(),
+        agreeing: agreeing(&trials, &finals, &best.estimate),
     })
+}
+
+/// How many of the trials led to `best`.
+fn agreeing(trials: &[Estimate], finals: &[Final], best: &Estimate) -> usize {
+    let leads_to_best = |trial: &&Estimate| {
+        let known = |end: &Final| same(&end.candidate, trial) && same(&end.estimate, best);
+        finals.iter().any(known)
+    };
+    trials.iter().filter(leads_to_best).count()
 }
 
 /// A minimum on thinned lines and where it lies on all of them.
@@ -106,28 +114,28 @@ struct Final {
     assessment: Assessment,
 }
 
-fn refine_all<const N: usize>(
-    objective: &Objective<'_, N>,
+/// Where one start leads on few lines.
+fn try_start<const N: usize>(
+    data: &Data<N>,
+    entries: &[(usize, usize)],
     noise: &Noise,
-    starts: &[DVector<f64>],
-) -> Vec<Estimate> {
-    // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-    let sought = if noise.is_stated() {
-        *noise
-    } else {
-        Noise::default()
+    start: &DVector<f64>,
+) -> Option<Estimate> {
+    let thinned = Objective {
+        groups: &data.thinned,
+        entries,
     };
-    let levels = (!noise.is_stated()).then(|| {
-        sought.levels(super::noise::NoiseLevel {
-            relative: 1.0,
-            floor: 0.0,
-        })
-    });
-    let of = |start: &DVector<f64>| estimate(objective, &sought, levels, &Free, start, None);
-    super::parallel::map(starts, of)
-        .into_iter()
-        .flatten()
-        .collect()
+    // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
+    let levels = Some(first_levels(&thinned, noise));
+    if data.thinned_whole.is_empty() {
+        return estimate(&thinned, noise, levels, &Free, start, None);
+    }
+    let whole = Objective {
+        groups: &data.thinned_whole,
+        entries,
+    };
+    let start = robust_start(&thinned, &whole, noise, start.clone())?;
+    estimate(&whole, noise, levels, &Free, &start, None)
 }
 
 /// The best few different `trials`, on all lines, best first.
@@ -160,15 +168,8 @@ fn finalists<const N: usize>(
     let mut finals: Vec<Final> = chosen
         .into_iter()
         .filter_map(|candidate| {
-            let mut start = candidate.unknowns.clone();
-            if !data.exact.is_empty() {
-                let exact = Objective {
-                    groups: &data.exact,
-                    entries,
-                };
-                start = robust_start(&exact, &whole, noise, start)?;
-            }
-            let estimate = estimate(&whole, noise, None, &Free, &start, None)?;
+            let start = &candidate.unknowns;
+            let estimate = estimate(&whole, noise, None, &Free, start, None)?;
             Some(Final {
                 candidate: candidate.clone(),
                 assessment: assess(&whole, &estimate, noise)?,

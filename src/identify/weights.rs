@@ -101,11 +101,13 @@ impl<const N: usize> Objective<'_, N> {
                     by_relative: if known.is_some() { 0.0 } else { entry.power },
                     by_floor: if known.is_some() { 0.0 } else { 1.0 },
                     known: known.map_or(0.0, |known| known * entry.power),
+                    count: 1.0,
                 };
                 let one = of_one(entry.known);
                 if entry.count > 1 {
                     samples.push(Sample {
-                        power: entry.scatter,
+                        power: entry.scatter / (count - 1.0),
+                        count: count - 1.0,
                         ..one
                     });
                 }
@@ -114,6 +116,7 @@ impl<const N: usize> Objective<'_, N> {
                     by_relative: one.by_relative / count,
                     by_floor: one.by_floor / count,
                     known: one.known / count,
+                    count: 1.0,
                 };
                 for (s, source) in group.sources.iter().enumerate() {
                     let gain =

@@ -176,6 +176,7 @@ pub(super) fn lines(
             .flat_map(|column| (0..3).map(move |row| (row, column)))
             .collect(),
         relative_variance: None,
+        repeats: None,
         a_measured: None,
         b_measured: None,
     };

@@ -8,6 +8,7 @@
 mod bench;
 mod check;
 mod demo;
+mod estimator;
 mod export;
 mod identified;
 mod joint_file;

@@ -91,6 +91,7 @@ impl Pair {
             points: (0..count).map(dof).collect(),
             measured: places,
             relative_variance: None,
+            repeats: None,
             a_measured: None,
             b_measured: None,
         }

@@ -11,6 +11,5 @@ mod decoupling;
 mod global;
 mod measured;
 mod monte_carlo;
-mod probe;
 mod published;
 mod refined;

@@ -35,6 +35,8 @@ pub(crate) struct Rig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Noisy {
     Assembly,
+    /// B is computed, as in the thesis.
+    AssemblyAndA,
     Everything,
 }
 
@@ -119,8 +121,13 @@ impl Rig {
         for matrix in &mut assembly {
             *matrix = polluted(matrix);
         }
-        if noisy == Noisy::Everything {
-            for matrix in a.iter_mut().chain(&mut b) {
+        let of_b = if noisy == Noisy::Everything {
+            &mut b[..]
+        } else {
+            &mut []
+        };
+        if noisy != Noisy::Assembly {
+            for matrix in a.iter_mut().chain(of_b) {
                 let noisy = polluted(matrix);
                 *matrix = (&noisy + noisy.transpose()) * Complex64::from(0.5);
             }
@@ -132,8 +139,8 @@ impl Rig {
                 .flat_map(|row| (0..count).map(move |column| (row, column)))
                 .collect::<Vec<_>>()
         };
-        let measured = |w: &DMatrix<f64>, u: Vec<ComplexMatrix>| {
-            (noisy == Noisy::Everything).then(|| {
+        let measured = |w: &DMatrix<f64>, u: Vec<ComplexMatrix>, is_noisy: bool| {
+            is_noisy.then(|| {
                 Arc::new(MeasuredSubstructure {
                     transformation: w.clone(),
                     measured: all(w.ncols()),
@@ -152,8 +159,9 @@ impl Rig {
                 .collect(),
             measured: all(3),
             relative_variance: None,
-            a_measured: measured(&self.a_transformation, a),
-            b_measured: measured(&self.b_transformation, b),
+            repeats: None,
+            a_measured: measured(&self.a_transformation, a, noisy != Noisy::Assembly),
+            b_measured: measured(&self.b_transformation, b, noisy == Noisy::Everything),
         }
     }
 
@@ -224,8 +232,13 @@ impl Rig {
                     (i..3).map(move |j| Complex64::from(variance(whole[(i, j)]) / count(i, j)))
                 }),
             ));
-            if noisy == Noisy::Everything {
-                for (side, u) in [a, b].into_iter().enumerate() {
+            let sides: &[&ComplexMatrix] = match noisy {
+                Noisy::Assembly => &[],
+                Noisy::AssemblyAndA => &[a],
+                Noisy::Everything => &[a, b],
+            };
+            {
+                for (side, &u) in sides.iter().enumerate() {
                     for p in 0..u.nrows() {
                         for q in p..u.ncols() {
                             let change = |step: f64| {

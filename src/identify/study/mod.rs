@@ -33,6 +33,8 @@ pub struct Study {
     pub assembly: FrfFile,
     /// Points of B at which the first assembly was measured.
     pub points: Vec<Dof>,
+    /// Further measurements of the first assembly's functions.
+    pub repeats: Vec<FrfFile>,
     /// Tightening torque of the first assembly, N·m.
     pub torque_n_m: Option<f64>,
     /// Further assemblies with the same joint.
@@ -58,6 +60,8 @@ pub struct FurtherAssembly {
     pub file: FrfFile,
     /// Points of B at which it was measured.
     pub points: Vec<Dof>,
+    /// Further measurements of the same functions.
+    pub repeats: Vec<FrfFile>,
     /// Tightening torque, N·m.
     pub torque_n_m: Option<f64>,
     /// Its substructure A.
@@ -173,6 +177,14 @@ impl Study {
                     quantity: table.quantity,
                 },
                 points: check.points(table.points)?,
+                repeats: table
+                    .repeats
+                    .into_iter()
+                    .map(|path| FrfFile {
+                        path: folder.join(path),
+                        quantity: table.quantity,
+                    })
+                    .collect(),
                 torque_n_m: check.torque(table.torque)?,
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
@@ -200,6 +212,7 @@ impl Study {
             b: first.b,
             assembly: first.file,
             points: first.points,
+            repeats: first.repeats,
             torque_n_m: first.torque_n_m,
             further: assemblies,
             model,

@@ -157,6 +157,8 @@ pub(super) struct AssemblyTable {
     pub(super) frf: PathBuf,
     pub(super) quantity: Option<Quantity>,
     pub(super) points: Vec<Dof>,
+    #[serde(default)]
+    pub(super) repeats: Vec<PathBuf>,
     pub(super) torque: Option<f64>,
     pub(super) a: Option<SubstructureTable>,
     pub(super) b: Option<SubstructureTable>,

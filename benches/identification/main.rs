@@ -1,0 +1,139 @@
+//! How long an identification takes, and how near the Cramér–Rao bound it comes.
+//!
+//! `cargo bench --bench identification` times 2,048 lines at three points, with intervals, and 1,000 bootstrap draws.
+//! `-- write FILE` writes the same data for `same_in_numpy.py`, which times the same algorithm in NumPy.
+//! `-- table [DRAWS]` prints the errors of stiff and soft joints with light and heavy damping over many draws of noise.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a benchmark whose preparation fails has nothing better to do than panic"
+)]
+
+#[path = "../../tests/identification/measured.rs"]
+mod measured;
+#[path = "../../tests/identification/monte_carlo.rs"]
+mod monte_carlo;
+
+use std::time::Instant;
+
+use bolted_joint::identify::{Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines};
+
+use measured::{Noisy, Rig, joint};
+
+const ONE_PER_CENT: NoiseLevel = NoiseLevel {
+    relative: 0.01,
+    floor: 0.0,
+};
+const LINES: usize = 2048;
+const REPETITIONS: usize = 20;
+
+fn axis(count: usize, step_hz: f64) -> Vec<f64> {
+    (1..=count).map(|line| line as f64 * step_hz).collect()
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| a != "--bench")
+        .collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["write", file] => write(file),
+        ["table"] => table(100),
+        ["table", draws] => table(draws.parse().unwrap()),
+        _ => time(),
+    }
+}
+
+fn rig() -> Rig {
+    Rig::new("timing", joint(1.0, 1.0), 0.01, axis(LINES, 0.25))
+}
+
+fn time() {
+    let rig = rig();
+    let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
+    for (what, noise) in [
+        ("noise stated", Noise::stated(ONE_PER_CENT)),
+        ("noise estimated", Noise::default()),
+    ] {
+        let mut times: Vec<f64> = (0..REPETITIONS)
+            .map(|_| {
+                let options = Options {
+                    noise,
+                    ..Options::default()
+                };
+                let begun = Instant::now();
+                let found =
+                    identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+                assert!(found.assessment().fits());
+                begun.elapsed().as_secs_f64()
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        println!(
+            "{LINES} lines, three points, {what}: {:.1} ms (fastest {:.1} ms)",
+            1e3 * times[REPETITIONS / 2],
+            1e3 * times[0]
+        );
+    }
+    let options = Options {
+        noise: Noise::stated(ONE_PER_CENT),
+        bootstrap: Some(Bootstrap {
+            draws: 1000,
+            seed: 1,
+        }),
+        ..Options::default()
+    };
+    let begun = Instant::now();
+    let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+    let elapsed = begun.elapsed().as_secs_f64();
+    let converged = found.bootstrap().unwrap().converged;
+    println!("1000 bootstrap draws of {LINES} lines: {elapsed:.2} s, {converged} converged");
+}
+
+fn table(draws: u64) {
+    for (name, factor, damping, ratio) in [
+        ("stiff joint, light damping", 10.0, 1.0, 0.002),
+        ("stiff joint, heavy damping", 10.0, 10.0, 0.03),
+        ("soft joint, light damping", 0.1, 0.1, 0.002),
+        ("soft joint, heavy damping", 0.1, 1.0, 0.03),
+    ] {
+        for (noisy, count) in [
+            (Noisy::Assembly, 1000),
+            (Noisy::AssemblyAndA, 500),
+            (Noisy::Everything, 250),
+        ] {
+            let step_hz = 500.0 / count as f64;
+            let rig = Rig::new(name, joint(factor, damping), ratio, axis(count, step_hz));
+            for relative in [0.01, 0.05] {
+                let level = NoiseLevel {
+                    relative,
+                    floor: 0.0,
+                };
+                let outcomes = monte_carlo::run(&rig, noisy, level, draws, true);
+                monte_carlo::print(&rig, noisy, level, &outcomes);
+            }
+        }
+    }
+}
+
+/// Lines as little-endian doubles: ω, then F, H_ks, H_ss and H^C_ss of each line, real and imaginary part, row by row.
+fn write(file: &str) {
+    let lines: Lines = rig().lines(Noisy::Assembly, ONE_PER_CENT, 1);
+    let mut bytes = Vec::new();
+    for (line, frequency_hz) in lines.frequency_hz.iter().enumerate() {
+        let b = &lines.b[line];
+        bytes.extend((std::f64::consts::TAU * frequency_hz).to_le_bytes());
+        let free = &lines.a_joint[line] + &b.joint;
+        for matrix in [&free, &b.joint_points, &b.points, &lines.assembly[line]] {
+            for row in matrix.row_iter() {
+                for value in row.iter() {
+                    bytes.extend(value.re.to_le_bytes());
+                    bytes.extend(value.im.to_le_bytes());
+                }
+            }
+        }
+    }
+    std::fs::write(file, bytes).unwrap();
+    println!("wrote {} lines to {file}", lines.frequency_hz.len());
+}

@@ -1,0 +1,201 @@
+"""The identification of `cargo bench --bench identification` by the same algorithm in NumPy and SciPy, timed.
+
+    cargo bench --bench identification -- write lines.bin
+    python benches/identification/same_in_numpy.py lines.bin
+"""
+
+import sys
+import time
+
+import numpy as np
+import scipy.linalg
+
+ENTRIES = [(0, 0), (0, 1), (1, 1)]
+PLACES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
+RELATIVE = 0.01
+
+
+def read(path):
+    rows = np.fromfile(path, "<f8").reshape(-1, 1 + 2 * (4 + 6 + 9 + 9))
+    values = rows[:, 1:].copy().view(complex)
+    shapes = [(2, 2), (2, 3), (3, 3), (3, 3)]
+    blocks, at = [], 0
+    for shape in shapes:
+        size = shape[0] * shape[1]
+        blocks.append(values[:, at : at + size].reshape(-1, *shape))
+        at += size
+    return rows[:, 0], *blocks
+
+
+class Data:
+    def __init__(self, omega, free, transfer, own, assembly, stride=1):
+        self.omega, self.free = omega[::stride], free[::stride]
+        self.transfer = transfer[::stride]
+        p, q = np.array(PLACES).T
+        self.p, self.q = p, q
+        both = assembly[::stride]
+        self.measured = 0.5 * (both[:, p, q] + both[:, q, p])
+        self.count = np.where(p == q, 1.0, 2.0)
+        self.scatter = np.where(p == q, 0.0, 0.5 * np.abs(both[:, p, q] - both[:, q, p]) ** 2)
+        self.own = own[::stride][:, p, q]
+
+
+def stiffness(data, theta):
+    k, c = theta[:3], theta[3:]
+    joint = np.empty((len(data.omega), 2, 2), complex)
+    for n, (i, j) in enumerate(ENTRIES):
+        joint[:, i, j] = joint[:, j, i] = k[n] + 1j * data.omega * c[n]
+    return joint
+
+
+def linearised(data, theta, derivatives=True):
+    joint = stiffness(data, theta)
+    q = np.linalg.solve(np.eye(2) + data.free @ joint, data.transfer)
+    x = joint @ q
+    computed = data.own - np.einsum("lie,lie->le", data.transfer[:, :, data.p], x[:, :, data.q])
+    if not derivatives:
+        return computed, None
+    left, right = q[:, :, data.p], q[:, :, data.q]
+    by = np.stack(
+        [
+            -(left[:, 0] * right[:, 0]),
+            -(left[:, 0] * right[:, 1] + left[:, 1] * right[:, 0]),
+            -(left[:, 1] * right[:, 1]),
+        ],
+        axis=-1,
+    )
+    return computed, by
+
+
+def normal(data, variance, theta):
+    computed, by = linearised(data, theta)
+    weight = np.sqrt(data.count / variance)
+    residual = (data.measured - computed) * weight
+    by = by * weight[..., None]
+    rows = np.concatenate([by, 1j * data.omega[:, None, None] * by], axis=-1).reshape(-1, 6)
+    real = np.concatenate([rows.real, rows.imag])
+    flat = np.concatenate([residual.real.ravel(), residual.imag.ravel()])
+    cost = flat @ flat + np.sum(data.scatter / variance)
+    return cost, real.T @ real, real.T @ flat, residual
+
+
+def step(matrix, gradient, damping):
+    scale = 1.0 / np.sqrt(np.diag(matrix))
+    system = matrix * scale[:, None] * scale + damping * np.eye(6)
+    return scale * scipy.linalg.cho_solve(scipy.linalg.cho_factor(system), gradient * scale)
+
+
+def settled(cost, matrix, gradient, theta, negligible):
+    full = step(matrix, gradient, 1e-12)
+    scale = 1.0 / np.sqrt(np.diag(matrix))
+    size = np.maximum(np.maximum(np.abs(theta), np.abs(theta + full)), scale)
+    return full @ gradient <= negligible * cost or np.max(np.abs(full) / size) < 1e-10
+
+
+def levenberg_marquardt(data, variance, theta, negligible):
+    state = normal(data, variance, theta)
+    damping = 1e-3
+    for _ in range(100):
+        if settled(*state[:3], theta, negligible):
+            break
+        trial = theta + step(state[1], state[2], damping)
+        following = normal(data, variance, trial)
+        if following[0] <= state[0]:
+            theta, state, damping = trial, following, max(0.1 * damping, 1e-15)
+        else:
+            damping *= 10
+            if damping > 1e12:
+                break
+    return theta, state
+
+
+def variances(data, theta):
+    return (RELATIVE * np.abs(linearised(data, theta, False)[0])) ** 2
+
+
+def estimate(data, theta):
+    for renewal in range(20):
+        variance = variances(data, theta)
+        before = theta
+        theta, state = levenberg_marquardt(data, variance, theta, 1e-6 if renewal == 0 else 1e-15)
+        if renewal > 0 and np.max(np.abs(theta - before) / np.abs(theta)) < 1e-8:
+            break
+    return theta, state
+
+
+def linear(data, theta):
+    full = np.empty((len(data.omega), 3, 3), complex)
+    own = np.empty_like(full)
+    full[:, data.p, data.q] = full[:, data.q, data.p] = data.measured
+    own[:, data.p, data.q] = own[:, data.q, data.p] = data.own
+    h = np.swapaxes(data.transfer, 1, 2)
+    weight = 1 / np.abs(full)
+    columns = []
+    for column in range(3):
+        w = weight[:, :, column, None]
+        left = h * w
+        length = np.linalg.norm(left, axis=1)
+        left = left / length[:, None]
+        gram = np.swapaxes(left.conj(), 1, 2) @ left
+        right = np.swapaxes(left.conj(), 1, 2) @ ((own - full)[:, :, column, None] * w)
+        columns.append(np.linalg.solve(gram, right)[:, :, 0] / length)
+    x = np.stack(columns, axis=-1)
+    w = data.transfer - data.free @ x
+    for _ in range(6):
+        q = np.linalg.solve(np.eye(2) + data.free @ stiffness(data, theta), data.transfer)
+        target = np.einsum("lip,lic->lpc", q, x) * weight
+        row = np.stack(
+            [
+                q[:, 0, :, None] * w[:, 0, None],
+                q[:, 0, :, None] * w[:, 1, None] + q[:, 1, :, None] * w[:, 0, None],
+                q[:, 1, :, None] * w[:, 1, None],
+            ],
+            axis=-1,
+        ) * weight[..., None]
+        rows = np.concatenate([row, 1j * data.omega[:, None, None, None] * row], axis=-1)
+        rows = rows.reshape(-1, 6)
+        real = np.concatenate([rows.real, rows.imag])
+        right = np.concatenate([target.real.ravel(), target.imag.ravel()])
+        theta = step(real.T @ real, real.T @ right, 0.0)
+    return theta
+
+
+def decoupled_median(omega, free, transfer, own, assembly):
+    """(3.21) line by line by least squares, then the median over the lines."""
+    left = np.linalg.pinv(np.swapaxes(transfer, 1, 2))
+    z_inverse = left @ (own - assembly) @ np.swapaxes(left, 1, 2)
+    joint = np.linalg.inv(np.linalg.inv(z_inverse) - free)
+    values = [0.5 * (joint[:, i, j] + joint[:, j, i]) for i, j in ENTRIES]
+    return np.array([np.median(v.real) for v in values] + [np.median(v.imag / omega) for v in values])
+
+
+def identify(lines):
+    data = Data(*lines)
+    thinned = Data(*lines, stride=max(len(lines[0]) // 200, 1))
+    first = decoupled_median(*lines)
+    starts = [first, linear(thinned, np.zeros(6)), linear(thinned, first)]
+    trials = [estimate(thinned, start) for start in starts]
+    best = min(trials, key=lambda trial: trial[1][0])[0]
+    theta, state = estimate(data, best)
+    scale = 1.0 / np.sqrt(np.diag(state[1]))
+    covariance = 0.5 * np.linalg.inv(state[1] * scale[:, None] * scale) * scale[:, None] * scale
+    z = state[3]
+    correlation = np.sum((z[:-1].conj() * z[1:]).real) / np.sum(np.abs(z) ** 2)
+    return theta, np.sqrt(np.diag(covariance)), correlation
+
+
+def main():
+    lines = read(sys.argv[1])
+    identify(lines)
+    times = []
+    for _ in range(10):
+        begun = time.perf_counter()
+        theta, deviation, correlation = identify(lines)
+        times.append(time.perf_counter() - begun)
+    for value, sigma in zip(theta, deviation):
+        print(f"{value:14.6g} ± {sigma:.2g}")
+    print(f"correlation of neighbouring lines {correlation:.3f}")
+    print(f"{len(lines[0])} lines: {1e3 * np.median(times):.1f} ms (fastest {1e3 * min(times):.1f} ms)")
+
+
+main()

@@ -182,7 +182,7 @@ fn not_given() -> Vec<String> {
 }
 
 fn rank_one() -> String {
-    "Without noise approaches 1, 3 and 4 are exact and 2 is not (rows above). As soon as noise hides the smaller singular value of \
+    "Without noise approaches 1, 3 and 4 are exact and 2 is not (its answer is in the table). As soon as noise hides the smaller singular value of \
      H_ss − H^C_ss, 3 and 4 return the rank-one answer of approach 2: a bias that does not shrink with the noise."
         .to_owned()
 }
@@ -227,7 +227,7 @@ pub(super) fn table_4_6(draws: &Draws) -> Result<Reproduction, ReproduceError> {
         rows: found,
         differences: vec![
             rank_one(),
-            "The highest response is at the first mode, far above that of the bands: at this many samples the noise there is a good part of the receptance. Published errors of a few per cent need some 10⁶ samples a line.".to_owned(),
+            "The highest response is at the first mode, far above that of the bands: with 4096 samples the noise there is a good part of the receptance, with 2²⁴ the rank-one bias is what is left.".to_owned(),
         ],
         not_given,
     })

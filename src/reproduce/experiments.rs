@@ -134,6 +134,10 @@ impl Bolt {
         let mut found = self.initial_estimates(&lines, &used, &modes, draws)?;
         let start = joint(self.initial);
         let noise = Pollution::Frf { level: LEVEL }.checked()?;
+        let noisy = |generator: &mut Generator| Lines {
+            assembly: polluted(&used.assembly, &noise, generator),
+            ..used.clone()
+        };
         for (name, amplitudes) in [
             ("squares", Amplitudes::Squared),
             ("logarithms", Amplitudes::Logarithmic),
@@ -162,26 +166,21 @@ impl Bolt {
                 obtained: Some(Spread::exact(exact[0].objective[2])),
             });
             found.extend(own);
+            let updated = draws.joints(|generator| {
+                let noisy = noisy(generator);
+                let update = update_in_two_steps(&noisy, JointModel::Full, &start, amplitudes);
+                Some(update.ok()?.joint)
+            });
+            let case = format!("updated on {name}, 1 % noise");
+            found.extend(rows(
+                &case,
+                JointModel::Full,
+                Some(&truth),
+                &self.updated,
+                &updated,
+            ));
+            found.extend(self.regenerated(name, &lines, &updated)?);
         }
-        let noisy = |generator: &mut Generator| Lines {
-            assembly: polluted(&used.assembly, &noise, generator),
-            ..used.clone()
-        };
-        let updated = draws.joints(|generator| {
-            let amplitudes = Amplitudes::Squared;
-            let update =
-                update_in_two_steps(&noisy(generator), JointModel::Full, &start, amplitudes);
-            Some(update.ok()?.joint)
-        });
-        let case = "updated on squares, 1 % noise";
-        found.extend(rows(
-            case,
-            JointModel::Full,
-            Some(&truth),
-            &self.updated,
-            &updated,
-        ));
-        found.extend(self.regenerated(&lines, &updated)?);
         for (index, &hz) in modes.iter().enumerate() {
             let published = self
                 .resonances_hz
@@ -262,6 +261,7 @@ impl Bolt {
     /// How far the receptances of the identified joints are from the true ones at the drive points.
     fn regenerated(
         &self,
+        name: &str,
         lines: &Lines,
         found: &[JointMatrices],
     ) -> Result<Vec<Row>, ReproduceError> {
@@ -283,7 +283,7 @@ impl Bolt {
             .iter()
             .enumerate()
             .map(|(point, deviations)| Row {
-                case: "regenerated, r.m.s. deviation".to_owned(),
+                case: format!("regenerated ({name}), r.m.s. deviation"),
                 quantity: if self.used.contains(&point) {
                     format!("{}s", point + 1)
                 } else {

@@ -6,4 +6,5 @@
 )]
 
 mod bolts;
+mod command;
 mod tables;

@@ -2,7 +2,7 @@
 //!
 //! The way of the data: [`frf`] and [`structure`] give receptances, [`identify`] finds the joint that couples them,
 //! [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`check`] tries that FMU, [`report`] draws
-//! what was found.
+//! what was found. [`respond`] computes what a test would measure, [`reproduce`] repeats the published case studies.
 #![forbid(unsafe_code)]
 
 pub mod check;
@@ -13,6 +13,8 @@ pub mod frf;
 pub mod identify;
 pub mod joint;
 pub mod report;
+pub mod reproduce;
+pub mod respond;
 pub mod structure;
 mod text_file;
 pub(crate) mod whole_file;

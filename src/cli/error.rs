@@ -11,12 +11,18 @@ use crate::export::ExportError;
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::JointFileError;
+use crate::reproduce::ReproduceError;
+use crate::respond::PollutionError;
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
 pub(super) enum CliError {
     #[error(transparent)]
     Identify(Box<IdentifyError>),
+    #[error(transparent)]
+    Reproduce(#[from] ReproduceError),
+    #[error(transparent)]
+    Pollution(#[from] PollutionError),
     #[error(transparent)]
     Frf(#[from] FrfError),
     #[error(transparent)]

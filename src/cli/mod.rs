@@ -8,6 +8,8 @@ mod export;
 mod identify;
 mod output;
 mod progress;
+mod reproduce;
+mod respond;
 mod table;
 
 use std::path::PathBuf;
@@ -16,6 +18,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{self as fmu, Interface};
+use crate::reproduce::PublishedTable;
 
 /// Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #[derive(Debug, Parser)]
@@ -42,6 +45,10 @@ enum Command {
     /// Run the library of an FMU for `check`, in a process of its own
     #[command(name = check::RUN_LIBRARY, hide = true)]
     RunLibrary(RunLibraryArguments),
+    /// Compute what a test of a study's assembly would measure, with or without noise
+    Respond(RespondArguments),
+    /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
+    Reproduce(ReproduceArguments),
 }
 
 /// `demo`
@@ -142,6 +149,86 @@ struct RunLibraryArguments {
     journal: PathBuf,
 }
 
+/// `respond`
+#[derive(Debug, Args)]
+struct RespondArguments {
+    /// The study that the test is for (TOML); the file of its assembly need not exist yet
+    study: PathBuf,
+    /// The joint that the assembly is to have (joint file)
+    #[arg(long, value_name = "NAME.joint.json")]
+    joint: PathBuf,
+    /// File to write: a table or a universal file
+    #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
+    output: PathBuf,
+    /// Distance between the lines, Hz
+    #[arg(
+        long,
+        value_name = "HZ",
+        default_value_t = 0.25,
+        allow_hyphen_values = true
+    )]
+    step: f64,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(subcommand)]
+    noise: Option<RespondNoise>,
+}
+
+#[derive(Debug, Subcommand)]
+enum RespondNoise {
+    /// Give the functions the noise of a measurement
+    Noise(NoiseArguments),
+}
+
+#[derive(Debug, Args)]
+struct NoiseArguments {
+    /// How the noise gets into the functions
+    #[arg(value_enum)]
+    procedure: NoiseProcedure,
+    /// Standard deviation: of the factor, or as a fraction of the highest response
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.01,
+        allow_hyphen_values = true
+    )]
+    level: f64,
+    /// Samples of each harmonic test, for `response`
+    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
+    samples: u32,
+    /// Seed of the noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NoiseProcedure {
+    /// Every value times a real normal factor of mean one
+    Frf,
+    /// White noise on response and force of a harmonic test at each line
+    Response,
+}
+
+/// `reproduce`
+#[derive(Debug, Args)]
+struct ReproduceArguments {
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
+    tables: Vec<PublishedTable>,
+    /// Draws of the noise, for mean and spread
+    #[arg(long, value_name = "NUMBER", default_value_t = 100)]
+    draws: u32,
+    /// Seed of the first draw
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
+    #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
+    samples: Vec<u32>,
+    /// Print the tables as JSON
+    #[arg(long)]
+    json: bool,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum InterfaceArgument {
     /// The massless joint between two structures: motion in, force out
@@ -188,6 +275,8 @@ pub fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::RunLibrary(arguments) => check::run_library(&arguments),
+        Command::Respond(arguments) => respond::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -8,9 +8,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::frf::{Dof, Frf, FrfError, FrfSet, ReadOptions, Selection, read_frfs};
-use crate::structure::{
-    Beam, BeamError, BeamPoint, CentralDifference, ComplexMatrix, ModalModel, Motion, Partition,
-};
+use crate::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion, Partition};
 
 use super::error::IdentifyError;
 use super::lines::{Lines, MeasuredSubstructure, Repeats, independent};
@@ -187,6 +185,28 @@ pub fn predict_assembly(
     Ok(FrfSet::new(functions)?)
 }
 
+/// Lines of the study's first assembly as its substructures and `joint` make them, every pair of points measured.
+///
+/// # Errors
+/// As [`predict_assembly`].
+pub fn predict_lines(
+    study: &Study,
+    joint: &JointMatrices,
+    frequency_hz: &[f64],
+) -> Result<Lines, IdentifyError> {
+    let axis = Axis {
+        path: &study.assembly.path,
+        frequency_hz,
+    };
+    let mut lines = substructures(study, &axis, &mut Reader::default())?;
+    lines.assembly = lines.regenerated(joint)?;
+    let count = study.points.len();
+    lines.measured = (0..count)
+        .flat_map(|column| (0..count).map(move |row| (row, column)))
+        .collect();
+    Ok(lines)
+}
+
 /// Lines without the assembly: what A and B contribute.
 fn substructures(
     study: &Study,
@@ -323,10 +343,7 @@ fn joint_and_points(
 /// Labels of the measured DOFs from which the joint's follow, and the matrix that takes one to the other.
 fn joint_labels(y: Dof, theta: Option<&Rotation>, joint_dofs: usize) -> (Vec<Dof>, ComplexMatrix) {
     match theta {
-        Some(Rotation::Difference { points, spacing_m }) if joint_dofs == 2 => {
-            let difference = CentralDifference {
-                spacing_m: *spacing_m,
-            };
+        Some(Rotation::Difference { points, difference }) if joint_dofs == 2 => {
             (points.to_vec(), difference.transformation())
         }
         Some(Rotation::Measured(theta)) if joint_dofs == 2 => {

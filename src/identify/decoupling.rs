@@ -5,6 +5,77 @@ use num_complex::Complex64;
 
 use crate::structure::{ComplexMatrix, Partition};
 
+/// Which receptances of the assembly are decoupled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Equation {
+    /// H^C_rr, at points of A (Tol 3.18).
+    Rr,
+    /// H^C_rs, points of A for loads on B (Tol 3.19).
+    Rs,
+    /// H^C_sr, points of B for loads on A (Tol 3.20).
+    Sr,
+    /// H^C_ss, at points of B (Tol 3.21).
+    Ss,
+}
+
+/// What takes the place of the inner inverse where there are more points than joint DOFs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inverse {
+    /// The least-squares solution.
+    LeastSquares,
+    /// The inverse of the equation as printed (approach 4 of Tol 4.2.2), which only noise makes possible.
+    AsPrinted,
+}
+
+/// K* at one line by one of the four equations; `assembly` is the block of receptances that it names.
+///
+/// `None` where a matrix that has to be inverted is singular or not square.
+#[must_use]
+pub fn decouple(
+    equation: Equation,
+    inverse: Inverse,
+    a: &Partition,
+    b: &Partition,
+    assembly: &ComplexMatrix,
+) -> Option<ComplexMatrix> {
+    match inverse {
+        Inverse::LeastSquares => match equation {
+            Equation::Rr => from_rr(a, b, assembly),
+            Equation::Rs => from_rs(a, b, assembly),
+            Equation::Sr => from_sr(a, b, assembly),
+            Equation::Ss => from_ss(a, b, assembly),
+        },
+        Inverse::AsPrinted => {
+            let (left, difference, right) = match equation {
+                Equation::Rr => (&a.points_joint, &a.points - assembly, &a.joint_points),
+                Equation::Rs => (&a.points_joint, assembly.clone(), &b.joint_points),
+                Equation::Sr => (&b.points_joint, assembly.clone(), &a.joint_points),
+                Equation::Ss => (&b.points_joint, &b.points - assembly, &b.joint_points),
+            };
+            let is_square = difference.nrows() == difference.ncols();
+            let inner = is_square.then(|| difference.try_inverse()).flatten()?;
+            joint(right * inner * left, a, b)
+        }
+    }
+}
+
+/// The blocks of one bolt, from 0, in the decoupled K* of several bolts with `dofs` DOFs each (Tol 3.27).
+#[must_use]
+pub fn of_bolt(
+    decoupled: &[Option<ComplexMatrix>],
+    bolt: usize,
+    dofs: usize,
+) -> Vec<Option<ComplexMatrix>> {
+    let block = |whole: &ComplexMatrix| {
+        let start = bolt * dofs;
+        whole.view((start, start), (dofs, dofs)).into_owned()
+    };
+    decoupled
+        .iter()
+        .map(|whole| whole.as_ref().map(block))
+        .collect()
+}
+
 /// K* from the assembly's receptances at points of A (Tol 3.18).
 ///
 /// `None` where a matrix that has to be inverted is singular.

@@ -172,7 +172,7 @@ fn identify_with<const N: usize>(
         .zip(&decoupled)
         .flat_map(|(lines, decoupled)| lines.frequency_hz.iter().copied().zip(decoupled.clone()))
         .unzip();
-    let band_average = bands::average(model, &pooled.0, &pooled.1, &options.bands);
+    let band_average = bands::band_average(model, &pooled.0, &pooled.1, &options.bands);
     let data = data::<N>(all, &options.noise);
     let noise = &options.noise;
     let starts = [options.start.as_ref(), band_average.as_ref()];

@@ -85,6 +85,44 @@ impl JointMatrices {
             .zip_map(&self.damping, |k, c| Complex64::new(k, omega * c))
     }
 
+    /// K and C of several bolts, block diagonal (Tol 3.27): the DOFs of the first bolt come first.
+    #[must_use]
+    pub fn of_bolts(bolts: &[Self]) -> Self {
+        let blocks = |matrix: fn(&Self) -> &DMatrix<f64>| {
+            let size = bolts.iter().map(|bolt| matrix(bolt).nrows()).sum();
+            let mut whole = DMatrix::zeros(size, size);
+            let mut start = 0;
+            for bolt in bolts {
+                let block = matrix(bolt);
+                whole
+                    .view_mut((start, start), block.shape())
+                    .copy_from(block);
+                start += block.nrows();
+            }
+            whole
+        };
+        Self {
+            stiffness: blocks(|bolt| &bolt.stiffness),
+            damping: blocks(|bolt| &bolt.damping),
+        }
+    }
+
+    /// K and C of each bolt of a joint whose bolts have `dofs` DOFs each; what couples the bolts is left out.
+    #[must_use]
+    pub fn bolts(&self, dofs: usize) -> Vec<Self> {
+        let block = |matrix: &DMatrix<f64>, bolt: usize| {
+            matrix
+                .view((bolt * dofs, bolt * dofs), (dofs, dofs))
+                .into_owned()
+        };
+        (0..self.stiffness.nrows() / dofs)
+            .map(|bolt| Self {
+                stiffness: block(&self.stiffness, bolt),
+                damping: block(&self.damping, bolt),
+            })
+            .collect()
+    }
+
     /// Matrices of `model` from its unknowns: the stiffness of each entry, then the damping of each entry.
     pub(super) fn from_unknowns(model: JointModel, unknowns: &[f64]) -> Self {
         let (stiffness, damping) = unknowns.split_at(model.entries().len());

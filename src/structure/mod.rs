@@ -9,5 +9,5 @@ mod spatial;
 pub use beam::{Beam, BeamError, BeamPoint, Boundary, Damping, Motion};
 pub use coupling::{Assembly, ComplexMatrix, CouplingError, Partition, couple, transmission};
 pub use modal::{ModalError, ModalModel};
-pub use rotation::CentralDifference;
+pub use rotation::{Difference, FiniteDifference, Order};
 pub use spatial::{Modes, SpatialError, SpatialModel};

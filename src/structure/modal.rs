@@ -147,6 +147,18 @@ impl ModalModel {
         Ok(model)
     }
 
+    /// The same modes without residuals.
+    ///
+    /// Residuals belong to single functions. Where those of one load alone are known, a rotation by finite differences
+    /// would take them for a difference between points.
+    #[must_use]
+    pub fn without_residuals(&self) -> Self {
+        Self {
+            residuals: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Degrees of freedom that the mode shapes cover.
     #[must_use]
     pub fn points(&self) -> &[Dof] {

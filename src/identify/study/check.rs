@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
-use crate::structure::{Beam, Damping};
+use crate::structure::{Beam, Damping, Difference, FiniteDifference, Order};
 
 use super::super::bands::Bands;
 use super::super::error::IdentifyError;
@@ -321,27 +321,61 @@ impl Checker<'_> {
             Some(ThetaTable::Measured(dof)) => {
                 self.refuse(key, dof.to_string(), "a rotation such as \"2:+RZ\"")
             }
-            Some(ThetaTable::Difference(DifferenceTable { points, spacing })) => {
-                if !(spacing.is_finite() && spacing > 0.0) {
-                    return self.refuse(
-                        format!("{key}.spacing"),
-                        spacing.to_string(),
-                        "the distance between neighbouring points in m",
-                    );
-                }
-                if points[1] != y {
-                    return self.refuse(
-                        format!("{key}.points"),
-                        format!("{} in the middle", points[1]),
-                        format!("the joint's own translation {y} there: the difference is central"),
-                    );
-                }
-                Ok(Some(Rotation::Difference {
-                    points,
-                    spacing_m: spacing,
-                }))
-            }
+            Some(ThetaTable::Difference(table)) => self.difference(&key, y, table).map(Some),
         }
+    }
+
+    fn difference(
+        &self,
+        key: &str,
+        y: Dof,
+        table: DifferenceTable,
+    ) -> Result<Rotation, IdentifyError> {
+        let DifferenceTable {
+            points,
+            spacing,
+            difference,
+        } = table;
+        if !(spacing.is_finite() && spacing > 0.0) {
+            return self.refuse(
+                format!("{key}.spacing"),
+                spacing.to_string(),
+                "the distance between neighbouring points in m",
+            );
+        }
+        let order = match points.len() {
+            2 => Some(Order::First),
+            3 => Some(Order::Second),
+            _ => None,
+        };
+        let found = order.and_then(|order| FiniteDifference::new(difference, order, spacing));
+        let Some(found) = found else {
+            let expected = match difference {
+                Difference::Central => "three points, the joint's in the middle",
+                Difference::Forward | Difference::Backward => {
+                    "two or three points, the joint's last and the farthest first"
+                }
+            };
+            let count = points.len();
+            return self.refuse(format!("{key}.points"), format!("{count} points"), expected);
+        };
+        let joint = points[found.joint_point()];
+        if joint != y {
+            let (place, what) = match difference {
+                Difference::Central => ("in the middle", "central"),
+                Difference::Forward => ("at the end", "forward"),
+                Difference::Backward => ("at the end", "backward"),
+            };
+            return self.refuse(
+                format!("{key}.points"),
+                format!("{joint} {place}"),
+                format!("the joint's own translation {y} there: the difference is {what}"),
+            );
+        }
+        Ok(Rotation::Difference {
+            points,
+            difference: found,
+        })
     }
 
     fn beam(&self, key: &str, table: BeamTable) -> Result<Beam, IdentifyError> {

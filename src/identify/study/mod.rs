@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::frf::{Dof, Quantity, UnitSystem};
 use crate::joint::Bodies;
-use crate::structure::Beam;
+use crate::structure::{Beam, FiniteDifference};
 use crate::text_file;
 
 use super::bands::Bands;
@@ -120,12 +120,12 @@ pub struct FrfFile {
 pub enum Rotation {
     /// Measured as such.
     Measured(Dof),
-    /// Second-order central difference over three translations; θ is positive towards the last point.
+    /// A finite difference over neighbouring translations.
     Difference {
-        /// The three points; the middle one is the joint's.
-        points: [Dof; 3],
-        /// Distance between neighbouring points, m.
-        spacing_m: f64,
+        /// The points, one of which is the joint's.
+        points: Vec<Dof>,
+        /// The difference over them.
+        difference: FiniteDifference,
     },
 }
 

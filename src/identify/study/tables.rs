@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::frf::{Dof, Quantity};
 use crate::joint::Bodies;
-use crate::structure::Boundary;
+use crate::structure::{Boundary, Difference};
 
 use super::super::bands::Bands;
 use super::super::model::JointModel;
@@ -108,7 +108,7 @@ impl<'de> Deserialize<'de> for ThetaTable {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "a rotation such as \"2:+RZ\", or { points = [three points], spacing = metres }",
+                    "a rotation such as \"2:+RZ\", or { points = [points], spacing = metres }",
                 )
             }
 
@@ -128,8 +128,10 @@ impl<'de> Deserialize<'de> for ThetaTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DifferenceTable {
-    pub(super) points: [Dof; 3],
+    pub(super) points: Vec<Dof>,
     pub(super) spacing: f64,
+    #[serde(default)]
+    pub(super) difference: Difference,
 }
 
 /// One `[assembly]`, or several `[[assembly]]`.

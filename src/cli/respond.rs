@@ -1,0 +1,176 @@
+//! `respond`: what a test of a study's assembly would measure if its joint were the given one.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use nalgebra::DMatrix;
+use serde_json::json;
+
+use crate::frf::write_uff58;
+use crate::identify::{
+    Bands, IdentifyError, JointMatrices, Study, choose_bands, predict_assembly, predict_lines,
+};
+use crate::joint::JointFile;
+use crate::respond::{Pollution, to_csv, with_noise};
+
+use super::error::CliError;
+use super::output::{check_output, print, write_file};
+use super::{NoiseArguments, NoiseProcedure, RespondArguments, RespondNoise};
+
+/// More lines than any analyser has.
+const MOST_LINES: f64 = 1e7;
+
+#[derive(Clone, Copy)]
+enum Format {
+    Table,
+    Universal,
+}
+
+pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
+    let format = format(&arguments.output)?;
+    check_output(&arguments.output, &[&arguments.study, &arguments.joint])?;
+    let noise = match &arguments.noise {
+        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
+        None => None,
+    };
+    let study = Study::read(&arguments.study)?;
+    let frequency_hz = lines(&study, arguments.step)?;
+    let joint = joint(&arguments.joint, &study)?;
+    let exact = predict_assembly(&study, &joint, &frequency_hz)?;
+    let measured = match noise {
+        Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,
+        None => exact,
+    };
+    let what = match noise {
+        Some((_, Pollution::Frf { level })) => {
+            format!("FRF pollution of {} %", 100.0 * level)
+        }
+        Some((_, Pollution::Response { level, samples })) => format!(
+            "response pollution of {} %, {samples} samples a line",
+            100.0 * level
+        ),
+        None => "no noise".to_owned(),
+    };
+    match format {
+        Format::Table => write_file(&arguments.output, to_csv(&measured).as_bytes())?,
+        Format::Universal => {
+            let description = format!("computed, not measured: {}, {what}", study.name);
+            write_uff58(&measured, &arguments.output, &description)?;
+        }
+    }
+    let functions = measured.functions().count();
+    let lines = predict_lines(&study, &joint, &frequency_hz)?;
+    let bands =
+        choose_bands(&lines, study.model, &joint, &study.bands).map_err(IdentifyError::from)?;
+    if arguments.json {
+        let value = json!({
+            "output": arguments.output.display().to_string(),
+            "functions": functions,
+            "lines": frequency_hz.len(),
+            "noise": what,
+            "bands": { "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta },
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    print(&format!(
+        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\nwrote {}",
+        study.name,
+        frequency_hz.len(),
+        frequency_hz[0],
+        frequency_hz[frequency_hz.len() - 1],
+        band_table(&bands, &study.bands),
+        arguments.output.display()
+    ))
+}
+
+/// The bands as the study's own table, to be copied there.
+fn band_table(bands: &Bands, given: &Bands) -> String {
+    let mut text = "[bands]  # most sensitive lines, 10 % or more away from the substructures' own resonances\n".to_owned();
+    for (name, bands, given) in [
+        ("yy", &bands.yy, &given.yy),
+        ("ytheta", &bands.ytheta, &given.ytheta),
+        ("thetatheta", &bands.thetatheta, &given.thetatheta),
+    ] {
+        if bands.is_empty() {
+            continue;
+        }
+        let list: Vec<String> = bands
+            .iter()
+            .map(|[from, to]| format!("[{from}, {to}]"))
+            .collect();
+        let origin = if given.is_empty() {
+            ""
+        } else {
+            "  # as in the study"
+        };
+        let _ = writeln!(text, "{name} = [{}]{origin}", list.join(", "));
+    }
+    text
+}
+
+fn format(path: &Path) -> Result<Format, CliError> {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("csv") => Ok(Format::Table),
+        Some("uff" | "unv") => Ok(Format::Universal),
+        _ => Err(CliError::Option {
+            option: "--output",
+            found: path.display().to_string(),
+            expected: "a name that ends in .csv, .uff or .unv",
+        }),
+    }
+}
+
+fn pollution(noise: &NoiseArguments) -> Pollution {
+    let level = noise.level;
+    match noise.procedure {
+        NoiseProcedure::Frf => Pollution::Frf { level },
+        NoiseProcedure::Response => Pollution::Response {
+            level,
+            samples: noise.samples,
+        },
+    }
+}
+
+/// Lines from the study's first to its last frequency.
+fn lines(study: &Study, step_hz: f64) -> Result<Vec<f64>, CliError> {
+    let refuse = |option, found: String, expected| CliError::Option {
+        option,
+        found,
+        expected,
+    };
+    let [from_hz, to_hz] = study.frequency_range_hz;
+    let count = ((to_hz - from_hz) / step_hz + 1e-9).floor() + 1.0;
+    if !(step_hz.is_finite() && step_hz > 0.0) {
+        let expected = "a positive distance between lines in Hz";
+        return Err(refuse("--step", step_hz.to_string(), expected));
+    }
+    if from_hz == f64::MIN_POSITIVE || to_hz == f64::MAX || !(2.0..MOST_LINES).contains(&count) {
+        let found = format!("{from_hz} to {to_hz} Hz in steps of {step_hz} Hz");
+        let expected =
+            "`from` and `to` in the study, two lines apart or more and at most ten million";
+        return Err(refuse("[frequency]", found, expected));
+    }
+    Ok((0..count as u64)
+        .map(|line| from_hz + step_hz * line as f64)
+        .collect())
+}
+
+fn joint(path: &Path, study: &Study) -> Result<JointMatrices, CliError> {
+    let file = JointFile::read(path)?;
+    let size = study.model.dofs();
+    let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, CliError> {
+        if rows.len() != size {
+            return Err(CliError::Option {
+                option: "--joint",
+                found: format!("{} with {} degrees of freedom", path.display(), rows.len()),
+                expected: "one with constant matrices and as many as the study's joint model has",
+            });
+        }
+        Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j]))
+    };
+    Ok(JointMatrices {
+        stiffness: matrix(&file.joint.stiffness)?,
+        damping: matrix(&file.joint.damping)?,
+    })
+}

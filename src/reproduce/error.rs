@@ -1,0 +1,36 @@
+//! Why a table cannot be computed anew.
+
+use thiserror::Error;
+
+use crate::identify::IdentifyError;
+use crate::respond::PollutionError;
+use crate::structure::{BeamError, CouplingError, ModalError, SpatialError};
+
+/// Why a table cannot be computed anew.
+#[derive(Debug, Error)]
+pub enum ReproduceError {
+    /// The noise makes no sense.
+    #[error(transparent)]
+    Pollution(#[from] PollutionError),
+    /// A lumped structure.
+    #[error(transparent)]
+    Spatial(#[from] SpatialError),
+    /// A beam.
+    #[error(transparent)]
+    Beam(#[from] BeamError),
+    /// Modal data.
+    #[error(transparent)]
+    Modal(#[from] ModalError),
+    /// An assembly.
+    #[error(transparent)]
+    Coupling(#[from] CouplingError),
+    /// An identification.
+    #[error(transparent)]
+    Identify(Box<IdentifyError>),
+}
+
+impl From<IdentifyError> for ReproduceError {
+    fn from(error: IdentifyError) -> Self {
+        Self::Identify(Box::new(error))
+    }
+}

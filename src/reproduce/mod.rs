@@ -1,0 +1,42 @@
+//! The case studies of Tol's thesis computed anew, published and obtained values side by side.
+
+mod approaches;
+mod beams;
+mod bolted;
+mod draws;
+mod error;
+mod experiments;
+mod lumped;
+mod outcome;
+mod published;
+
+pub use draws::Draws;
+pub use error::ReproduceError;
+pub use outcome::{Reproduction, Row, Spread};
+pub use published::{PublishedTable, UnknownTable};
+
+/// Computes a published table anew.
+///
+/// # Errors
+/// [`ReproduceError`] if the numbers of `draws` make no sense.
+pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, ReproduceError> {
+    match table {
+        PublishedTable::Table4_2 => lumped::table_4_2(draws),
+        PublishedTable::Table4_3 => Ok(beams::table_4_3()),
+        PublishedTable::Table4_4 => beams::table_4_4(draws),
+        PublishedTable::Table4_5 => beams::table_4_5(draws),
+        PublishedTable::Table4_6 => approaches::table_4_6(draws),
+        PublishedTable::Table4_7 => approaches::table_4_7(draws),
+        PublishedTable::Table4_8 => approaches::table_4_8(draws),
+        PublishedTable::Table4_9 => approaches::table_4_9(draws),
+        PublishedTable::Table5_2 => experiments::table_5_2(draws),
+        PublishedTable::M10x16 => experiments::m10x16_chain(draws),
+        PublishedTable::M8x16 => experiments::m8x16_chain(draws),
+        PublishedTable::M10x35 => experiments::m10x35_chain(draws),
+        PublishedTable::M8x35 => experiments::m8x35_chain(draws),
+        PublishedTable::LongM8x35 => experiments::long_m8x35(draws),
+        PublishedTable::Torques => experiments::torques(),
+        PublishedTable::M6x30 => experiments::m6x30_chain(draws),
+        PublishedTable::TwoM6x30 => experiments::two_m6x30(),
+    }
+}

@@ -7,6 +7,7 @@
 pub mod cli;
 pub mod export;
 pub mod frf;
+mod html;
 pub mod identify;
 pub mod joint;
 pub mod report;

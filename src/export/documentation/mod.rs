@@ -1,6 +1,5 @@
 //! The FMU's documentation: one page that needs no network, and the licences.
 
-mod html;
 mod licences;
 mod model;
 mod origin;
@@ -14,8 +13,8 @@ use bolted_joint_interface::Interface as Declared;
 use super::description::generation_tool;
 use super::fmu::LapFacts;
 use super::{Interface, Timestamp};
+use crate::html::{self, escaped};
 use crate::joint::{JointFile, Passivity};
-use html::escaped;
 
 pub(super) use licences::licences;
 
@@ -50,7 +49,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
          <p>{summary}. FMI 3.0 for Co-Simulation and Model Exchange, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
          <main>\n{sections}</main>\n<footer><p>Instantiation token <code>{token}</code></p></footer>\n\
          </body>\n</html>\n",
-        css = include_str!("style.css"),
+        css = html::STYLE,
         summary = html::capitalised(page.interface.summary()),
         tool = escaped(&generation_tool()),
         date = page.date,

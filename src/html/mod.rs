@@ -1,7 +1,14 @@
-//! Pieces of HTML: escaped text, numbers, tables.
+//! Pieces of HTML that every page of this program is made of: escaped text, numbers, tables, one look.
+
+mod provenance;
+
+pub(crate) use provenance::provenance;
+
+/// The look of every page.
+pub(crate) const STYLE: &str = include_str!("style.css");
 
 /// `text` as HTML text or attribute value; characters that HTML forbids are replaced.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -19,7 +26,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// The first letter in upper case.
-pub(super) fn capitalised(text: &str) -> String {
+pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()
@@ -28,16 +35,17 @@ pub(super) fn capitalised(text: &str) -> String {
 }
 
 /// A number to six significant digits, with a power of ten where it is large or small.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     shown(value, 6)
 }
 
 /// A standard deviation to two significant digits: it is not known better.
-pub(super) fn spread(value: f64) -> String {
+pub(crate) fn spread(value: f64) -> String {
     shown(value, 2)
 }
 
-fn shown(value: f64, digits: usize) -> String {
+/// A number to so many significant digits at most, with a power of ten where it is large or small.
+pub(crate) fn shown(value: f64, digits: usize) -> String {
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = rounded.split_once('e') else {
         return rounded;
@@ -64,13 +72,18 @@ fn shown(value: f64, digits: usize) -> String {
     }
 }
 
+/// A fraction in per cent: three digits say enough of a residual.
+pub(crate) fn percent(fraction: f64) -> String {
+    format!("{} %", shown(100.0 * fraction, 3))
+}
+
 /// A number and its unit.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", number(value))
 }
 
 /// A table; `rows` hold finished cells, `<td>…</td>`.
-pub(super) fn table(headings: &[&str], rows: &[String]) -> String {
+pub(crate) fn table(headings: &[&str], rows: &[String]) -> String {
     let headings: String = headings
         .iter()
         .map(|heading| format!("<th>{heading}</th>"))
@@ -82,12 +95,12 @@ pub(super) fn table(headings: &[&str], rows: &[String]) -> String {
 }
 
 /// A cell of finished HTML.
-pub(super) fn cell(html: &str) -> String {
+pub(crate) fn cell(html: &str) -> String {
     format!("<td>{html}</td>")
 }
 
 /// A cell whose content is aligned as numbers are.
-pub(super) fn number_cell(html: &str) -> String {
+pub(crate) fn number_cell(html: &str) -> String {
     format!("<td class=\"number\">{html}</td>")
 }
 

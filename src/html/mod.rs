@@ -46,12 +46,26 @@ pub(crate) fn spread(value: f64) -> String {
 
 /// A number to so many significant digits at most, with a power of ten where it is large or small.
 pub(crate) fn shown(value: f64, digits: usize) -> String {
+    written(value, digits, true)
+}
+
+/// A number to as many digits as beside a standard deviation of which two are known.
+pub(crate) fn beside(value: f64, deviation: f64) -> String {
+    let decade = |size: f64| size.abs().log10().floor();
+    let digits = decade(value) - decade(deviation) + 2.0;
+    match digits.is_finite() {
+        true => written(value, digits.clamp(2.0, 12.0) as usize, false),
+        false => number(value),
+    }
+}
+
+fn written(value: f64, digits: usize, without_zeros: bool) -> String {
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = rounded.split_once('e') else {
         return rounded;
     };
     let short = |text: &str| {
-        let text = if text.contains('.') {
+        let text = if without_zeros && text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.')
         } else {
             text
@@ -124,6 +138,22 @@ mod tests {
             (1.381e-4, "1.4 × 10<sup>−4</sup>"),
         ] {
             assert_eq!(spread(value), expected);
+        }
+    }
+
+    #[test]
+    fn values_have_the_digits_of_their_deviation() {
+        for (value, deviation, expected) in [
+            (572_892.0, 271.0, "572892"),
+            (5818.123, 7.0, "5818.1"),
+            (10.0, 0.15, "10.00"),
+            (-0.8333, 0.004_4, "−0.8333"),
+            (4.5678e8, 1.2e6, "4.568 × 10<sup>8</sup>"),
+            (0.0, 1.0, "0"),
+            (3.25, 0.0, "3.25"),
+            (3.25, f64::INFINITY, "3.25"),
+        ] {
+            assert_eq!(beside(value, deviation), expected);
         }
     }
 

@@ -8,8 +8,8 @@ use super::super::chart_data::scaled_unit;
 use super::super::look::Look;
 use super::IdentificationReport;
 use super::figure::figure;
-use super::parameters::symbol;
-use crate::html::{percent, shown};
+use super::parameters::{interval, symbol};
+use crate::html::{beside, percent};
 use crate::identify::{JointMatrices, JointModel, Unknown};
 use crate::structure::ComplexMatrix;
 
@@ -158,19 +158,19 @@ fn caption(
     let found = report.found;
     let covariance = found.estimate.covariance();
     let intervals = covariance.intervals();
+    let deviations = covariance.standard_deviation();
     let entries = unknowns.len() / 2;
     let sentences = [entry, entries + entry].map(|index| {
         let unknown = &unknowns[index];
         if !covariance.identified[index] {
             return format!("{} is not identified.", symbol(unknown.name));
         }
-        let [low, high] = intervals[index];
+        let deviation = deviations[index];
         format!(
-            "{} = {} {unit} ({} … {}).",
+            "{} = {} {unit} ({}).",
             symbol(unknown.name),
-            shown(unknown.value(&found.joint), 5),
-            shown(low, 5),
-            shown(high, 5),
+            beside(unknown.value(&found.joint), deviation),
+            interval(intervals[index], deviation),
             unit = unknown.unit
         )
     });

@@ -19,7 +19,7 @@ pub(super) fn figure(chart: &Chart<'_>, caption: &str) -> String {
             };
             let _ = write!(
                 keys,
-                "<li>{} {} <output data-strip=\"{number}\" data-curve=\"{curve_number}\"></output></li>",
+                "<li>{} {} <b data-strip=\"{number}\" data-curve=\"{curve_number}\"></b></li>",
                 sample(curve.look),
                 escaped(&name)
             );
@@ -36,7 +36,7 @@ pub(super) fn figure(chart: &Chart<'_>, caption: &str) -> String {
     });
     format!(
         "<figure class=\"chart\" id=\"{id}\">\n<figcaption>{caption}{thinned}</figcaption>\n\
-         <ul class=\"keys\"><li class=\"at\"><output data-frequency></output></li>{keys}</ul>\n\
+         <ul class=\"keys\"><li class=\"at\"><b data-frequency></b></li>{keys}</ul>\n\
          <div class=\"picture\">\n{svg}</div>\n<script type=\"application/json\">{data}</script>\n</figure>\n",
         id = escaped(&chart.id),
         svg = chart.to_svg(),

@@ -49,6 +49,9 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     ));
     rows.push(row("Bands of the average", &bands(report)));
     rows.push(row("Noise", &noise(report)));
+    for note in &study.notes {
+        rows.push(row("Note", &escaped(note)));
+    }
     format!(
         "<h2>What was measured and assumed</h2>\n{}{}",
         table(&[], &rows).replace("<thead><tr></tr></thead>\n", ""),

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{IdentificationReport, counted};
-use crate::html::{cell, escaped, number_cell, shown, spread, table};
+use crate::html::{beside, cell, escaped, number_cell, shown, spread, table};
 use crate::identify::Unknown;
 
 /// Digits of a parameter.
@@ -27,9 +27,9 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             let [low, high] = intervals[index];
             let estimate = if covariance.identified[index] {
                 [
-                    number_cell(&shown(unknown.value(&found.joint), DIGITS)),
+                    number_cell(&beside(unknown.value(&found.joint), deviation[index])),
                     number_cell(&spread(deviation[index])),
-                    number_cell(&format!("{} … {}", shown(low, DIGITS), shown(high, DIGITS))),
+                    number_cell(&interval([low, high], deviation[index])),
                 ]
                 .concat()
             } else {
@@ -60,6 +60,11 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     html += &correlations(report);
     html += &bootstrap(report);
     html
+}
+
+/// An interval with the digits that the deviation warrants.
+pub(super) fn interval([low, high]: [f64; 2], deviation: f64) -> String {
+    format!("{} … {}", beside(low, deviation), beside(high, deviation))
 }
 
 /// A parameter's name with its index set low: `k_yy` becomes k with index yy.
@@ -194,12 +199,14 @@ fn bootstrap(report: &IdentificationReport<'_>) -> String {
             .iter()
             .enumerate()
             .map(|(index, unknown)| {
-                let [low, high] = result.intervals[index];
                 format!(
                     "<th scope=\"row\">{}</th>{}{}{}",
                     symbol(unknown.name),
                     number_cell(&spread(result.standard_deviation[index])),
-                    number_cell(&format!("{} … {}", shown(low, DIGITS), shown(high, DIGITS))),
+                    number_cell(&interval(
+                        result.intervals[index],
+                        result.standard_deviation[index]
+                    )),
                     cell(unknown.unit)
                 )
             })

@@ -82,13 +82,13 @@
   const logarithmicTicks = ({ low, high }, most) => {
     const decades = Math.log10(high / low);
     const stride = Math.max(1, Math.ceil(decades / most));
+    const plain = decade(low) >= -3 && decade(high) <= 3;
     const found = { major: [], minor: [] };
     for (let power = decade(low); power <= decade(high); power += 1) {
       for (let digit = 1; digit <= 9; digit += 1) {
         const value = digit * 10 ** power;
         if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9)) continue;
         const labelled = decades < 1.5 ? [1, 2, 5].includes(digit) : digit === 1 && power % stride === 0;
-        const plain = power >= -3 && power <= 3;
         const label = plain ? String(Number(value.toPrecision(1))) : `${digit === 1 ? "" : `${digit}·`}10${raised(power)}`;
         if (labelled) found.major.push({ value, label });
         else found.minor.push(value);

@@ -31,8 +31,9 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                estimate does not need it.</p>\n";
     }
     html += "<p>Each dot is the value that decoupling gives on one line (Tol, equation 3.21). The bands of the average are shaded; the \
-             line across is the estimate, with its 95 % interval. Where the receptances do not depend on the joint the dots \
-             scatter; some lie off the axis.</p>\n";
+             line across is the estimate, with its 95 % interval. Where the receptances say little about the joint the dots \
+             scatter, and because noise is inverted with them they are drawn away from the joint's values, not only \
+             spread about them.</p>\n";
     let unknowns = Unknown::of(found.model);
     let entries = found.model.entries().len();
     for entry in 0..entries {

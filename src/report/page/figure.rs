@@ -11,11 +11,12 @@ pub(super) fn figure(chart: &Chart<'_>, caption: &str) -> String {
     let mut keys = String::new();
     for (number, strip) in chart.strips.iter().enumerate() {
         for (curve_number, curve) in strip.curves.iter().enumerate() {
-            // A strip with several curves names them, one with a single curve is named itself.
-            let name = match strip.curves.len() {
-                1 => strip.name.clone(),
-                _ if strip.name == curve.name => strip.name.clone(),
-                _ => format!("{}: {}", strip.name, curve.name),
+            let name = if strip.curves.len() == 1 {
+                strip.name.clone()
+            } else if chart.strips.len() == 1 {
+                curve.name.clone()
+            } else {
+                format!("{} {}", strip.name, curve.name)
             };
             let _ = write!(
                 keys,
@@ -24,9 +25,9 @@ pub(super) fn figure(chart: &Chart<'_>, caption: &str) -> String {
                 escaped(&name)
             );
         }
-        if strip.level.is_some() {
-            let _ = write!(keys, "<li>{} estimate</li>", sample(Level::LOOK));
-        }
+    }
+    if chart.strips.iter().any(|strip| strip.level.is_some()) {
+        let _ = write!(keys, "<li>{} estimate</li>", sample(Level::LOOK));
     }
     let thinned = chart.thinned_to().map_or_else(String::new, |kept| {
         format!(

@@ -9,14 +9,16 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::dmatrix;
 
-use crate::export::Interface;
+use crate::export::{Interface, Timestamp};
 use crate::frf::{polluted, resonances, write_uff58};
-use crate::identify::{Identification, JointMatrices, Study, Unknown, identify, predict_assembly};
+use crate::identify::{
+    self as identification, Identification, JointMatrices, Study, Unknown, predict_assembly,
+};
 
 use super::DemoArguments;
 use super::error::CliError;
 use super::export::{self, export_to};
-use super::identify::{basis, figure, fit, warnings};
+use super::identify::{self, basis, figure, fit, warnings};
 use super::output::{message, print, write_file};
 use super::table::{Table, number};
 
@@ -64,6 +66,7 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
             expected: "a fraction from 0 to below 1, such as 0.01 for 1 %",
         });
     }
+    let written = Timestamp::from_environment()?;
     let element = export::options(Interface::Element)?;
     let lap = export::options(Interface::Lap)?;
     fs::create_dir_all(&arguments.output).map_err(|source| CliError::Unwritable {
@@ -75,8 +78,9 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
         written: Vec::new(),
     };
     let study = synthesise(&mut files, arguments)?;
-    let found = identify(&study)?;
-    for warning in warnings(&found) {
+    let found = identification::identify(&study)?;
+    let warnings = warnings(&found);
+    for warning in &warnings {
         message(&format!("warning: {warning}"));
     }
     let joint_file = files.path("m10x16.joint.json");
@@ -86,6 +90,8 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
         100.0 * arguments.noise
     );
     files.write("m10x16-frf.svg", figure(&found, &subtitle).as_bytes())?;
+    let page = identify::report(&study, &found, &warnings, written);
+    files.write("m10x16-report.html", page.as_bytes())?;
     let pirdayr = files.write("pirdayr-ex03.joint.json", PIRDAYR.as_bytes())?;
     let mut exports = String::new();
     for (joint_file, options, name) in [

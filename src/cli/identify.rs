@@ -5,10 +5,11 @@ use std::fmt::Write as _;
 use num_complex::Complex64;
 use serde_json::json;
 
+use crate::export::Timestamp;
 use crate::identify::{
     Bootstrap, BootstrapResult, Identification, Study, Unknown, identify_and_draw,
 };
-use crate::report::{FrfFigure, FrfPanel};
+use crate::report::{FrfFigure, FrfPanel, IdentificationReport};
 
 use super::IdentifyArguments;
 use super::error::CliError;
@@ -20,20 +21,39 @@ use super::table::{Table, number};
 const PANELS: usize = 3;
 
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
-    if let Some(figure) = &arguments.figure {
-        let extension = figure.extension().and_then(|extension| extension.to_str());
-        if extension != Some("svg") {
+    let named = [
+        (
+            "--figure",
+            &arguments.figure,
+            "svg",
+            "a name that ends in .svg",
+        ),
+        (
+            "--report",
+            &arguments.report,
+            "html",
+            "a name that ends in .html",
+        ),
+    ];
+    check_output(&arguments.output, &[&arguments.study])?;
+    let mut taken = vec![&arguments.study, &arguments.output];
+    for (option, path, expected_extension, expected) in named {
+        let Some(path) = path else { continue };
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        if extension != Some(expected_extension) {
             return Err(CliError::Option {
-                option: "--figure",
-                found: figure.display().to_string(),
-                expected: "a name that ends in .svg",
+                option,
+                found: path.display().to_string(),
+                expected,
             });
         }
+        check_output(path, &taken)?;
+        taken.push(path);
     }
-    check_output(&arguments.output, &[&arguments.study])?;
-    if let Some(figure) = &arguments.figure {
-        check_output(figure, &[&arguments.study, &arguments.output])?;
-    }
+    let written = match arguments.report {
+        Some(_) => Some(Timestamp::from_environment()?),
+        None => None,
+    };
     let study = Study::read(&arguments.study)?;
     let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
         draws: draws as usize,
@@ -47,21 +67,27 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         .figure
         .as_ref()
         .map(|path| (path, figure(&found, "")));
+    let warnings = warnings(&found);
+    let page = written.map(|written| report(&study, &found, &warnings, written));
     joint_file.write(&arguments.output)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
     }
-    for warning in warnings(&found) {
+    if let (Some(path), Some(page)) = (&arguments.report, page) {
+        write_file(path, page.as_bytes())?;
+    }
+    for warning in &warnings {
         message(&format!("warning: {warning}"));
     }
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),
             "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
+            "report": arguments.report.as_ref().map(|path| path.display().to_string()),
             "joint_file": joint_file,
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
-            "warnings": warnings(&found),
+            "warnings": warnings,
             "models": found.estimate.model_choice().map(|choice| json!({
                 "recommended": choice.recommended,
                 "compared": choice.models.iter().map(|fit| json!({
@@ -75,7 +101,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     }
     let mut text = summary(&found);
     let _ = writeln!(text, "\nwrote {}", arguments.output.display());
-    if let Some(path) = &arguments.figure {
+    for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
         let _ = writeln!(text, "wrote {}", path.display());
     }
     print(&text)
@@ -230,6 +256,22 @@ pub(super) fn fit(found: &Identification) -> String {
         "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; the joint is {passive}",
         100.0 * found.relative_rms
     )
+}
+
+/// The report as a page.
+pub(super) fn report(
+    study: &Study,
+    found: &Identification,
+    warnings: &[String],
+    written: Timestamp,
+) -> String {
+    IdentificationReport {
+        study,
+        found,
+        warnings,
+        written,
+    }
+    .to_html()
 }
 
 /// The drive-point functions (or, without any, the first ones), measured and regenerated.

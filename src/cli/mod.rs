@@ -81,6 +81,9 @@ struct IdentifyArguments {
     /// Also draw measured and regenerated FRFs
     #[arg(long, value_name = "NAME.svg")]
     figure: Option<PathBuf>,
+    /// Also write a report: one page with everything that was measured, assumed and found
+    #[arg(long, value_name = "NAME.html")]
+    report: Option<PathBuf>,
     /// Repeat the estimate on so many data sets drawn from the fitted model
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     bootstrap: Option<u32>,

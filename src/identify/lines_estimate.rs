@@ -73,6 +73,12 @@ pub struct BootstrapResult {
 }
 
 impl LinesEstimate {
+    /// K* of each line of each assembly by (3.21); `None` where it cannot be had.
+    #[must_use]
+    pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
+        &self.decoupled
+    }
+
     /// The joint: the passive estimate where there is one.
     #[must_use]
     pub fn joint(&self) -> &JointMatrices {

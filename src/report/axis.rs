@@ -107,6 +107,15 @@ impl Axis {
         }
     }
 
+    /// Values at the start and the end.
+    pub(super) fn ends(&self) -> (f64, f64) {
+        match *self {
+            Self::Linear { low, high } => (low, high),
+            Self::Logarithmic { low, high } => (one_two_five(low), one_two_five(high)),
+            Self::Phase => (-PHASE_END, PHASE_END),
+        }
+    }
+
     /// Ticks, at most about `most` of them labelled.
     pub(super) fn ticks(&self, most: u32) -> Ticks {
         match *self {

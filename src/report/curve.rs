@@ -93,17 +93,38 @@ pub(super) fn unwrapped_pieces(samples: &[Sample]) -> Vec<Vec<Sample>> {
 
 /// A path through `points`, with gaps where there is none, cut at y = 0 and y = `height`, and thinned.
 pub(super) fn line(points: impl Iterator<Item = Option<Point>>, height: f64, path: &mut PathData) {
+    line_within(points, height, 0.0, path);
+}
+
+/// As [`line()`], and points are left out that are nearer than `tolerance` (pixels) to the line through the others.
+pub(super) fn line_within(
+    points: impl Iterator<Item = Option<Point>>,
+    height: f64,
+    tolerance: f64,
+    path: &mut PathData,
+) {
     let points: Vec<Option<Point>> = points.collect();
     for piece in points.split(Option::is_none) {
         let piece: Vec<Point> = piece.iter().flatten().copied().collect();
         for inside in cut(&piece, height) {
-            path.polyline(&thin(&inside));
+            path.polyline(&simplified(&thin(&inside), tolerance));
         }
     }
 }
 
 /// Dots at `points` between y = 0 and y = `height`, one at most in each pixel.
 pub(super) fn dots(points: impl Iterator<Item = Option<Point>>, height: f64, path: &mut PathData) {
+    dots_apart(points, height, DOT_CELL, path);
+}
+
+/// As [`dots`], one at most in each square of side `cell_size` (pixels).
+pub(super) fn dots_apart(
+    points: impl Iterator<Item = Option<Point>>,
+    height: f64,
+    cell_size: f64,
+    path: &mut PathData,
+) {
+    let cell = |length: f64| cell(length / cell_size);
     let mut taken = HashSet::new();
     for point in points
         .flatten()
@@ -128,7 +149,7 @@ fn to_tenth(length: f64) -> f64 {
     reason = "lengths on a page are small; `as` saturates for any other"
 )]
 fn cell(length: f64) -> i64 {
-    (length / DOT_CELL).floor() as i64
+    length.floor() as i64
 }
 
 /// The parts of a polyline between y = 0 and y = `height`.
@@ -196,12 +217,79 @@ fn thin(line: &[Point]) -> Vec<Point> {
     kept
 }
 
+/// Leaves out points that are not further than `tolerance` from the line through those left (Ramer, Douglas and Peucker).
+fn simplified(line: &[Point], tolerance: f64) -> Vec<Point> {
+    if tolerance <= 0.0 || line.len() < 3 {
+        return line.to_vec();
+    }
+    let mut kept = vec![false; line.len()];
+    kept[0] = true;
+    kept[line.len() - 1] = true;
+    let mut open = vec![(0, line.len() - 1)];
+    while let Some((start, end)) = open.pop() {
+        let (from, to) = (line[start], line[end]);
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let length = dx.hypot(dy).max(f64::MIN_POSITIVE);
+        let distance = |point: &Point| {
+            let (x, y) = (point.x - from.x, point.y - from.y);
+            // Beyond an end of the line the end itself is nearest.
+            let along = (x * dx + y * dy) / length;
+            if (0.0..=length).contains(&along) {
+                (x * dy - y * dx).abs() / length
+            } else {
+                x.hypot(y).min((point.x - to.x).hypot(point.y - to.y))
+            }
+        };
+        let furthest = (start + 1..end)
+            .map(|index| (index, distance(&line[index])))
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((index, distance)) = furthest
+            && distance > tolerance
+        {
+            kept[index] = true;
+            open.push((start, index));
+            open.push((index, end));
+        }
+    }
+    let points = line.iter().zip(kept);
+    points
+        .filter(|(_, kept)| *kept)
+        .map(|(point, _)| *point)
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn point(x: f64, y: f64) -> Point {
         Point { x, y }
+    }
+
+    #[test]
+    fn a_simplified_line_stays_within_its_tolerance() {
+        let wave = |k: u32| {
+            let x = 0.5 * f64::from(k);
+            point(
+                x,
+                50.0 + 40.0 * (0.02 * x).sin() + 300.0 / (1.0 + (x - 400.0).powi(2)),
+            )
+        };
+        let line: Vec<Point> = (0..2000).map(wave).collect();
+        let simple = simplified(&line, 0.2);
+        assert!(simple.len() < 200, "{}", simple.len());
+        for original in &line {
+            let pairs = simple.windows(2);
+            let piece = pairs.filter(|p| (p[0].x..=p[1].x).contains(&original.x));
+            let nearest = piece.map(|p| {
+                let share = (original.x - p[0].x) / (p[1].x - p[0].x);
+                let slope = (p[1].y - p[0].y) / (p[1].x - p[0].x);
+                let above = original.y - p[0].y - share * (p[1].y - p[0].y);
+                above.abs() / slope.hypot(1.0)
+            });
+            assert!(nearest.fold(f64::INFINITY, f64::min) <= 0.2 + 1e-9);
+        }
+        assert_eq!(simplified(&line, 0.0), line);
     }
 
     #[test]

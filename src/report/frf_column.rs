@@ -5,15 +5,15 @@ use num_complex::Complex64;
 use super::axis::Axis;
 use super::curve::{self, Sample};
 use super::frf_figure::FrfPanel;
-use super::legend::{Key, REGENERATED_COLOUR};
+use super::legend::Key;
+use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
 use super::strip::{FAINT_TEXT, Strip, TEXT};
 use super::svg::{PathData, Svg};
 use super::text;
-use crate::frf::{Resonance, resonances};
+use crate::frf::Resonance;
 
 // Heights of what stands in a column, from the top.
 const PANEL_LABEL: f64 = 22.0;
-const RESONANCE_LABELS: f64 = 18.0;
 const MAGNITUDE: f64 = 230.0;
 const PHASE: f64 = 120.0;
 const RESIDUAL: f64 = 84.0;
@@ -22,8 +22,6 @@ const FREQUENCY_LABELS: f64 = 48.0;
 
 const PANEL_FONT: f64 = 13.0;
 const NOTE_FONT: f64 = 11.5;
-/// Distance between the labels of two resonances (pixels).
-const BETWEEN_RESONANCES: f64 = 6.0;
 
 /// The axes of a column.
 #[derive(Debug, Clone, Copy)]
@@ -95,7 +93,12 @@ impl<'a> Column<'a> {
     /// Draws everything but the labels of the value axes.
     pub(super) fn draw(&self, svg: &mut Svg) {
         self.draw_name(svg);
-        let marked = self.draw_resonance_labels(svg);
+        let marked = draw_resonance_labels(
+            self.frequency_hz,
+            self.panel.regenerated,
+            &self.magnitude,
+            svg,
+        );
         self.draw_magnitude(&marked, svg);
         self.draw_phase(&marked, svg);
         self.draw_residual(&marked, svg);
@@ -142,37 +145,6 @@ impl<'a> Column<'a> {
             .word("text-anchor", "end")
             .word("fill", FAINT_TEXT)
             .containing(&note);
-    }
-
-    /// Writes the frequencies of the resonances (Hz) above the strip, the most prominent first, as long as there is room
-    /// beside those already there. Returns the marked ones.
-    fn draw_resonance_labels(&self, svg: &mut Svg) -> Vec<Resonance> {
-        let strip = &self.magnitude;
-        let mut found = resonances(self.frequency_hz, self.panel.regenerated);
-        found.sort_by(|a, b| b.prominence_decades.total_cmp(&a.prominence_decades));
-        let mut taken: Vec<(f64, f64)> = Vec::new();
-        found.retain(|resonance| {
-            let Some(x) = strip.place_frequency(resonance.frequency_hz) else {
-                return false;
-            };
-            let label = format!("{:.1}", resonance.frequency_hz);
-            let half = 0.5 * text::width(&label, NOTE_FONT);
-            let middle = x.min(strip.width - half).max(half);
-            let (start, end) = (middle - half, middle + half + BETWEEN_RESONANCES);
-            if taken.iter().any(|&(from, to)| start < to && end > from) {
-                return false;
-            }
-            taken.push((start, end));
-            svg.element("text")
-                .number("x", strip.left + middle)
-                .number("y", strip.top - 6.0)
-                .number("font-size", NOTE_FONT)
-                .word("text-anchor", "middle")
-                .word("fill", REGENERATED_COLOUR)
-                .containing(&label);
-            true
-        });
-        found
     }
 
     fn draw_magnitude(&self, marked: &[Resonance], svg: &mut Svg) {

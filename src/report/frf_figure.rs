@@ -11,7 +11,7 @@ use super::svg::Svg;
 use super::text::wrapped;
 use crate::frf::resonances;
 
-const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
+pub(super) const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
 const PAGE_WIDTH: f64 = 960.0;
 const MARGIN: f64 = 18.0;
 /// Distance between columns that share their magnitude axis (pixels).
@@ -25,7 +25,7 @@ const SUBTITLE_LINE: f64 = 18.0;
 const LEGEND: f64 = 34.0;
 
 /// Powers of ten that magnitudes and residuals show at most.
-const MAGNITUDE_DECADES: i32 = 10;
+pub(super) const MAGNITUDE_DECADES: i32 = 10;
 const RESIDUAL_DECADES: i32 = 5;
 /// One in so many residuals, the smallest ones, may fall below their axis.
 const RESIDUALS_ABOVE_AXIS: usize = 50;
@@ -211,12 +211,17 @@ impl FrfFigure<'_> {
     fn residual_axis(&self) -> Option<Axis> {
         let panels = self.panels.iter();
         let samples = panels.flat_map(|panel| panel.residuals(self.frequency_hz));
-        let mut values: Vec<f64> = samples.map(|sample| sample.1).collect();
-        values.retain(|value| value.is_finite() && *value > 0.0);
-        values.sort_by(f64::total_cmp);
-        let below = values.len() / RESIDUALS_ABOVE_AXIS;
-        Axis::logarithmic(values.into_iter().skip(below), RESIDUAL_DECADES)
+        residual_axis(samples.map(|sample| sample.1))
     }
+}
+
+/// An axis for residuals (%), of which the smallest few may fall below it.
+pub(super) fn residual_axis(residuals: impl Iterator<Item = f64>) -> Option<Axis> {
+    let mut values: Vec<f64> = residuals.collect();
+    values.retain(|value| value.is_finite() && *value > 0.0);
+    values.sort_by(f64::total_cmp);
+    let below = values.len() / RESIDUALS_ABOVE_AXIS;
+    Axis::logarithmic(values.into_iter().skip(below), RESIDUAL_DECADES)
 }
 
 /// Whether a panel cannot be read by the magnitude axis of its neighbour to the left.

@@ -1,5 +1,6 @@
 //! The look of the curves, and the key that explains it.
 
+use super::look::Look;
 use super::strip::TEXT;
 use super::svg::{PathData, Point, Svg};
 use super::text;
@@ -27,7 +28,7 @@ pub(super) enum Key {
 }
 
 impl Key {
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",
             Self::Regenerated => "regenerated",
@@ -39,28 +40,18 @@ impl Key {
 
     /// Draws `path` in the look of this kind of curve.
     pub(super) fn draw(self, path: &PathData, svg: &mut Svg) {
-        if path.is_empty() {
-            return;
+        self.look().draw(path, svg);
+    }
+
+    /// How this kind of curve is drawn.
+    pub(super) fn look(self) -> Look {
+        match self {
+            Self::Measured => Look::dots(MEASURED_COLOUR, 4.2),
+            Self::Regenerated => Look::line(REGENERATED_COLOUR, 1.5),
+            Self::Uncoupled => Look::dashed(UNCOUPLED_COLOUR, 1.2, "6 3"),
+            Self::Residual => Look::dots(RESIDUAL_COLOUR, 1.9),
+            Self::Resonance => Look::dashed(REGENERATED_COLOUR, 1.0, "1 3"),
         }
-        let (colour, width, dashes) = match self {
-            Self::Measured => (MEASURED_COLOUR, 4.2, None),
-            Self::Regenerated => (REGENERATED_COLOUR, 1.5, None),
-            Self::Uncoupled => (UNCOUPLED_COLOUR, 1.2, Some("6 3")),
-            Self::Residual => (RESIDUAL_COLOUR, 1.9, None),
-            Self::Resonance => (REGENERATED_COLOUR, 1.0, Some("1 3")),
-        };
-        let element = svg
-            .element("path")
-            .word("d", path.as_str())
-            .word("fill", "none")
-            .word("stroke", colour)
-            .number("stroke-width", width)
-            .word("stroke-linejoin", "round");
-        match dashes {
-            Some(dashes) => element.word("stroke-dasharray", dashes),
-            None => element.word("stroke-linecap", "round"),
-        }
-        .empty();
     }
 
     fn sample(self, left: f64, middle: f64) -> PathData {

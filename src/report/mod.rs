@@ -1,17 +1,23 @@
-//! Pictures of what was measured and what was found, for people who read structural dynamics every day.
+//! Pictures and pages of what was measured and what was found, for people who read structural dynamics every day.
 
 mod axis;
+mod chart;
+mod chart_data;
 mod curve;
 mod frf_column;
 mod frf_figure;
 mod legend;
 mod line_figure;
+mod look;
+mod page;
+mod resonance_labels;
 mod strip;
 mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
 pub(crate) use line_figure::{Line, LineFigure, Scale};
+pub use page::IdentificationReport;
 
 #[cfg(test)]
 mod tests;

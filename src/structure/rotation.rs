@@ -1,5 +1,7 @@
 //! Rotational receptances from translations measured at neighbouring points.
 
+use std::fmt;
+
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -95,6 +97,25 @@ impl FiniteDifference {
                 _ => slope[point],
             })
         })
+    }
+}
+
+impl fmt::Display for FiniteDifference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let side = match self.difference {
+            Difference::Central => "central",
+            Difference::Forward => "forward",
+            Difference::Backward => "backward",
+        };
+        let order = match self.order {
+            Order::First => "first",
+            Order::Second => "second",
+        };
+        let spacing_m = self.spacing_m;
+        write!(
+            f,
+            "{side} difference of {order} order, points {spacing_m} m apart"
+        )
     }
 }
 

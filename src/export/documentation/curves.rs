@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use super::super::Interface;
 use super::Page;
-use super::html::number;
+use crate::html::number;
 use crate::joint::DofSet;
 use crate::report::{Line, LineFigure, Scale};
 

@@ -1,7 +1,6 @@
 //! The FMU's documentation: one page that needs no network, and the licences.
 
 mod curves;
-mod html;
 mod licences;
 mod model;
 mod origin;
@@ -14,8 +13,8 @@ use bolted_joint_interface::Interface as Declared;
 use super::description::generation_tool;
 use super::fmu::LapFacts;
 use super::{FmiVersion, Interface, Timestamp};
+use crate::html::{self, escaped};
 use crate::joint::{JointFile, Passivity};
-use html::escaped;
 
 pub(super) use licences::licences;
 
@@ -54,7 +53,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
          <p>{summary}. {version} for Co-Simulation and Model Exchange, written by {tool} on <time>{date}</time>.</p>\n</header>\n\
          <main>\n{sections}</main>\n<footer><p>{token_name} <code>{token}</code></p></footer>\n\
          </body>\n</html>\n",
-        css = include_str!("style.css"),
+        css = html::STYLE,
         summary = html::capitalised(page.interface.summary()),
         version = page.version,
         tool = escaped(&generation_tool()),

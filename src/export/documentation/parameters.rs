@@ -2,7 +2,7 @@
 
 use super::super::Interface;
 use super::Page;
-use super::html::{cell, escaped, number, number_cell, spread, table};
+use crate::html::{cell, escaped, number, number_cell, spread, table};
 use crate::joint::{Body, DofSet};
 
 /// Symbols and load symbols of the DOFs, in the order of the matrices' rows.

@@ -1,10 +1,10 @@
 //! What to know before a simulation: steps, modes, passivity, limits of the model.
 
 use super::Page;
-use super::html::{escaped, number, number_cell, quantity, table};
 use crate::export::FmiVersion;
 use crate::export::fmu::LapFacts;
 use crate::export::step::StepChoice;
+use crate::html::{escaped, number, number_cell, quantity, table};
 use crate::joint::MatrixPassivity;
 
 pub(super) fn section(page: &Page<'_>) -> String {

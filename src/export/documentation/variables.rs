@@ -3,7 +3,7 @@
 use bolted_joint_interface::Role;
 
 use super::Page;
-use super::html::{cell, escaped, number, number_cell, table};
+use crate::html::{cell, escaped, number, number_cell, table};
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let rows: Vec<String> = page

@@ -1,7 +1,14 @@
-//! Pieces of HTML: escaped text, numbers, tables.
+//! Pieces of HTML that every page of this program is made of: escaped text, numbers, tables, one look.
+
+mod provenance;
+
+pub(crate) use provenance::provenance;
+
+/// The look of every page.
+pub(crate) const STYLE: &str = include_str!("style.css");
 
 /// `text` as HTML text or attribute value; characters that HTML forbids are replaced.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -19,7 +26,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// The first letter in upper case.
-pub(super) fn capitalised(text: &str) -> String {
+pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()
@@ -28,22 +35,37 @@ pub(super) fn capitalised(text: &str) -> String {
 }
 
 /// A number to six significant digits, with a power of ten where it is large or small.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     shown(value, 6)
 }
 
 /// A standard deviation to two significant digits: it is not known better.
-pub(super) fn spread(value: f64) -> String {
+pub(crate) fn spread(value: f64) -> String {
     shown(value, 2)
 }
 
-fn shown(value: f64, digits: usize) -> String {
+/// A number to so many significant digits at most, with a power of ten where it is large or small.
+pub(crate) fn shown(value: f64, digits: usize) -> String {
+    written(value, digits, true)
+}
+
+/// A number to as many digits as beside a standard deviation of which two are known.
+pub(crate) fn beside(value: f64, deviation: f64) -> String {
+    let decade = |size: f64| size.abs().log10().floor();
+    let digits = decade(value) - decade(deviation) + 2.0;
+    match digits.is_finite() {
+        true => written(value, digits.clamp(2.0, 12.0) as usize, false),
+        false => number(value),
+    }
+}
+
+fn written(value: f64, digits: usize, without_zeros: bool) -> String {
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = rounded.split_once('e') else {
         return rounded;
     };
     let short = |text: &str| {
-        let text = if text.contains('.') {
+        let text = if without_zeros && text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.')
         } else {
             text
@@ -64,13 +86,18 @@ fn shown(value: f64, digits: usize) -> String {
     }
 }
 
+/// A fraction in per cent: three digits say enough of a residual.
+pub(crate) fn percent(fraction: f64) -> String {
+    format!("{} %", shown(100.0 * fraction, 3))
+}
+
 /// A number and its unit.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", number(value))
 }
 
 /// A table; `rows` hold finished cells, `<td>…</td>`.
-pub(super) fn table(headings: &[&str], rows: &[String]) -> String {
+pub(crate) fn table(headings: &[&str], rows: &[String]) -> String {
     let headings: String = headings
         .iter()
         .map(|heading| format!("<th>{heading}</th>"))
@@ -82,12 +109,12 @@ pub(super) fn table(headings: &[&str], rows: &[String]) -> String {
 }
 
 /// A cell of finished HTML.
-pub(super) fn cell(html: &str) -> String {
+pub(crate) fn cell(html: &str) -> String {
     format!("<td>{html}</td>")
 }
 
 /// A cell whose content is aligned as numbers are.
-pub(super) fn number_cell(html: &str) -> String {
+pub(crate) fn number_cell(html: &str) -> String {
     format!("<td class=\"number\">{html}</td>")
 }
 
@@ -111,6 +138,22 @@ mod tests {
             (1.381e-4, "1.4 × 10<sup>−4</sup>"),
         ] {
             assert_eq!(spread(value), expected);
+        }
+    }
+
+    #[test]
+    fn values_have_the_digits_of_their_deviation() {
+        for (value, deviation, expected) in [
+            (572_892.0, 271.0, "572892"),
+            (5818.123, 7.0, "5818.1"),
+            (10.0, 0.15, "10.00"),
+            (-0.8333, 0.004_4, "−0.8333"),
+            (4.5678e8, 1.2e6, "4.568 × 10<sup>8</sup>"),
+            (0.0, 1.0, "0"),
+            (3.25, 0.0, "3.25"),
+            (3.25, f64::INFINITY, "3.25"),
+        ] {
+            assert_eq!(beside(value, deviation), expected);
         }
     }
 

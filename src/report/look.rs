@@ -1,0 +1,58 @@
+//! How a curve is drawn: its colour, its width, and whether it is a line or dots.
+
+use super::svg::{PathData, Svg};
+
+/// The look of a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Look {
+    pub(super) colour: &'static str,
+    /// Pixels.
+    pub(super) width: f64,
+    pub(super) dashes: Option<&'static str>,
+    /// Whether only the values themselves are drawn and nothing between them.
+    pub(super) is_dots: bool,
+}
+
+impl Look {
+    pub(super) const fn line(colour: &'static str, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dashes: None,
+            is_dots: false,
+        }
+    }
+
+    pub(super) const fn dashed(colour: &'static str, width: f64, dashes: &'static str) -> Self {
+        Self {
+            dashes: Some(dashes),
+            ..Self::line(colour, width)
+        }
+    }
+
+    pub(super) const fn dots(colour: &'static str, width: f64) -> Self {
+        Self {
+            is_dots: true,
+            ..Self::line(colour, width)
+        }
+    }
+
+    /// Draws `path`; nothing if it is empty.
+    pub(super) fn draw(self, path: &PathData, svg: &mut Svg) {
+        if path.is_empty() {
+            return;
+        }
+        let element = svg
+            .element("path")
+            .word("d", path.as_str())
+            .word("fill", "none")
+            .word("stroke", self.colour)
+            .number("stroke-width", self.width)
+            .word("stroke-linejoin", "round");
+        match self.dashes {
+            Some(dashes) => element.word("stroke-dasharray", dashes),
+            None => element.word("stroke-linecap", "round"),
+        }
+        .empty();
+    }
+}

@@ -1,0 +1,345 @@
+//! What was measured, what was computed, and what the identification takes for granted.
+
+use std::path::Path;
+
+use super::{Assembly, IdentificationReport, counted};
+use crate::frf::Dof;
+use crate::html::{escaped, number, percent, shown, table};
+use crate::identify::{
+    FrfFile, JointModel, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+};
+use crate::structure::{Beam, Boundary, Damping};
+
+pub(super) fn section(report: &IdentificationReport<'_>) -> String {
+    let study = report.study;
+    let mut rows = vec![
+        row("Study", &format!("<code>{}</code>", file_name(&study.path))),
+        row("Joint model", model(study.model)),
+        row("Substructure A", &substructure(&study.a)),
+        row("Substructure B", &substructure(&study.b)),
+    ];
+    let assemblies = report.assemblies();
+    let further = study
+        .further
+        .iter()
+        .map(|assembly| (&assembly.file, assembly.repeats.len(), assembly.torque_n_m));
+    let sources = std::iter::once((&study.assembly, study.repeats.len(), study.torque_n_m));
+    for (number, (source, measured)) in sources.chain(further).zip(&assemblies).enumerate() {
+        let name = match assemblies.len() {
+            1 => "Assembly".to_owned(),
+            _ => format!("Assembly {}", number + 1),
+        };
+        rows.push(row(&name, &assembly(source, measured)));
+    }
+    for (number, further) in study.further.iter().enumerate() {
+        for (name, own, common) in [("A", &further.a, &study.a), ("B", &further.b, &study.b)] {
+            let (own, common) = (substructure(own), substructure(common));
+            if own != common {
+                rows.push(row(
+                    &format!("Substructure {name} of assembly {}", number + 2),
+                    &own,
+                ));
+            }
+        }
+    }
+    let [from, to] = study.frequency_range_hz;
+    rows.push(row(
+        "Frequency range",
+        &format!("{} to {} Hz", number(from), number(to)),
+    ));
+    rows.push(row("Bands of the average", &bands(report)));
+    rows.push(row("Noise", &noise(report)));
+    for note in &study.notes {
+        rows.push(row("Note", &escaped(note)));
+    }
+    format!(
+        "<h2>What was measured and assumed</h2>\n{}{}",
+        table(&[], &rows).replace("<thead><tr></tr></thead>\n", ""),
+        assumptions(report)
+    )
+}
+
+fn row(name: &str, html: &str) -> String {
+    format!("<th scope=\"row\">{name}</th><td>{html}</td>")
+}
+
+fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    escaped(&name.to_string_lossy())
+}
+
+fn model(model: JointModel) -> &'static str {
+    match model {
+        JointModel::Translation => "1, translation: <i>k</i><sub>yy</sub>, <i>c</i><sub>yy</sub>",
+        JointModel::Diagonal => {
+            "2, diagonal: translation and rotation without coupling between them"
+        }
+        JointModel::Full => "3, full: translation, rotation and the coupling between them",
+    }
+}
+
+fn dofs(dofs: &[Dof]) -> String {
+    let names: Vec<String> = dofs.iter().map(|dof| escaped(&dof.to_string())).collect();
+    names.join(", ")
+}
+
+fn substructure(substructure: &Substructure) -> String {
+    match substructure {
+        Substructure::Measured { source, y, theta } => {
+            let origin = match source {
+                Source::Frf(file) => format!("FRFs in <code>{}</code>", file_name(&file.path)),
+                Source::Modal(path) => {
+                    format!("FRFs from the modes in <code>{}</code>", file_name(path))
+                }
+            };
+            let rotation = match theta {
+                None => String::new(),
+                Some(Rotation::Measured(theta)) => {
+                    format!(", <i>θ</i> measured as {}", escaped(&theta.to_string()))
+                }
+                Some(rotation) => format!(", <i>θ</i> by {}", difference(rotation)),
+            };
+            format!(
+                "measured: {origin}; joint <i>y</i> at {}{rotation}",
+                escaped(&y.to_string())
+            )
+        }
+        Substructure::Beam {
+            beam,
+            joint_m,
+            positions_m,
+        } => {
+            let points: Vec<String> = positions_m
+                .iter()
+                .map(|(dof, position_m)| {
+                    format!("{} at {} m", escaped(&dof.to_string()), number(*position_m))
+                })
+                .collect();
+            format!(
+                "computed: {}; joint at {} m, points {}",
+                self::beam(beam),
+                number(*joint_m),
+                points.join(", ")
+            )
+        }
+    }
+}
+
+fn difference(rotation: &Rotation) -> String {
+    match rotation {
+        Rotation::Measured(theta) => escaped(&theta.to_string()),
+        Rotation::Difference { points, difference } => {
+            format!("{difference}: {}", dofs(points))
+        }
+    }
+}
+
+fn beam(beam: &Beam) -> String {
+    let boundary = match beam.boundary {
+        Boundary::FreeFree => "free at both ends",
+        Boundary::FixedFree => "fixed at 0, free at the other end",
+        Boundary::FreeFixed => "free at 0, fixed at the other end",
+        Boundary::FixedFixed => "fixed at both ends",
+        Boundary::PinnedPinned => "pinned at both ends",
+        Boundary::FixedPinned => "fixed at 0, pinned at the other end",
+    };
+    let damping = match &beam.damping {
+        Damping::Ratios(ratios) => {
+            let ratios: Vec<String> = ratios.iter().map(|ratio| number(*ratio)).collect();
+            format!("damping ratios {}", ratios.join(", "))
+        }
+        Damping::LossFactor(loss) => format!("loss factor {}", number(*loss)),
+    };
+    format!(
+        "uniform beam {} × {} × {} m, <i>E</i> = {} Pa, <i>ρ</i> = {} kg/m³, {boundary}, {damping}",
+        number(beam.length_m),
+        number(beam.width_m),
+        number(beam.height_m),
+        number(beam.youngs_modulus_pa),
+        number(beam.density_kg_per_m3)
+    )
+}
+
+fn assembly(
+    (file, repeats, torque_n_m): (&FrfFile, usize, Option<f64>),
+    measured: &Assembly<'_>,
+) -> String {
+    let frequency_hz = &measured.lines.frequency_hz;
+    let independent = measured.lines.independent().len();
+    let copies = match measured.fits.len() - independent {
+        0 => String::new(),
+        copies => format!(
+            " ({} of them copied from the transpose)",
+            counted(copies, "entry").replace("entrys", "entries")
+        ),
+    };
+    let mut html = format!(
+        "<code>{}</code>; points {}; {}{copies}, {}",
+        file_name(&file.path),
+        dofs(&measured.lines.points),
+        counted(measured.fits.len(), "function"),
+        counted(frequency_hz.len(), "line")
+    );
+    if let (Some(first), Some(last)) = (frequency_hz.first(), frequency_hz.last()) {
+        html += &format!(" from {} to {} Hz", number(*first), number(*last));
+        let spacing = (last - first) / (frequency_hz.len().max(2) - 1) as f64;
+        let pairs = frequency_hz.windows(2);
+        let even = pairs.fold(0.0, |most, pair| {
+            f64::max(most, (pair[1] - pair[0] - spacing).abs())
+        });
+        if even < 1e-3 * spacing {
+            html += &format!(", {} Hz apart", shown(spacing, 4));
+        }
+    }
+    if repeats > 0 {
+        html += &format!("; mean of {}", counted(repeats + 1, "measurement"));
+    }
+    if let Some(torque) = torque_n_m {
+        html += &format!("; tightened to {} N·m", number(torque));
+    }
+    html
+}
+
+fn bands(report: &IdentificationReport<'_>) -> String {
+    let bands = &report.study.bands;
+    let entries: &[(&str, &[[f64; 2]])] = match report.study.model {
+        JointModel::Translation => &[("yy", &bands.yy)],
+        JointModel::Diagonal => &[("yy", &bands.yy), ("θθ", &bands.thetatheta)],
+        JointModel::Full => &[
+            ("yy", &bands.yy),
+            ("yθ", &bands.ytheta),
+            ("θθ", &bands.thetatheta),
+        ],
+    };
+    let entries: Vec<String> = entries
+        .iter()
+        .map(|(name, bands)| {
+            let ranges: Vec<String> = bands
+                .iter()
+                .map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)))
+                .collect();
+            match ranges.as_slice() {
+                [] => format!("{name}: none, median over all lines"),
+                ranges => format!("{name}: {}", ranges.join(", ")),
+            }
+        })
+        .collect();
+    entries.join("; ")
+}
+
+fn noise(report: &IdentificationReport<'_>) -> String {
+    let found = report.found;
+    let noise = &report.study.noise;
+    let level = |level: NoiseLevel| {
+        let mut parts = Vec::new();
+        if level.relative > 0.0 || level.floor == 0.0 {
+            parts.push(format!("{} of the receptance", percent(level.relative)));
+        }
+        if level.floor > 0.0 {
+            parts.push(format!("{} m/N everywhere", shown(level.floor, 3)));
+        }
+        parts.join(" and ")
+    };
+    let lines = report.assemblies();
+    let mut sentences = Vec::new();
+    if lines
+        .iter()
+        .all(|assembly| assembly.lines.relative_variance.is_some())
+    {
+        sentences.push("of the assembly: from coherence and averages, line by line".to_owned());
+    } else if lines
+        .iter()
+        .all(|assembly| assembly.lines.repeats.is_some())
+        && !noise.is_stated()
+    {
+        sentences
+            .push("of the assembly: from the scatter of the repeats and the residual".to_owned());
+    }
+    let origin = if noise.is_stated() {
+        "stated"
+    } else {
+        "estimated from the residual"
+    };
+    match found.estimate.noise_level() {
+        Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
+        None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
+    }
+    for (name, measured, stated) in [
+        ("A", found.lines.a_measured.is_some(), noise.a),
+        ("B", found.lines.b_measured.is_some(), noise.b),
+    ] {
+        let words = match (measured, stated) {
+            (false, _) => "taken as exact".to_owned(),
+            (
+                true,
+                StatedLevel {
+                    relative: Some(0.0),
+                    floor: Some(0.0),
+                },
+            ) => "stated to be exact".to_owned(),
+            (
+                true,
+                StatedLevel {
+                    relative: None,
+                    floor: None,
+                },
+            ) => "as the assembly's".to_owned(),
+            (true, stated) => {
+                let part = |value: Option<f64>, unit: &str| match value {
+                    Some(value) => format!("{}{unit}", shown(value, 3)),
+                    None => "as the assembly's".to_owned(),
+                };
+                format!(
+                    "stated: fraction of the receptance {}, floor {}",
+                    part(stated.relative, ""),
+                    part(stated.floor, " m/N")
+                )
+            }
+        };
+        sentences.push(format!("of {name}: {words}"));
+    }
+    sentences.join("; ")
+}
+
+fn assumptions(report: &IdentificationReport<'_>) -> String {
+    let study = report.study;
+    let mut list = vec![
+        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency.".to_owned(),
+        "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
+        "Errors of measured functions are independent from line to line and from function to function, and circular in the \
+         complex plane. Standard deviations are those of the complex error."
+            .to_owned(),
+    ];
+    for (name, substructure) in [("A", &study.a), ("B", &study.b)] {
+        match substructure {
+            Substructure::Beam { .. } => list.push(format!(
+                "Substructure {name} is computed: errors of its model are not in the intervals."
+            )),
+            Substructure::Measured {
+                source: Source::Modal(_),
+                ..
+            } => list.push(format!(
+                "Substructure {name} comes from modes: their errors are not in the intervals."
+            )),
+            Substructure::Measured {
+                source: Source::Frf(_),
+                ..
+            } => {}
+        }
+        if let Substructure::Measured {
+            theta: Some(rotation @ Rotation::Difference { .. }),
+            ..
+        } = substructure
+        {
+            list.push(format!(
+                "Rotations of {name} follow from translations by {}; the error of that difference is not in the intervals.",
+                difference(rotation)
+            ));
+        }
+    }
+    let items: String = list
+        .iter()
+        .map(|item| format!("<li>{item}</li>\n"))
+        .collect();
+    format!("<h3>Assumed</h3>\n<ul>\n{items}</ul>\n")
+}

@@ -30,6 +30,8 @@ pub(super) struct Block<const N: usize> {
     pub(super) omega: Vec<f64>,
     /// H_jj + H_kk of each line.
     pub(super) free: Vec<Small<N>>,
+    /// Median over the lines of 1/|H_jj + H_kk| on each DOF.
+    pub(super) dynamic_stiffness: [f64; N],
     /// H_ks: one column for each point, of each line.
     pub(super) transfer: Vec<[Complex64; N]>,
     /// H_ss at the entries, of each line.
@@ -69,6 +71,7 @@ impl<const N: usize> Block<N> {
             points,
             omega: Vec::with_capacity(count),
             free: Vec::with_capacity(count),
+            dynamic_stiffness: [0.0; N],
             transfer: Vec::with_capacity(count * points),
             own: Vec::with_capacity(count * entries.len()),
             measured: Vec::with_capacity(count * entries.len()),
@@ -79,6 +82,12 @@ impl<const N: usize> Block<N> {
         for line in chosen() {
             block.push(lines, &measured, line);
         }
+        block.dynamic_stiffness = std::array::from_fn(|dof| {
+            let diagonal = block.free.iter().map(|free| free[dof][dof]);
+            let mut values: Vec<f64> = diagonal.map(|value| value.norm().recip()).collect();
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied().unwrap_or(1.0)
+        });
         block
     }
 

@@ -65,9 +65,11 @@ const MAX_REWEIGHTINGS: usize = 20;
 const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// Gain that the full Gauss–Newton step promises, as a fraction of the cost, below which the iteration has converged.
-const NEGLIGIBLE_GAIN: f64 = 1e-15;
+const NEGLIGIBLE_GAIN: f64 = 1e-13;
 /// The same where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
+/// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
+const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 
@@ -109,22 +111,27 @@ pub(super) fn estimate<const N: usize>(
         )?;
         damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
+        // In standard deviations, at least: σ ≥ 1/√(JᵀΣ⁻¹J)_ii times that of the residual, S/N.
+        let deviation = &rest.scale * (rest.state.normal.cost / measurements as f64).sqrt();
+        let step = (&rest.coordinates - &coordinates).component_div(&deviation);
+        let shift = step.amax();
         let settled = rest.settled;
         (coordinates, state) = (rest.coordinates, rest.state);
         if estimates_level && shrinkage > 0.0 {
             levels = noise.levels(objective.level(noise, &state, shrinkage)?);
         }
         weights = objective.weights(levels, &state)?;
-        if round > 0 && moved < 100.0 * TOLERANCE {
+        if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;
         }
     }
     let state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
-    let mut log_determinant: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
-    objective.visit(Some(&weights), &state, |_, line| {
-        log_determinant += line.log_determinant();
-    })?;
+    let log_determinant = if noise.is_stated() {
+        log_variances(&weights)
+    } else {
+        log_determinant(objective, &weights, &state)?
+    };
     let cost = state.normal.linearised_cost;
     let count = measurements as f64;
     // −2 ln L = 2 Σ|r|²/σ² + 2 Σ ln σ², with the scale of σ profiled out 2 N ln(Σ|r|²/σ² / N) + 2 Σ ln σ² + 2 N
@@ -144,6 +151,29 @@ pub(super) fn estimate<const N: usize>(
         converged,
         corrections: state.corrections,
     })
+}
+
+/// Σ ln σ² of everything measured: the likelihood with the corrections as unknowns.
+fn log_variances(weights: &[Weights]) -> f64 {
+    let of = |weights: &Weights| {
+        let all = weights.entries.iter().chain(&weights.sources);
+        let logarithms = all.filter(|variance| **variance > 0.0).map(|v| v.ln());
+        weights.scatter_log + logarithms.sum::<f64>()
+    };
+    weights.iter().map(of).sum()
+}
+
+/// Σ ln det Σ: the likelihood with the corrections integrated out, in which the level of the noise can be estimated.
+fn log_determinant<const N: usize>(
+    objective: &Objective<'_, N>,
+    weights: &[Weights],
+    state: &State,
+) -> Option<f64> {
+    let mut sum: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
+    objective.visit(Some(weights), state, |_, line| {
+        sum += line.log_determinant()
+    })?;
+    Some(sum)
 }
 
 pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usize {
@@ -213,6 +243,7 @@ fn levenberg_marquardt<const N: usize>(
         let trial = normal.step(damping).map(|step| &coordinates + step);
         let improved = trial
             .as_ref()
+            .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
             .and_then(|trial| objective.step(weights, &state, chart.unknowns(trial)))
             .filter(|next| next.normal.cost <= state.normal.cost);
         if let (Some(trial), Some(next)) = (trial, improved) {

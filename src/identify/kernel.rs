@@ -40,14 +40,13 @@ impl<const N: usize> Kernel<N> {
             row[i] += 1.0;
         }
         let inverse = inverse(loop_gain)?;
-        self.transfer.clear();
-        self.q.clear();
-        self.x.clear();
-        for column in transfer {
-            let q = times(&inverse, column);
-            self.x.push(times(stiffness, &q));
-            self.q.push(q);
-            self.transfer.push(*column);
+        self.transfer.resize(transfer.len(), [ZERO; N]);
+        self.q.resize(transfer.len(), [ZERO; N]);
+        self.x.resize(transfer.len(), [ZERO; N]);
+        self.transfer.copy_from_slice(transfer);
+        for ((column, q), x) in transfer.iter().zip(&mut self.q).zip(&mut self.x) {
+            *q = times(&inverse, column);
+            *x = times(stiffness, q);
         }
         Some(())
     }
@@ -63,6 +62,7 @@ impl<const N: usize> Kernel<N> {
     }
 
     /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
+    #[inline]
     pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> Complex64 {
         let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
         if i == j {
@@ -98,14 +98,29 @@ impl<const N: usize> Kernel<N> {
     }
 }
 
+#[inline]
 fn product<const N: usize>(left: &Small<N>, right: &Small<N>) -> Small<N> {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..N).map(|k| left[i][k] * right[k][j]).sum()))
+    let mut product = [[ZERO; N]; N];
+    for i in 0..N {
+        for j in 0..N {
+            for k in 0..N {
+                product[i][j] += left[i][k] * right[k][j];
+            }
+        }
+    }
+    product
 }
 
+#[inline]
 fn times<const N: usize>(matrix: &Small<N>, vector: &[Complex64; N]) -> [Complex64; N] {
-    std::array::from_fn(|i| dot(&matrix[i], vector))
+    let mut product = [ZERO; N];
+    for i in 0..N {
+        product[i] = dot(&matrix[i], vector);
+    }
+    product
 }
 
+#[inline]
 fn dot<const N: usize>(left: &[Complex64; N], right: &[Complex64; N]) -> Complex64 {
     let mut sum = ZERO;
     for (l, r) in left.iter().zip(right) {
@@ -114,8 +129,28 @@ fn dot<const N: usize>(left: &[Complex64; N], right: &[Complex64; N]) -> Complex
     sum
 }
 
+/// Inverse of a small matrix; `None` if it is singular.
+pub(super) fn inverse<const N: usize>(matrix: Small<N>) -> Option<Small<N>> {
+    if N != 2 {
+        return eliminated(matrix);
+    }
+    // [a b; c d]⁻¹ = [d −b; −c a]/(ad − bc)
+    let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+    let size = determinant.norm_sqr();
+    if !(size.is_finite() && size > 0.0) {
+        return None;
+    }
+    let reciprocal = determinant.conj() / size;
+    let mut inverse = matrix;
+    inverse[0][0] = matrix[1][1] * reciprocal;
+    inverse[1][1] = matrix[0][0] * reciprocal;
+    inverse[0][1] = -matrix[0][1] * reciprocal;
+    inverse[1][0] = -matrix[1][0] * reciprocal;
+    Some(inverse)
+}
+
 /// Inverse by Gauss–Jordan elimination with row exchanges.
-pub(super) fn inverse<const N: usize>(mut matrix: Small<N>) -> Option<Small<N>> {
+fn eliminated<const N: usize>(mut matrix: Small<N>) -> Option<Small<N>> {
     let mut inverse: Small<N> = std::array::from_fn(|i| {
         std::array::from_fn(|j| Complex64::from(if i == j { 1.0 } else { 0.0 }))
     });
@@ -164,4 +199,26 @@ pub(super) fn complex_stiffness<const N: usize>(
         stiffness[j][i] = value;
     }
     stiffness
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_inverses_agree_with_the_definition() {
+        let c = Complex64::new;
+        let matrix = [[c(1.0, 2.0), c(-3.0, 0.5)], [c(0.25, -1.0), c(2.0, 0.0)]];
+        for inverse in [inverse(matrix).unwrap(), eliminated(matrix).unwrap()] {
+            let unit = product(&matrix, &inverse);
+            for i in 0..2 {
+                for j in 0..2 {
+                    let expected = if i == j { 1.0 } else { 0.0 };
+                    assert!((unit[i][j] - expected).norm() < 1e-15);
+                }
+            }
+        }
+        assert_eq!(inverse([[ZERO; 2]; 2]), None);
+        assert_eq!(inverse([[ZERO; 1]; 1]), None);
+    }
 }

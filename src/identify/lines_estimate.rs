@@ -18,7 +18,6 @@ use super::noise::{Noise, NoiseLevel, StatedLevel};
 use super::objective::Objective;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
-use super::starts::dynamic_stiffness;
 use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
 
@@ -241,8 +240,8 @@ fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
     let has_sources = whole.iter().any(|group| !group.sources.is_empty());
     Data {
         thinned: Group::all(all, stride, |_| false),
-        exact: if has_sources {
-            Group::all(all, 1, |_| false)
+        thinned_whole: if has_sources {
+            Group::all(all, stride, noisy)
         } else {
             Vec::new()
         },
@@ -318,7 +317,9 @@ fn covariance<const N: usize>(
     let values: Vec<f64> = estimate.unknowns.iter().copied().collect();
     let deviation: Vec<f64> = matrix.diagonal().iter().map(|v| v.sqrt()).collect();
     let blocks: Vec<_> = objective.groups.iter().flat_map(|g| &g.blocks).collect();
-    let dynamic: Vec<f64> = (0..N).map(|dof| dynamic_stiffness(&blocks, dof)).collect();
+    let dynamic = blocks
+        .first()
+        .map_or([1.0; N], |block| block.dynamic_stiffness);
     let omega = blocks
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);

@@ -14,6 +14,8 @@ use super::normal::Normal;
 
 /// Entries of K* on and above the diagonal that can be unknown.
 const MAX_ENTRIES: usize = 3;
+/// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
+const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
 const CORRECTION_ROUNDS: usize = 8;
 /// … as long as they promise to lower its cost by this fraction …
@@ -53,6 +55,19 @@ pub(super) struct Objective<'a, const N: usize> {
 }
 
 impl<const N: usize> Objective<'_, N> {
+    /// Whether no unknown is so large that the joint would be rigid whatever its value: there a search must not run away to.
+    pub(super) fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool {
+        let Some(block) = self.groups.first().and_then(|group| group.blocks.first()) else {
+            return false;
+        };
+        let (own, omega) = (&block.dynamic_stiffness, block.omega[block.lines() / 2]);
+        let count = self.entries.len();
+        self.entries.iter().enumerate().all(|(index, &(i, j))| {
+            let limit = RIGID * (own[i] * own[j]).sqrt();
+            unknowns[index].abs() <= limit && omega * unknowns[count + index].abs() <= limit
+        })
+    }
+
     /// The point `unknowns` with these corrections (none at all: zero).
     pub(super) fn at(
         &self,
@@ -605,7 +620,9 @@ impl Sums {
         row: &[Complex64; MAX_ENTRIES],
         count: usize,
     ) {
-        for i in 0..count {
+        // Rows beyond `count` are zero, so that the loops can be unrolled.
+        debug_assert!(count <= MAX_ENTRIES);
+        for i in 0..MAX_ENTRIES {
             let conjugate = row[i].conj() * weight;
             self.right[i] += conjugate * residual;
             for j in 0..=i {

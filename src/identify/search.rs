@@ -7,6 +7,7 @@ use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
 use super::noise::Noise;
 use super::objective::Objective;
+use super::parallel;
 use super::starts;
 
 /// Lines that are enough to tell which start leads to the best estimate.
@@ -15,7 +16,10 @@ pub(super) const LINES_FOR_STARTS: usize = 200;
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;
 
-/// … or each of their unknowns does, relative to its value or to what would change the residual by its assumed standard
+/// … and their unknowns to this (with no more numbers than unknowns several joints fit exactly) …
+const NEAR_UNKNOWN: f64 = 0.05;
+
+/// … or if their unknowns agree to this, relative to its value or to what would change the residual by its assumed standard
 /// deviation: data without noise leave a misfit of rounding alone.
 const SAME_UNKNOWN: f64 = 1e-6;
 
@@ -33,8 +37,8 @@ const COMPARABLE: f64 = 10.0;
 pub(super) struct Data<const N: usize> {
     /// Few lines, substructures taken as exact.
     pub(super) thinned: Vec<Group<N>>,
-    /// All lines, substructures taken as exact: where they are, this is empty and `whole` serves.
-    pub(super) exact: Vec<Group<N>>,
+    /// Few lines with the errors of the substructures; empty where these are exact.
+    pub(super) thinned_whole: Vec<Group<N>>,
     /// All lines with the errors of the substructures.
     pub(super) whole: Vec<Group<N>>,
 }
@@ -67,36 +71,63 @@ pub(super) fn best<const N: usize>(
     first: Vec<DVector<f64>>,
     effort: Effort,
 ) -> Result<Found, usize> {
-    let thinned = Objective {
-        groups: &data.thinned,
-        entries,
-    };
     let mut candidates = first;
     for guess in [None, candidates.last().cloned()] {
         candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
     }
-    let mut trials = refine_all(&thinned, noise, &candidates);
+    let trial = |start: &DVector<f64>| try_start(data, entries, noise, start);
+    let mut trials: Vec<Estimate> = parallel::map(&candidates, trial)
+        .into_iter()
+        .flatten()
+        .collect();
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials);
-    let certain = |finals: &[Final]| finals.first().is_some_and(|f| f.assessment.is_certain());
-    if effort == Effort::Whole && !certain(&finals) {
+    // With errors in the substructures a wrong minimum can pass for noise: then two starts have to agree.
+    let certain = finals.first().is_some_and(|best| {
+        best.assessment.is_certain() && agreeing(&trials, &finals, &best.estimate) > 1
+    });
+    if effort == Effort::Whole && !certain {
         let grid = starts::grid(&data.thinned, entries);
         tried += grid.len();
-        trials.extend(refine_all(&thinned, noise, &grid));
+        trials.extend(parallel::map(&grid, trial).into_iter().flatten());
         finals = finalists(data, entries, noise, &trials);
     }
-    let best = finals.first().ok_or(tried)?;
-    let leads_to_best = |trial: &&Estimate| {
-        let known =
-            |end: &Final| same(&end.candidate, trial) && same(&end.estimate, &best.estimate);
-        finals.iter().any(known)
-    };
+    let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
     Ok(Found {
         estimate: best.estimate.clone(),
         assessment: best.assessment.clone(),
         tried,
-        agreeing: trials.iter().filter(leads_to_best).count(),
+        agreeing: agreeing(&trials, &finals, &best.estimate),
     })
+}
+
+/// The best estimate; of several that explain the data equally well, as when there are no more numbers than unknowns, the
+/// one that is softest beside the substructures.
+fn softest_of_the_best<'f, const N: usize>(
+    finals: &'f [Final],
+    groups: &[Group<N>],
+    entries: &[(usize, usize)],
+) -> Option<&'f Final> {
+    let lowest = rank(&finals.first()?.estimate);
+    let own = groups.first()?.blocks.first()?.dynamic_stiffness;
+    let size = |end: &&Final| -> f64 {
+        let places = entries.iter().enumerate();
+        let parts = places.map(|(t, &(i, j))| end.estimate.unknowns[t].powi(2) / (own[i] * own[j]));
+        parts.sum()
+    };
+    finals
+        .iter()
+        .filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
+        .min_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// How many of the trials led to `best`.
+fn agreeing(trials: &[Estimate], finals: &[Final], best: &Estimate) -> usize {
+    let leads_to_best = |trial: &&Estimate| {
+        let known = |end: &Final| same(&end.candidate, trial) && same(&end.estimate, best);
+        finals.iter().any(known)
+    };
+    trials.iter().filter(leads_to_best).count()
 }
 
 /// A minimum on thinned lines and where it lies on all of them.
@@ -106,28 +137,28 @@ struct Final {
     assessment: Assessment,
 }
 
-fn refine_all<const N: usize>(
-    objective: &Objective<'_, N>,
+/// Where one start leads on few lines.
+fn try_start<const N: usize>(
+    data: &Data<N>,
+    entries: &[(usize, usize)],
     noise: &Noise,
-    starts: &[DVector<f64>],
-) -> Vec<Estimate> {
-    // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-    let sought = if noise.is_stated() {
-        *noise
-    } else {
-        Noise::default()
+    start: &DVector<f64>,
+) -> Option<Estimate> {
+    let thinned = Objective {
+        groups: &data.thinned,
+        entries,
     };
-    let levels = (!noise.is_stated()).then(|| {
-        sought.levels(super::noise::NoiseLevel {
-            relative: 1.0,
-            floor: 0.0,
-        })
-    });
-    let of = |start: &DVector<f64>| estimate(objective, &sought, levels, &Free, start, None);
-    super::parallel::map(starts, of)
-        .into_iter()
-        .flatten()
-        .collect()
+    // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
+    let levels = Some(first_levels(&thinned, noise));
+    if data.thinned_whole.is_empty() {
+        return estimate(&thinned, noise, levels, &Free, start, None);
+    }
+    let whole = Objective {
+        groups: &data.thinned_whole,
+        entries,
+    };
+    let start = robust_start(&thinned, &whole, noise, start.clone())?;
+    estimate(&whole, noise, levels, &Free, &start, None)
 }
 
 /// The best few different `trials`, on all lines, best first.
@@ -160,15 +191,8 @@ fn finalists<const N: usize>(
     let mut finals: Vec<Final> = chosen
         .into_iter()
         .filter_map(|candidate| {
-            let mut start = candidate.unknowns.clone();
-            if !data.exact.is_empty() {
-                let exact = Objective {
-                    groups: &data.exact,
-                    entries,
-                };
-                start = robust_start(&exact, &whole, noise, start)?;
-            }
-            let estimate = estimate(&whole, noise, None, &Free, &start, None)?;
+            let start = &candidate.unknowns;
+            let estimate = estimate(&whole, noise, None, &Free, start, None)?;
             Some(Final {
                 candidate: candidate.clone(),
                 assessment: assess(&whole, &estimate, noise)?,
@@ -211,13 +235,16 @@ fn rank(estimate: &Estimate) -> f64 {
 
 /// Whether two estimates from the same lines are one minimum.
 pub(super) fn same(one: &Estimate, other: &Estimate) -> bool {
-    let close = |index: usize| {
-        let (a, b) = (one.unknowns[index], other.unknowns[index]);
-        let scale = one.information[(index, index)]
-            .max(f64::MIN_POSITIVE)
-            .sqrt()
-            .recip();
-        (a - b).abs() <= SAME_UNKNOWN * a.abs().max(b.abs()).max(scale)
+    let close = |tolerance: f64| {
+        (0..one.unknowns.len()).all(|index| {
+            let (a, b) = (one.unknowns[index], other.unknowns[index]);
+            let scale = one.information[(index, index)]
+                .max(f64::MIN_POSITIVE)
+                .sqrt()
+                .recip();
+            (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(scale)
+        })
     };
-    (one.misfit - other.misfit).abs() <= SAME_MISFIT || (0..one.unknowns.len()).all(close)
+    let equally_good = (one.misfit - other.misfit).abs() <= SAME_MISFIT;
+    equally_good && close(NEAR_UNKNOWN) || close(SAME_UNKNOWN)
 }

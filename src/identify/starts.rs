@@ -29,7 +29,9 @@ pub(super) fn grid<const N: usize>(
     entries: &[(usize, usize)],
 ) -> Vec<DVector<f64>> {
     let blocks: Vec<&Block<N>> = groups.iter().flat_map(|group| &group.blocks).collect();
-    let typical: Vec<f64> = (0..N).map(|dof| dynamic_stiffness(&blocks, dof)).collect();
+    let typical = blocks
+        .first()
+        .map_or([1.0; N], |block| block.dynamic_stiffness);
     let omega = blocks
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);
@@ -53,14 +55,6 @@ pub(super) fn grid<const N: usize>(
     }
     push(&|_| LOOSE);
     starts
-}
-
-/// Median over the lines of 1/|H_jj + H_kk| on one DOF.
-pub(super) fn dynamic_stiffness<const N: usize>(blocks: &[&Block<N>], dof: usize) -> f64 {
-    let lines = blocks.iter().flat_map(|block| &block.free);
-    let mut values: Vec<f64> = lines.map(|free| free[dof][dof].norm().recip()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// Estimate by linear least squares, refined by weights from the one before; `None` if no column of H^C_ss was measured at

@@ -36,26 +36,26 @@ fn a_medium_joint_with_noise_on_the_assembly() {
 }
 
 #[test]
-fn a_medium_joint_with_noise_on_the_assembly_and_on_a() {
-    let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 2.0));
-    check(&rig, Noisy::AssemblyAndA, 0.01, 1.2);
-    check(&rig, Noisy::AssemblyAndA, 0.05, 1.5);
-}
-
-#[test]
 fn noise_on_everything_is_told_from_the_joint() {
-    // One draw: 27 receptances with errors of their own on each line. `cargo bench --bench identification -- table` has many.
+    // Few draws: up to 27 receptances with errors of their own on each line. The benchmark has many.
     let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 2.0));
     let level = NoiseLevel {
         relative: 0.01,
         floor: 0.0,
     };
-    for (outcome, bound) in run(&rig, Noisy::Everything, level, 1, true)
-        .iter()
-        .zip(rig.bound(Noisy::Everything, level))
-    {
-        assert!(outcome.rms_error < 4.0 * bound, "{}", outcome.name);
-        let stated = outcome.mean_deviation / bound;
-        assert!((0.8..1.25).contains(&stated), "{}: {stated}", outcome.name);
+    for noisy in [Noisy::AssemblyAndA, Noisy::Everything] {
+        let outcomes = run(&rig, noisy, level, 12, true);
+        print(&rig, noisy, level, &outcomes);
+        for outcome in outcomes {
+            // The r.m.s. of twelve errors is known to 20 %.
+            let ratio = outcome.rms_error / outcome.bound;
+            assert!(ratio < 1.8, "{noisy:?} {}: {ratio}", outcome.name);
+            let stated = outcome.mean_deviation / outcome.bound;
+            assert!(
+                (0.85..1.2).contains(&stated),
+                "{noisy:?} {}: {stated}",
+                outcome.name
+            );
+        }
     }
 }

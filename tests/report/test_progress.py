@@ -7,7 +7,7 @@ import pytest
 
 pty = pytest.importorskip("pty", reason="no terminals of this kind on this system")
 
-DRAWS = 2000
+DRAWS = 600
 
 
 @pytest.fixture(scope="module")

@@ -59,9 +59,12 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         draws: draws as usize,
         seed: arguments.seed.unwrap_or(1),
     });
-    let progress = Progress::new(bootstrap.map_or(0, |bootstrap| bootstrap.draws));
+    let progress = Progress::new(
+        "identifying",
+        bootstrap.map_or(0, |bootstrap| bootstrap.draws),
+    );
     let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
-    progress.finish();
+    drop(progress);
     let joint_file = found.joint_file();
     let drawing = arguments
         .figure

@@ -1,46 +1,109 @@
 //! A progress line on stderr for work that takes more than a second.
 
 use std::io::{self, IsTerminal as _, Write as _};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Counts finished pieces of work, and says so at most ten times a second, on a terminal only.
+/// Work shorter than this needs no line.
+const PATIENCE: Duration = Duration::from_secs(1);
+const BETWEEN_LINES: Duration = Duration::from_millis(100);
+/// Characters of the bar, and of the longest line.
+const BAR: usize = 30;
+const LINE: usize = 72;
+
+/// Says on a terminal, from the second second on, how long the work has taken and how many pieces of it are done.
 pub(super) struct Progress {
+    state: Arc<State>,
+    writer: Option<JoinHandle<()>>,
+}
+
+struct State {
+    work: &'static str,
     total: usize,
     done: AtomicUsize,
+    has_ended: AtomicBool,
     begun: Instant,
-    last_tenth: AtomicUsize,
 }
 
 impl Progress {
-    pub(super) fn new(total: usize) -> Self {
-        Self {
+    /// Begins `work`, which has `total` pieces that can be counted, or none.
+    pub(super) fn new(work: &'static str, total: usize) -> Self {
+        let state = Arc::new(State {
+            work,
             total,
             done: AtomicUsize::new(0),
+            has_ended: AtomicBool::new(false),
             begun: Instant::now(),
-            last_tenth: AtomicUsize::new(0),
-        }
+        });
+        let writer = io::stderr().is_terminal().then(|| {
+            let state = Arc::clone(&state);
+            thread::spawn(move || state.write_lines())
+        });
+        Self { state, writer }
     }
 
     /// One more piece is done. May be called from any thread.
     pub(super) fn advance(&self) {
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        let elapsed = self.begun.elapsed();
-        let tenth = (elapsed.as_millis() / 100) as usize;
-        let is_due = elapsed > Duration::from_secs(1)
-            && self.last_tenth.fetch_max(tenth, Ordering::Relaxed) < tenth;
-        if is_due && io::stderr().is_terminal() {
-            const WIDTH: usize = 30;
-            let filled = WIDTH * done / self.total.max(1);
-            let (full, empty) = ("#".repeat(filled), "-".repeat(WIDTH - filled));
-            let _ = write!(io::stderr(), "\r[{full}{empty}] {done} of {}", self.total);
+        self.state.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// Takes the line away, however the work ended.
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.state.has_ended.store(true, Ordering::Relaxed);
+        if let Some(writer) = self.writer.take() {
+            writer.thread().unpark();
+            let _ = writer.join();
+        }
+    }
+}
+
+impl State {
+    fn write_lines(&self) {
+        let mut has_written = false;
+        while !self.has_ended.load(Ordering::Relaxed) {
+            let elapsed = self.begun.elapsed();
+            if elapsed > PATIENCE {
+                let line = self.line(elapsed);
+                let _ = write!(io::stderr(), "\r{line:LINE$}");
+                has_written = true;
+            }
+            thread::park_timeout(BETWEEN_LINES);
+        }
+        if has_written {
+            let _ = write!(io::stderr(), "\r{:LINE$}\r", "");
         }
     }
 
-    /// Takes the line away.
-    pub(super) fn finish(&self) {
-        if self.last_tenth.load(Ordering::Relaxed) > 0 && io::stderr().is_terminal() {
-            let _ = write!(io::stderr(), "\r{:60}\r", "");
+    fn line(&self, elapsed: Duration) -> String {
+        let seconds = elapsed.as_secs();
+        let done = self.done.load(Ordering::Relaxed).min(self.total);
+        if done == 0 {
+            return format!("{} … {seconds} s", self.work);
         }
+        let filled = BAR * done / self.total.max(1);
+        let (full, empty) = ("#".repeat(filled), "-".repeat(BAR - filled));
+        format!("[{full}{empty}] {done} of {}, {seconds} s", self.total)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(done: usize) -> String {
+        let progress = Progress::new("identifying", 40);
+        (0..done).for_each(|_| progress.advance());
+        progress.state.line(Duration::from_millis(2900))
+    }
+
+    #[test]
+    fn the_line_tells_the_time_until_there_are_pieces_to_count() {
+        assert_eq!(line(0), "identifying … 2 s");
+        assert_eq!(line(10), "[#######-----------------------] 10 of 40, 2 s");
+        assert_eq!(line(41), "[##############################] 40 of 40, 2 s");
     }
 }

@@ -146,15 +146,14 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// The power of a thousand by which `size` is between 1 and 1000, and how it is written before a unit.
+/// The power of a thousand by which `size` is between 1 and 1000, and how it is written before a unit; one for sizes that
+/// are easy to read as they are.
 pub(super) fn scaled_unit(size: f64, unit: &str) -> (f64, String) {
-    let power = match size.abs() {
-        size if size.is_finite() && size > 0.0 => 3.0 * (size.log10() / 3.0).floor(),
-        _ => 0.0,
-    };
-    if (-3.0..=3.0).contains(&power) && !(size.abs() >= 1e4 || size.abs() < 1e-2) {
+    let size = size.abs();
+    if !size.is_finite() || size == 0.0 || (1e-2..1e4).contains(&size) {
         return (1.0, unit.to_owned());
     }
+    let power = 3.0 * (size.log10() / 3.0).floor();
     let exponent: String = format!("{power:.0}")
         .chars()
         .map(|digit| match digit {
@@ -169,9 +168,8 @@ pub(super) fn scaled_unit(size: f64, unit: &str) -> (f64, String) {
     (10_f64.powf(power), format!("10{exponent} {unit}"))
 }
 
-/// Values of a strip as its axis takes them.
 impl ChartStrip {
-    /// Whether any of the curves has a value off the axis.
+    /// How many values of its curves lie off its axis.
     pub(super) fn off_axis(&self) -> usize {
         let off = |value: &&f64| {
             let position = self.axis.and_then(|axis| axis.position(**value));

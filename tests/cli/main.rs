@@ -16,6 +16,7 @@ mod identified;
 mod joint_file;
 mod modal_file;
 mod output;
+mod report;
 mod rig;
 mod study;
 mod universal_file;

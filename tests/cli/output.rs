@@ -103,6 +103,7 @@ fn json_has_its_keys() {
         [
             "output",
             "figure",
+            "report",
             "joint_file",
             "starts",
             "reduced_chi_squared",

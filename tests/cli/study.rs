@@ -243,7 +243,7 @@ fn missing_keys_and_wrong_types_are_named_with_their_line() {
         (
             "[\"3:+Y\", \"2:+Y\", \"1:+Y\"]",
             "[\"3:+Y\", \"1:+Y\"]",
-            ["line 5", "expected an array of length 3"],
+            ["a.joint.theta.points", "expected three points"],
         ),
     ] {
         bench.write("study.toml", replaced(BEAMS, from, to));

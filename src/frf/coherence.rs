@@ -97,3 +97,38 @@ pub fn relative_variance(gamma_squared: f64, averages: f64) -> f64 {
     // σ²/|H|² = 2 · (1 − γ²)/(2 n γ²)   (Bendat & Piersol, Random Data, section 9.2: (1 − γ²)/(2 n γ²) along and across H)
     (1.0 - gamma_squared) / (averages * gamma_squared)
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::Distribution;
+
+    use super::relative_variance;
+
+    #[test]
+    fn coherence_gives_the_variance_of_averaged_spectra() {
+        let mut generator = ChaCha8Rng::seed_from_u64(5);
+        let mut normal = || -> f64 { rand_distr::StandardNormal.sample(&mut generator) };
+        // Response y = x + n with noise of 0.3 of the input's deviation; H₁ = Σ conj(x) y / Σ |x|².
+        let (averages, trials, noise) = (20, 20_000, 0.3_f64);
+        let mut variance = 0.0;
+        for _ in 0..trials {
+            let (mut cross, mut power) = (num_complex::Complex64::default(), 0.0);
+            for _ in 0..averages {
+                let x = num_complex::Complex64::new(normal(), normal());
+                let n = num_complex::Complex64::new(normal(), normal());
+                cross += x.conj() * (x + n * noise);
+                power += x.norm_sqr();
+            }
+            variance += (cross / power - 1.0).norm_sqr() / f64::from(trials);
+        }
+        let coherence = 1.0 / (1.0 + noise * noise);
+        // The formula is that of many averages: n − 1 takes the place of n in the exact one.
+        let expected = relative_variance(coherence, f64::from(averages - 1));
+        assert!(
+            (variance / expected - 1.0).abs() < 0.03,
+            "{variance} {expected}"
+        );
+    }
+}

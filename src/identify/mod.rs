@@ -45,7 +45,7 @@ pub use identification::{AssemblyFit, FunctionFit, Identification, identify, ide
 pub use lines::{Lines, MeasuredSubstructure, Repeats};
 pub use lines_estimate::{BootstrapResult, LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};
-pub use noise::{Noise, NoiseLevel, StatedLevel, relative_variance};
+pub use noise::{Noise, NoiseLevel, StatedLevel};
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use study::{FrfFile, FurtherAssembly, Rotation, Source, Study, Substructure};
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};

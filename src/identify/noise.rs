@@ -92,16 +92,6 @@ impl Noise {
     }
 }
 
-/// Variance of a function as a fraction of |H|², from the coherence γ² and the number of averages (H₁ estimate).
-///
-/// Infinite where the coherence is zero; a coherence above one counts as one.
-#[must_use]
-pub fn relative_variance(coherence: f64, averages: u32) -> f64 {
-    // σ²/|H|² = (1 − γ²)/(γ² n); half of it is the square of Bendat and Piersol's error of |H|
-    let coherence = coherence.clamp(0.0, 1.0);
-    (1.0 - coherence) / (coherence * f64::from(averages.max(1)))
-}
-
 /// Levels with every part known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
@@ -229,32 +219,6 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, Exp1};
-
-    #[test]
-    fn coherence_gives_the_variance_of_averaged_spectra() {
-        let mut generator = ChaCha8Rng::seed_from_u64(5);
-        let mut normal = || -> f64 { rand_distr::StandardNormal.sample(&mut generator) };
-        // Response y = x + n with noise of 0.3 of the input's deviation; H₁ = Σ conj(x) y / Σ |x|².
-        let (averages, trials, noise) = (20, 20_000, 0.3_f64);
-        let mut variance = 0.0;
-        for _ in 0..trials {
-            let (mut cross, mut power) = (num_complex::Complex64::default(), 0.0);
-            for _ in 0..averages {
-                let x = num_complex::Complex64::new(normal(), normal());
-                let n = num_complex::Complex64::new(normal(), normal());
-                cross += x.conj() * (x + n * noise);
-                power += x.norm_sqr();
-            }
-            variance += (cross / power - 1.0).norm_sqr() / f64::from(trials);
-        }
-        let coherence = 1.0 / (1.0 + noise * noise);
-        // The formula is that of many averages: n − 1 takes the place of n in the exact one.
-        let expected = relative_variance(coherence, averages - 1);
-        assert!(
-            (variance / expected - 1.0).abs() < 0.03,
-            "{variance} {expected}"
-        );
-    }
 
     #[test]
     fn both_parts_of_a_level_return_from_residuals() {

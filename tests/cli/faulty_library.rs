@@ -12,7 +12,7 @@ extern "C" fn fmi3GetVersion() -> Text {
 }
 
 #[unsafe(no_mangle)]
-#[allow(unused_variables)]
+#[allow(unused_variables, reason = "the standard gives the arguments")]
 unsafe extern "C" fn fmi3InstantiateCoSimulation(
     name: Text,
     token: Text,

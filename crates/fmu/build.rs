@@ -8,13 +8,7 @@ use bolted_joint_interface::Interfaces;
 mod linking;
 
 fn main() -> ExitCode {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
-    for file in Interfaces::FILES {
-        println!("cargo:rerun-if-changed={}", folder.join(file).display());
-    }
-    println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rerun-if-changed=linking.rs");
-    match write_tables(&folder).and_then(|()| pass_linker_arguments()) {
+    match write_tables().and_then(|()| pass_linker_arguments()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");
@@ -23,9 +17,16 @@ fn main() -> ExitCode {
     }
 }
 
-fn write_tables(folder: &Path) -> Result<(), String> {
+fn write_tables() -> Result<(), String> {
+    // asked for when this runs: a checkout may have been moved since it was compiled
+    let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../../modelDescription");
+    for file in Interfaces::FILES {
+        println!("cargo:rerun-if-changed={}", folder.join(file).display());
+    }
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=linking.rs");
     let interfaces =
-        Interfaces::read(folder).map_err(|error| format!("modelDescription: {error}"))?;
+        Interfaces::read(&folder).map_err(|error| format!("modelDescription: {error}"))?;
     let out = variable("OUT_DIR")?;
     let path = Path::new(&out).join("interface.rs");
     fs::write(&path, interfaces.to_rust()).map_err(|error| format!("{}: {error}", path.display()))

@@ -72,8 +72,9 @@ pub(super) fn best<const N: usize>(
     effort: Effort,
 ) -> Result<Found, usize> {
     let mut candidates = first;
+    let linear = starts::Linear::of(&data.thinned);
     for guess in [None, candidates.last().cloned()] {
-        candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
+        candidates.extend(linear.from(entries, guess.as_ref()));
     }
     let trial = |start: &DVector<f64>| try_start(data, entries, noise, start);
     let mut trials: Vec<Estimate> = parallel::map(&candidates, trial)

@@ -16,6 +16,7 @@ use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel, StatedLevel};
 use super::objective::Objective;
+use super::parallel;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
 use super::uncertainty::{self, Covariance};
@@ -172,14 +173,20 @@ fn identify_with<const N: usize>(
     model: JointModel,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
-    let decoupled: Vec<_> = all.iter().map(line_by_line::decouple::<N>).collect();
+    let (data, decoupled) = parallel::both(
+        || data::<N>(all, &options.noise),
+        || {
+            all.iter()
+                .map(line_by_line::decouple::<N>)
+                .collect::<Vec<_>>()
+        },
+    );
     let band_average = if let ([lines], [decoupled]) = (all, &decoupled[..]) {
         bands::band_average(model, &lines.frequency_hz, decoupled, &options.bands)
     } else {
         let frequency_hz: Vec<f64> = all.iter().flat_map(|l| l.frequency_hz.clone()).collect();
         bands::band_average(model, &frequency_hz, &decoupled.concat(), &options.bands)
     };
-    let data = data::<N>(all, &options.noise);
     let noise = &options.noise;
     let starts = [options.start.as_ref(), band_average.as_ref()];
     let starts: Vec<DVector<f64>> = starts

@@ -19,8 +19,8 @@ use super::objective::{Objective, State, Weights};
 pub(super) trait Chart {
     /// The unknowns at these coordinates.
     fn unknowns(&self, coordinates: &DVector<f64>) -> DVector<f64>;
-    /// Their derivative by the coordinates.
-    fn derivative(&self, coordinates: &DVector<f64>) -> DMatrix<f64>;
+    /// Their derivative by the coordinates; `None` where they are the coordinates.
+    fn derivative(&self, coordinates: &DVector<f64>) -> Option<DMatrix<f64>>;
 }
 
 /// The unknowns themselves.
@@ -31,8 +31,8 @@ impl Chart for Free {
         coordinates.clone()
     }
 
-    fn derivative(&self, coordinates: &DVector<f64>) -> DMatrix<f64> {
-        DMatrix::identity(coordinates.len(), coordinates.len())
+    fn derivative(&self, _coordinates: &DVector<f64>) -> Option<DMatrix<f64>> {
+        None
     }
 }
 
@@ -273,7 +273,10 @@ fn levenberg_marquardt<const N: usize>(
 ) -> Rest {
     let mut coordinates = start.clone();
     let in_chart = |state: &State, coordinates: &DVector<f64>| -> Normal {
-        state.normal.in_chart(&chart.derivative(coordinates))
+        match chart.derivative(coordinates) {
+            Some(derivative) => state.normal.in_chart(&derivative),
+            None => state.normal.clone(),
+        }
     };
     let mut normal = in_chart(&state, &coordinates);
     let mut damping = first_damping;

@@ -10,7 +10,7 @@ use super::noise::NoiseLevel;
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
-use super::strip::{Strip, Sums};
+use super::strip::{InCommon, Strip, Sums, Vector};
 use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
@@ -32,12 +32,14 @@ pub(super) fn accumulate<const N: usize>(
         let sums = parallel::map(&pieces, |&first| {
             let mut sums = Sums::default();
             let mut strip = Strip::new(block);
+            let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let end = block.lines().min(first + PIECE);
             for line in (first..end).step_by(LANES) {
                 strip.solve(line, entries, unknowns)?;
-                let index = strip.index;
-                sums.add_strip(&strip, |e, _| {
-                    Reals::of(|lane| weights.entries[index[lane] * size + at + e])
+                let strip = &strip;
+                sums.add_strip(strip, &mut rows, |e, _| {
+                    let place = |lane: usize| strip.index[lane] * size + at + e;
+                    Reals::of(|lane| weights.entries[place(lane)]).reciprocal()
                 });
             }
             Some(sums)
@@ -80,29 +82,29 @@ pub(super) fn renew<const N: usize>(
         let sums = parallel::map_each(pieces, |(first, variances)| {
             let mut sums = Sums::default();
             let mut strip = Strip::new(block);
+            let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let mut scatter = Reals::ZERO;
-            let mut is_usable = true;
+            let mut sum = Reals::ZERO;
             for (number, variances) in variances.chunks_mut(size * LANES).enumerate() {
                 strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
-                let scatter = &mut scatter;
-                sums.add_strip(strip, |e, power| {
+                sums.add_strip(strip, &mut rows, |e, power| {
                     let variance = variance(strip, e, level, power);
-                    for variance in variance.0 {
-                        is_usable &= variance > 0.0 && variance < f64::INFINITY;
-                    }
+                    sum += variance;
+                    let one = variance.reciprocal();
                     if counts[e] > 1.0 {
-                        *scatter += strip.real(&block.scatter, e) * strip.used / variance;
+                        scatter += strip.real(&block.scatter, e) * strip.used * one;
                     }
                     let of_mean = variance * Reals::all(counts[e].recip());
                     let places = variances[at + e..].iter_mut().step_by(size);
                     for (place, of_mean) in places.zip(of_mean.0) {
                         *place = of_mean;
                     }
-                    of_mean
+                    one * Reals::all(counts[e])
                 });
             }
-            is_usable.then(|| (sums, scatter.sum()))
+            // A variance of zero makes the cost infinite, which is seen there.
+            sum.sum().is_finite().then(|| (sums, scatter.sum()))
         });
         for sums in sums {
             let (sums, scatter) = sums?;

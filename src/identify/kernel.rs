@@ -65,21 +65,15 @@ impl<const N: usize, T: Number> Kernel<N, T> {
         own - dot(&self.transfer[entry.row], &self.x[entry.column])
     }
 
-    /// Qᵀ E Q at `entry`, E having ones at (i, j) and (j, i).
-    #[inline(always)]
-    pub(super) fn through(&self, entry: Entry, (i, j): (usize, usize)) -> T {
-        let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
-        if i == j {
-            p[i] * q[i]
-        } else {
-            p[i] * q[j] + p[j] * q[i]
-        }
-    }
-
     /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
     #[inline]
-    pub(super) fn by_stiffness(&self, entry: Entry, place: (usize, usize)) -> T {
-        -self.through(entry, place)
+    pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> T {
+        let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
+        if i == j {
+            -(p[i] * q[i])
+        } else {
+            -(p[i] * q[j] + p[j] * q[i])
+        }
     }
 }
 

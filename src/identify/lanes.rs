@@ -156,6 +156,15 @@ impl Complexes {
         }
     }
 
+    /// conj(self) other
+    #[inline(always)]
+    pub(super) fn conj_times(self, other: Self) -> Self {
+        Self {
+            re: self.re * other.re + self.im * other.im,
+            im: self.re * other.im - self.im * other.re,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn scaled(self, by: Reals) -> Self {
         Self {
@@ -296,6 +305,7 @@ mod tests {
             assert_eq!((many_a * many_b).lane(lane), a * b);
             assert_eq!((-many_a).lane(lane), -a);
             assert_eq!(many_a.conj().lane(lane), a.conj());
+            assert_eq!(many_a.conj_times(many_b).lane(lane), a.conj() * b);
             assert_eq!(many_a.norm_sqr().0[lane], a.norm_sqr());
             assert_eq!(inverse.lane(lane), b.reciprocal().unwrap());
         }

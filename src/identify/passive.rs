@@ -105,9 +105,9 @@ impl Chart for Faces {
         DVector::from_vec(values)
     }
 
-    fn derivative(&self, coordinates: &DVector<f64>) -> DMatrix<f64> {
+    fn derivative(&self, coordinates: &DVector<f64>) -> Option<DMatrix<f64>> {
         let (k, c) = self.split(coordinates);
-        DMatrix::from_fn(
+        Some(DMatrix::from_fn(
             2 * self.entries,
             coordinates.len(),
             |entry, coordinate| match (
@@ -118,7 +118,7 @@ impl Chart for Faces {
                 (Some(entry), Some(coordinate)) => self.damping.derivative(c, entry, coordinate),
                 _ => 0.0,
             },
-        )
+        ))
     }
 }
 

@@ -9,7 +9,7 @@ use super::group::Group;
 use super::kernel::{dot, inverse};
 use super::lanes::{Complexes, LANES, Reals};
 use super::normal::Normal;
-use super::strip::{Products, Strip, Sums};
+use super::strip::{InCommon, Products, Strip, Sums, Vector};
 
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -167,27 +167,26 @@ impl<'b, const N: usize> Transmitted<'b, N> {
         let block = self.block;
         let mut sums = Sums::default();
         let mut strip = Strip::new(block);
+        let mut points = vec![Vector::NONE; block.points];
         for first in (0..block.lines()).step_by(LANES) {
             strip.solve(first, entries, before)?;
             let mut products = Products::NONE;
+            for (point, vector) in points.iter_mut().enumerate() {
+                *vector = Vector::new(strip.kernel.q(point));
+            }
             for column in 0..self.columns {
                 let at = strip.index.map(|line| line * self.columns + column);
                 let of = |values: &[[Complex64; N]]| -> [Complexes; N] {
                     std::array::from_fn(|i| Complexes::of(|lane| values[at[lane]][i]))
                 };
                 let (x, w) = (of(&self.x), of(&self.w));
-                for point in 0..block.points {
+                let mut rows = InCommon::NONE;
+                for (point, q) in points.iter().enumerate() {
                     let weight = Reals::of(|lane| self.weight[at[lane] * block.points + point]);
-                    let q = strip.kernel.q(point);
-                    let row = |i: usize, j: usize| {
-                        if i == j {
-                            q[i] * w[i]
-                        } else {
-                            q[i] * w[j] + q[j] * w[i]
-                        }
-                    };
-                    products.add::<N>(strip.used * weight, row, dot(q, &x));
+                    let weight = strip.used * weight;
+                    rows.add(weight, q, dot(&q.value, &x).scaled(weight));
                 }
+                products.add(&Vector::new(&w), &rows);
             }
             sums.add_products(strip.omega, &products);
         }

@@ -93,7 +93,76 @@ const fn place<const N: usize>(i: usize, j: usize) -> usize {
     i * N + j - i * (i + 1) / 2
 }
 
-/// Products of one strip's rows of the Jacobian, by all places of K*.
+/// A vector v of the joint's DOFs, of which there are one or two, with the products of its entries.
+#[derive(Clone, Copy)]
+pub(super) struct Vector<const N: usize> {
+    pub(super) value: [Complexes; N],
+    /// |v_i|²
+    power: [Reals; N],
+    /// conj(v_0) v_1
+    cross: Complexes,
+}
+
+impl<const N: usize> Vector<N> {
+    #[inline(always)]
+    pub(super) fn new(value: &[Complexes; N]) -> Self {
+        Self {
+            value: *value,
+            power: std::array::from_fn(|i| value[i].norm_sqr()),
+            cross: if N == 2 {
+                value[0].conj_times(value[1])
+            } else {
+                Complexes::ZERO
+            },
+        }
+    }
+}
+
+/// Sums over the rows of the Jacobian that have one of their two vectors in common.
+///
+/// The row of a receptance by the places (i, j) of K* is u_i v_j + u_j v_i, or u_i v_i on the diagonal, u and v being Q of its
+/// two points. The sums over v are formed first.
+#[derive(Clone, Copy)]
+pub(super) struct InCommon<const N: usize> {
+    /// Σ w |v_i|²
+    power: [Reals; N],
+    /// Σ w conj(v_0) v_1
+    cross: Complexes,
+    /// Σ w conj(v) r
+    right: [Complexes; N],
+}
+
+impl<const N: usize> Vector<N> {
+    /// No vector yet.
+    pub(super) const NONE: Self = Self {
+        value: [Complexes::ZERO; N],
+        power: [Reals::ZERO; N],
+        cross: Complexes::ZERO,
+    };
+}
+
+impl<const N: usize> InCommon<N> {
+    /// The sums of no row.
+    pub(super) const NONE: Self = Self {
+        power: [Reals::ZERO; N],
+        cross: Complexes::ZERO,
+        right: [Complexes::ZERO; N],
+    };
+
+    /// Adds the row of `v` with its right-hand side times its weight.
+    #[inline(always)]
+    pub(super) fn add(&mut self, weight: Reals, v: &Vector<N>, weighted: Complexes) {
+        for i in 0..N {
+            self.power[i] += weight * v.power[i];
+            self.right[i] += v.value[i].conj_times(weighted);
+        }
+        if N == 2 {
+            self.cross += v.cross.scaled(weight);
+        }
+    }
+}
+
+/// Products of one strip's rows of the Jacobian, by the places (0, 0), (0, 1) and (1, 1) of K*.
 pub(super) struct Products {
     /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
     rows: [[Complexes; MAX_ENTRIES]; MAX_ENTRIES],
@@ -108,29 +177,24 @@ impl Products {
         right: [Complexes::ZERO; MAX_ENTRIES],
     };
 
-    /// Adds one row, given for each place of K*, with its right-hand side.
+    /// Adds all rows that have `u` in common.
     #[inline(always)]
-    pub(super) fn add<const N: usize>(
-        &mut self,
-        weight: Reals,
-        row: impl Fn(usize, usize) -> Complexes,
-        right: Complexes,
-    ) {
-        const { assert!(place::<N>(N - 1, N - 1) < MAX_ENTRIES) };
-        let mut values = [Complexes::ZERO; MAX_ENTRIES];
-        for i in 0..N {
-            for j in i..N {
-                values[place::<N>(i, j)] = row(i, j);
-            }
+    pub(super) fn add<const N: usize>(&mut self, u: &Vector<N>, v: &InCommon<N>) {
+        const { assert!(N == 1 || N == 2) };
+        self.right[0] += u.value[0].conj_times(v.right[0]);
+        self.rows[0][0].re += u.power[0] * v.power[0];
+        if N == 1 {
+            return;
         }
-        for i in 0..=place::<N>(N - 1, N - 1) {
-            let conjugate = values[i].conj().scaled(weight);
-            self.right[i] += conjugate * right;
-            for j in 0..i {
-                self.rows[i][j] += conjugate * values[j];
-            }
-            self.rows[i][i].re += weight * values[i].norm_sqr();
-        }
+        self.right[1] += u.value[0].conj_times(v.right[1]) + u.value[1].conj_times(v.right[0]);
+        self.right[2] += u.value[1].conj_times(v.right[1]);
+        let (u_cross, v_cross) = (u.cross.conj(), v.cross.conj());
+        self.rows[1][0] += v_cross.scaled(u.power[0]) + u_cross.scaled(v.power[0]);
+        let twice = u_cross.re * v_cross.re + u_cross.im * v_cross.im;
+        self.rows[1][1].re += u.power[0] * v.power[1] + u.power[1] * v.power[0] + twice + twice;
+        self.rows[2][0] += u_cross * v_cross;
+        self.rows[2][1] += v_cross.scaled(u.power[1]) + u_cross.scaled(v.power[1]);
+        self.rows[2][2].re += u.power[1] * v.power[1];
     }
 }
 
@@ -149,24 +213,33 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the entries of a strip, as measured and as computed; `variance` is asked for that of each, given |H^C|².
+    /// Adds the entries of a strip, as measured and as computed; `weight` is asked for 1/σ² of each, given |H^C|². Of each
+    /// point `rows` are overwritten.
     #[inline(always)]
     pub(super) fn add_strip<const N: usize>(
         &mut self,
         strip: &Strip<'_, N>,
-        mut variance: impl FnMut(usize, Reals) -> Reals,
+        rows: &mut [(Vector<N>, InCommon<N>)],
+        mut weight: impl FnMut(usize, Reals) -> Reals,
     ) {
-        let mut products = Products::NONE;
+        for (point, (vector, row)) in rows.iter_mut().enumerate() {
+            *vector = Vector::new(strip.kernel.q(point));
+            *row = InCommon::NONE;
+        }
         for (e, &entry) in strip.block.entries.iter().enumerate() {
             let computed = strip.computed(e, entry);
             let measured = strip.complex(&strip.block.measured, e);
-            let weight = strip.used / variance(e, computed.norm_sqr());
+            let weight = strip.used * weight(e, computed.norm_sqr());
+            // ∂H^C/∂K* = −Qᵀ E Q: both signs changed here.
             let residual = computed - measured;
             self.signal += weight * measured.norm_sqr();
             self.cost += weight * residual.norm_sqr();
-            // ∂H^C/∂K* = −Qᵀ E Q: both signs changed here.
-            let row = |i, j| strip.kernel.through(entry, (i, j));
-            products.add::<N>(weight, row, residual);
+            let (v, weighted) = (rows[entry.column].0, residual.scaled(weight));
+            rows[entry.row].1.add(weight, &v, weighted);
+        }
+        let mut products = Products::NONE;
+        for (u, sums) in rows.iter() {
+            products.add(u, sums);
         }
         self.add_products(strip.omega, &products);
     }

@@ -24,6 +24,8 @@ pub(super) struct Entry {
 /// Receptances of one assembly and of what it was made from, over its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Block<const N: usize> {
+    /// Which of the joints that are sought is in this assembly.
+    pub(super) joint: usize,
     pub(super) points: usize,
     pub(super) entries: Vec<Entry>,
     /// ω of each line.
@@ -45,8 +47,8 @@ pub(super) struct Block<const N: usize> {
 }
 
 impl<const N: usize> Block<N> {
-    /// Every `stride`th line of `lines`, whose joint has N DOFs.
-    pub(super) fn new(lines: &Lines, stride: usize) -> Self {
+    /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
+    pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
         let measured = lines.independent();
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let mut entries: Vec<Entry> = Vec::new();
@@ -68,6 +70,7 @@ impl<const N: usize> Block<N> {
         let chosen = || (0..lines.frequency_hz.len()).step_by(stride);
         let count = chosen().count();
         let mut block = Self {
+            joint,
             points,
             omega: Vec::with_capacity(count),
             free: Vec::with_capacity(count),

@@ -57,11 +57,15 @@ pub(super) struct Group<const N: usize> {
 }
 
 impl<const N: usize> Group<N> {
-    /// Groups of the assemblies `all`, of which every `stride`th line is taken; the measured receptances of substructures
-    /// that are `noisy` become sources.
-    pub(super) fn all(all: &[Lines], stride: usize, noisy: impl Fn(Side) -> bool) -> Vec<Self> {
+    /// Groups of the assemblies `all`, each with the number of its joint, of which every `stride`th line is taken; the
+    /// measured receptances of substructures that are `noisy` become sources.
+    pub(super) fn all(
+        all: &[(&Lines, usize)],
+        stride: usize,
+        noisy: impl Fn(Side) -> bool,
+    ) -> Vec<Self> {
         let mut groups: Vec<(Vec<&Lines>, Self)> = Vec::new();
-        for lines in all {
+        for &(lines, joint) in all {
             let joins = |(members, _): &(Vec<&Lines>, Self)| {
                 members.iter().any(|member| share(member, lines, &noisy))
             };
@@ -76,7 +80,7 @@ impl<const N: usize> Group<N> {
             });
             let (members, group) = &mut groups[position];
             members.push(lines);
-            group.blocks.push(Block::new(lines, stride));
+            group.blocks.push(Block::new(lines, joint, stride));
         }
         groups
             .into_iter()
@@ -155,6 +159,14 @@ impl<const N: usize> Group<N> {
 
     pub(super) fn lines(&self) -> usize {
         self.blocks.first().map_or(0, Block::lines)
+    }
+
+    /// The joints of its assemblies, ascending.
+    pub(super) fn joints(&self) -> Vec<usize> {
+        let mut joints: Vec<usize> = self.blocks.iter().map(|block| block.joint).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
     }
 
     /// Complex entries of all blocks at one line.

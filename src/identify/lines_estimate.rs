@@ -236,12 +236,13 @@ fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
         Side::A => noise.a != exact,
         Side::B => noise.b != exact,
     };
-    let whole = Group::all(all, 1, noisy);
+    let all: Vec<(&Lines, usize)> = all.iter().map(|lines| (lines, 0)).collect();
+    let whole = Group::all(&all, 1, noisy);
     let has_sources = whole.iter().any(|group| !group.sources.is_empty());
     Data {
-        thinned: Group::all(all, stride, |_| false),
+        thinned: Group::all(&all, stride, |_| false),
         thinned_whole: if has_sources {
-            Group::all(all, stride, noisy)
+            Group::all(&all, stride, noisy)
         } else {
             Vec::new()
         },

@@ -4,6 +4,11 @@
 //! receptances û of the substructures with variance σ_H² and their corrections δ. The corrections are unknowns of their
 //! own on every line. Eliminated, they leave the normal equations with Σ = Σ_C + J Σ_H Jᴴ, J = ∂H^C/∂û; so
 //! S = r̃ᴴ Σ⁻¹ r̃ at the minimum over δ, with r̃ = y − H^C + Jδ.
+//!
+//! θ holds the unknowns of one joint after the other; each assembly has one of them. Where assemblies with different joints
+//! share a substructure, δ couples these.
+
+use std::ops::Range;
 
 use nalgebra::DVector;
 use num_complex::Complex64;
@@ -62,9 +67,12 @@ impl<const N: usize> Objective<'_, N> {
         };
         let (own, omega) = (&block.dynamic_stiffness, block.omega[block.lines() / 2]);
         let count = self.entries.len();
-        self.entries.iter().enumerate().all(|(index, &(i, j))| {
-            let limit = RIGID * (own[i] * own[j]).sqrt();
-            unknowns[index].abs() <= limit && omega * unknowns[count + index].abs() <= limit
+        let mut joints = unknowns.as_slice().chunks_exact(2 * count);
+        joints.all(|joint| {
+            self.entries.iter().enumerate().all(|(index, &(i, j))| {
+                let limit = RIGID * (own[i] * own[j]).sqrt();
+                joint[index].abs() <= limit && omega * joint[count + index].abs() <= limit
+            })
         })
     }
 
@@ -187,8 +195,12 @@ pub(super) struct Line<'g, const N: usize> {
     pub(super) computed: Vec<Complex64>,
     /// y − H^C, then r̃, then whitened.
     pub(super) residual: Vec<Complex64>,
-    /// ∂H^C/∂K*, then whitened: for each entry of all blocks one of each unknown entry of K*.
+    /// The joints of this group, ascending.
+    joints: Vec<usize>,
+    /// ∂H^C/∂K*, then whitened: for each of `joints`, for each entry of all blocks, one of each unknown entry of its K*.
     by_joint: Vec<[Complex64; MAX_ENTRIES]>,
+    /// Unknowns of all joints together.
+    unknowns: usize,
     /// J: for each source, every entry of all blocks.
     pub(super) by_source: Vec<Complex64>,
     /// Σ, then its Cholesky factor.
@@ -204,6 +216,7 @@ pub(super) struct Line<'g, const N: usize> {
 impl<'g, const N: usize> Line<'g, N> {
     fn new(group: &'g Group<N>, joint_entries: &'g [(usize, usize)]) -> Self {
         let size = group.entries();
+        let joints = group.joints();
         Self {
             group,
             joint_entries,
@@ -213,7 +226,9 @@ impl<'g, const N: usize> Line<'g, N> {
             omega: 0.0,
             computed: vec![ZERO; size],
             residual: vec![ZERO; size],
-            by_joint: vec![[ZERO; MAX_ENTRIES]; size],
+            by_joint: vec![[ZERO; MAX_ENTRIES]; size * joints.len()],
+            joints,
+            unknowns: 0,
             by_source: vec![ZERO; size * group.sources.len()],
             factor: vec![
                 ZERO;
@@ -254,10 +269,16 @@ impl<'g, const N: usize> Line<'g, N> {
     ) -> Option<()> {
         self.index = index;
         self.omega = self.group.blocks.first()?.omega[index];
-        let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
+        self.unknowns = unknowns.len();
         let size = self.computed.len();
+        if derivatives && self.joints.len() > 1 {
+            self.by_joint.fill([ZERO; MAX_ENTRIES]);
+        }
         let mut at = 0;
         for (number, block) in self.group.blocks.iter().enumerate() {
+            let own_joint = &unknowns[self.unknowns_of(block.joint)];
+            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
+            let slot = size * self.slot(block.joint);
             let columns = index * block.points..(index + 1) * block.points;
             let count = block.entries.len();
             let own = &block.own[index * count..(index + 1) * count];
@@ -298,7 +319,7 @@ impl<'g, const N: usize> Line<'g, N> {
                     continue;
                 }
                 for (t, &place) in self.joint_entries.iter().enumerate() {
-                    self.by_joint[at + e][t] = self.kernel.by_stiffness(entry, place);
+                    self.by_joint[slot + at + e][t] = self.kernel.by_stiffness(entry, place);
                 }
                 for (s, source) in self.group.sources.iter().enumerate() {
                     self.by_source[s * size + at + e] =
@@ -325,10 +346,13 @@ impl<'g, const N: usize> Line<'g, N> {
         let count = self.joint_entries.len();
         let block = self.group.blocks.first()?;
         self.omega = block.omega[index];
-        let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
-        let mut sums = Sums::default();
         let mut variances = variances.iter();
         for block in &self.group.blocks {
+            let own_joint = self.unknowns_of(block.joint);
+            let first = own_joint.start;
+            let own_joint = &unknowns[own_joint];
+            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
+            let mut sums = Sums::default();
             let entries = block.entries.len();
             let transfer = &block.transfer[index * block.points..(index + 1) * block.points];
             let own = &block.own[index * entries..(index + 1) * entries];
@@ -347,12 +371,23 @@ impl<'g, const N: usize> Line<'g, N> {
                 sums.cost += weight * residual.norm_sqr();
                 sums.add(weight, residual, &row, count);
             }
+            normal.signal += sums.signal;
+            normal.cost += sums.cost;
+            normal.linearised_cost += sums.cost;
+            sums.add_to(normal, self.omega, count, first);
         }
-        normal.signal += sums.signal;
-        normal.cost += sums.cost;
-        normal.linearised_cost += sums.cost;
-        sums.add_to(normal, self.omega, count);
         Some(())
+    }
+
+    /// Where the unknowns of a joint are among those of all.
+    fn unknowns_of(&self, joint: usize) -> Range<usize> {
+        let size = 2 * self.joint_entries.len();
+        joint * size..(joint + 1) * size
+    }
+
+    /// Place of a joint among those of this group.
+    fn slot(&self, joint: usize) -> usize {
+        self.joints.partition_point(|&other| other < joint)
     }
 
     /// Divides by σ where every entry has an error of its own.
@@ -367,8 +402,10 @@ impl<'g, const N: usize> Line<'g, N> {
             self.signal += weight * weight * measured.norm_sqr();
             self.residual[e] *= weight;
             self.cost += self.residual[e].norm_sqr();
-            for value in &mut self.by_joint[e][..self.joint_entries.len()] {
-                *value *= weight;
+            for by_joint in self.by_joint.chunks_exact_mut(self.residual.len()) {
+                for value in &mut by_joint[e][..self.joint_entries.len()] {
+                    *value *= weight;
+                }
             }
         }
     }
@@ -401,13 +438,15 @@ impl<'g, const N: usize> Line<'g, N> {
         self.add_corrections(delta);
         self.factorise(variances, of_sources)?;
         forward(&self.factor, size, &mut self.residual);
-        for t in 0..self.joint_entries.len() {
-            for row in 0..size {
-                let mut value = self.by_joint[row][t];
-                for column in 0..row {
-                    value -= self.factor[row * size + column] * self.by_joint[column][t];
+        for by_joint in self.by_joint.chunks_exact_mut(size) {
+            for t in 0..self.joint_entries.len() {
+                for row in 0..size {
+                    let mut value = by_joint[row][t];
+                    for column in 0..row {
+                        value -= self.factor[row * size + column] * by_joint[column][t];
+                    }
+                    by_joint[row][t] = value / self.factor[row * size + row].re;
                 }
-                self.by_joint[row][t] = value / self.factor[row * size + row].re;
             }
         }
         Some(())
@@ -548,10 +587,14 @@ impl<'g, const N: usize> Line<'g, N> {
         self.add_corrections(delta);
         let step = to - from;
         let count = self.joint_entries.len();
-        for e in 0..size {
-            for t in 0..count {
-                let change = Complex64::new(step[t], self.omega * step[count + t]);
-                self.residual[e] -= self.by_joint[e][t] * change;
+        for (slot, &joint) in self.joints.iter().enumerate() {
+            let first = self.unknowns_of(joint).start;
+            for e in 0..size {
+                for t in 0..count {
+                    let (k, c) = (step[first + t], step[first + count + t]);
+                    let change = Complex64::new(k, self.omega * c);
+                    self.residual[e] -= self.by_joint[slot * size + e][t] * change;
+                }
             }
         }
         self.factorise(variances, of_sources)?;
@@ -571,24 +614,36 @@ impl<'g, const N: usize> Line<'g, N> {
         let count = self.joint_entries.len();
         normal.cost += self.cost;
         normal.signal += self.signal;
-        let mut sums = Sums::default();
-        for (residual, row) in self.residual.iter().zip(&self.by_joint) {
-            sums.cost += residual.norm_sqr();
-            sums.add(1.0, *residual, row, count);
+        normal.linearised_cost += self.residual.iter().map(|r| r.norm_sqr()).sum::<f64>();
+        let own_rows = || self.by_joint.chunks_exact(self.residual.len());
+        for (slot, (rows, &joint)) in own_rows().zip(&self.joints).enumerate() {
+            let first = self.unknowns_of(joint).start;
+            let mut sums = Sums::default();
+            for (residual, row) in self.residual.iter().zip(rows) {
+                sums.add(1.0, *residual, row, count);
+            }
+            sums.add_to(normal, self.omega, count, first);
+            // Common errors of the substructures couple the joints of assemblies that share them.
+            for (others, &other) in own_rows().zip(&self.joints).take(slot) {
+                let first = (first, self.unknowns_of(other).start);
+                add_coupling(normal, self.omega, count, first, rows.iter().zip(others));
+            }
         }
-        normal.linearised_cost += sums.cost;
-        sums.add_to(normal, self.omega, count);
     }
 
     /// Jᵀr of this whitened line by the unknowns: what it adds to the gradient.
     pub(super) fn score(&self) -> Vec<f64> {
         let count = self.joint_entries.len();
-        let mut score = vec![0.0; 2 * count];
-        for (residual, row) in self.residual.iter().zip(&self.by_joint) {
-            for t in 0..count {
-                let product = row[t].conj() * residual;
-                score[t] += product.re;
-                score[count + t] += self.omega * product.im;
+        let mut score = vec![0.0; self.unknowns];
+        let own_rows = self.by_joint.chunks_exact(self.residual.len());
+        for (rows, &joint) in own_rows.zip(&self.joints) {
+            let first = self.unknowns_of(joint).start;
+            for (residual, row) in self.residual.iter().zip(rows) {
+                for t in 0..count {
+                    let product = row[t].conj() * residual;
+                    score[first + t] += product.re;
+                    score[first + count + t] += self.omega * product.im;
+                }
             }
         }
         score
@@ -631,20 +686,51 @@ impl Sums {
         }
     }
 
-    /// ∂K*/∂k = E, ∂K*/∂c = jωE
-    fn add_to(&self, normal: &mut Normal, omega: f64, count: usize) {
+    /// ∂K*/∂k = E, ∂K*/∂c = jωE, of the joint whose unknowns begin at `first`.
+    fn add_to(&self, normal: &mut Normal, omega: f64, count: usize, first: usize) {
+        let (k, c) = (first, first + count);
         for i in 0..count {
-            normal.gradient[i] += self.right[i].re;
-            normal.gradient[count + i] += omega * self.right[i].im;
+            normal.gradient[k + i] += self.right[i].re;
+            normal.gradient[c + i] += omega * self.right[i].im;
             for j in 0..=i {
                 let product = self.products[i][j];
-                normal.matrix[(i, j)] += product.re;
-                normal.matrix[(count + i, count + j)] += omega * omega * product.re;
-                normal.matrix[(count + i, j)] += omega * product.im;
+                normal.matrix[(k + i, k + j)] += product.re;
+                normal.matrix[(c + i, c + j)] += omega * omega * product.re;
+                normal.matrix[(c + i, k + j)] += omega * product.im;
                 if i != j {
-                    normal.matrix[(count + j, i)] -= omega * product.im;
+                    normal.matrix[(c + j, k + i)] -= omega * product.im;
                 }
             }
+        }
+    }
+}
+
+/// What one line adds to the normal equations between the unknowns of two joints, which begin at `first` and at `other`
+/// before it.
+fn add_coupling<'r>(
+    normal: &mut Normal,
+    omega: f64,
+    count: usize,
+    (first, other): (usize, usize),
+    rows: impl Iterator<Item = (&'r [Complex64; MAX_ENTRIES], &'r [Complex64; MAX_ENTRIES])>,
+) {
+    let mut products = [[ZERO; MAX_ENTRIES]; MAX_ENTRIES];
+    for (row, other) in rows {
+        for i in 0..count {
+            for j in 0..count {
+                products[i][j] += row[i].conj() * other[j];
+            }
+        }
+    }
+    for (i, products) in products.iter().enumerate().take(count) {
+        for (j, product) in products.iter().enumerate().take(count) {
+            // Re((∂r/∂p)* ∂r/∂q) with ∂r/∂k = ∂r/∂K* and ∂r/∂c = jω ∂r/∂K*
+            let (k, c) = (first + i, first + count + i);
+            let (other_k, other_c) = (other + j, other + count + j);
+            normal.matrix[(k, other_k)] += product.re;
+            normal.matrix[(k, other_c)] -= omega * product.im;
+            normal.matrix[(c, other_k)] += omega * product.im;
+            normal.matrix[(c, other_c)] += omega * omega * product.re;
         }
     }
 }

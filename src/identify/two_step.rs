@@ -117,7 +117,7 @@ struct Minimum {
 
 impl<const N: usize> Problem<N> {
     fn new(lines: &Lines, model: JointModel, amplitudes: Amplitudes) -> Self {
-        let block = Block::new(lines, 1);
+        let block = Block::new(lines, 0, 1);
         let entries = (0..N / model.dofs())
             .flat_map(|bolt| {
                 let place = move |&entry| bolt_place(model, bolt, entry);

@@ -117,6 +117,9 @@ struct ExportArguments {
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
+    /// Preload of a joint over the preload, N·m: K, C and k3 are interpolated in its table [default: its nominal one]
+    #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
+    preload: Option<f64>,
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
     platforms: Option<PathBuf>,

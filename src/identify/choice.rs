@@ -2,9 +2,11 @@
 
 use nalgebra::DVector;
 
+use super::estimator::Estimate;
 use super::model::JointModel;
 use super::noise::Noise;
-use super::search::{self, Data, Effort, Found};
+use super::search::{Effort, Found};
+use super::torque::{Problem, stated_chi_squared};
 
 /// The joint models that the data allow, compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,9 +32,15 @@ pub struct ModelFit {
     pub adequate: bool,
 }
 
-/// Compares the models; `found` is the estimate of `model`.
+/// Schwarz's criterion of an estimate, −2 ln L + p ln n with p unknowns and n real numbers.
+pub(super) fn bayesian_criterion(estimate: &Estimate) -> f64 {
+    let numbers = 2.0 * estimate.measurements as f64;
+    estimate.misfit + estimate.unknowns.len() as f64 * numbers.ln()
+}
+
+/// Compares the models; `found` is the estimate of `model`. Where each torque has its joint, all have the same model.
 pub(super) fn compare<const N: usize>(
-    data: &Data<N>,
+    problem: &Problem<'_, N>,
     model: JointModel,
     noise: &Noise,
     found: &Found,
@@ -49,26 +57,23 @@ pub(super) fn compare<const N: usize>(
             if other == model {
                 return Some((other, found.clone()));
             }
-            let start = embedded(model, &found.estimate.unknowns, other);
-            let effort = Effort::Related;
-            let found = search::best(data, other.entries(), noise, vec![start], effort).ok()?;
+            let joints = found.estimate.unknowns.as_slice();
+            let starts: Vec<_> = joints
+                .chunks_exact(model.unknowns())
+                .map(|joint| vec![embedded(model, joint, other)])
+                .collect();
+            let found = problem.best(other, &starts, Effort::Related).ok()?;
             Some((other, found))
         })
         .collect();
-    let bic = |(model, found): &(JointModel, Found)| {
-        let numbers = 2.0 * found.estimate.measurements as f64;
-        found.estimate.misfit + model.unknowns() as f64 * numbers.ln()
-    };
+    let bic = |(_, found): &(JointModel, Found)| bayesian_criterion(&found.estimate);
     let lowest = fits.iter().map(bic).fold(f64::INFINITY, f64::min);
     let models: Vec<ModelFit> = fits
         .iter()
         .map(|fit| ModelFit {
             model: fit.0,
             bic_difference: bic(fit) - lowest,
-            reduced_chi_squared: noise
-                .is_stated()
-                .then(|| fit.1.estimate.reduced_chi_squared())
-                .flatten(),
+            reduced_chi_squared: stated_chi_squared(noise, &fit.1.estimate),
             adequate: fit.1.assessment.fits(),
         })
         .collect();
@@ -86,7 +91,7 @@ pub(super) fn compare<const N: usize>(
 }
 
 /// The unknowns of one model as those of another: what it has not is zero.
-fn embedded(from: JointModel, unknowns: &DVector<f64>, to: JointModel) -> DVector<f64> {
+fn embedded(from: JointModel, unknowns: &[f64], to: JointModel) -> DVector<f64> {
     let count = from.entries().len();
     let mut values = Vec::with_capacity(to.unknowns());
     for matrix in 0..2 {

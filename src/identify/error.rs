@@ -97,6 +97,17 @@ pub enum IdentifyError {
         /// Measured functions.
         functions: usize,
     },
+    /// Each torque is to have its joint, but there are not several.
+    #[error(
+        "found torques {found_n_m:?} N·m of {assemblies} assemblies, expected one of each assembly and at least two different ones, for \
+         each torque to have a joint of its own"
+    )]
+    Torques {
+        /// Assemblies.
+        assemblies: usize,
+        /// Torques given, N·m.
+        found_n_m: Vec<f64>,
+    },
     /// The computed receptances have no finite value at some line.
     #[error("{source}")]
     Coupling {

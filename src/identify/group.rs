@@ -50,7 +50,7 @@ pub(super) struct Source<const N: usize> {
 }
 
 /// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Group<const N: usize> {
     pub(super) blocks: Vec<Block<N>>,
     pub(super) sources: Vec<Source<N>>,
@@ -66,21 +66,19 @@ impl<const N: usize> Group<N> {
     ) -> Vec<Self> {
         let mut groups: Vec<(Vec<&Lines>, Self)> = Vec::new();
         for &(lines, joint) in all {
-            let joins = |(members, _): &(Vec<&Lines>, Self)| {
-                members.iter().any(|member| share(member, lines, &noisy))
-            };
-            let position = groups.iter().position(joins);
-            let position = position.unwrap_or_else(|| {
-                let empty = Self {
-                    blocks: Vec::new(),
-                    sources: Vec::new(),
-                };
-                groups.push((Vec::new(), empty));
-                groups.len() - 1
+            let mut joined: (Vec<&Lines>, Self) = Default::default();
+            // An assembly may share A with one group and B with another, and so make one of them.
+            groups.retain_mut(|(members, group)| {
+                let shares = members.iter().any(|member| share(member, lines, &noisy));
+                if shares {
+                    joined.0.append(members);
+                    joined.1.blocks.append(&mut group.blocks);
+                }
+                !shares
             });
-            let (members, group) = &mut groups[position];
-            members.push(lines);
-            group.blocks.push(Block::new(lines, joint, stride));
+            joined.0.push(lines);
+            joined.1.blocks.push(Block::new(lines, joint, stride));
+            groups.push(joined);
         }
         groups
             .into_iter()

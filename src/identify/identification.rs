@@ -10,7 +10,7 @@ use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
 use super::study::Study;
-use super::{assemble, provenance};
+use super::{assemble, level, provenance};
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -25,7 +25,8 @@ pub struct Identification {
     pub decoupled: Vec<Option<ComplexMatrix>>,
     /// Average of the decoupled values over bands, where every entry had lines.
     pub band_average: Option<JointMatrices>,
-    /// The passive estimate, which is the free one where that is passive.
+    /// The passive estimate, which is the free one where that is passive: of the first assembly's joint, where each torque has
+    /// its own. `estimate` has all of them.
     pub joint: JointMatrices,
     /// One standard deviation of each entry; infinite where the data do not determine the joint.
     pub standard_deviation: JointMatrices,
@@ -47,6 +48,7 @@ pub struct Identification {
     pub estimate: LinesEstimate,
     pub(super) provenance: Provenance,
     pub(super) torque_n_m: Option<[f64; 2]>,
+    pub(super) level: Option<String>,
     pub(super) noise_is_stated: bool,
     pub(super) bodies: Option<crate::joint::Bodies>,
 }
@@ -99,13 +101,15 @@ pub fn identify_and_draw(
         bands: study.bands.clone(),
         start: None,
         compare_models: true,
+        torques_n_m: torques(study).unwrap_or_default(),
+        dependence: study.torques,
         bootstrap,
         progress: Some(progress),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
-    for lines in all {
-        let regenerated = lines.regenerated(estimate.joint())?;
+    for (number, lines) in all.into_iter().enumerate() {
+        let regenerated = lines.regenerated(estimate.joint_of(number).joint())?;
         let fits: Vec<FunctionFit> = lines
             .measured
             .iter()
@@ -126,13 +130,13 @@ pub fn identify_and_draw(
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
     let provenance = provenance::of(study)?;
-    warnings.extend(estimate.warnings.iter().cloned());
+    warnings.extend(estimate.warnings().iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
-        decoupled: estimate.decoupled.first().cloned().unwrap_or_default(),
-        band_average: estimate.band_average.clone(),
+        decoupled: estimate.decoupled().first().cloned().unwrap_or_default(),
+        band_average: estimate.band_average().cloned(),
         joint: estimate.joint().clone(),
         standard_deviation: estimate.standard_deviation(study.model),
         lines: first.lines,
@@ -143,27 +147,29 @@ pub fn identify_and_draw(
         reduced_chi_squared: study
             .noise
             .is_stated()
-            .then_some(estimate.assessment.reduced_chi_squared)
+            .then_some(estimate.assessment().reduced_chi_squared)
             .flatten(),
-        starts: estimate.starts,
+        starts: estimate.starts(),
         warnings,
         provenance,
-        torque_n_m: torques(study),
+        torque_n_m: torques(study).and_then(range),
+        level: level::in_words(study),
         noise_is_stated: study.noise.is_stated(),
         bodies: study.bodies.clone(),
         estimate,
     })
 }
 
-/// Lowest and highest torque of a study's assemblies, where all state theirs.
-fn torques(study: &Study) -> Option<[f64; 2]> {
+/// The torque of each of a study's assemblies, N·m, where all state theirs.
+fn torques(study: &Study) -> Option<Vec<f64>> {
     let further = study.further.iter().map(|assembly| assembly.torque_n_m);
-    let all: Option<Vec<f64>> = std::iter::once(study.torque_n_m).chain(further).collect();
-    let all = all?;
-    Some([
-        all.iter().copied().fold(f64::INFINITY, f64::min),
-        all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-    ])
+    std::iter::once(study.torque_n_m).chain(further).collect()
+}
+
+/// Lowest and highest.
+fn range(values: Vec<f64>) -> Option<[f64; 2]> {
+    let lowest = values.iter().copied().reduce(f64::min)?;
+    Some([lowest, values.into_iter().fold(lowest, f64::max)])
 }
 
 fn relative_rms(

@@ -4,12 +4,14 @@ use nalgebra::DMatrix;
 
 use crate::joint::{
     BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, Intervals, Joint,
-    JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
+    JointFile, NoiseRecord, OverPreload, Residual, StandardDeviation, Uncertainty,
+    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
 use super::identification::{FunctionFit, Identification};
-use super::lines_estimate::BootstrapResult;
+use super::joint_estimate::{BootstrapResult, JointEstimate};
 use super::model::{JointMatrices, JointModel};
+use super::uncertainty::correlation;
 
 impl Identification {
     /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from.
@@ -18,23 +20,57 @@ impl Identification {
         JointFile {
             format: Format::V1,
             name: self.name.clone(),
-            joint: Joint {
-                dofs: self.model.into(),
-                stiffness: rows(&self.joint.stiffness),
-                damping: rows(&self.joint.damping),
-                cubic: vec![0.0; self.model.dofs()],
-                over_preload: None,
-            },
+            joint: self.joint_record(),
             bodies: self.bodies.clone(),
             uncertainty: self.uncertainty(),
             validity: Some(Validity {
                 frequency_hz: self.frequency_hz(),
                 torque_n_m: self.torque_n_m,
-                level: None,
+                level: self.level.clone(),
             }),
             residual: Some(self.residual()),
             provenance: Some(self.provenance.clone()),
         }
+    }
+
+    fn joint_record(&self) -> Joint {
+        let constant = Joint {
+            dofs: self.model.into(),
+            stiffness: rows(&self.joint.stiffness),
+            damping: rows(&self.joint.damping),
+            cubic: vec![0.0; self.model.dofs()],
+            over_preload: None,
+        };
+        let joints = self.ascending();
+        // The nominal torque is that of the first assembly.
+        let nominal = self.estimate.joints().first();
+        let Some(nominal) = nominal.and_then(|joint| joint.torque_n_m) else {
+            return constant;
+        };
+        let each = |matrix: fn(&JointMatrices) -> &DMatrix<f64>| {
+            let joints = joints.iter().map(|(_, joint)| rows(matrix(joint.joint())));
+            joints.collect()
+        };
+        Joint {
+            stiffness: Vec::new(),
+            damping: Vec::new(),
+            cubic: Vec::new(),
+            over_preload: Some(OverPreload {
+                preload: joints.iter().map(|(_, joint)| torque(joint)).collect(),
+                nominal,
+                stiffness: each(|joint| &joint.stiffness),
+                damping: each(|joint| &joint.damping),
+                cubic: Vec::new(),
+            }),
+            ..constant
+        }
+    }
+
+    /// The joints by torque, each with its number.
+    fn ascending(&self) -> Vec<(usize, &JointEstimate)> {
+        let mut joints: Vec<_> = self.estimate.joints().iter().enumerate().collect();
+        joints.sort_by(|(_, a), (_, b)| torque(a).total_cmp(&torque(b)));
+        joints
     }
 
     fn frequency_hz(&self) -> [f64; 2] {
@@ -47,9 +83,8 @@ impl Identification {
     }
 
     fn uncertainty(&self) -> Option<Uncertainty> {
-        let covariance = self.estimate.covariance();
-        let deviation = covariance.standard_deviation();
-        if deviation.iter().any(|value| !value.is_finite()) {
+        let all = self.estimate.covariance_of_all();
+        if all.diagonal().iter().any(|variance| !variance.is_finite()) {
             return None;
         }
         let noise = if self.noise_is_stated {
@@ -63,16 +98,14 @@ impl Identification {
         } else {
             "the assembly only"
         };
-        let inflation = covariance.inflation.iter().copied().fold(1.0, f64::max);
-        let free = self.estimate.free();
+        let joints = self.estimate.joints();
+        let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
+        let inflation = inflation.copied().fold(1.0, f64::max);
+        let nominal = self.at_torque(joints.first()?);
+        let covariance = self.estimate.covariance();
         let names = covariance.unknowns.iter().map(|unknown| unknown.name);
-        let not_identified = names
-            .clone()
-            .zip(&covariance.identified)
-            .filter(|(_, identified)| !**identified)
-            .map(|(name, _)| name.to_owned());
         Some(Uncertainty {
-            standard_deviation: deviations(self.model, &deviation),
+            standard_deviation: nominal.standard_deviation,
             basis: format!(
                 "information matrix of the maximum-likelihood estimate with {noise}; random errors of the receptances of {of}"
             ),
@@ -80,19 +113,65 @@ impl Identification {
                 unknowns: names.map(str::to_owned).collect(),
                 matrix: rows(&covariance.correlation()),
             }),
-            interval_95: Some(intervals(self.model, &covariance.intervals())),
+            interval_95: nominal.interval_95,
             inflation: (inflation > 1.0).then_some(inflation),
-            not_identified: not_identified.collect(),
-            free_estimate: (*free != self.joint).then(|| FreeEstimate {
-                stiffness: rows(&free.stiffness),
-                damping: rows(&free.damping),
+            not_identified: nominal.not_identified,
+            free_estimate: nominal.free_estimate,
+            bootstrap: nominal.bootstrap,
+            over_preload: (joints.len() > 1).then(|| self.uncertainty_over_preload()),
+        })
+    }
+
+    fn uncertainty_over_preload(&self) -> UncertaintyOverPreload {
+        let joints = self.ascending();
+        let size = self.model.unknowns();
+        // The covariance has the joints in the order of the assemblies.
+        let places: Vec<usize> = joints
+            .iter()
+            .flat_map(|(number, _)| number * size..(number + 1) * size)
+            .collect();
+        let all = self.estimate.covariance_of_all();
+        let ascending = DMatrix::from_fn(places.len(), places.len(), |i, j| {
+            all[(places[i], places[j])]
+        });
+        let names = joints.iter().flat_map(|(_, joint)| {
+            let unknowns = joint.covariance.unknowns.iter();
+            unknowns.map(|unknown| format!("{}@{}", unknown.name, torque(joint)))
+        });
+        UncertaintyOverPreload {
+            at: joints
+                .iter()
+                .map(|(_, joint)| self.at_torque(joint))
+                .collect(),
+            correlation: Some(Correlation {
+                unknowns: names.collect(),
+                matrix: rows(&correlation(&ascending)),
             }),
-            bootstrap: self
-                .estimate
-                .bootstrap()
+        }
+    }
+
+    fn at_torque(&self, joint: &JointEstimate) -> UncertaintyAtPreload {
+        let covariance = &joint.covariance;
+        let names = covariance.unknowns.iter().map(|unknown| unknown.name);
+        let not_identified = names
+            .zip(&covariance.identified)
+            .filter(|(_, identified)| !**identified)
+            .map(|(name, _)| name.to_owned());
+        UncertaintyAtPreload {
+            preload: torque(joint),
+            standard_deviation: deviations(self.model, &covariance.standard_deviation()),
+            interval_95: Some(intervals(self.model, &covariance.intervals())),
+            not_identified: not_identified.collect(),
+            free_estimate: (joint.free != *joint.joint()).then(|| FreeEstimate {
+                stiffness: rows(&joint.free.stiffness),
+                damping: rows(&joint.free.damping),
+            }),
+            bootstrap: joint
+                .bootstrap
+                .as_ref()
                 .filter(|result| result.converged > 1)
                 .map(|result| bootstrap(self.model, result)),
-        })
+        }
     }
 
     fn residual(&self) -> Residual {
@@ -122,6 +201,11 @@ impl Identification {
             }),
         }
     }
+}
+
+/// Zero for a joint that is common to all torques.
+fn torque(joint: &JointEstimate) -> f64 {
+    joint.torque_n_m.unwrap_or(0.0)
 }
 
 fn deviations(model: JointModel, deviation: &[f64]) -> StandardDeviation {

@@ -50,14 +50,7 @@ impl Covariance {
     /// Correlation of the unknowns.
     #[must_use]
     pub fn correlation(&self) -> DMatrix<f64> {
-        let deviation = self.standard_deviation();
-        DMatrix::from_fn(deviation.len(), deviation.len(), |i, j| {
-            if i == j {
-                1.0
-            } else {
-                (self.matrix[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0)
-            }
-        })
+        correlation(&self.matrix)
     }
 
     /// The interval of 95 % of each unknown.
@@ -72,6 +65,18 @@ impl Covariance {
             })
             .collect()
     }
+}
+
+/// Correlation of a covariance.
+pub(super) fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let deviation = covariance.diagonal().map(f64::sqrt);
+    DMatrix::from_fn(deviation.len(), deviation.len(), |i, j| {
+        if i == j {
+            1.0
+        } else {
+            (covariance[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0)
+        }
+    })
 }
 
 /// ½ (JᵀΣ⁻¹J)⁻¹: the covariance if the noise is as assumed. Directions without information get a variance that is huge but

@@ -147,6 +147,45 @@ pub struct Uncertainty {
     /// Scatter of the estimate over data drawn from the fitted model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bootstrap: Option<BootstrapRecord>,
+    /// The same at every preload of `joint.over_preload`; what stands beside it holds at the nominal one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_preload: Option<UncertaintyOverPreload>,
+}
+
+/// How well the joint's parameters are known over the bolt's preload.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyOverPreload {
+    /// One entry for each of `joint.over_preload.preload`, in its order.
+    #[schemars(length(min = 2))]
+    pub at: Vec<UncertaintyAtPreload>,
+    /// Correlation of the unknowns of all preloads, which measured substructures in common bring about. Their names have the
+    /// preload behind them, such as `k_yy@10`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<Correlation>,
+}
+
+/// How well the joint's parameters are known at one preload.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyAtPreload {
+    /// The preload as in `joint.over_preload.preload`, N·m.
+    #[schemars(range(min = 0))]
+    pub preload: f64,
+    /// One standard deviation of each entry of the joint's matrices.
+    pub standard_deviation: StandardDeviation,
+    /// Interval of 95 % of each entry of the joint's matrices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval_95: Option<Intervals>,
+    /// Unknowns that the data do not determine: their values are not to be believed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_identified: Vec<String>,
+    /// The estimate without the constraint that the joint be passive, where that is another one. The intervals are about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_estimate: Option<FreeEstimate>,
+    /// Scatter of the estimate over data drawn from the fitted model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bootstrap: Option<BootstrapRecord>,
 }
 
 /// Correlation of the unknowns of a joint.

@@ -23,7 +23,7 @@ pub(super) struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn refuse<T>(
+    pub(super) fn refuse<T>(
         &self,
         key: impl Into<String>,
         found: impl Into<String>,

@@ -1,6 +1,7 @@
 //! A study: what the user's TOML file asks for, checked before anything is read or computed.
 
 mod check;
+mod check_torque;
 mod tables;
 
 use std::collections::BTreeMap;
@@ -13,8 +14,10 @@ use crate::text_file;
 
 use super::bands::Bands;
 use super::error::IdentifyError;
+use super::level::Level;
 use super::model::JointModel;
 use super::noise::Noise;
+use super::torque::TorqueDependence;
 use check::Checker;
 use tables::StudyFile;
 
@@ -37,10 +40,14 @@ pub struct Study {
     pub repeats: Vec<FrfFile>,
     /// Tightening torque of the first assembly, N·m.
     pub torque_n_m: Option<f64>,
+    /// Level at which the first assembly was measured.
+    pub level: Option<Level>,
     /// Further assemblies with the same joint.
     pub further: Vec<FurtherAssembly>,
     /// Joint model to identify.
     pub model: JointModel,
+    /// Whether assemblies with different torques have one joint.
+    pub torques: TorqueDependence,
     /// Lowest and highest frequency to use, Hz.
     pub frequency_range_hz: [f64; 2],
     /// Bands of the averages.
@@ -64,6 +71,8 @@ pub struct FurtherAssembly {
     pub repeats: Vec<FrfFile>,
     /// Tightening torque, N·m.
     pub torque_n_m: Option<f64>,
+    /// Level at which it was measured.
+    pub level: Option<Level>,
     /// Its substructure A.
     pub a: Substructure,
     /// Its substructure B.
@@ -194,6 +203,7 @@ impl Study {
                     .map(measured_in)
                     .collect::<Result<_, _>>()?,
                 torque_n_m: check.torque(table.torque)?,
+                level: check.level(table.level.as_ref())?,
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
             };
@@ -202,6 +212,7 @@ impl Study {
             }
             assemblies.push(assembly);
         }
+        check.torques(file.joint.torques, &assemblies)?;
         let first = assemblies.remove(0);
         let frequency_range_hz = check.frequency_range(&file.frequency)?;
         check.bands(&file.bands)?;
@@ -222,8 +233,10 @@ impl Study {
             points: first.points,
             repeats: first.repeats,
             torque_n_m: first.torque_n_m,
+            level: first.level,
             further: assemblies,
             model,
+            torques: file.joint.torques,
             frequency_range_hz,
             bands: file.bands,
             noise,

@@ -13,7 +13,9 @@ use crate::joint::Bodies;
 use crate::structure::{Boundary, Difference};
 
 use super::super::bands::Bands;
+use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
+use super::super::torque::TorqueDependence;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -172,6 +174,7 @@ pub(super) struct AssemblyTable {
     #[serde(default)]
     pub(super) repeats: Vec<PathBuf>,
     pub(super) torque: Option<f64>,
+    pub(super) level: Option<ExcitationTable>,
     pub(super) a: Option<SubstructureTable>,
     pub(super) b: Option<SubstructureTable>,
 }
@@ -180,6 +183,20 @@ pub(super) struct AssemblyTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct JointTable {
     pub(super) model: JointModel,
+    #[serde(default)]
+    pub(super) torques: TorqueDependence,
+}
+
+/// Level at which an assembly was measured.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExcitationTable {
+    pub(super) force: Option<f64>,
+    pub(super) displacement: Option<f64>,
+    pub(super) velocity: Option<f64>,
+    pub(super) acceleration: Option<f64>,
+    #[serde(default)]
+    pub(super) measure: LevelMeasure,
 }
 
 #[derive(Default, Deserialize)]

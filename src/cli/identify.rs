@@ -7,7 +7,8 @@ use serde_json::json;
 
 use crate::export::Timestamp;
 use crate::identify::{
-    Bootstrap, BootstrapResult, Identification, Study, Unknown, identify_and_draw,
+    Bootstrap, BootstrapResult, Identification, JointEstimate, JointModel, Study, Unknown,
+    identify_and_draw,
 };
 use crate::report::{FrfFigure, FrfPanel, IdentificationReport};
 
@@ -99,6 +100,16 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
                     "adequate": fit.adequate,
                 })).collect::<Vec<_>>(),
             })),
+            "torques": found.estimate.torque_choice().map(|choice| json!({
+                "used": study.torques,
+                "recommended": choice.recommended,
+                "compared": choice.compared.map(|fit| json!({
+                    "torques": fit.dependence,
+                    "unknowns": fit.unknowns,
+                    "bic_difference": fit.bic_difference,
+                    "adequate": fit.adequate,
+                })),
+            })),
         });
         return print(&serde_json::to_string_pretty(&value)?);
     }
@@ -121,9 +132,34 @@ pub(super) fn warnings(found: &Identification) -> Vec<String> {
 
 /// The result for people.
 fn summary(found: &Identification) -> String {
-    let mut text = format!("{}\n{}\n\n", found.name, basis(found));
-    let covariance = found.estimate.covariance();
-    let active = found.estimate.free() != &found.joint;
+    let mut text = format!("{}\n{}\n", found.name, basis(found));
+    let joints = found.estimate.joints();
+    for joint in joints {
+        if let Some(torque) = joint.torque_n_m {
+            let _ = write!(text, "\nat {torque} N·m");
+        }
+        text += "\n";
+        text += &parameters(found.model, joint);
+    }
+    let is_active = |joint: &JointEstimate| joint.free != *joint.joint();
+    if joints.iter().any(is_active) {
+        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
+    }
+    let _ = writeln!(text, "\n{}", fit(found));
+    text += &models(found);
+    text += &torques(found);
+    for joint in joints {
+        if let Some(result) = &joint.bootstrap {
+            text += &bootstrap(result, joint);
+        }
+    }
+    text
+}
+
+/// The parameters of one joint.
+fn parameters(model: JointModel, joint: &JointEstimate) -> String {
+    let covariance = &joint.covariance;
+    let active = joint.free != *joint.joint();
     let mut header = vec!["", "identified", "± std. dev.", "95 % interval"];
     if active {
         header.push("free estimate");
@@ -131,21 +167,22 @@ fn summary(found: &Identification) -> String {
     header.extend(["band average", "unit"]);
     let mut table = Table::new(&header);
     let intervals = covariance.intervals();
-    for (index, unknown) in Unknown::of(found.model).into_iter().enumerate() {
-        let average = found.band_average.as_ref();
+    let deviation = joint.standard_deviation(model);
+    for (index, unknown) in Unknown::of(model).into_iter().enumerate() {
+        let average = joint.band_average.as_ref();
         let [low, high] = intervals[index];
         let mut cells = vec![unknown.name.to_owned()];
         if covariance.identified[index] {
             cells.extend([
-                number(unknown.value(&found.joint), 5),
-                number(unknown.value(&found.standard_deviation), 2),
+                number(unknown.value(joint.joint()), 5),
+                number(unknown.value(&deviation), 2),
                 format!("{} … {}", number(low, 5), number(high, 5)),
             ]);
         } else {
             cells.extend(["not identified", "", ""].map(str::to_owned));
         }
         if active {
-            cells.push(number(unknown.value(found.estimate.free()), 5));
+            cells.push(number(unknown.value(&joint.free), 5));
         }
         cells.push(average.map_or_else(
             || "none".to_owned(),
@@ -154,16 +191,7 @@ fn summary(found: &Identification) -> String {
         cells.push(unknown.unit.to_owned());
         table.row(cells);
     }
-    text += &table.render();
-    if active {
-        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
-    }
-    let _ = writeln!(text, "\n{}", fit(found));
-    text += &models(found);
-    if let Some(result) = found.estimate.bootstrap() {
-        text += &bootstrap(result, &covariance.unknowns);
-    }
-    text
+    table.render()
 }
 
 /// The joint models beside each other.
@@ -175,11 +203,7 @@ fn models(found: &Identification) -> String {
         .models
         .iter()
         .map(|fit| {
-            let residual = if fit.adequate {
-                "leaves noise"
-            } else {
-                "leaves more than noise"
-            };
+            let residual = leaves(fit.adequate);
             format!("{} +{:.1} ({residual})", fit.model, fit.bic_difference)
         })
         .collect();
@@ -196,9 +220,49 @@ fn models(found: &Identification) -> String {
     format!("joint models by BIC: {}; {advice}\n", compared.join(", "))
 }
 
-fn bootstrap(result: &BootstrapResult, unknowns: &[Unknown]) -> String {
+/// A common joint beside one for each torque.
+fn torques(found: &Identification) -> String {
+    let Some(choice) = found.estimate.torque_choice() else {
+        return String::new();
+    };
+    let compared: Vec<String> = choice
+        .compared
+        .iter()
+        .map(|fit| {
+            format!(
+                "{} +{:.1} ({})",
+                fit.dependence,
+                fit.bic_difference,
+                leaves(fit.adequate)
+            )
+        })
+        .collect();
+    let advice = match (choice.any_is_adequate, choice.recommended) {
+        (true, recommended) => format!("\"{recommended}\" is the simplest adequate one"),
+        (false, closest) => format!("neither is adequate, \"{closest}\" comes closest"),
+    };
+    format!(
+        "joints over the torque by BIC: {}; {advice}\n",
+        compared.join(", ")
+    )
+}
+
+fn leaves(adequate: bool) -> &'static str {
+    if adequate {
+        "leaves noise"
+    } else {
+        "leaves more than noise"
+    }
+}
+
+fn bootstrap(result: &BootstrapResult, joint: &JointEstimate) -> String {
+    let at = joint
+        .torque_n_m
+        .map(|torque| format!(" at {torque} N·m"))
+        .unwrap_or_default();
+    let unknowns = &joint.covariance.unknowns;
     let mut text = format!(
-        "\nbootstrap: {} draws, seed {}, {} converged\n",
+        "\nbootstrap{at}: {} draws, seed {}, {} converged\n",
         result.draws, result.seed, result.converged
     );
     if result.converged > 1 {

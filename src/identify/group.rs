@@ -89,6 +89,14 @@ impl<const N: usize> Group<N> {
             .collect()
     }
 
+    /// Its assemblies one by one, the substructures taken as measured.
+    pub(super) fn with_exact_sources(&self) -> impl Iterator<Item = Self> {
+        self.blocks.iter().map(|block| Self {
+            blocks: vec![block.clone()],
+            sources: Vec::new(),
+        })
+    }
+
     fn add_sources(&mut self, members: &[&Lines], stride: usize, noisy: &impl Fn(Side) -> bool) {
         let mut seen: Vec<&Arc<MeasuredSubstructure>> = Vec::new();
         for side in [Side::A, Side::B] {

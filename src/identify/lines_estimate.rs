@@ -79,6 +79,21 @@ impl LinesEstimate {
         &self.joints[joint]
     }
 
+    /// Whether an assembly has the joint of the first one.
+    #[must_use]
+    pub fn has_first_joint(&self, assembly: usize) -> bool {
+        self.joint_of_assembly.get(assembly) == Some(&0)
+    }
+
+    /// The joints by torque.
+    #[must_use]
+    pub fn by_torque(&self) -> Vec<&JointEstimate> {
+        let mut joints: Vec<&JointEstimate> = self.joints.iter().collect();
+        let torque = |joint: &JointEstimate| joint.torque_n_m.unwrap_or(0.0);
+        joints.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
+        joints
+    }
+
     /// Covariance of the unknowns of one joint after the other, in the order of [`Self::joints`]: common errors of the
     /// substructures correlate them.
     #[must_use]
@@ -300,13 +315,17 @@ impl<const N: usize> Data<N> {
         let noisy = |side: Side| noise.acts_on(side);
         let whole = Group::all(all, 1, noisy);
         let has_sources = whole.iter().any(|group| !group.sources.is_empty());
+        let thinned = Group::all(all, stride, noisy);
+        if !has_sources {
+            return Self {
+                thinned,
+                thinned_whole: Vec::new(),
+                whole,
+            };
+        }
         Self {
-            thinned: Group::all(all, stride, |_| false),
-            thinned_whole: if has_sources {
-                Group::all(all, stride, noisy)
-            } else {
-                Vec::new()
-            },
+            thinned: thinned.iter().flat_map(Group::with_exact_sources).collect(),
+            thinned_whole: thinned,
             whole,
         }
     }
@@ -357,25 +376,32 @@ fn warnings(
             found.estimate.unknowns.len()
         ));
     }
+    let once = |warnings: &mut Vec<String>, warning: String| {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    };
     for lines in all {
         if lines.points.len() < model.dofs() {
-            warnings.push(format!(
+            let warning = format!(
                 "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
                  determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
                 lines.points.len(),
                 model.dofs(),
                 lines.points.len()
-            ));
+            );
+            once(&mut warnings, warning);
         }
     }
     for lines in all {
         if !is_complete(lines) {
-            warnings.push(format!(
+            let warning = format!(
                 "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
                  refined estimate does not need them",
                 lines.independent().len(),
                 lines.points.len() * lines.points.len()
-            ));
+            );
+            once(&mut warnings, warning);
         }
     }
     if !found.estimate.converged {

@@ -138,7 +138,7 @@ struct Final {
 }
 
 /// Where one start leads on few lines.
-fn try_start<const N: usize>(
+pub(super) fn try_start<const N: usize>(
     data: &Data<N>,
     entries: &[(usize, usize)],
     noise: &Noise,

@@ -4,13 +4,14 @@
 //! Joints of different torques are estimated together, because the errors of a measured substructure are the same in every
 //! assembly that uses it: the unknowns of one joint after the other are one vector, and each assembly has its own part of it.
 
+use std::fmt;
+
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::assessment::assess;
+use super::assessment::{Assessment, assess};
 use super::choice::bayesian_criterion;
 use super::estimator::{Estimate, Free, estimate};
-use super::group::Group;
 use super::lines::Lines;
 use super::model::JointModel;
 use super::noise::Noise;
@@ -26,6 +27,16 @@ pub enum TorqueDependence {
     Common,
     /// A joint for each torque, common to the assemblies tightened to it.
     Separate,
+}
+
+/// As in a study.
+impl fmt::Display for TorqueDependence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Common => "common",
+            Self::Separate => "separate",
+        })
+    }
 }
 
 /// A common joint beside one for each torque.
@@ -143,21 +154,15 @@ impl<'a> Assignment<'a> {
 pub(super) struct Problem<'a, const N: usize> {
     assignment: Assignment<'a>,
     noise: &'a Noise,
-    /// Few lines and all; where there are several joints the few stay empty, since each is first sought by itself.
     data: Data<N>,
 }
 
 impl<'a, const N: usize> Problem<'a, N> {
     pub(super) fn new(assignment: Assignment<'a>, noise: &'a Noise) -> Self {
-        let data = if assignment.joints == 1 {
-            Data::of(&assignment.all, noise)
-        } else {
-            Data::unthinned(&assignment.all, noise)
-        };
         Self {
+            data: Data::of(&assignment.all, noise),
             assignment,
             noise,
-            data,
         }
     }
 
@@ -190,7 +195,7 @@ impl<'a, const N: usize> Problem<'a, N> {
         if self.joints() == 1 {
             return search::best(&self.data, entries, noise, own_starts(0), effort);
         }
-        let mut together = Vec::with_capacity(self.joints() * model.unknowns());
+        let mut joints = Vec::with_capacity(self.joints());
         let (mut tried, mut agreeing) = (0, 0);
         for joint in 0..self.joints() {
             let data: Data<N> = Data::of(&self.assignment.only(joint), noise);
@@ -198,28 +203,58 @@ impl<'a, const N: usize> Problem<'a, N> {
                 .map_err(|more| tried + more)?;
             tried += found.tried;
             agreeing += found.agreeing;
-            together.extend_from_slice(found.estimate.unknowns.as_slice());
+            joints.push(found.estimate.unknowns);
         }
-        let objective = self.objective(entries);
-        let start = DVector::from_vec(together);
-        let estimate = estimate(&objective, noise, None, &Free, &start, None).ok_or(tried)?;
+        let (estimate, assessment) = self.together(model, &joints, effort).ok_or(tried)?;
         Ok(Found {
-            assessment: assess(&objective, &estimate, noise).ok_or(tried)?,
             estimate,
+            assessment,
             tried,
             agreeing,
         })
     }
-}
 
-impl<const N: usize> Data<N> {
-    /// All lines of assemblies with the errors of their substructures, without the forms that a search goes through.
-    fn unthinned(all: &[(&Lines, usize)], noise: &Noise) -> Self {
-        Self {
-            thinned: Vec::new(),
-            thinned_whole: Vec::new(),
-            whole: Group::all(all, 1, |side| noise.acts_on(side)),
+    /// The estimate of all joints together from what was found of each by itself; where that does not lead to one that fits,
+    /// from each of them at all torques.
+    fn together(
+        &self,
+        model: JointModel,
+        joints: &[DVector<f64>],
+        effort: Effort,
+    ) -> Option<(Estimate, Assessment)> {
+        let (entries, noise) = (model.entries(), self.noise);
+        let objective = self.objective(entries);
+        let concatenated = |joints: &mut dyn Iterator<Item = &DVector<f64>>| {
+            let values: Vec<f64> = joints.flat_map(|joint| joint.iter().copied()).collect();
+            DVector::from_vec(values)
+        };
+        let everywhere = joints
+            .iter()
+            .map(|joint| concatenated(&mut joints.iter().map(|_| joint)));
+        let starts = std::iter::once(concatenated(&mut joints.iter())).chain(everywhere);
+        let mut best: Option<(Estimate, Assessment)> = None;
+        for start in starts {
+            // The errors of the substructures have moved each joint by itself, and differently. First all have to be moved alike
+            // by them: a joint too far from its neighbours would be explained by other errors than theirs.
+            let Some(near) = search::try_start(&self.data, entries, noise, &start) else {
+                continue;
+            };
+            let Some(found) = estimate(&objective, noise, None, &Free, &near.unknowns, None) else {
+                continue;
+            };
+            let Some(assessment) = assess(&objective, &found, noise) else {
+                continue;
+            };
+            let fits = found.converged && assessment.fits();
+            let lower = |(best, _): &(Estimate, Assessment)| found.misfit < best.misfit;
+            if best.as_ref().is_none_or(lower) {
+                best = Some((found, assessment));
+            }
+            if fits || effort == Effort::Related && best.is_some() {
+                break;
+            }
         }
+        best
     }
 }
 
@@ -268,6 +303,12 @@ pub(super) fn compare<const N: usize>(
         .filter(|fit| fit.adequate || !any_is_adequate)
         .min_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference))
         .map_or(used, |fit| fit.dependence);
+    // Of exact data a common joint leaves rounding, which is no likelihood: nothing is better than that.
+    let recommended = if common.assessment.is_exact {
+        TorqueDependence::Common
+    } else {
+        recommended
+    };
     Some(TorqueChoice {
         compared,
         recommended,

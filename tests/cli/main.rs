@@ -19,5 +19,6 @@ mod output;
 mod report;
 mod rig;
 mod study;
+mod torque;
 mod universal_file;
 mod usage;

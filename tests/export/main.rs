@@ -36,6 +36,7 @@ fn options(interface: Interface) -> Result<ExportOptions, ExportError> {
         version: FmiVersion::V3,
         step_size_max_s: None,
         platforms: None,
+        preload_n_m: None,
         allow_active: false,
         date: Timestamp::from_epoch_text("1260282802")?,
     })

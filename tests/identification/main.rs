@@ -13,3 +13,4 @@ mod measured;
 mod monte_carlo;
 mod published;
 mod refined;
+mod torque;

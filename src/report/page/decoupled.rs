@@ -9,7 +9,7 @@ use super::super::look::Look;
 use super::IdentificationReport;
 use super::figure::figure;
 use super::parameters::{interval, symbol};
-use crate::html::{beside, percent};
+use crate::html::{beside, percent, quantity};
 use crate::identify::{JointMatrices, JointModel, Unknown};
 use crate::structure::ComplexMatrix;
 
@@ -34,6 +34,12 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
              line across is the estimate, with its 95 % interval. Where the receptances say little about the joint the dots \
              scatter, and because noise is inverted with them they are drawn away from the joint's values, not only \
              spread about them.</p>\n";
+    if let Some(torque) = found.estimate.joints()[0].torque_n_m {
+        html += &format!(
+            "<p>At {}, the torque of the first assembly.</p>\n",
+            quantity(torque, "N·m")
+        );
+    }
     let unknowns = Unknown::of(found.model);
     let entries = found.model.entries().len();
     for entry in 0..entries {
@@ -62,14 +68,16 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     html
 }
 
-/// Frequency and joint of each line of every assembly that can be decoupled, in ascending order.
+/// Frequency and joint of each line that can be decoupled of every assembly with the first one's joint, in ascending order.
 fn decoupled(report: &IdentificationReport<'_>) -> (Vec<f64>, Vec<JointMatrices>) {
     let assemblies = report.assemblies();
     let decoupled = report.found.estimate.decoupled();
     let mut lines: Vec<(f64, JointMatrices)> = assemblies
         .iter()
         .zip(decoupled)
-        .flat_map(|(assembly, decoupled)| assembly.lines.frequency_hz.iter().zip(decoupled))
+        .enumerate()
+        .filter(|&(number, _)| report.found.estimate.has_first_joint(number))
+        .flat_map(|(_, (assembly, decoupled))| assembly.lines.frequency_hz.iter().zip(decoupled))
         .filter_map(|(&hz, stiffness)| Some((hz, matrices(hz, stiffness.as_ref()?))))
         .collect();
     lines.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,9 +1,9 @@
 //! How well the joint fits, which joint model the data call for, and whether the joint is passive.
 
 use super::parameters::symbol;
-use super::{IdentificationReport, counted};
-use crate::html::{capitalised, cell, escaped, number_cell, percent, shown, table};
-use crate::identify::Unknown;
+use super::{IdentificationReport, counted, over_torque};
+use crate::html::{capitalised, cell, escaped, number_cell, percent, quantity, shown, table};
+use crate::identify::{JointEstimate, JointModel, Unknown};
 use crate::joint::JointFile;
 
 /// The result in a few sentences, and what to beware of.
@@ -24,18 +24,13 @@ pub(super) fn summary(report: &IdentificationReport<'_>, file: &JointFile) -> St
     } else {
         "active"
     };
-    let covariance = found.estimate.covariance();
-    let open = covariance
-        .identified
-        .iter()
-        .filter(|identified| !**identified)
-        .count();
-    let determined = match open {
+    let joints = found.estimate.joints();
+    let identified = || joints.iter().flat_map(|joint| &joint.covariance.identified);
+    let determined = match identified().filter(|identified| !**identified).count() {
         0 => "the data determine every parameter".to_owned(),
         open => format!(
-            "{} of {} parameters are not identified",
-            open,
-            covariance.identified.len()
+            "{open} of {} parameters are not identified",
+            identified().count()
         ),
     };
     let mut html = format!(
@@ -60,9 +55,10 @@ pub(super) fn summary(report: &IdentificationReport<'_>, file: &JointFile) -> St
 
 pub(super) fn section(report: &IdentificationReport<'_>, file: &JointFile) -> String {
     format!(
-        "<h2>How well it fits</h2>\n{}{}{}",
+        "<h2>How well it fits</h2>\n{}{}{}{}",
         fit(report),
         choice(report),
+        over_torque::choice(report),
         passivity(report, file)
     )
 }
@@ -204,13 +200,24 @@ fn passivity(report: &IdentificationReport<'_>, file: &JointFile) -> String {
         "<h3>Passivity</h3>\n<p>A passive joint stores energy or takes it: its matrices are positive semidefinite.</p>\n\
          <ul>\n{verdicts}</ul>\n"
     );
-    let free = found.estimate.free();
-    if free == &found.joint {
+    let joints = found.estimate.by_torque();
+    let active = joints.iter().filter(|joint| joint.free != *joint.joint());
+    let tables: String = active
+        .map(|joint| free_and_passive(found.model, joint))
+        .collect();
+    if tables.is_empty() {
         html += "<p>The free estimate is passive already: free and passive estimate are the same.</p>\n";
         return html;
     }
-    let identified = &found.estimate.covariance().identified;
-    let rows: Vec<String> = Unknown::of(found.model)
+    html += &tables;
+    html + "<p>The free estimate is active. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
+            holds.</p>\n"
+}
+
+/// Both estimates of a joint whose free one is active.
+fn free_and_passive(model: JointModel, joint: &JointEstimate) -> String {
+    let identified = &joint.covariance.identified;
+    let rows: Vec<String> = Unknown::of(model)
         .into_iter()
         .zip(identified)
         .map(|(unknown, identified)| {
@@ -221,13 +228,18 @@ fn passivity(report: &IdentificationReport<'_>, file: &JointFile) -> String {
             format!(
                 "<th scope=\"row\">{}</th>{}{}{}",
                 symbol(unknown.name),
-                value(free),
-                value(&found.joint),
+                value(&joint.free),
+                value(joint.joint()),
                 cell(unknown.unit)
             )
         })
         .collect();
-    html += &table(&["", "Free estimate", "Passive estimate", "Unit"], &rows);
-    html + "<p>The free estimate is active. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
-            holds.</p>\n"
+    let heading = joint
+        .torque_n_m
+        .map(|torque| format!("<p>At {}:</p>\n", quantity(torque, "N·m")))
+        .unwrap_or_default();
+    format!(
+        "{heading}{}",
+        table(&["", "Free estimate", "Passive estimate", "Unit"], &rows)
+    )
 }

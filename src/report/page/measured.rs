@@ -6,7 +6,7 @@ use super::{Assembly, IdentificationReport, counted};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    FrfFile, JointModel, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+    FrfFile, JointModel, Level, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -22,8 +22,14 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let further = study
         .further
         .iter()
-        .map(|assembly| (&assembly.file, assembly.repeats.len(), assembly.torque_n_m));
-    let sources = std::iter::once((&study.assembly, study.repeats.len(), study.torque_n_m));
+        .map(|own| (&own.file, own.repeats.len(), own.torque_n_m, own.level));
+    let first = (
+        &study.assembly,
+        study.repeats.len(),
+        study.torque_n_m,
+        study.level,
+    );
+    let sources = std::iter::once(first);
     for (number, (source, measured)) in sources.chain(further).zip(&assemblies).enumerate() {
         let name = match assemblies.len() {
             1 => "Assembly".to_owned(),
@@ -161,7 +167,7 @@ fn beam(beam: &Beam) -> String {
 }
 
 fn assembly(
-    (file, repeats, torque_n_m): (&FrfFile, usize, Option<f64>),
+    (file, repeats, torque_n_m, level): (&FrfFile, usize, Option<f64>, Option<Level>),
     measured: &Assembly<'_>,
 ) -> String {
     let frequency_hz = &measured.lines.frequency_hz;
@@ -196,6 +202,9 @@ fn assembly(
     }
     if let Some(torque) = torque_n_m {
         html += &format!("; tightened to {} N·m", number(torque));
+    }
+    if let Some(level) = level {
+        html += &format!("; {}", escaped(&level.to_string()));
     }
     html
 }
@@ -304,7 +313,9 @@ fn noise(report: &IdentificationReport<'_>) -> String {
 fn assumptions(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut list = vec![
-        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency.".to_owned(),
+        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency, nor on the level at which \
+         was measured."
+            .to_owned(),
         "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
         "Errors of measured functions are independent from line to line and from function to function, and circular in the \
          complex plane. Standard deviations are those of the complex error."

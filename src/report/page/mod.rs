@@ -6,6 +6,7 @@ mod functions;
 mod judgement;
 mod measured;
 mod origin;
+mod over_torque;
 mod parameters;
 mod sensitivity;
 

@@ -9,7 +9,7 @@ use super::figure::figure;
 use super::parameters::symbol;
 use super::{Assembly, IdentificationReport};
 use crate::html::{cell, escaped, number_cell, shown, table};
-use crate::identify::{Sensitivity, Unknown, sensitivities};
+use crate::identify::{JointMatrices, Sensitivity, Unknown, sensitivities};
 
 /// Functions whose sensitivities are drawn at most.
 const MOST_FIGURES: usize = 3;
@@ -30,7 +30,8 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let mut rows = Vec::new();
     let mut figures = String::new();
     for (number, assembly) in assemblies.iter().enumerate() {
-        let found = sensitivities(assembly.lines, report.found.model, &report.found.joint);
+        let joint = report.found.estimate.joint_of(number).joint();
+        let found = sensitivities(assembly.lines, report.found.model, joint);
         let found = match found {
             Ok(found) => found,
             Err(error) => {
@@ -48,7 +49,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             if own.is_empty() {
                 continue;
             }
-            let curves = curves(report, &unknowns, &own);
+            let curves = curves(joint, &unknowns, &own);
             let name = format!("{} / {}", fit.response, fit.reference);
             let assembly_cell = match assemblies.len() {
                 1 => String::new(),
@@ -80,11 +81,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     html + &figures
 }
 
-fn curves(
-    report: &IdentificationReport<'_>,
-    unknowns: &[Unknown],
-    own: &[&Sensitivity],
-) -> Vec<Curve> {
+fn curves(joint: &JointMatrices, unknowns: &[Unknown], own: &[&Sensitivity]) -> Vec<Curve> {
     let entries = unknowns.len() / 2;
     let relative = |derivative: &[Complex64], of: &Sensitivity, scale: f64| -> Vec<f64> {
         let lines = derivative.iter().zip(&of.assembly);
@@ -97,7 +94,7 @@ fn curves(
         .enumerate()
         .filter_map(|(index, unknown)| {
             let sensitivity = own.get(index % entries)?;
-            let scale = unknown.value(&report.found.joint).abs();
+            let scale = unknown.value(joint).abs();
             let colour = COLOURS[index % entries % COLOURS.len()];
             let (look, values) = if index < entries {
                 (

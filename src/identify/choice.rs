@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::layout::Layout;
 use super::model::JointModel;
 use super::noise::Noise;
 use super::search::{self, Data, Effort, Found};
@@ -22,6 +23,8 @@ pub struct ModelChoice {
 pub struct ModelFit {
     /// The model.
     pub model: JointModel,
+    /// How many unknowns it has: those of every joint.
+    pub unknowns: usize,
     /// −2 ln L + p ln n, less that of the best model: Schwarz's criterion with p unknowns and n real numbers.
     pub bic_difference: f64,
     /// χ² over degrees of freedom where the noise is stated, else the residual's mean square beside that of the best model.
@@ -30,10 +33,10 @@ pub struct ModelFit {
     pub adequate: bool,
 }
 
-/// Compares the models; `found` is the estimate of `model`.
+/// Compares the models; `found` is the estimate of `layout`.
 pub(super) fn compare<const N: usize>(
     data: &Data<N>,
-    model: JointModel,
+    layout: &Layout,
     noise: &Noise,
     found: &Found,
 ) -> ModelChoice {
@@ -42,28 +45,29 @@ pub(super) fn compare<const N: usize>(
         JointModel::Diagonal,
         JointModel::Full,
     ];
-    let fits: Vec<(JointModel, Found)> = all
+    let fits: Vec<(Layout, Found)> = all
         .into_iter()
-        .filter(|other| other.dofs() <= N)
+        .filter_map(|other| layout.with_model(other))
         .filter_map(|other| {
-            if other == model {
+            if other == *layout {
                 return Some((other, found.clone()));
             }
-            let start = embedded(model, &found.estimate.unknowns, other);
+            let start = embedded(layout, &found.estimate.unknowns, &other);
             let effort = Effort::Related;
-            let found = search::best(data, other.entries(), noise, vec![start], effort).ok()?;
+            let found = search::best(data, &other.places(), noise, vec![start], effort).ok()?;
             Some((other, found))
         })
         .collect();
-    let bic = |(model, found): &(JointModel, Found)| {
+    let bic = |(layout, found): &(Layout, Found)| {
         let numbers = 2.0 * found.estimate.measurements as f64;
-        found.estimate.misfit + model.unknowns() as f64 * numbers.ln()
+        found.estimate.misfit + layout.unknowns() as f64 * numbers.ln()
     };
     let lowest = fits.iter().map(bic).fold(f64::INFINITY, f64::min);
     let models: Vec<ModelFit> = fits
         .iter()
         .map(|fit| ModelFit {
-            model: fit.0,
+            model: fit.0.model(),
+            unknowns: fit.0.unknowns(),
             bic_difference: bic(fit) - lowest,
             reduced_chi_squared: noise
                 .is_stated()
@@ -77,7 +81,7 @@ pub(super) fn compare<const N: usize>(
         .iter()
         .filter(|fit| fit.adequate || !any_is_adequate)
         .min_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference))
-        .map_or(model, |fit| fit.model);
+        .map_or(layout.model(), |fit| fit.model);
     ModelChoice {
         models,
         recommended,
@@ -86,13 +90,13 @@ pub(super) fn compare<const N: usize>(
 }
 
 /// The unknowns of one model as those of another: what it has not is zero.
-fn embedded(from: JointModel, unknowns: &DVector<f64>, to: JointModel) -> DVector<f64> {
-    let count = from.entries().len();
+fn embedded(from: &Layout, unknowns: &DVector<f64>, to: &Layout) -> DVector<f64> {
+    let (own, others) = (from.places(), to.places());
     let mut values = Vec::with_capacity(to.unknowns());
     for matrix in 0..2 {
-        for entry in to.entries() {
-            let place = from.entries().iter().position(|other| other == entry);
-            values.push(place.map_or(0.0, |place| unknowns[matrix * count + place]));
+        for place in &others {
+            let index = own.iter().position(|other| other == place);
+            values.push(index.map_or(0.0, |index| unknowns[matrix * own.len() + index]));
         }
     }
     DVector::from_vec(values)

@@ -6,6 +6,7 @@ use crate::structure::ComplexMatrix;
 
 use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
+use super::layout::Bolts;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
@@ -21,13 +22,15 @@ pub struct Identification {
     pub model: JointModel,
     /// The data of the first assembly.
     pub lines: Lines,
-    /// K* of each line by (3.21); `None` where a matrix was singular.
+    /// The bolts.
+    pub bolts: Bolts,
+    /// K* of each line by (3.21), over the DOFs of all bolts; `None` where a matrix was singular.
     pub decoupled: Vec<Option<ComplexMatrix>>,
-    /// Average of the decoupled values over bands, where every entry had lines.
+    /// Average of the decoupled values over bands, where every entry had lines; at the first bolt where every bolt has its own.
     pub band_average: Option<JointMatrices>,
-    /// The passive estimate, which is the free one where that is passive.
+    /// The passive estimate, which is the free one where that is passive; at the first bolt where every bolt has its own.
     pub joint: JointMatrices,
-    /// One standard deviation of each entry; infinite where the data do not determine the joint.
+    /// One standard deviation of each entry of `joint`; infinite where the data do not determine the joint.
     pub standard_deviation: JointMatrices,
     /// The assembly's receptances H^C_ss with the estimated joint, line by line.
     pub regenerated: Vec<ComplexMatrix>,
@@ -95,6 +98,7 @@ pub fn identify_and_draw(
 ) -> Result<Identification, IdentifyError> {
     let (all, mut warnings) = assemble::lines(study)?;
     let options = Options {
+        bolts: study.bolts.clone(),
         noise: study.noise,
         bands: study.bands.clone(),
         start: None,
@@ -105,7 +109,7 @@ pub fn identify_and_draw(
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
     for lines in all {
-        let regenerated = lines.regenerated(estimate.joint())?;
+        let regenerated = lines.regenerated(estimate.whole())?;
         let fits: Vec<FunctionFit> = lines
             .measured
             .iter()
@@ -131,8 +135,9 @@ pub fn identify_and_draw(
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
+        bolts: study.bolts.clone(),
         decoupled: estimate.decoupled.first().cloned().unwrap_or_default(),
-        band_average: estimate.band_average.clone(),
+        band_average: estimate.band_average().cloned(),
         joint: estimate.joint().clone(),
         standard_deviation: estimate.standard_deviation(study.model),
         lines: first.lines,

@@ -12,21 +12,44 @@ use super::lines_estimate::BootstrapResult;
 use super::model::{JointMatrices, JointModel};
 
 impl Identification {
-    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from.
+    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from. Where every
+    /// bolt has a joint of its own it is that of the first; [`Self::joint_files`] gives all.
     #[must_use]
     pub fn joint_file(&self) -> JointFile {
+        self.file_of(0)
+    }
+
+    /// A joint file for each bolt that has a joint of its own, with its name; without such bolts the one for all.
+    #[must_use]
+    pub fn joint_files(&self) -> Vec<(Option<&str>, JointFile)> {
+        match self.bolts.with_own_joint() {
+            [] => vec![(None, self.file_of(0))],
+            bolts => bolts
+                .iter()
+                .enumerate()
+                .map(|(joint, bolt)| (Some(bolt.as_str()), self.file_of(joint)))
+                .collect(),
+        }
+    }
+
+    fn file_of(&self, joint: usize) -> JointFile {
+        let matrices = &self.estimate.joints()[joint];
+        let name = match self.bolts.with_own_joint().get(joint) {
+            Some(bolt) => format!("{}, {bolt}", self.name),
+            None => self.name.clone(),
+        };
         JointFile {
             format: Format::V1,
-            name: self.name.clone(),
+            name,
             joint: Joint {
                 dofs: self.model.into(),
-                stiffness: rows(&self.joint.stiffness),
-                damping: rows(&self.joint.damping),
+                stiffness: rows(&matrices.stiffness),
+                damping: rows(&matrices.damping),
                 cubic: vec![0.0; self.model.dofs()],
                 over_preload: None,
             },
             bodies: self.bodies.clone(),
-            uncertainty: self.uncertainty(),
+            uncertainty: self.uncertainty(joint),
             validity: Some(Validity {
                 frequency_hz: self.frequency_hz(),
                 torque_n_m: self.torque_n_m,
@@ -46,9 +69,11 @@ impl Identification {
         })
     }
 
-    fn uncertainty(&self) -> Option<Uncertainty> {
+    fn uncertainty(&self, joint: usize) -> Option<Uncertainty> {
         let covariance = self.estimate.covariance();
-        let deviation = covariance.standard_deviation();
+        let own = self.estimate.unknowns_of(joint);
+        let all = covariance.standard_deviation();
+        let deviation: Vec<f64> = own.iter().map(|&index| all[index]).collect();
         if deviation.iter().any(|value| !value.is_finite()) {
             return None;
         }
@@ -63,27 +88,35 @@ impl Identification {
         } else {
             "the assembly only"
         };
-        let inflation = covariance.inflation.iter().copied().fold(1.0, f64::max);
-        let free = self.estimate.free();
-        let names = covariance.unknowns.iter().map(|unknown| unknown.name);
-        let not_identified = names
-            .clone()
-            .zip(&covariance.identified)
-            .filter(|(_, identified)| !**identified)
-            .map(|(name, _)| name.to_owned());
+        let inflation = own.iter().map(|&index| covariance.inflation[index]);
+        let inflation = inflation.fold(1.0, f64::max);
+        let (free, passive) = (
+            &self.estimate.free_joints()[joint],
+            &self.estimate.joints()[joint],
+        );
+        let name = |&index: &usize| covariance.unknowns[index].name.to_owned();
+        let open = own.iter().filter(|&&index| !covariance.identified[index]);
+        let intervals_of_all = covariance.intervals();
+        let own_intervals: Vec<[f64; 2]> =
+            own.iter().map(|&index| intervals_of_all[index]).collect();
         Some(Uncertainty {
             standard_deviation: deviations(self.model, &deviation),
             basis: format!(
                 "information matrix of the maximum-likelihood estimate with {noise}; random errors of the receptances of {of}"
             ),
             correlation: Some(Correlation {
-                unknowns: names.map(str::to_owned).collect(),
-                matrix: rows(&covariance.correlation()),
+                unknowns: own.iter().map(name).collect(),
+                matrix: rows(
+                    &covariance
+                        .correlation()
+                        .select_rows(&own)
+                        .select_columns(&own),
+                ),
             }),
-            interval_95: Some(intervals(self.model, &covariance.intervals())),
+            interval_95: Some(intervals(self.model, &own_intervals)),
             inflation: (inflation > 1.0).then_some(inflation),
-            not_identified: not_identified.collect(),
-            free_estimate: (*free != self.joint).then(|| FreeEstimate {
+            not_identified: open.map(name).collect(),
+            free_estimate: (free != passive).then(|| FreeEstimate {
                 stiffness: rows(&free.stiffness),
                 damping: rows(&free.damping),
             }),
@@ -91,7 +124,7 @@ impl Identification {
                 .estimate
                 .bootstrap()
                 .filter(|result| result.converged > 1)
-                .map(|result| bootstrap(self.model, result)),
+                .map(|result| bootstrap(self.model, result, &own)),
         })
     }
 
@@ -152,13 +185,19 @@ fn intervals(model: JointModel, intervals: &[[f64; 2]]) -> Intervals {
     }
 }
 
-fn bootstrap(model: JointModel, result: &BootstrapResult) -> BootstrapRecord {
+/// The bootstrap of the unknowns number `own`, those of one joint.
+fn bootstrap(model: JointModel, result: &BootstrapResult, own: &[usize]) -> BootstrapRecord {
+    let deviation: Vec<f64> = own
+        .iter()
+        .map(|&index| result.standard_deviation[index])
+        .collect();
+    let ends: Vec<[f64; 2]> = own.iter().map(|&index| result.intervals[index]).collect();
     BootstrapRecord {
         draws: result.draws,
         seed: result.seed,
         converged: result.converged,
-        standard_deviation: deviations(model, &result.standard_deviation),
-        interval_95: intervals(model, &result.intervals),
+        standard_deviation: deviations(model, &deviation),
+        interval_95: intervals(model, &ends),
     }
 }
 

@@ -3,21 +3,25 @@
 use nalgebra::DVector;
 
 use crate::frf::Dof;
-use crate::structure::{ComplexMatrix, Partition};
+use crate::structure::{ComplexMatrix, CouplingError, Partition};
 
 use super::assessment::{self, Assessment};
-use super::bands::{self, Bands};
+use super::band_choice;
+use super::bands::{self, BandChoice, BandChoices, Bands, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
 use super::group::{Group, Side};
+use super::layout::{Bolts, Layout};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel, StatedLevel};
 use super::objective::Objective;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
+use super::sensitivity::{self, Sensitivity};
+use super::starts;
 use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
 
@@ -27,11 +31,13 @@ const UNRELIABLE: f64 = 0.5;
 /// What an identification from lines is to do beyond the estimate itself.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
+    /// The bolts, whose DOFs follow one another in the lines.
+    pub bolts: Bolts,
     /// Noise of everything measured.
     pub noise: Noise,
     /// Bands of the averages.
-    pub bands: Bands,
-    /// A joint to start from, beside the starts that the data give.
+    pub bands: BandChoices,
+    /// A joint to start from at every bolt, beside the starts that the data give.
     pub start: Option<JointMatrices>,
     /// Whether to compare the joint models.
     pub compare_models: bool,
@@ -45,9 +51,15 @@ pub struct Options<'a> {
 #[derive(Clone, Debug)]
 pub struct LinesEstimate {
     pub(super) decoupled: Vec<Vec<Option<ComplexMatrix>>>,
-    pub(super) band_average: Option<JointMatrices>,
-    pub(super) free: JointMatrices,
-    pub(super) passive: Option<JointMatrices>,
+    /// Of each entry of each joint.
+    pub(super) bands: Vec<Vec<UsedBands>>,
+    /// Of each joint.
+    pub(super) band_averages: Option<Vec<JointMatrices>>,
+    pub(super) free: Vec<JointMatrices>,
+    pub(super) passive: Option<Vec<JointMatrices>>,
+    /// The passive joint at every bolt.
+    pub(super) whole: JointMatrices,
+    pub(super) layout: Layout,
     pub(super) covariance: Covariance,
     pub(super) assessment: Assessment,
     pub(super) noise_level: Option<NoiseLevel>,
@@ -73,21 +85,39 @@ pub struct BootstrapResult {
 }
 
 impl LinesEstimate {
-    /// K* of each line of each assembly by (3.21); `None` where it cannot be had.
+    /// K* of each line of each assembly by (3.21), over the DOFs of all bolts; `None` where it cannot be had.
     #[must_use]
     pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
         &self.decoupled
     }
 
-    /// The joint: the passive estimate where there is one.
+    /// The joint, at the first bolt where every bolt has its own: the passive estimate where there is one.
     #[must_use]
     pub fn joint(&self) -> &JointMatrices {
+        &self.joints()[0]
+    }
+
+    /// The joint of each bolt that has one of its own, or the one for all.
+    #[must_use]
+    pub fn joints(&self) -> &[JointMatrices] {
         self.passive.as_ref().unwrap_or(&self.free)
     }
 
-    /// The estimate that is free to be active.
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`] takes them.
+    #[must_use]
+    pub fn whole(&self) -> &JointMatrices {
+        &self.whole
+    }
+
+    /// The estimate that is free to be active, at the first bolt where every bolt has its own.
     #[must_use]
     pub fn free(&self) -> &JointMatrices {
+        &self.free[0]
+    }
+
+    /// The same of each joint.
+    #[must_use]
+    pub fn free_joints(&self) -> &[JointMatrices] {
         &self.free
     }
 
@@ -97,10 +127,38 @@ impl LinesEstimate {
         &self.covariance
     }
 
-    /// One standard deviation of each entry.
+    /// One standard deviation of each entry, at the first bolt where every bolt has its own.
     #[must_use]
     pub fn standard_deviation(&self, model: JointModel) -> JointMatrices {
-        JointMatrices::from_unknowns(model, &self.covariance.standard_deviation())
+        let deviation = self.covariance.standard_deviation();
+        JointMatrices::from_unknowns(model, &self.layout.of_joint(&deviation, 0))
+    }
+
+    /// Where the unknowns of one joint stand among those of the covariance.
+    #[must_use]
+    pub fn unknowns_of(&self, joint: usize) -> Vec<usize> {
+        self.layout.indices_of(joint)
+    }
+
+    /// How much each measured receptance of `lines` depends on each unknown entry, at this estimate.
+    ///
+    /// # Errors
+    /// [`CouplingError::Singular`] at an undamped resonance.
+    pub fn sensitivities(&self, lines: &Lines) -> Result<Vec<Sensitivity>, CouplingError> {
+        sensitivity::to_unknowns(lines, &self.layout, &self.whole)
+    }
+
+    /// K* of each line of each assembly at the bolts that joint number `joint` is at, a list for each of them.
+    #[must_use]
+    pub fn decoupled_of(&self, joint: usize) -> Vec<Vec<Vec<Option<ComplexMatrix>>>> {
+        let dofs = self.layout.model().dofs();
+        let at = |bolt| {
+            let lists = self.decoupled.iter();
+            lists
+                .map(|list| decoupling::of_bolt(list, bolt, dofs))
+                .collect()
+        };
+        self.layout.bolts_with(joint).map(at).collect()
     }
 
     /// Whether the residual is noise.
@@ -115,10 +173,22 @@ impl LinesEstimate {
         self.noise_level
     }
 
-    /// Average of the decoupled values, one of the starts.
+    /// Average of the decoupled values, one of the starts; at the first bolt where every bolt has its own.
     #[must_use]
     pub fn band_average(&self) -> Option<&JointMatrices> {
-        self.band_average.as_ref()
+        self.band_averages.as_ref()?.first()
+    }
+
+    /// The bands that each entry of each joint is averaged over.
+    #[must_use]
+    pub fn bands(&self) -> &[Vec<UsedBands>] {
+        &self.bands
+    }
+
+    /// The same of each joint.
+    #[must_use]
+    pub fn band_averages(&self) -> Option<&[JointMatrices]> {
+        self.band_averages.as_deref()
     }
 
     /// How many starts were tried, and how many of them led to this estimate.
@@ -157,48 +227,53 @@ pub fn identify_lines(
 ) -> Result<LinesEstimate, IdentifyError> {
     let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
     let dofs = first.map_or(0, |lines| lines.a_joint[0].nrows());
-    if all.iter().any(|lines| lines.measured.is_empty()) || dofs < model.dofs() {
+    let layout = Layout::new(model, &options.bolts, dofs);
+    let is_empty = all.iter().any(|lines| lines.measured.is_empty());
+    let Some(layout) = layout.filter(|_| !is_empty) else {
         return Err(no_estimate(all, 0));
-    }
+    };
     match dofs {
-        1 => identify_with::<1>(all, model, options),
-        2 => identify_with::<2>(all, model, options),
+        1 => identify_with::<1>(all, layout, options),
+        2 => identify_with::<2>(all, layout, options),
+        3 => identify_with::<3>(all, layout, options),
+        4 => identify_with::<4>(all, layout, options),
+        6 => identify_with::<6>(all, layout, options),
+        8 => identify_with::<8>(all, layout, options),
         _ => Err(no_estimate(all, 0)),
     }
 }
 
 fn identify_with<const N: usize>(
     all: &[Lines],
-    model: JointModel,
+    layout: Layout,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
-    let decoupled: Vec<_> = all.iter().map(decouple).collect();
-    let pooled: (Vec<f64>, Vec<Option<ComplexMatrix>>) = all
-        .iter()
-        .zip(&decoupled)
-        .flat_map(|(lines, decoupled)| lines.frequency_hz.iter().copied().zip(decoupled.clone()))
-        .unzip();
-    let band_average = bands::band_average(model, &pooled.0, &pooled.1, &options.bands);
+    let decoupled: Vec<_> = all.iter().map(|lines| decouple(lines, &layout)).collect();
     let data = data::<N>(all, &options.noise);
+    let bands = used_bands(all, &decoupled, &layout, &options.bands, &data);
+    let band_averages = band_averages(all, &decoupled, &layout, &bands);
     let noise = &options.noise;
-    let starts = [options.start.as_ref(), band_average.as_ref()];
-    let starts: Vec<DVector<f64>> = starts
+    let start = options.start.as_ref().map(std::slice::from_ref);
+    let starts: Vec<DVector<f64>> = [start, band_averages.as_deref()]
         .into_iter()
         .flatten()
-        .map(|joint| DVector::from_vec(joint.unknowns(model)))
+        .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
         .filter(|start| start.iter().all(|value| value.is_finite()))
         .collect();
-    let found = search::best(&data, model.entries(), noise, starts, Effort::Whole)
+    let places = layout.places();
+    let starts = bolt_starts(&data, &layout, noise, starts);
+    let found = search::best(&data, &places, noise, starts, Effort::Whole)
         .map_err(|starts| no_estimate(all, starts))?;
     let objective = Objective {
         groups: &data.whole,
-        entries: model.entries(),
+        entries: &places,
     };
     let estimate = &found.estimate;
-    let covariance = covariance(&objective, model, noise, &found);
-    let free = JointMatrices::from_unknowns(model, estimate.unknowns.as_slice());
-    let passive = passive::passive(&objective, model, noise, estimate)
-        .map(|passive| JointMatrices::from_unknowns(model, passive.unknowns.as_slice()));
+    let names = options.bolts.with_own_joint();
+    let covariance = covariance(&objective, &layout, names, noise, &found);
+    let free = layout.matrices(estimate.unknowns.as_slice());
+    let passive = passive::passive(&objective, &layout, noise, estimate)
+        .map(|passive| layout.matrices(passive.unknowns.as_slice()));
     let bootstrap = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
         let draws = bootstrap::draws(&objective, noise, estimate, bootstrap, progress)?;
@@ -206,14 +281,17 @@ fn identify_with<const N: usize>(
     });
     let choice = options
         .compare_models
-        .then(|| choice::compare(&data, model, noise, &found));
-    let mut warnings = warnings(all, model, &found, &covariance);
-    warnings.extend(undetermined(model, &free, &covariance));
+        .then(|| choice::compare(&data, &layout, noise, &found));
+    let mut warnings = warnings(all, &layout, &found, &covariance);
+    warnings.extend(undetermined(names, &free, &covariance));
     Ok(LinesEstimate {
         decoupled,
-        band_average,
+        bands,
+        band_averages,
+        whole: layout.whole(passive.as_ref().unwrap_or(&free)),
         free,
         passive,
+        layout,
         noise_level: (noise.is_stated() || estimate.degrees_of_freedom > 0)
             .then_some(estimate.levels.assembly),
         covariance,
@@ -258,18 +336,113 @@ fn is_complete(lines: &Lines) -> bool {
     (0..count).all(|p| (0..count).all(|q| has((p, q))))
 }
 
-/// K* of each line by (3.21); `None` where it cannot be had.
-fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
+/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
+fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
     let complete = is_complete(lines);
+    let used = layout.used_dofs();
     let line = |index: usize| {
-        let a_joint = &lines.a_joint[index];
+        let a_joint = lines.a_joint[index]
+            .select_rows(&used)
+            .select_columns(&used);
         // Equation (3.21) needs nothing of A but H_jj.
-        let a = Partition::of(a_joint, a_joint.nrows());
-        decoupling::from_ss(&a, &lines.b[index], &lines.assembly[index])
+        let a = Partition::of(&a_joint, used.len());
+        let b = &lines.b[index];
+        let b = Partition {
+            joint: b.joint.select_rows(&used).select_columns(&used),
+            joint_points: b.joint_points.select_rows(&used),
+            points_joint: b.points_joint.select_columns(&used),
+            points: b.points.clone(),
+        };
+        decoupling::from_ss(&a, &b, &lines.assembly[index])
     };
     (0..lines.frequency_hz.len())
         .map(|index| if complete { line(index) } else { None })
         .collect()
+}
+
+/// The average of the decoupled values of each joint over bands, from all lines of all assemblies and all bolts that have it.
+fn band_averages(
+    all: &[Lines],
+    decoupled: &[Vec<Option<ComplexMatrix>>],
+    layout: &Layout,
+    bands: &[Vec<UsedBands>],
+) -> Option<Vec<JointMatrices>> {
+    let average = |joint: usize| {
+        let (mut frequency_hz, mut values) = (Vec::new(), Vec::new());
+        for bolt in layout.bolts_with(joint) {
+            for (lines, decoupled) in all.iter().zip(decoupled) {
+                frequency_hz.extend(&lines.frequency_hz);
+                values.extend(decoupling::of_bolt(decoupled, bolt, layout.model().dofs()));
+            }
+        }
+        let bands = Bands::of_used(&bands[joint]);
+        bands::band_average(layout.model(), &frequency_hz, &values, &bands)
+    };
+    (0..layout.joints()).map(average).collect()
+}
+
+/// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at a preliminary
+/// estimate: the linear one, or the medians where there is none.
+fn used_bands<const N: usize>(
+    all: &[Lines],
+    decoupled: &[Vec<Option<ComplexMatrix>>],
+    layout: &Layout,
+    choices: &BandChoices,
+    data: &Data<N>,
+) -> Vec<Vec<UsedBands>> {
+    let medians = || {
+        let medians = BandChoices::all(BandChoice::Median);
+        let bands = band_choice::used(layout, &medians, None);
+        layout.unknowns_of(&band_averages(all, decoupled, layout, &bands)?)
+    };
+    let chosen = || {
+        if !choices.any_is_automatic() || !decoupled.iter().flatten().any(Option::is_some) {
+            return None;
+        }
+        let linear = starts::linear(&data.thinned, &layout.places(), None);
+        let preliminary = linear.map(|unknowns| unknowns.as_slice().to_vec());
+        let preliminary = preliminary.or_else(medians)?;
+        let block = data.whole.first()?.blocks.first()?;
+        let own_hz = band_choice::own_resonances(all);
+        let (hz, given) = (&all.first()?.frequency_hz, choices.given());
+        band_choice::chosen(block, hz, &own_hz, layout, &preliminary, &given)
+    };
+    band_choice::used(layout, choices, chosen().as_deref())
+}
+
+/// Factors by which one of several bolts is softer or stiffer in a start than the joint that suits them all.
+const UNLIKE: [f64; 2] = [0.2, 5.0];
+
+/// The starts that `first` and the bolts give: for bolts that differ, the estimate in which they are alike, and that with
+/// one of them softer or stiffer.
+fn bolt_starts<const N: usize>(
+    data: &Data<N>,
+    layout: &Layout,
+    noise: &Noise,
+    mut first: Vec<DVector<f64>>,
+) -> Vec<DVector<f64>> {
+    if layout.joints() == 1 {
+        return first;
+    }
+    let alike = layout.with_bolts_alike();
+    let Ok(found) = search::best(data, &alike.places(), noise, Vec::new(), Effort::Whole) else {
+        return first;
+    };
+    let joint = alike.matrices(found.estimate.unknowns.as_slice());
+    let Some(start) = layout.unknowns_of(&joint).map(DVector::from_vec) else {
+        return first;
+    };
+    for joint in 0..layout.joints() {
+        for factor in UNLIKE {
+            let mut start = start.clone();
+            for index in layout.indices_of(joint) {
+                start[index] *= factor;
+            }
+            first.push(start);
+        }
+    }
+    first.push(start);
+    first
 }
 
 pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
@@ -283,7 +456,8 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
 /// Covariance with what the residual says about the noise and about the model.
 fn covariance<const N: usize>(
     objective: &Objective<'_, N>,
-    model: JointModel,
+    layout: &Layout,
+    bolts: &[String],
     noise: &Noise,
     found: &Found,
 ) -> Covariance {
@@ -323,15 +497,14 @@ fn covariance<const N: usize>(
     let omega = blocks
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);
-    let unknowns = Unknown::of(model);
-    let (identified, sizes) = uncertainty::identified(model, &values, &deviation, &dynamic, omega);
+    let unknowns = Unknown::of_joints(layout.model(), layout.joints());
+    let names: Vec<String> = unknowns
+        .iter()
+        .map(|unknown| unknown.label(bolts))
+        .collect();
+    let (identified, sizes) = uncertainty::identified(layout, &values, &deviation, &dynamic, omega);
     Covariance {
-        determined_together: uncertainty::determined_together(
-            &unknowns,
-            &identified,
-            &sizes,
-            &matrix,
-        ),
+        determined_together: uncertainty::determined_together(&names, &identified, &sizes, &matrix),
         unknowns,
         values,
         coverage_factor: uncertainty::student_975(freedom),
@@ -341,27 +514,23 @@ fn covariance<const N: usize>(
     }
 }
 
-fn warnings(
-    all: &[Lines],
-    model: JointModel,
-    found: &Found,
-    covariance: &Covariance,
-) -> Vec<String> {
+fn warnings(all: &[Lines], layout: &Layout, found: &Found, covariance: &Covariance) -> Vec<String> {
+    let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
         warnings.push(format!(
             "{} measured values for {} unknowns: the residual does not show how well they fit; use more lines",
             2 * found.estimate.measurements,
-            model.unknowns()
+            layout.unknowns()
         ));
     }
     for lines in all {
-        if lines.points.len() < model.dofs() {
+        if lines.points.len() < dofs {
             warnings.push(format!(
-                "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
+                "{} response point{} for a joint with {dofs} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
                  determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
                 lines.points.len(),
-                model.dofs(),
+                if lines.points.len() == 1 { "" } else { "s" },
                 lines.points.len()
             ));
         }
@@ -390,14 +559,20 @@ fn warnings(
     warnings
 }
 
-fn undetermined(model: JointModel, joint: &JointMatrices, covariance: &Covariance) -> Vec<String> {
+/// What the data do not determine of the unknowns, by name; `bolts` are those that have joints of their own.
+fn undetermined(
+    bolts: &[String],
+    joints: &[JointMatrices],
+    covariance: &Covariance,
+) -> Vec<String> {
     let deviations = covariance.standard_deviation();
     let mut warnings = Vec::new();
-    let open: Vec<&str> = Unknown::of(model)
+    let open: Vec<String> = covariance
+        .unknowns
         .iter()
         .zip(&covariance.identified)
         .filter(|(_, identified)| !**identified)
-        .map(|(unknown, _)| unknown.name)
+        .map(|(unknown, _)| unknown.label(bolts))
         .collect();
     if !open.is_empty() {
         let mut text = format!(
@@ -411,14 +586,15 @@ fn undetermined(model: JointModel, joint: &JointMatrices, covariance: &Covarianc
         }
         warnings.push(text);
     }
-    for (index, unknown) in Unknown::of(model).into_iter().enumerate() {
+    for (index, unknown) in covariance.unknowns.iter().enumerate() {
+        let joint = &joints[unknown.joint];
         let (value, deviation) = (unknown.value(joint), deviations[index]);
         // A coupling may be zero: it counts beside the largest that a passive joint has.
         let size = value.abs().max(unknown.passive_bound(joint));
         if covariance.identified[index] && deviation > UNRELIABLE * size {
             warnings.push(format!(
                 "{} = {value:.3e} {unit} has a standard deviation of {deviation:.1e} {unit}: the data hardly determine it",
-                unknown.name,
+                unknown.label(bolts),
                 unit = unknown.unit
             ));
         }

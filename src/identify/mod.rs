@@ -5,6 +5,7 @@
 
 mod assemble;
 mod assessment;
+mod band_choice;
 mod bands;
 mod block;
 mod bootstrap;
@@ -16,6 +17,7 @@ mod group;
 mod identification;
 mod joint_file;
 mod kernel;
+mod layout;
 mod lines;
 mod lines_estimate;
 mod model;
@@ -36,18 +38,20 @@ mod weights;
 
 pub use assemble::{predict_assembly, predict_lines};
 pub use assessment::Assessment;
-pub use bands::{Bands, band_average, choose_bands};
+pub use band_choice::choose_bands;
+pub use bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, band_average};
 pub use bootstrap::Bootstrap;
 pub use choice::{ModelChoice, ModelFit};
 pub use decoupling::{Equation, Inverse, decouple, from_rr, from_rs, from_sr, from_ss, of_bolt};
 pub use error::IdentifyError;
 pub use identification::{AssemblyFit, FunctionFit, Identification, identify, identify_and_draw};
+pub use layout::{Bolts, MOST_BOLTS};
 pub use lines::{Lines, MeasuredSubstructure, Repeats};
 pub use lines_estimate::{BootstrapResult, LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};
 pub use noise::{Noise, NoiseLevel, StatedLevel};
 pub use sensitivity::{Sensitivity, sensitivities};
-pub use study::{FrfFile, FurtherAssembly, Rotation, Source, Study, Substructure};
+pub use study::{FrfFile, FurtherAssembly, MeasuredJoint, Rotation, Source, Study, Substructure};
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::Covariance;
 pub use unknown::Unknown;

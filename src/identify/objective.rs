@@ -10,10 +10,13 @@ use num_complex::Complex64;
 
 use super::group::Group;
 use super::kernel::{Kernel, complex_stiffness};
+use super::layout::Place;
 use super::normal::Normal;
 
-/// Entries of K* on and above the diagonal that can be unknown.
-const MAX_ENTRIES: usize = 3;
+/// Entries of K* on and above the diagonal that can be unknown: those of four bolts with a joint of their own …
+const MAX_ENTRIES: usize = 12;
+/// … and of one joint.
+const ENTRIES_OF_ONE: usize = 3;
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
@@ -51,7 +54,7 @@ pub(super) struct State {
 pub(super) struct Objective<'a, const N: usize> {
     pub(super) groups: &'a [Group<N>],
     /// Unknown entries of K*.
-    pub(super) entries: &'a [(usize, usize)],
+    pub(super) entries: &'a [Place],
 }
 
 impl<const N: usize> Objective<'_, N> {
@@ -62,7 +65,8 @@ impl<const N: usize> Objective<'_, N> {
         };
         let (own, omega) = (&block.dynamic_stiffness, block.omega[block.lines() / 2]);
         let count = self.entries.len();
-        self.entries.iter().enumerate().all(|(index, &(i, j))| {
+        self.entries.iter().enumerate().all(|(index, place)| {
+            let (i, j) = place.first();
             let limit = RIGID * (own[i] * own[j]).sqrt();
             unknowns[index].abs() <= limit && omega * unknowns[count + index].abs() <= limit
         })
@@ -127,7 +131,12 @@ impl<const N: usize> Objective<'_, N> {
             for index in 0..group.lines() {
                 let variances = line.weights(weights, index);
                 if group.sources.is_empty() {
-                    line.accumulate(index, unknowns.as_slice(), variances.0, &mut normal)?;
+                    let (unknowns, variances) = (unknowns.as_slice(), variances.0);
+                    if self.entries.len() <= ENTRIES_OF_ONE {
+                        line.accumulate::<ENTRIES_OF_ONE>(index, unknowns, variances, &mut normal)?;
+                    } else {
+                        line.accumulate::<MAX_ENTRIES>(index, unknowns, variances, &mut normal)?;
+                    }
                     continue;
                 }
                 {
@@ -178,7 +187,7 @@ impl<const N: usize> Objective<'_, N> {
 /// One line of a group, linearised: everything that the normal equations need of it. Reused from line to line.
 pub(super) struct Line<'g, const N: usize> {
     group: &'g Group<N>,
-    joint_entries: &'g [(usize, usize)],
+    joint_entries: &'g [Place],
     kernel: Kernel<N>,
     transfer: Vec<[Complex64; N]>,
     pub(super) index: usize,
@@ -202,7 +211,7 @@ pub(super) struct Line<'g, const N: usize> {
 }
 
 impl<'g, const N: usize> Line<'g, N> {
-    fn new(group: &'g Group<N>, joint_entries: &'g [(usize, usize)]) -> Self {
+    fn new(group: &'g Group<N>, joint_entries: &'g [Place]) -> Self {
         let size = group.entries();
         Self {
             group,
@@ -315,7 +324,7 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 
     /// Linearises a line whose entries all have errors of their own and adds it to the normal equations, in one go.
-    fn accumulate(
+    fn accumulate<const E: usize>(
         &mut self,
         index: usize,
         unknowns: &[f64],
@@ -326,7 +335,7 @@ impl<'g, const N: usize> Line<'g, N> {
         let block = self.group.blocks.first()?;
         self.omega = block.omega[index];
         let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
-        let mut sums = Sums::default();
+        let mut sums = Sums::<E>::new();
         let mut variances = variances.iter();
         for block in &self.group.blocks {
             let entries = block.entries.len();
@@ -339,7 +348,7 @@ impl<'g, const N: usize> Line<'g, N> {
             for (((&entry, &own), &measured), variance) in values.zip(&mut variances) {
                 let weight = variance.recip();
                 let residual = measured - self.kernel.receptance(own, entry);
-                let mut row = [ZERO; MAX_ENTRIES];
+                let mut row = [ZERO; E];
                 for (value, &place) in row.iter_mut().zip(self.joint_entries) {
                     *value = self.kernel.by_stiffness(entry, place);
                 }
@@ -571,10 +580,21 @@ impl<'g, const N: usize> Line<'g, N> {
         let count = self.joint_entries.len();
         normal.cost += self.cost;
         normal.signal += self.signal;
-        let mut sums = Sums::default();
+        if count <= ENTRIES_OF_ONE {
+            self.add_entries_to::<ENTRIES_OF_ONE>(normal);
+        } else {
+            self.add_entries_to::<MAX_ENTRIES>(normal);
+        }
+    }
+
+    fn add_entries_to<const E: usize>(&self, normal: &mut Normal) {
+        let count = self.joint_entries.len();
+        let mut sums = Sums::<E>::new();
         for (residual, row) in self.residual.iter().zip(&self.by_joint) {
             sums.cost += residual.norm_sqr();
-            sums.add(1.0, *residual, row, count);
+            if let Some(row) = row.first_chunk::<E>() {
+                sums.add(1.0, *residual, row, count);
+            }
         }
         normal.linearised_cost += sums.cost;
         sums.add_to(normal, self.omega, count);
@@ -601,28 +621,30 @@ impl<'g, const N: usize> Line<'g, N> {
 }
 
 /// Sums over the entries of one line.
-#[derive(Default)]
-struct Sums {
+struct Sums<const E: usize> {
     cost: f64,
     signal: f64,
     /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
-    products: [[Complex64; MAX_ENTRIES]; MAX_ENTRIES],
+    products: [[Complex64; E]; E],
     /// Σ conj(∂H/∂K*_i) r / σ²
-    right: [Complex64; MAX_ENTRIES],
+    right: [Complex64; E],
 }
 
-impl Sums {
+impl<const E: usize> Sums<E> {
+    fn new() -> Self {
+        Self {
+            cost: 0.0,
+            signal: 0.0,
+            products: [[ZERO; E]; E],
+            right: [ZERO; E],
+        }
+    }
+
     #[inline]
-    fn add(
-        &mut self,
-        weight: f64,
-        residual: Complex64,
-        row: &[Complex64; MAX_ENTRIES],
-        count: usize,
-    ) {
+    fn add(&mut self, weight: f64, residual: Complex64, row: &[Complex64; E], count: usize) {
         // Rows beyond `count` are zero, so that the loops can be unrolled.
-        debug_assert!(count <= MAX_ENTRIES);
-        for i in 0..MAX_ENTRIES {
+        debug_assert!(count <= E);
+        for i in 0..E {
             let conjugate = row[i].conj() * weight;
             self.right[i] += conjugate * residual;
             for j in 0..=i {

@@ -7,9 +7,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::estimator::{Chart, Estimate, estimate};
-use super::model::{JointMatrices, JointModel};
+use super::layout::Layout;
+use super::model::JointModel;
 use super::noise::Noise;
 use super::objective::Objective;
+
+/// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
+const MOST_COMBINATIONS: usize = 256;
 
 /// Part of the boundary of the cone of one matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,102 +87,111 @@ impl Face {
     }
 }
 
-/// A face for the stiffness and one for the damping.
+/// A face for the stiffness of each joint and one for the damping of each.
 struct Faces {
+    /// Entries of one matrix of one joint.
     entries: usize,
-    stiffness: Face,
-    damping: Face,
+    /// Stiffnesses of all joints, then dampings.
+    faces: Vec<Face>,
 }
 
 impl Faces {
-    fn split<'x>(&self, x: &'x DVector<f64>) -> (&'x [f64], &'x [f64]) {
-        x.as_slice()
-            .split_at(self.stiffness.dimension(self.entries))
+    /// The coordinates of each face.
+    fn split<'x>(&self, x: &'x DVector<f64>) -> Vec<&'x [f64]> {
+        let mut rest = x.as_slice();
+        let next = |face: &Face| {
+            let (own, others) = rest.split_at(face.dimension(self.entries));
+            rest = others;
+            own
+        };
+        self.faces.iter().map(next).collect()
+    }
+
+    /// Coordinates near unknowns that may lie off the faces.
+    fn near(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        let matrices = unknowns.as_slice().chunks(self.entries);
+        let own = self.faces.iter().zip(matrices);
+        let own = own.flat_map(|(face, values)| face.near(values));
+        DVector::from_vec(own.collect())
     }
 }
 
 impl Chart for Faces {
     fn unknowns(&self, coordinates: &DVector<f64>) -> DVector<f64> {
-        let (k, c) = self.split(coordinates);
-        let mut values = self.stiffness.values(k, self.entries);
-        values.extend(self.damping.values(c, self.entries));
-        DVector::from_vec(values)
+        let own = self.faces.iter().zip(self.split(coordinates));
+        let values = own.flat_map(|(face, x)| face.values(x, self.entries));
+        DVector::from_vec(values.collect())
     }
 
     fn derivative(&self, coordinates: &DVector<f64>) -> DMatrix<f64> {
-        let (k, c) = self.split(coordinates);
-        DMatrix::from_fn(
-            2 * self.entries,
-            coordinates.len(),
-            |entry, coordinate| match (
-                entry.checked_sub(self.entries),
-                coordinate.checked_sub(k.len()),
-            ) {
-                (None, None) => self.stiffness.derivative(k, entry, coordinate),
-                (Some(entry), Some(coordinate)) => self.damping.derivative(c, entry, coordinate),
-                _ => 0.0,
-            },
-        )
+        let rows = self.entries * self.faces.len();
+        let mut derivative = DMatrix::zeros(rows, coordinates.len());
+        let mut first = 0;
+        for (matrix, (face, x)) in self.faces.iter().zip(self.split(coordinates)).enumerate() {
+            for entry in 0..self.entries {
+                for coordinate in 0..x.len() {
+                    derivative[(matrix * self.entries + entry, first + coordinate)] =
+                        face.derivative(x, entry, coordinate);
+                }
+            }
+            first += x.len();
+        }
+        derivative
     }
 }
 
-/// Whether K and C of these unknowns are passive.
-pub(super) fn is_passive(model: JointModel, unknowns: &DVector<f64>) -> [bool; 2] {
-    let joint = JointMatrices::from_unknowns(model, unknowns.as_slice());
-    [&joint.stiffness, &joint.damping].map(super::model::is_positive_semidefinite)
+/// Whether each K, joint by joint, and then each C of these unknowns is passive.
+pub(super) fn is_passive(layout: &Layout, unknowns: &DVector<f64>) -> Vec<bool> {
+    let joints = layout.matrices(unknowns.as_slice());
+    let stiffness = joints.iter().map(|joint| &joint.stiffness);
+    let damping = joints.iter().map(|joint| &joint.damping);
+    stiffness
+        .chain(damping)
+        .map(super::model::is_positive_semidefinite)
+        .collect()
 }
 
 /// The passive estimate beside the `free` one; `None` if no face has a minimum, which only a joint without any effect has.
 pub(super) fn passive<const N: usize>(
     objective: &Objective<'_, N>,
-    model: JointModel,
+    layout: &Layout,
     noise: &Noise,
     free: &Estimate,
 ) -> Option<Estimate> {
-    let inside = is_passive(model, &free.unknowns);
-    if inside == [true, true] {
+    let inside = is_passive(layout, &free.unknowns);
+    if !inside.contains(&false) {
         return Some(free.clone());
     }
-    let few = |inside: bool| {
-        if inside {
-            vec![Face::Free]
-        } else {
-            Face::of(model)
-        }
-    };
-    let lowest = lowest(objective, model, noise, free, inside.map(few));
+    let faces = || Face::of(layout.model());
+    let few = inside.iter().map(|&inside| match inside {
+        true => vec![Face::Free],
+        false => faces(),
+    });
+    let lowest = lowest(objective, layout, noise, free, &few.collect::<Vec<_>>());
     lowest.or_else(|| {
-        let all = || {
-            let mut faces = vec![Face::Free];
-            faces.extend(Face::of(model));
-            faces
-        };
-        self::lowest(objective, model, noise, free, [all(), all()])
+        // Another matrix that was passive may have left the cone: any face of any.
+        let all = inside.iter().map(|_| [vec![Face::Free], faces()].concat());
+        let all: Vec<Vec<Face>> = all.collect();
+        self::lowest(objective, layout, noise, free, &all)
     })
 }
 
+/// The lowest passive minimum over all combinations of the faces that each matrix may lie on.
 fn lowest<const N: usize>(
     objective: &Objective<'_, N>,
-    model: JointModel,
+    layout: &Layout,
     noise: &Noise,
     free: &Estimate,
-    [stiffness, damping]: [Vec<Face>; 2],
+    faces: &[Vec<Face>],
 ) -> Option<Estimate> {
-    let entries = model.entries().len();
-    let (k, c) = free.unknowns.as_slice().split_at(entries);
-    let pairs = stiffness
-        .iter()
-        .flat_map(|stiffness| damping.iter().map(move |damping| (stiffness, damping)));
-    pairs
-        .filter_map(|(stiffness, damping)| {
+    combinations(faces)
+        .into_iter()
+        .filter_map(|faces| {
             let chart = Faces {
-                entries,
-                stiffness: stiffness.clone(),
-                damping: damping.clone(),
+                entries: layout.model().entries().len(),
+                faces,
             };
-            let mut start = stiffness.near(k);
-            start.extend(damping.near(c));
-            let start = DVector::from_vec(start);
+            let start = chart.near(&free.unknowns);
             let corrections = Some(free.corrections.clone());
             estimate(
                 objective,
@@ -189,6 +202,26 @@ fn lowest<const N: usize>(
                 corrections,
             )
         })
-        .filter(|estimate| is_passive(model, &estimate.unknowns) == [true, true])
+        .filter(|estimate| !is_passive(layout, &estimate.unknowns).contains(&false))
         .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+}
+
+/// One face for each matrix, in every combination; those of the first matrices only, where they would be too many.
+fn combinations(faces: &[Vec<Face>]) -> Vec<Vec<Face>> {
+    let mut all = vec![Vec::new()];
+    for own in faces {
+        let own = if all.len() * own.len() > MOST_COMBINATIONS {
+            &own[..1]
+        } else {
+            own.as_slice()
+        };
+        all = all
+            .iter()
+            .flat_map(|before: &Vec<Face>| {
+                own.iter()
+                    .map(move |face| [before.as_slice(), std::slice::from_ref(face)].concat())
+            })
+            .collect();
+    }
+    all
 }

@@ -77,7 +77,11 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     let (labelled, repeats) = repeated(study, labelled, &axis, reader)?;
     let measured = labelled.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
-    let needed = study.model.unknowns().div_ceil(2 * measured.len()).max(2);
+    let needed = study
+        .layout()
+        .unknowns()
+        .div_ceil(2 * measured.len())
+        .max(2);
     if axis.frequency_hz.len() < needed {
         return Err(IdentifyError::TooFewLines {
             path: path.clone(),

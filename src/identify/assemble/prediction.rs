@@ -9,13 +9,14 @@ use super::reader::Reader;
 use super::substructure::substructures;
 use crate::frf::{Frf, FrfSet};
 
-/// The assembly's receptances as the study's substructures and `joint` make them: all pairs of its points.
+/// The assembly's receptances as the study's substructures and `joints` make them: all pairs of its points. There is one
+/// joint for each bolt that has its own, or one for all.
 ///
 /// # Errors
 /// [`IdentifyError`] if the substructures' data cannot be used, or at an undamped resonance.
 pub fn predict_assembly(
     study: &Study,
-    joint: &JointMatrices,
+    joints: &[JointMatrices],
     frequency_hz: &[f64],
 ) -> Result<FrfSet, IdentifyError> {
     let axis = Axis {
@@ -23,7 +24,7 @@ pub fn predict_assembly(
         frequency_hz,
     };
     let lines = substructures(study, &axis, &mut Reader::default())?;
-    let assembly = lines.regenerated(joint)?;
+    let assembly = lines.regenerated(&study.layout().whole(joints))?;
     let mut functions = Vec::new();
     for (row, &response) in study.points.iter().enumerate() {
         for (column, &reference) in study.points.iter().enumerate() {
@@ -42,13 +43,13 @@ pub fn predict_assembly(
     Ok(FrfSet::new(functions)?)
 }
 
-/// Lines of the study's first assembly as its substructures and `joint` make them, every pair of points measured.
+/// Lines of the study's first assembly as its substructures and `joints` make them, every pair of points measured.
 ///
 /// # Errors
 /// As [`predict_assembly`].
 pub fn predict_lines(
     study: &Study,
-    joint: &JointMatrices,
+    joints: &[JointMatrices],
     frequency_hz: &[f64],
 ) -> Result<Lines, IdentifyError> {
     let axis = Axis {
@@ -56,7 +57,7 @@ pub fn predict_lines(
         frequency_hz,
     };
     let mut lines = substructures(study, &axis, &mut Reader::default())?;
-    lines.assembly = lines.regenerated(joint)?;
+    lines.assembly = lines.regenerated(&study.layout().whole(joints))?;
     let count = study.points.len();
     lines.measured = (0..count)
         .flat_map(|column| (0..count).map(move |row| (row, column)))

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::super::error::IdentifyError;
 use super::super::lines::{Lines, MeasuredSubstructure, independent};
-use super::super::study::{Rotation, Source, Study, Substructure};
+use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
 use super::labelled::{Completeness, Labelled, labelled_functions, matrices, relative_variances};
 use super::reader::{Reader, in_file};
@@ -22,13 +22,14 @@ pub(super) fn substructures(
     reader: &mut Reader,
 ) -> Result<Lines, IdentifyError> {
     let points = &study.points;
+    let joint_dofs = study.bolts.count() * study.dofs_of_a_bolt();
     let (a_joint, a_measured) = joint_and_points(study, "a", &[], axis, reader)?;
     let (b, b_measured) = joint_and_points(study, "b", points, axis, reader)?;
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
         a_joint,
         b: b.iter()
-            .map(|receptance| Partition::of(receptance, study.model.dofs()))
+            .map(|receptance| Partition::of(receptance, joint_dofs))
             .collect(),
         assembly: Vec::new(),
         points: points.clone(),
@@ -40,7 +41,7 @@ pub(super) fn substructures(
     })
 }
 
-/// Receptance matrices of a substructure at each line: the joint's DOFs first, then `points`.
+/// Receptance matrices of a substructure at each line: the joint's DOFs first, bolt by bolt, then `points`.
 fn joint_and_points(
     study: &Study,
     key: &'static str,
@@ -48,15 +49,15 @@ fn joint_and_points(
     axis: &Axis<'_>,
     reader: &mut Reader,
 ) -> Result<(Vec<ComplexMatrix>, Option<Arc<MeasuredSubstructure>>), IdentifyError> {
-    let joint_dofs = study.model.dofs();
+    let dofs_of_a_bolt = study.dofs_of_a_bolt();
     let substructure = if key == "a" { &study.a } else { &study.b };
     match substructure {
         Substructure::Beam {
             beam,
-            joint_m,
+            joints_m,
             positions_m,
         } => {
-            let dofs = beam_dofs(joint_dofs, *joint_m, points, positions_m);
+            let dofs = beam_dofs(dofs_of_a_bolt, joints_m, points, positions_m);
             let receptances =
                 beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
                     path: study.path.clone(),
@@ -65,19 +66,11 @@ fn joint_and_points(
                 })?;
             Ok((receptances, None))
         }
-        Substructure::Measured { source, y, theta } => {
-            let (joint, transformation) = joint_labels(*y, theta.as_ref(), joint_dofs);
-            let labels: Vec<Dof> = joint.iter().chain(points).copied().collect();
-            let labelled = labelled_receptances(source, &labels, axis, reader)?;
-            // (joint, points) = T (labels): H = T H_labels Tᵀ   (Tol 3.54)
-            let (joint_dofs, joint_labels) = transformation.shape();
-            let mut whole = DMatrix::zeros(joint_dofs + points.len(), labels.len());
-            whole
-                .view_mut((0, 0), (joint_dofs, joint_labels))
-                .copy_from(&transformation.map(|value| value.re));
-            for point in 0..points.len() {
-                whole[(joint_dofs + point, joint_labels + point)] = 1.0;
-            }
+        Substructure::Measured { source, joints } => {
+            let motions = Motions::new(joints, dofs_of_a_bolt, points);
+            let labelled = labelled_receptances(source, &motions.labels, axis, reader)?;
+            // (joint, points) = W (labels): H = W H_labels Wᵀ   (Tol 3.54)
+            let whole = motions.transformation();
             let complex = whole.map(Complex64::from);
             let transposed = complex.transpose();
             let receptances = labelled
@@ -98,33 +91,81 @@ fn joint_and_points(
     }
 }
 
-/// Labels of the measured DOFs from which the joint's follow, and the matrix that takes one to the other.
-fn joint_labels(y: Dof, theta: Option<&Rotation>, joint_dofs: usize) -> (Vec<Dof>, ComplexMatrix) {
-    match theta {
-        Some(Rotation::Difference { points, difference }) if joint_dofs == 2 => {
-            (points.to_vec(), difference.transformation())
+/// Motions of the joint's DOFs and of the points as combinations of labelled ones. A label that serves several of them,
+/// whatever its sign, is one measurement.
+struct Motions {
+    labels: Vec<Dof>,
+    /// For each motion, labels by number and their factors.
+    rows: Vec<Vec<(usize, f64)>>,
+}
+
+impl Motions {
+    fn new(joints: &[MeasuredJoint], dofs_of_a_bolt: usize, points: &[Dof]) -> Self {
+        let mut motions = Self {
+            labels: Vec::new(),
+            rows: Vec::new(),
+        };
+        for joint in joints {
+            match &joint.theta {
+                Some(Rotation::Difference { points, difference }) if dofs_of_a_bolt == 2 => {
+                    for row in difference.transformation().row_iter() {
+                        let factors = row.iter().map(|factor| factor.re);
+                        motions.add(points.iter().copied().zip(factors));
+                    }
+                }
+                Some(Rotation::Measured(theta)) if dofs_of_a_bolt == 2 => {
+                    motions.add([(joint.y, 1.0)]);
+                    motions.add([(*theta, 1.0)]);
+                }
+                _ => motions.add([(joint.y, 1.0)]),
+            }
         }
-        Some(Rotation::Measured(theta)) if joint_dofs == 2 => {
-            (vec![y, *theta], ComplexMatrix::identity(2, 2))
+        for &point in points {
+            motions.add([(point, 1.0)]);
         }
-        _ => (vec![y], ComplexMatrix::identity(1, 1)),
+        motions
+    }
+
+    fn add(&mut self, parts: impl IntoIterator<Item = (Dof, f64)>) {
+        let row = parts.into_iter().map(|(dof, factor)| {
+            let known = |wanted: Dof| self.labels.iter().position(|&label| label == wanted);
+            match (known(dof), known(dof.flipped())) {
+                (Some(index), _) => (index, factor),
+                (None, Some(index)) => (index, -factor),
+                (None, None) => {
+                    self.labels.push(dof);
+                    (self.labels.len() - 1, factor)
+                }
+            }
+        });
+        let row = row.collect();
+        self.rows.push(row);
+    }
+
+    fn transformation(&self) -> DMatrix<f64> {
+        let mut whole = DMatrix::zeros(self.rows.len(), self.labels.len());
+        for (row, parts) in self.rows.iter().enumerate() {
+            for &(label, factor) in parts {
+                whole[(row, label)] += factor;
+            }
+        }
+        whole
     }
 }
 
-/// The joint's DOFs on a beam, then its points, each with the sign of its label.
+/// The joint's DOFs on a beam, bolt by bolt, then its points, each with the sign of its label.
 fn beam_dofs(
-    joint_dofs: usize,
-    joint_m: f64,
+    dofs_of_a_bolt: usize,
+    joints_m: &[f64],
     points: &[Dof],
     positions_m: &BTreeMap<Dof, f64>,
 ) -> Vec<(BeamPoint, f64)> {
-    let joint = [Motion::Translation, Motion::Rotation]
-        .into_iter()
-        .take(joint_dofs)
-        .map(|motion| {
-            let position_m = joint_m;
-            (BeamPoint { position_m, motion }, 1.0)
-        });
+    let joint = joints_m.iter().flat_map(|&position_m| {
+        [Motion::Translation, Motion::Rotation]
+            .into_iter()
+            .take(dofs_of_a_bolt)
+            .map(move |motion| (BeamPoint { position_m, motion }, 1.0))
+    });
     let labelled = points.iter().filter_map(|point| {
         let motion = if point.direction().is_rotation() {
             Motion::Rotation

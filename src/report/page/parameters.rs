@@ -16,18 +16,19 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let covariance = found.estimate.covariance();
     let intervals = covariance.intervals();
     let deviation = covariance.standard_deviation();
-    let rows: Vec<String> = Unknown::of(found.model)
-        .into_iter()
+    let rows: Vec<String> = covariance
+        .unknowns
+        .iter()
         .enumerate()
         .map(|(index, unknown)| {
-            let average = found.band_average.as_ref().map_or_else(
+            let average = found.estimate.band_averages().map_or_else(
                 || "none".to_owned(),
-                |average| shown(unknown.value(average), DIGITS),
+                |averages| shown(unknown.value(&averages[unknown.joint]), DIGITS),
             );
             let [low, high] = intervals[index];
             let estimate = if covariance.identified[index] {
                 [
-                    number_cell(&beside(unknown.value(&found.joint), deviation[index])),
+                    number_cell(&beside(report.value(unknown), deviation[index])),
                     number_cell(&spread(deviation[index])),
                     number_cell(&interval([low, high], deviation[index])),
                 ]
@@ -37,7 +38,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             };
             format!(
                 "<th scope=\"row\">{}</th>{estimate}{}{}",
-                symbol(unknown.name),
+                report.symbol(unknown),
                 number_cell(&average),
                 cell(unknown.unit)
             )
@@ -67,8 +68,29 @@ pub(super) fn interval([low, high]: [f64; 2], deviation: f64) -> String {
     format!("{} … {}", beside(low, deviation), beside(high, deviation))
 }
 
+impl IdentificationReport<'_> {
+    /// The estimate of an unknown.
+    pub(super) fn value(&self, unknown: &Unknown) -> f64 {
+        unknown.value(&self.found.estimate.joints()[unknown.joint])
+    }
+
+    /// The symbol of an unknown, after the name of its bolt where every bolt has a joint of its own.
+    pub(super) fn symbol(&self, unknown: &Unknown) -> String {
+        match self.found.bolts.with_own_joint().get(unknown.joint) {
+            Some(bolt) => format!("{} {}", escaped(bolt), symbol(unknown.name)),
+            None => symbol(unknown.name),
+        }
+    }
+
+    /// The same in plain letters.
+    pub(super) fn label(&self, unknown: &Unknown) -> String {
+        let label = unknown.label(self.found.bolts.with_own_joint());
+        label.replace("theta", "θ")
+    }
+}
+
 /// A parameter's name with its index set low: `k_yy` becomes k with index yy.
-pub(super) fn symbol(name: &str) -> String {
+fn symbol(name: &str) -> String {
     match name.split_once('_') {
         Some((letter, index)) => format!(
             "<i>{}</i><sub>{}</sub>",
@@ -87,7 +109,7 @@ fn basis(report: &IdentificationReport<'_>) -> String {
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
          over the bands (Tol, equation 3.21); it is given for comparison.",
     );
-    if found.estimate.free() != &found.joint {
+    if found.estimate.free_joints() != found.estimate.joints() {
         html += " The free estimate is not passive. The estimate above is the passive joint that fits best; the interval is about \
                  the free one.";
     }
@@ -109,7 +131,7 @@ fn undetermined(report: &IdentificationReport<'_>) -> String {
         .iter()
         .zip(&covariance.identified)
         .filter(|(_, identified)| !**identified)
-        .map(|(unknown, _)| symbol(unknown.name))
+        .map(|(unknown, _)| report.symbol(unknown))
         .collect();
     if open.is_empty() {
         return "<p>The data determine every parameter of this joint model.</p>\n".to_owned();
@@ -135,7 +157,7 @@ fn correlations(report: &IdentificationReport<'_>) -> String {
     let names: Vec<String> = covariance
         .unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let rows: Vec<String> = names
         .iter()
@@ -201,7 +223,7 @@ fn bootstrap(report: &IdentificationReport<'_>) -> String {
             .map(|(index, unknown)| {
                 format!(
                     "<th scope=\"row\">{}</th>{}{}{}",
-                    symbol(unknown.name),
+                    report.symbol(unknown),
                     number_cell(&spread(result.standard_deviation[index])),
                     number_cell(&interval(
                         result.intervals[index],

@@ -6,10 +6,9 @@ use super::super::axis::Axis;
 use super::super::chart::{Chart, ChartStrip, Curve};
 use super::super::look::Look;
 use super::figure::figure;
-use super::parameters::symbol;
 use super::{Assembly, IdentificationReport};
 use crate::html::{cell, escaped, number_cell, shown, table};
-use crate::identify::{Sensitivity, Unknown, sensitivities};
+use crate::identify::{Sensitivity, Unknown};
 
 /// Functions whose sensitivities are drawn at most.
 const MOST_FIGURES: usize = 3;
@@ -26,12 +25,11 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                     small the measurement says little about the parameter.</p>\n"
         .to_owned();
     let assemblies = report.assemblies();
-    let unknowns = Unknown::of(report.found.model);
+    let unknowns = &report.found.estimate.covariance().unknowns;
     let mut rows = Vec::new();
     let mut figures = String::new();
     for (number, assembly) in assemblies.iter().enumerate() {
-        let found = sensitivities(assembly.lines, report.found.model, &report.found.joint);
-        let found = match found {
+        let found = match report.found.estimate.sensitivities(assembly.lines) {
             Ok(found) => found,
             Err(error) => {
                 html += &format!("<p class=\"warning\">{}</p>\n", escaped(&error.to_string()));
@@ -48,7 +46,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             if own.is_empty() {
                 continue;
             }
-            let curves = curves(report, &unknowns, &own);
+            let curves = curves(report, unknowns, &own);
             let name = format!("{} / {}", fit.response, fit.reference);
             let assembly_cell = match assemblies.len() {
                 1 => String::new(),
@@ -67,7 +65,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
     let names: Vec<String> = unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let mut headings = match assemblies.len() {
         1 => Vec::new(),
@@ -97,7 +95,7 @@ fn curves(
         .enumerate()
         .filter_map(|(index, unknown)| {
             let sensitivity = own.get(index % entries)?;
-            let scale = unknown.value(&report.found.joint).abs();
+            let scale = report.value(unknown).abs();
             let colour = COLOURS[index % entries % COLOURS.len()];
             let (look, values) = if index < entries {
                 (
@@ -111,7 +109,7 @@ fn curves(
                 )
             };
             Some(Curve {
-                name: unknown.name.replace("theta", "θ"),
+                name: report.label(unknown),
                 look,
                 values,
             })

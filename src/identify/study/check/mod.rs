@@ -1,6 +1,7 @@
 //! Checks of a study's tables: what passes is complete, physical and without contradiction.
 
 mod assembly;
+mod bolts;
 mod rotation;
 mod settings;
 mod substructure;

@@ -24,7 +24,6 @@ impl Checker<'_> {
                 "nothing",
                 format!("a rotation, which joint model \"{model}\" needs: a measured one or {{ points = […], spacing = … }}"),
             ),
-            Some(_) if model.dofs() == 1 => Ok(None),
             Some(ThetaTable::Measured(dof)) if dof.direction().is_rotation() => {
                 Ok(Some(Rotation::Measured(dof)))
             }

@@ -1,6 +1,6 @@
 //! `[frequency]`, `[bands]`, `[noise]` and `[bodies]`: ranges and signs of what goes with the data.
 
-use super::super::super::bands::Bands;
+use super::super::super::bands::{BandChoice, BandChoices};
 use super::super::super::error::IdentifyError;
 use super::super::super::noise::{Noise, StatedLevel};
 use super::super::tables::{FrequencyTable, LevelTable, NoiseTable};
@@ -29,8 +29,22 @@ impl Checker<'_> {
         )
     }
 
-    pub(in super::super) fn bands(&self, bands: &Bands) -> Result<(), IdentifyError> {
-        for (name, bands) in bands.named() {
+    pub(in super::super) fn bands(&self, choices: &BandChoices) -> Result<(), IdentifyError> {
+        for (name, choice) in [
+            ("yy", &choices.yy),
+            ("ytheta", &choices.ytheta),
+            ("thetatheta", &choices.thetatheta),
+        ] {
+            let BandChoice::Given(bands) = choice else {
+                continue;
+            };
+            if bands.is_empty() {
+                return self.refuse(
+                    format!("bands.{name}"),
+                    "an empty list",
+                    "bands [from, to] in Hz, \"automatic\" or \"median\"",
+                );
+            }
             if let Some([from, to]) = bands.iter().find(|[from, to]| !(*from > 0.0 && from < to)) {
                 return self.refuse(
                     format!("bands.{name}"),

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use super::super::super::error::IdentifyError;
+use super::super::super::layout::Bolts;
 use super::super::super::model::JointModel;
 use super::super::tables::{BeamTable, JointPlaceTable, OneOrMore, SubstructureTable};
-use super::super::{Source, Substructure};
+use super::super::{MeasuredJoint, Source, Substructure};
 use super::{Checker, names_given};
 use crate::structure::{Beam, Damping};
 
@@ -16,6 +17,7 @@ impl Checker<'_> {
         table: SubstructureTable,
         folder: &Path,
         model: JointModel,
+        bolts: &Bolts,
     ) -> Result<Substructure, IdentifyError> {
         for (name, there) in [
             ("quantity", table.quantity.is_some()),
@@ -42,18 +44,20 @@ impl Checker<'_> {
             (None, Some(path), None) => Source::Modal(folder.join(path)),
             (None, None, Some(beam)) => {
                 let beam = self.beam(key, beam)?;
-                let joint_m = self.position(key, &table.joint)?;
-                let labelled = table
-                    .points
-                    .iter()
-                    .map(|(point, &x_m)| (format!("points.\"{point}\""), x_m));
-                for (place, x_m) in std::iter::once(("joint.x".to_owned(), joint_m)).chain(labelled)
-                {
-                    self.on_the_beam(&format!("{key}.{place}"), x_m, beam.length_m)?;
+                let mut joints_m = Vec::new();
+                for (key, place) in self.places_of_bolts(key, table.joint.0, bolts)? {
+                    let x_m = self.position(&key, &place)?;
+                    self.on_the_beam(&format!("{key}.x"), x_m, beam.length_m)?;
+                    joints_m.push(x_m);
+                }
+                self.apart_on_beam(key, &joints_m, bolts)?;
+                for (point, &x_m) in &table.points {
+                    let key = format!("{key}.points.\"{point}\"");
+                    self.on_the_beam(&key, x_m, beam.length_m)?;
                 }
                 return Ok(Substructure::Beam {
                     beam,
-                    joint_m,
+                    joints_m,
                     positions_m: table.points,
                 });
             }
@@ -77,26 +81,27 @@ impl Checker<'_> {
                 "them beside `beam` only; measured points have labels",
             );
         }
-        let key = format!("{key}.joint");
-        let (None, Some(y)) = (table.joint.x, table.joint.y) else {
-            return self.refuse(
-                key,
-                keys_given(&table.joint),
-                "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
-            );
-        };
-        Ok(Substructure::Measured {
-            source,
-            y,
-            theta: self.rotation(&key, y, table.joint.theta, model)?,
-        })
+        let mut joints = Vec::new();
+        for (key, place) in self.places_of_bolts(key, table.joint.0, bolts)? {
+            let (None, Some(y)) = (place.x, place.y) else {
+                return self.refuse(
+                    key,
+                    keys_given(&place),
+                    "{ y = \"node:+Y\", theta = … } with the labels of the measured points",
+                );
+            };
+            let theta = self.rotation(&key, y, place.theta, model)?;
+            joints.push(MeasuredJoint { y, theta });
+        }
+        self.apart(key, &joints, bolts)?;
+        Ok(Substructure::Measured { source, joints })
     }
 
     fn position(&self, key: &str, joint: &JointPlaceTable) -> Result<f64, IdentifyError> {
         match (joint.x, joint.y, &joint.theta) {
             (Some(x), None, None) => Ok(x),
             _ => self.refuse(
-                format!("{key}.joint"),
+                key,
                 keys_given(joint),
                 "{ x = distance from the beam's first end in m }",
             ),

@@ -207,6 +207,7 @@ fn summary(found: &Identification, study: &Study) -> String {
         text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
     }
     text += &averaged(found);
+    text += &from_modes(found);
     let _ = writeln!(text, "\n{}", fit(found));
     text += &models(found, study);
     if let Some(result) = found.estimate.bootstrap() {
@@ -241,6 +242,32 @@ fn averaged(found: &Identification) -> String {
             };
             let _ = writeln!(text, "  {}{}: {what}", bolt.unwrap_or_default(), used.name);
         }
+    }
+    text
+}
+
+/// What modes supplied beside measured functions.
+fn from_modes(found: &Identification) -> String {
+    let mut text = String::new();
+    for found in &found.from_modes {
+        let pairs = found.functions.iter();
+        let pairs: Vec<String> = pairs.map(|(p, q)| format!("{p} / {q}")).collect();
+        let functions = match pairs.as_slice() {
+            [] => "nothing, all functions were measured".to_owned(),
+            pairs => format!("{}, taken as exact", pairs.join(", ")),
+        };
+        let deviation = found.deviation.map(|deviation| {
+            format!(
+                "; of the measured functions the modes are {:.2} % away (r.m.s.)",
+                100.0 * deviation
+            )
+        });
+        let _ = writeln!(
+            text,
+            "\nfrom the modes of {}: {functions}{}",
+            found.substructure,
+            deviation.unwrap_or_default()
+        );
     }
     text
 }

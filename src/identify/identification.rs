@@ -4,14 +4,16 @@ use crate::frf::Dof;
 use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
+use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
+use super::from_modes::FromModes;
 use super::layout::Bolts;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
+use super::provenance;
 use super::study::Study;
-use super::{assemble, provenance};
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -46,9 +48,12 @@ pub struct Identification {
     pub starts: (usize, usize),
     /// What the user should know before using the result.
     pub warnings: Vec<String>,
+    /// What modes supplied beside measured functions of a substructure.
+    pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
-    pub(super) provenance: Provenance,
+    /// Of each joint.
+    pub(super) provenance: Vec<Provenance>,
     pub(super) torque_n_m: Option<[f64; 2]>,
     pub(super) noise_is_stated: bool,
     pub(super) bodies: Option<crate::joint::Bodies>,
@@ -96,12 +101,16 @@ pub fn identify_and_draw(
     bootstrap: Option<Bootstrap>,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Identification, IdentifyError> {
-    let (all, mut warnings) = assemble::lines(study)?;
+    let Assembled {
+        lines: all,
+        mut warnings,
+        from_modes,
+    } = assemble::lines(study)?;
     let options = Options {
         bolts: study.bolts.clone(),
         noise: study.noise,
         bands: study.bands.clone(),
-        start: None,
+        start: study.start.clone(),
         compare_models: true,
         bootstrap,
         progress: Some(progress),
@@ -129,7 +138,7 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let provenance = provenance::of(study)?;
+    let provenance = provenance::of(study, &estimate, &from_modes)?;
     warnings.extend(estimate.warnings.iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
@@ -152,6 +161,7 @@ pub fn identify_and_draw(
             .flatten(),
         starts: estimate.starts,
         warnings,
+        from_modes,
         provenance,
         torque_n_m: torques(study),
         noise_is_stated: study.noise.is_stated(),

@@ -56,7 +56,7 @@ impl Identification {
                 level: None,
             }),
             residual: Some(self.residual()),
-            provenance: Some(self.provenance.clone()),
+            provenance: self.provenance.get(joint).cloned(),
         }
     }
 

@@ -261,7 +261,7 @@ fn identify_with<const N: usize>(
         .filter(|start| start.iter().all(|value| value.is_finite()))
         .collect();
     let places = layout.places();
-    let starts = bolt_starts(&data, &layout, noise, starts);
+    let starts = bolt_starts(&data, &layout, options, starts);
     let found = search::best(&data, &places, noise, starts, Effort::Whole)
         .map_err(|starts| no_estimate(all, starts))?;
     let objective = Objective {
@@ -418,14 +418,20 @@ const UNLIKE: [f64; 2] = [0.2, 5.0];
 fn bolt_starts<const N: usize>(
     data: &Data<N>,
     layout: &Layout,
-    noise: &Noise,
+    options: &Options<'_>,
     mut first: Vec<DVector<f64>>,
 ) -> Vec<DVector<f64>> {
     if layout.joints() == 1 {
         return first;
     }
     let alike = layout.with_bolts_alike();
-    let Ok(found) = search::best(data, &alike.places(), noise, Vec::new(), Effort::Whole) else {
+    let given = options.start.as_ref().map(std::slice::from_ref);
+    let given = given
+        .and_then(|start| alike.unknowns_of(start))
+        .map(DVector::from_vec);
+    let given: Vec<DVector<f64>> = given.into_iter().collect();
+    let (places, noise) = (alike.places(), &options.noise);
+    let Ok(found) = search::best(data, &places, noise, given, Effort::Whole) else {
         return first;
     };
     let joint = alike.matrices(found.estimate.unknowns.as_slice());

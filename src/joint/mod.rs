@@ -20,7 +20,7 @@ pub use law::LawError;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
-    Bodies, Body, BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, InputFile,
-    Intervals, Joint, JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation,
-    Uncertainty, Validity,
+    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
+    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
+    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty, Validity,
 };

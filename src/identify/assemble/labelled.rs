@@ -1,9 +1,13 @@
 //! Receptances between labelled degrees of freedom, as matrices line by line.
 
+use std::path::Path;
+
 use num_complex::Complex64;
 
-use crate::frf::{Dof, FrfError, FrfSet};
-use crate::structure::ComplexMatrix;
+use super::super::error::IdentifyError;
+use super::reader::in_file;
+use crate::frf::{Dof, FrfSet};
+use crate::structure::{ComplexMatrix, ModalModel};
 
 /// Receptances between labelled DOFs: a matrix for each line, and which entries were measured independently of the others.
 pub(super) struct Labelled {
@@ -12,23 +16,29 @@ pub(super) struct Labelled {
     pub(super) measured: Vec<(usize, usize)>,
     /// σ²/|H|² of each of `measured` at each line, where coherence says it.
     pub(super) relative_variance: Option<Vec<Vec<f64>>>,
+    /// Entries on and above the diagonal that come from modes because they were not measured.
+    pub(super) from_modes: Vec<(usize, usize)>,
 }
 
 /// Whether every pair of labels has to be there.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Completeness {
+#[derive(Clone, Copy)]
+pub(super) enum Completeness<'m> {
     All,
     /// Only one; what is missing is not a number.
     Any,
+    /// Every one, but those that were not measured come from modes.
+    WithModes(&'m ModalModel),
 }
 
-/// Functions of a set between all `labels`.
+/// Functions of a set between all `labels`; `path` is its file.
 pub(super) fn labelled_functions(
     set: &FrfSet,
     labels: &[Dof],
-    completeness: Completeness,
-) -> Result<Labelled, FrfError> {
+    completeness: Completeness<'_>,
+    path: &Path,
+) -> Result<Labelled, IdentifyError> {
     let mut measured = Vec::new();
+    let mut from_modes = Vec::new();
     let mut entries = Vec::with_capacity(labels.len() * labels.len());
     let mut missing = Vec::new();
     for (column, &reference) in labels.iter().enumerate() {
@@ -40,10 +50,24 @@ pub(super) fn labelled_functions(
                     }
                     entries.push(receptance.values().to_vec());
                 }
-                Err(error) => {
-                    missing.push((row, column, error));
-                    entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
-                }
+                Err(error) => match completeness {
+                    Completeness::WithModes(modes) => {
+                        let found = modes.receptance(response, reference, set.frequency_hz());
+                        entries.push(found.map_err(|modal| {
+                            IdentifyError::NeitherMeasuredNorModal {
+                                frf: Box::new(in_file(path, error)),
+                                modal: Box::new(modal),
+                            }
+                        })?);
+                        if row <= column {
+                            from_modes.push((row, column));
+                        }
+                    }
+                    Completeness::All | Completeness::Any => {
+                        missing.push((row, column, error));
+                        entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
+                    }
+                },
             }
         }
     }
@@ -53,14 +77,15 @@ pub(super) fn labelled_functions(
         pairs.any(|&(row, column)| row == label || column == label)
     };
     let fatal = missing.into_iter().find(|&(row, column, _)| {
-        completeness == Completeness::All || !is_used(row) || !is_used(column)
+        matches!(completeness, Completeness::All) || !is_used(row) || !is_used(column)
     });
     match fatal {
-        Some((_, _, error)) => Err(error),
+        Some((_, _, error)) => Err(in_file(path, error)),
         None => Ok(Labelled {
             matrices: matrices(labels.len(), set.line_count(), &entries),
             relative_variance: relative_variances(set, labels, &measured),
             measured,
+            from_modes,
         }),
     }
 }
@@ -78,6 +103,24 @@ pub(super) fn relative_variances(
 }
 
 impl Labelled {
+    /// √(Σ|H_modal − H|²/Σ|H|²) over the measured entries that the modes have, too; `None` if they have none.
+    pub(super) fn deviation_of(
+        &self,
+        modes: &ModalModel,
+        labels: &[Dof],
+        frequency_hz: &[f64],
+    ) -> Option<f64> {
+        let (mut difference, mut size) = (0.0, 0.0);
+        for &(row, column) in &self.measured {
+            let modal = modes.receptance(labels[row], labels[column], frequency_hz);
+            for (modal, matrix) in modal.iter().flatten().zip(&self.matrices) {
+                difference += (modal - matrix[(row, column)]).norm_sqr();
+                size += matrix[(row, column)].norm_sqr();
+            }
+        }
+        (size > 0.0).then(|| (difference / size).sqrt())
+    }
+
     /// Replaces H_pq and H_qp by their mean: by reciprocity they are one number, measured twice.
     pub(super) fn symmetrise(&mut self) {
         for matrix in &mut self.matrices {

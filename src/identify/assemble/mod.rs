@@ -10,6 +10,7 @@ mod substructure;
 pub use prediction::{predict_assembly, predict_lines};
 
 use super::error::IdentifyError;
+use super::from_modes::FromModes;
 use super::lines::Lines;
 use super::study::{Study, Substructure};
 use axis::Axis;
@@ -18,8 +19,17 @@ use reader::{Reader, in_file};
 use repeats::repeated;
 use substructure::substructures;
 
-/// Everything that the study names, line by line for each assembly, and what the user should know about the files.
-pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), IdentifyError> {
+/// Everything that a study names, line by line for each assembly.
+pub(super) struct Assembled {
+    pub(super) lines: Vec<Lines>,
+    /// What the user should know about the files.
+    pub(super) warnings: Vec<String>,
+    /// What modes supplied beside measured functions.
+    pub(super) from_modes: Vec<FromModes>,
+}
+
+/// Reads and computes everything that the study names.
+pub(super) fn lines(study: &Study) -> Result<Assembled, IdentifyError> {
     let mut reader = Reader::default();
     let mut all = vec![assembly_lines(study, &mut reader)?];
     for further in &study.further {
@@ -48,7 +58,17 @@ pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), Identify
     }
     reader.warnings.sort();
     reader.warnings.dedup();
-    Ok((all, reader.warnings))
+    let mut from_modes: Vec<FromModes> = Vec::new();
+    for one in reader.from_modes {
+        if !from_modes.contains(&one) {
+            from_modes.push(one);
+        }
+    }
+    Ok(Assembled {
+        lines: all,
+        warnings: reader.warnings,
+        from_modes,
+    })
 }
 
 /// A and B of the first `count` assemblies.
@@ -73,7 +93,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         frequency_hz: assembly.frequency_hz(),
     };
     let points = &study.points;
-    let labelled = labelled_functions(&assembly, points, Completeness::Any).map_err(in_file)?;
+    let labelled = labelled_functions(&assembly, points, Completeness::Any, path)?;
     let (labelled, repeats) = repeated(study, labelled, &axis, reader)?;
     let measured = labelled.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.

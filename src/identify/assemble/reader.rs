@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use super::super::error::IdentifyError;
+use super::super::from_modes::FromModes;
 use super::super::study::FrfFile;
 use crate::frf::{Dof, FrfError, FrfSet, ReadOptions, Selection, read_frfs};
 
-/// Reads universal files and remembers what it had to assume.
+/// Reads files of functions and remembers what it had to assume.
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) warnings: Vec<String>,
+    pub(super) from_modes: Vec<FromModes>,
 }
 
 impl Reader {

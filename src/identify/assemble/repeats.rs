@@ -30,7 +30,12 @@ pub(super) fn repeated(
             .restricted_to(from_hz, to_hz)
             .map_err(in_file)?;
         axis.compare(&file.path, set.frequency_hz())?;
-        all.push(labelled_functions(&set, &study.points, Completeness::Any).map_err(in_file)?);
+        all.push(labelled_functions(
+            &set,
+            &study.points,
+            Completeness::Any,
+            &file.path,
+        )?);
     }
     let count = all.len() as f64;
     let measured = all[0].measured.clone();
@@ -63,6 +68,7 @@ pub(super) fn repeated(
         matrices: means,
         measured,
         relative_variance: None,
+        from_modes: Vec::new(),
     };
     Ok((mean, Some(repeats)))
 }

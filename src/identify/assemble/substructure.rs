@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::super::error::IdentifyError;
+use super::super::from_modes::FromModes;
 use super::super::lines::{Lines, MeasuredSubstructure, independent};
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
@@ -68,7 +69,7 @@ fn joint_and_points(
         }
         Substructure::Measured { source, joints } => {
             let motions = Motions::new(joints, dofs_of_a_bolt, points);
-            let labelled = labelled_receptances(source, &motions.labels, axis, reader)?;
+            let labelled = labelled_receptances(key, source, &motions.labels, axis, reader)?;
             // (joint, points) = W (labels): H = W H_labels Wᵀ   (Tol 3.54)
             let whole = motions.transformation();
             let complex = whole.map(Complex64::from);
@@ -197,25 +198,38 @@ fn beam_receptances(
 
 /// Receptances between all `labels` of a measured substructure.
 fn labelled_receptances(
+    key: &'static str,
     source: &Source,
     labels: &[Dof],
     axis: &Axis<'_>,
     reader: &mut Reader,
 ) -> Result<Labelled, IdentifyError> {
     match source {
-        Source::Frf(file) => {
+        Source::Frf { file, modes } => {
             let (from_hz, to_hz) = axis.ends();
             let set = reader.read(file, labels, [from_hz, to_hz])?;
             let set = set
                 .restricted_to(from_hz, to_hz)
                 .map_err(|source| in_file(&file.path, source))?;
             axis.compare(&file.path, set.frequency_hz())?;
-            let mut labelled = labelled_functions(&set, labels, Completeness::All)
-                .map_err(|source| in_file(&file.path, source))?;
+            let modal = modes.as_deref().map(ModalModel::read).transpose()?;
+            let completeness = modal
+                .as_ref()
+                .map_or(Completeness::All, Completeness::WithModes);
+            let mut labelled = labelled_functions(&set, labels, completeness, &file.path)?;
             let measured = independent(&labelled.measured, &labelled.matrices);
             labelled.relative_variance = relative_variances(&set, labels, &measured);
             labelled.measured = measured;
             labelled.symmetrise();
+            if let (Some(path), Some(modal)) = (modes, &modal) {
+                let pairs = labelled.from_modes.iter();
+                reader.from_modes.push(FromModes {
+                    substructure: key,
+                    path: path.clone(),
+                    functions: pairs.map(|&(p, q)| (labels[p], labels[q])).collect(),
+                    deviation: labelled.deviation_of(modal, labels, axis.frequency_hz),
+                });
+            }
             Ok(labelled)
         }
         Source::Modal(path) => {
@@ -230,6 +244,7 @@ fn labelled_receptances(
                 matrices: matrices(labels.len(), axis.frequency_hz.len(), &entries),
                 measured: Vec::new(),
                 relative_variance: None,
+                from_modes: Vec::new(),
             })
         }
     }

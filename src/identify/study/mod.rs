@@ -52,6 +52,8 @@ pub struct Study {
     pub bands: BandChoices,
     /// Noise of the measured receptances, as far as the study states it.
     pub noise: Noise,
+    /// A presumed joint, one of the starts of the search at every bolt.
+    pub start: Option<JointMatrices>,
     /// Bodies of a lap model, which go into the joint file.
     pub bodies: Option<Bodies>,
     /// Remarks that go into the joint file.
@@ -119,8 +121,13 @@ impl MeasuredJoint {
 /// Where a measured substructure's receptances come from.
 #[derive(Clone, Debug)]
 pub enum Source {
-    /// FRFs.
-    Frf(FrfFile),
+    /// FRFs, and a file with modes that supplies those that were not measured.
+    Frf {
+        /// The FRFs.
+        file: FrfFile,
+        /// The modes.
+        modes: Option<PathBuf>,
+    },
     /// File with modes.
     Modal(PathBuf),
 }
@@ -157,7 +164,9 @@ impl Substructure {
     pub(super) fn is_same_measurement(&self, other: &Self) -> bool {
         let key = |substructure: &Self| match substructure {
             Self::Measured { source, joints } => match source {
-                Source::Frf(file) => Some((file.path.clone(), joints.clone())),
+                Source::Frf { file, modes } => {
+                    Some((file.path.clone(), modes.clone(), joints.clone()))
+                }
                 Source::Modal(_) => None,
             },
             Self::Beam { .. } => None,
@@ -311,8 +320,12 @@ impl Study {
             .map(|table| check.noise(&table))
             .transpose()?
             .unwrap_or_default();
+        let start = file
+            .start
+            .map(|table| check.start(&table, model))
+            .transpose()?;
         if let Some(bodies) = &file.bodies {
-            check.bodies(bodies, model.dofs())?;
+            check.bodies(bodies, model.dofs(), &bolts)?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -329,6 +342,7 @@ impl Study {
             frequency_range_hz,
             bands: file.bands.0,
             noise,
+            start,
             bodies: file.bodies,
             notes: file.notes,
         })

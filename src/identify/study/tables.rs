@@ -33,6 +33,7 @@ pub(super) struct StudyFile {
     #[serde(default)]
     pub(super) bands: BandsTable,
     pub(super) noise: Option<NoiseTable>,
+    pub(super) start: Option<StartTable>,
     pub(super) bodies: Option<Bodies>,
     #[serde(default)]
     pub(super) notes: Vec<String>,
@@ -304,6 +305,14 @@ impl<'de> Deserialize<'de> for BandKey {
 pub(super) enum BoltsKey {
     Alike,
     Different,
+}
+
+/// A joint to start the search from.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StartTable {
+    pub(super) stiffness: Vec<Vec<f64>>,
+    pub(super) damping: Vec<Vec<f64>>,
 }
 
 #[derive(Default, Deserialize)]

@@ -6,7 +6,8 @@ use super::{Assembly, IdentificationReport, counted};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    BandOrigin, Bolts, FrfFile, JointModel, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+    BandOrigin, Bolts, FrfFile, FromModes, JointMatrices, JointModel, NoiseLevel, Rotation, Source,
+    StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -44,6 +45,21 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                 ));
             }
         }
+    }
+    for found in &report.found.from_modes {
+        rows.push(row(
+            &format!(
+                "From modes, substructure {}",
+                found.substructure.to_uppercase()
+            ),
+            &from_modes(found),
+        ));
+    }
+    if let Some(start) = &study.start {
+        rows.push(row(
+            "Presumed joint, a start of the search",
+            &self::start(start),
+        ));
     }
     let [from, to] = study.frequency_range_hz;
     rows.push(row(
@@ -111,7 +127,16 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     match substructure {
         Substructure::Measured { source, joints } => {
             let origin = match source {
-                Source::Frf(file) => format!("FRFs in <code>{}</code>", file_name(&file.path)),
+                Source::Frf { file, modes } => {
+                    let modes = modes.as_deref().map(|path| {
+                        format!(
+                            ", those not measured from the modes in <code>{}</code>",
+                            file_name(path)
+                        )
+                    });
+                    let file = file_name(&file.path);
+                    format!("FRFs in <code>{file}</code>{}", modes.unwrap_or_default())
+                }
                 Source::Modal(path) => {
                     format!("FRFs from the modes in <code>{}</code>", file_name(path))
                 }
@@ -149,6 +174,44 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
             )
         }
     }
+}
+
+/// What the modes supplied, and how well they give what was measured.
+fn from_modes(found: &FromModes) -> String {
+    let functions = found.functions.iter().map(|(response, reference)| {
+        format!(
+            "{} / {}",
+            escaped(&response.to_string()),
+            escaped(&reference.to_string())
+        )
+    });
+    let functions: Vec<String> = functions.collect();
+    let functions = match functions.as_slice() {
+        [] => "nothing: all functions were measured".to_owned(),
+        functions => format!("{}, taken as exact", functions.join(", ")),
+    };
+    let deviation = found.deviation.map(|deviation| {
+        format!(
+            "; of the measured functions the modes are {} away (r.m.s.)",
+            percent(deviation)
+        )
+    });
+    functions + &deviation.unwrap_or_default()
+}
+
+fn start(joint: &JointMatrices) -> String {
+    let matrix = |matrix: &nalgebra::DMatrix<f64>| {
+        let rows = matrix.row_iter().map(|row| {
+            let row: Vec<String> = row.iter().map(|value| number(*value)).collect();
+            format!("[{}]", row.join(", "))
+        });
+        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+    };
+    format!(
+        "<i>K</i> = {}, <i>C</i> = {} (SI units)",
+        matrix(&joint.stiffness),
+        matrix(&joint.damping)
+    )
 }
 
 fn difference(rotation: &Rotation) -> String {
@@ -351,7 +414,7 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
                 "Substructure {name} comes from modes: their errors are not in the intervals."
             )),
             Substructure::Measured {
-                source: Source::Frf(_),
+                source: Source::Frf { .. },
                 ..
             } => {}
         }

@@ -4,6 +4,7 @@ mod assembly;
 mod bolts;
 mod rotation;
 mod settings;
+mod start;
 mod substructure;
 
 use std::path::Path;

@@ -2,6 +2,7 @@
 
 use super::super::super::bands::{BandChoice, BandChoices};
 use super::super::super::error::IdentifyError;
+use super::super::super::layout::Bolts;
 use super::super::super::noise::{Noise, StatedLevel};
 use super::super::tables::{FrequencyTable, LevelTable, NoiseTable};
 use super::Checker;
@@ -94,7 +95,15 @@ impl Checker<'_> {
         &self,
         bodies: &Bodies,
         dofs: usize,
+        bolts: &Bolts,
     ) -> Result<(), IdentifyError> {
+        if !bolts.with_own_joint().is_empty() {
+            return self.refuse(
+                "bodies",
+                "them with bolts that differ",
+                "them with one joint only; add to each bolt's joint file those around it",
+            );
+        }
         for (side, body) in [("a", &bodies.a), ("b", &bodies.b)] {
             for (name, values) in [
                 ("inertia", &body.inertia),

@@ -34,13 +34,16 @@ impl Checker<'_> {
             }
         }
         let source = match (table.frf, table.modal, table.beam) {
-            (Some(path), None, None) => Source::Frf(self.frf_file(
-                key,
-                folder.join(path),
-                table.quantity,
-                table.units.as_ref(),
-                table.averages,
-            )?),
+            (Some(path), modes, None) => Source::Frf {
+                file: self.frf_file(
+                    key,
+                    folder.join(path),
+                    table.quantity,
+                    table.units.as_ref(),
+                    table.averages,
+                )?,
+                modes: modes.map(|modes| folder.join(modes)),
+            },
             (None, Some(path), None) => Source::Modal(folder.join(path)),
             (None, None, Some(beam)) => {
                 let beam = self.beam(key, beam)?;
@@ -70,7 +73,7 @@ impl Checker<'_> {
                 return self.refuse(
                     key,
                     names_given("no source", &given),
-                    "exactly one of `frf`, `modal` and `beam`",
+                    "one of `frf`, `modal` and `beam`, or `frf` with `modal` for what was not measured",
                 );
             }
         };

@@ -104,7 +104,8 @@ impl Layout {
         let count = bolts.count();
         let fits = (1..=MOST_BOLTS).contains(&count) && dofs.is_multiple_of(count);
         let layout = Self::of_bolts(model, bolts, dofs / count.max(1));
-        (fits && layout.dofs >= model.dofs()).then_some(layout)
+        let of_a_bolt = model.dofs()..=JointModel::Full.dofs();
+        (fits && of_a_bolt.contains(&layout.dofs)).then_some(layout)
     }
 
     /// Of data whose joint has so many DOFs at each bolt.
@@ -287,5 +288,6 @@ mod tests {
         assert_eq!(whole.stiffness.diagonal().as_slice(), [5.0, 0.0, 5.0, 0.0]);
         assert!(Layout::new(JointModel::Full, &bolts, 2).is_none());
         assert!(Layout::new(JointModel::Full, &bolts, 5).is_none());
+        assert!(Layout::new(JointModel::Full, &Bolts::One, 4).is_none());
     }
 }

@@ -431,7 +431,8 @@ fn bolt_starts<const N: usize>(
         .map(DVector::from_vec);
     let given: Vec<DVector<f64>> = given.into_iter().collect();
     let (places, noise) = (alike.places(), &options.noise);
-    let Ok(found) = search::best(data, &places, noise, given, Effort::Whole) else {
+    // Its own starts only: where they lead nowhere, the search proper has a grid.
+    let Ok(found) = search::best(data, &places, noise, given, Effort::Related) else {
         return first;
     };
     let joint = alike.matrices(found.estimate.unknowns.as_slice());

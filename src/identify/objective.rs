@@ -642,9 +642,10 @@ impl<const E: usize> Sums<E> {
 
     #[inline]
     fn add(&mut self, weight: f64, residual: Complex64, row: &[Complex64; E], count: usize) {
-        // Rows beyond `count` are zero, so that the loops can be unrolled.
+        // Rows beyond `count` are zero, so that the loops of one joint can be unrolled.
         debug_assert!(count <= E);
-        for i in 0..E {
+        let count = if E > ENTRIES_OF_ONE { count } else { E };
+        for i in 0..count {
             let conjugate = row[i].conj() * weight;
             self.right[i] += conjugate * residual;
             for j in 0..=i {

@@ -1,18 +1,22 @@
 //! `identify`: a study becomes a joint file.
 
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 use serde_json::json;
 
 use crate::export::Timestamp;
 use crate::identify::{
-    Bootstrap, BootstrapResult, Identification, JointEstimate, JointModel, Study, Unknown,
+    BandOrigin, Bolts, Bootstrap, BootstrapResult, Identification, JointEstimate, Study,
     identify_and_draw,
 };
+use crate::joint::JointFile;
 use crate::report::{FrfFigure, FrfPanel, IdentificationReport};
+use crate::whole_file;
 
 use super::IdentifyArguments;
+use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::output::{check_output, message, print, write_file};
 use super::progress::Progress;
@@ -56,6 +60,15 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         None => None,
     };
     let study = Study::read(&arguments.study)?;
+    let outputs = of_bolts(&arguments.output, &study.bolts);
+    for output in &outputs {
+        let others: Vec<&PathBuf> = taken
+            .iter()
+            .copied()
+            .filter(|&path| path != output)
+            .collect();
+        check_output(output, &others)?;
+    }
     let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
         draws: draws as usize,
         seed: arguments.seed.unwrap_or(1),
@@ -66,14 +79,14 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     );
     let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
     drop(progress);
-    let joint_file = found.joint_file();
+    let joint_files = found.joint_files();
     let drawing = arguments
         .figure
         .as_ref()
         .map(|path| (path, figure(&found, "")));
     let warnings = warnings(&found);
     let page = written.map(|written| report(&study, &found, &warnings, written));
-    joint_file.write(&arguments.output)?;
+    write_joint_files(&outputs, &joint_files)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
     }
@@ -84,15 +97,14 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         message(&format!("warning: {warning}"));
     }
     if arguments.json {
-        let value = json!({
-            "output": arguments.output.display().to_string(),
+        let mut value = json!({
             "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
-            "joint_file": joint_file,
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
             "warnings": warnings,
-            "models": found.estimate.model_choice().map(|choice| json!({
+            "models_not_compared": study.models_not_compared(),
+            "models": found.estimate.model_choice().filter(|_| study.models_not_compared().is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
                 "compared": choice.models.iter().map(|fit| json!({
                     "model": fit.model,
@@ -111,55 +123,93 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
                 })),
             })),
         });
+        if let (Some(object), [output], [(None, file)]) =
+            (value.as_object_mut(), &*outputs, &*joint_files)
+        {
+            object.insert("output".to_owned(), json!(output.display().to_string()));
+            object.insert("joint_file".to_owned(), json!(file));
+        } else if let Some(object) = value.as_object_mut() {
+            let bolts = outputs.iter().zip(&joint_files).map(|(output, (bolt, file))| {
+                json!({ "bolt": bolt, "output": output.display().to_string(), "joint_file": file })
+            });
+            object.insert("bolts".to_owned(), bolts.collect());
+        }
         return print(&serde_json::to_string_pretty(&value)?);
     }
-    let mut text = summary(&found);
-    let _ = writeln!(text, "\nwrote {}", arguments.output.display());
+    let mut text = summary(&found, &study);
+    text.push('\n');
+    for path in &outputs {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
         let _ = writeln!(text, "wrote {}", path.display());
     }
     print(&text)
 }
 
+/// Writes every joint file or, if one cannot be written, none.
+fn write_joint_files(
+    outputs: &[PathBuf],
+    files: &[(Option<&str>, JointFile)],
+) -> Result<(), CliError> {
+    let texts = files.iter().map(|(_, file)| file.to_json());
+    let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+    let contents = outputs.iter().zip(&texts);
+    let contents: Vec<(&Path, &[u8])> = contents
+        .map(|(output, text)| (output.as_path(), text.as_bytes()))
+        .collect();
+    whole_file::write_all(&contents).map_err(|(path, source)| CliError::Unwritable { path, source })
+}
+
 /// What the identification and the passivity of its result give reason to warn of.
 pub(super) fn warnings(found: &Identification) -> Vec<String> {
-    let passivity = found.joint_file().passivity();
-    let active = passivity.active().map(|matrix| {
-        format!("{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
-    });
-    found.warnings.iter().cloned().chain(active).collect()
+    let mut warnings = found.warnings.clone();
+    for (bolt, file) in found.joint_files() {
+        let bolt = bolt.map(|bolt| format!("{bolt}, ")).unwrap_or_default();
+        let passivity = file.passivity();
+        warnings.extend(passivity.active().map(|matrix| {
+            format!("{bolt}{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
+        }));
+    }
+    warnings
 }
 
 /// The result for people.
-fn summary(found: &Identification) -> String {
+fn summary(found: &Identification, study: &Study) -> String {
     let mut text = format!("{}\n{}\n", found.name, basis(found));
     let joints = found.estimate.joints();
+    let bolts = found.bolts.with_own_joint();
     for joint in joints {
         if let Some(torque) = joint.torque_n_m {
             let _ = write!(text, "\nat {torque} N·m");
         }
         text += "\n";
-        text += &parameters(found.model, joint);
+        text += &parameters(joint, bolts);
     }
-    let is_active = |joint: &JointEstimate| joint.free != *joint.joint();
+    let is_active = |joint: &JointEstimate| joint.free != joint.bolts();
     if joints.iter().any(is_active) {
         text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
     }
+    for joint in joints {
+        text += &averaged(joint, bolts);
+    }
+    text += &from_modes(found);
     let _ = writeln!(text, "\n{}", fit(found));
-    text += &models(found);
+    text += &models(found, study);
     text += &torques(found);
     for joint in joints {
         if let Some(result) = &joint.bootstrap {
-            text += &bootstrap(result, joint);
+            text += &bootstrap(result, joint, bolts);
         }
     }
     text
 }
 
-/// The parameters of one joint.
-fn parameters(model: JointModel, joint: &JointEstimate) -> String {
+/// The parameters at one torque.
+fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
     let covariance = &joint.covariance;
-    let active = joint.free != *joint.joint();
+    let active = joint.free != joint.bolts();
+    let deviation = covariance.standard_deviation();
     let mut header = vec!["", "identified", "± std. dev.", "95 % interval"];
     if active {
         header.push("free estimate");
@@ -167,26 +217,24 @@ fn parameters(model: JointModel, joint: &JointEstimate) -> String {
     header.extend(["band average", "unit"]);
     let mut table = Table::new(&header);
     let intervals = covariance.intervals();
-    let deviation = joint.standard_deviation(model);
-    for (index, unknown) in Unknown::of(model).into_iter().enumerate() {
-        let average = joint.band_average.as_ref();
+    for (index, unknown) in covariance.unknowns.iter().enumerate() {
         let [low, high] = intervals[index];
-        let mut cells = vec![unknown.name.to_owned()];
+        let mut cells = vec![unknown.label(bolts)];
         if covariance.identified[index] {
             cells.extend([
-                number(unknown.value(joint.joint()), 5),
-                number(unknown.value(&deviation), 2),
+                number(unknown.value(&joint.bolts()[unknown.joint]), 5),
+                number(deviation[index], 2),
                 format!("{} … {}", number(low, 5), number(high, 5)),
             ]);
         } else {
             cells.extend(["not identified", "", ""].map(str::to_owned));
         }
         if active {
-            cells.push(number(unknown.value(&joint.free), 5));
+            cells.push(number(unknown.value(&joint.free[unknown.joint]), 5));
         }
-        cells.push(average.map_or_else(
+        cells.push(joint.band_averages.as_ref().map_or_else(
             || "none".to_owned(),
-            |average| number(unknown.value(average), 5),
+            |averages| number(unknown.value(&averages[unknown.joint]), 5),
         ));
         cells.push(unknown.unit.to_owned());
         table.row(cells);
@@ -194,11 +242,69 @@ fn parameters(model: JointModel, joint: &JointEstimate) -> String {
     table.render()
 }
 
+/// What the averages of the table were taken over.
+fn averaged(joint: &JointEstimate, bolts: &[String]) -> String {
+    if joint.band_averages.is_none() {
+        return String::new();
+    }
+    let mut text = format!("\nband averages{} over\n", place(joint));
+    for (bolt, used) in joint.bands.iter().enumerate() {
+        for used in used {
+            let bolt = bolts.get(bolt).map(|bolt| format!("{bolt} "));
+            let ranges = used.bands.iter();
+            let ranges =
+                ranges.map(|[from, to]| format!("{} to {}", number(*from, 4), number(*to, 4)));
+            let ranges = ranges.collect::<Vec<_>>().join(", ");
+            let what = match used.origin {
+                BandOrigin::Given => format!("{ranges} Hz, as in the study"),
+                BandOrigin::Automatic => {
+                    format!("{ranges} Hz, chosen by sensitivity and distance to resonances")
+                }
+                BandOrigin::NoneQualifies => {
+                    "all lines, their median: no band qualifies".to_owned()
+                }
+                BandOrigin::Median => "all lines, their median, as in the study".to_owned(),
+            };
+            let _ = writeln!(text, "  {}{}: {what}", bolt.unwrap_or_default(), used.name);
+        }
+    }
+    text
+}
+
+/// What modes supplied beside measured functions.
+fn from_modes(found: &Identification) -> String {
+    let mut text = String::new();
+    for found in &found.from_modes {
+        let pairs = found.functions.iter();
+        let pairs: Vec<String> = pairs.map(|(p, q)| format!("{p} / {q}")).collect();
+        let functions = match pairs.as_slice() {
+            [] => "nothing, all functions were measured".to_owned(),
+            pairs => format!("{}, taken as exact", pairs.join(", ")),
+        };
+        let deviation = found.deviation.map(|deviation| {
+            format!(
+                "; of the measured functions the modes are {:.2} % away (r.m.s.)",
+                100.0 * deviation
+            )
+        });
+        let _ = writeln!(
+            text,
+            "\nfrom the modes of {}: {functions}{}",
+            found.substructure,
+            deviation.unwrap_or_default()
+        );
+    }
+    text
+}
+
 /// The joint models beside each other.
-fn models(found: &Identification) -> String {
+fn models(found: &Identification, study: &Study) -> String {
     let Some(choice) = found.estimate.model_choice() else {
         return String::new();
     };
+    if let Some(reason) = study.models_not_compared() {
+        return format!("joint models are not compared: {reason}\n");
+    }
     let compared: Vec<String> = choice
         .models
         .iter()
@@ -255,11 +361,16 @@ fn leaves(adequate: bool) -> &'static str {
     }
 }
 
-fn bootstrap(result: &BootstrapResult, joint: &JointEstimate) -> String {
-    let at = joint
+/// What follows in a message what holds at one torque.
+fn place(joint: &JointEstimate) -> String {
+    joint
         .torque_n_m
         .map(|torque| format!(" at {torque} N·m"))
-        .unwrap_or_default();
+        .unwrap_or_default()
+}
+
+fn bootstrap(result: &BootstrapResult, joint: &JointEstimate, bolts: &[String]) -> String {
+    let at = place(joint);
     let unknowns = &joint.covariance.unknowns;
     let mut text = format!(
         "\nbootstrap{at}: {} draws, seed {}, {} converged\n",
@@ -270,7 +381,7 @@ fn bootstrap(result: &BootstrapResult, joint: &JointEstimate) -> String {
         for (index, unknown) in unknowns.iter().enumerate() {
             let [low, high] = result.intervals[index];
             table.row(vec![
-                unknown.name.to_owned(),
+                unknown.label(bolts),
                 number(result.standard_deviation[index], 2),
                 format!("{} … {}", number(low, 5), number(high, 5)),
                 unknown.unit.to_owned(),
@@ -288,8 +399,13 @@ pub(super) fn basis(found: &Identification) -> String {
         let ending = if count == 1 { "" } else { "s" };
         format!("{count} {thing}{ending}")
     };
+    let bolts = match &found.bolts {
+        Bolts::One => String::new(),
+        Bolts::Alike(names) => format!(", the same at {},", listed(names)),
+        Bolts::Different(names) => format!(", one each at {},", listed(names)),
+    };
     format!(
-        "joint model \"{}\" from {} at {}, {} from {} to {} Hz",
+        "joint model \"{}\"{bolts} from {} at {}, {} from {} to {} Hz",
         found.model,
         counted(
             found.fits.len()
@@ -307,20 +423,31 @@ pub(super) fn basis(found: &Identification) -> String {
     )
 }
 
+fn listed(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
 /// How well the result fits, in one line.
 pub(super) fn fit(found: &Identification) -> String {
     let chi_squared = found
         .reduced_chi_squared
         .map(|value| format!("; χ² per degree of freedom {value:.3}"))
         .unwrap_or_default();
-    let passive = if found.joint_file().passivity().is_passive() {
-        "passive"
-    } else {
-        "ACTIVE"
+    let files = found.joint_files();
+    let is_passive = files.iter().all(|(_, file)| file.passivity().is_passive());
+    let verdict = match (files.len(), is_passive) {
+        (1, true) => "the joint is passive",
+        (1, false) => "the joint is ACTIVE",
+        (_, true) => "all joints are passive",
+        (_, false) => "not all joints are passive: ACTIVE",
     };
     let (tried, agreeing) = found.starts;
     format!(
-        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; the joint is {passive}",
+        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
         100.0 * found.relative_rms
     )
 }

@@ -1,5 +1,6 @@
 //! The command line: arguments become a plan, the plan is run, results go to stdout, messages to stderr.
 
+mod bolt_files;
 mod check;
 mod communication_step;
 mod demo;
@@ -75,7 +76,7 @@ struct DemoArguments {
 struct IdentifyArguments {
     /// The study: what was measured, on which points, and which joint model to identify (TOML)
     study: PathBuf,
-    /// Joint file to write
+    /// Joint file to write; NAME.BOLT.joint.json for each bolt where bolts have different joints
     #[arg(short, long, value_name = "NAME.joint.json")]
     output: PathBuf,
     /// Also draw measured and regenerated FRFs
@@ -160,7 +161,7 @@ struct RunLibraryArguments {
 struct RespondArguments {
     /// The study that the test is for (TOML); the file of its assembly need not exist yet
     study: PathBuf,
-    /// The joint that the assembly is to have (joint file)
+    /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
     joint: PathBuf,
     /// File to write: a table or a universal file

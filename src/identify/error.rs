@@ -42,6 +42,14 @@ pub enum IdentifyError {
     /// Modal data cannot be used.
     #[error(transparent)]
     Modal(#[from] ModalError),
+    /// A function is not in the file of functions, and its modes do not have it either.
+    #[error("{frf}; nor do the modes have it: {modal}")]
+    NeitherMeasuredNorModal {
+        /// What the file of functions lacks.
+        frf: Box<IdentifyError>,
+        /// What the modes lack.
+        modal: Box<ModalError>,
+    },
     /// The beam cannot be computed.
     #[error("{}: `{key}`: {source}", path.display())]
     Beam {

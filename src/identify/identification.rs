@@ -4,13 +4,16 @@ use crate::frf::Dof;
 use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
+use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
+use super::from_modes::FromModes;
+use super::layout::Bolts;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
 use super::study::Study;
-use super::{assemble, level, provenance};
+use super::{level, provenance};
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -21,14 +24,16 @@ pub struct Identification {
     pub model: JointModel,
     /// The data of the first assembly.
     pub lines: Lines,
-    /// K* of each line by (3.21); `None` where a matrix was singular.
+    /// The bolts.
+    pub bolts: Bolts,
+    /// K* of each line by (3.21), over the DOFs of all bolts; `None` where a matrix was singular.
     pub decoupled: Vec<Option<ComplexMatrix>>,
-    /// Average of the decoupled values over bands, where every entry had lines.
+    /// Average of the decoupled values over bands, where every entry had lines; at the first bolt where every bolt has its own.
     pub band_average: Option<JointMatrices>,
     /// The passive estimate, which is the free one where that is passive: of the first assembly's joint, where each torque has
-    /// its own. `estimate` has all of them.
+    /// its own, and at the first bolt where every bolt has. `estimate` has all of them.
     pub joint: JointMatrices,
-    /// One standard deviation of each entry; infinite where the data do not determine the joint.
+    /// One standard deviation of each entry of `joint`; infinite where the data do not determine the joint.
     pub standard_deviation: JointMatrices,
     /// The assembly's receptances H^C_ss with the estimated joint, line by line.
     pub regenerated: Vec<ComplexMatrix>,
@@ -44,9 +49,12 @@ pub struct Identification {
     pub starts: (usize, usize),
     /// What the user should know before using the result.
     pub warnings: Vec<String>,
+    /// What modes supplied beside measured functions of a substructure.
+    pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
-    pub(super) provenance: Provenance,
+    /// Of each joint.
+    pub(super) provenance: Vec<Provenance>,
     pub(super) torque_n_m: Option<[f64; 2]>,
     pub(super) level: Option<String>,
     pub(super) noise_is_stated: bool,
@@ -95,11 +103,16 @@ pub fn identify_and_draw(
     bootstrap: Option<Bootstrap>,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Identification, IdentifyError> {
-    let (all, mut warnings) = assemble::lines(study)?;
+    let Assembled {
+        lines: all,
+        mut warnings,
+        from_modes,
+    } = assemble::lines(study)?;
     let options = Options {
+        bolts: study.bolts.clone(),
         noise: study.noise,
         bands: study.bands.clone(),
-        start: None,
+        start: study.start.clone(),
         compare_models: true,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
@@ -109,7 +122,7 @@ pub fn identify_and_draw(
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
     for (number, lines) in all.into_iter().enumerate() {
-        let regenerated = lines.regenerated(estimate.joint_of(number).joint())?;
+        let regenerated = lines.regenerated(estimate.joint_of(number).whole())?;
         let fits: Vec<FunctionFit> = lines
             .measured
             .iter()
@@ -129,12 +142,13 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let provenance = provenance::of(study)?;
+    let provenance = provenance::of(study, &estimate, &from_modes)?;
     warnings.extend(estimate.warnings().iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
+        bolts: study.bolts.clone(),
         decoupled: estimate.decoupled().first().cloned().unwrap_or_default(),
         band_average: estimate.band_average().cloned(),
         joint: estimate.joint().clone(),
@@ -151,6 +165,7 @@ pub fn identify_and_draw(
             .flatten(),
         starts: estimate.starts(),
         warnings,
+        from_modes,
         provenance,
         torque_n_m: torques(study).and_then(range),
         level: level::in_words(study),

@@ -1,9 +1,11 @@
-//! One of the joints of an identification, with how sure it is.
+//! The joint of one torque, or of all, with how sure it is.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::assessment;
+use super::bands::UsedBands;
 use super::bootstrap::Bootstrap;
+use super::layout::Layout;
 use super::model::{JointMatrices, JointModel};
 use super::noise::Noise;
 use super::objective::Objective;
@@ -14,21 +16,27 @@ use super::unknown::Unknown;
 /// A standard deviation beyond this fraction of the value makes the value unreliable.
 const UNRELIABLE: f64 = 0.5;
 
-/// The estimate of one joint.
+/// The estimate of the joint at one torque, or of the one that all assemblies have in common: of one bolt, of several that are
+/// alike, or of each of several.
 #[derive(Clone, Debug)]
 pub struct JointEstimate {
     /// Tightening torque at which it holds, N·m; `None` where it is common to all assemblies.
     pub torque_n_m: Option<f64>,
-    /// Average of the decoupled values, one of the starts.
-    pub band_average: Option<JointMatrices>,
-    /// The estimate that is free to be active.
-    pub free: JointMatrices,
-    /// The passive one, which is the free one where that is passive; `None` if there is none.
-    pub passive: Option<JointMatrices>,
-    /// Covariance of its unknowns, and which of them are identified.
+    /// The bands that each entry of each bolt's joint is averaged over.
+    pub bands: Vec<Vec<UsedBands>>,
+    /// Averages of the decoupled values, one of the starts; of each bolt with a joint of its own.
+    pub band_averages: Option<Vec<JointMatrices>>,
+    /// The estimates that are free to be active; of each bolt with a joint of its own.
+    pub free: Vec<JointMatrices>,
+    /// The passive ones, which are the free ones where these are passive; `None` if there are none.
+    pub passive: Option<Vec<JointMatrices>>,
+    /// Covariance of the unknowns, and which of them are identified.
     pub covariance: Covariance,
     /// The bootstrap, where one was asked for.
     pub bootstrap: Option<BootstrapResult>,
+    /// The joint at every bolt.
+    pub(super) whole: JointMatrices,
+    pub(super) layout: Layout,
 }
 
 /// Scatter of the estimates over bootstrap draws.
@@ -47,16 +55,41 @@ pub struct BootstrapResult {
 }
 
 impl JointEstimate {
-    /// The joint: the passive estimate where there is one.
+    /// The joint of each bolt that has one of its own, or the one for all: the passive estimate where there is one.
     #[must_use]
-    pub fn joint(&self) -> &JointMatrices {
+    pub fn bolts(&self) -> &[JointMatrices] {
         self.passive.as_ref().unwrap_or(&self.free)
     }
 
-    /// One standard deviation of each entry.
+    /// The joint, at the first bolt where every bolt has its own.
+    #[must_use]
+    pub fn joint(&self) -> &JointMatrices {
+        &self.bolts()[0]
+    }
+
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`](super::Lines::regenerated) takes them.
+    #[must_use]
+    pub fn whole(&self) -> &JointMatrices {
+        &self.whole
+    }
+
+    /// The average of the decoupled values, at the first bolt where every bolt has its own.
+    #[must_use]
+    pub fn band_average(&self) -> Option<&JointMatrices> {
+        self.band_averages.as_ref()?.first()
+    }
+
+    /// One standard deviation of each entry, at the first bolt where every bolt has its own.
     #[must_use]
     pub fn standard_deviation(&self, model: JointModel) -> JointMatrices {
-        JointMatrices::from_unknowns(model, &self.covariance.standard_deviation())
+        let deviation = self.covariance.standard_deviation();
+        JointMatrices::from_unknowns(model, &self.layout.of_joint(&deviation, 0))
+    }
+
+    /// Where the unknowns of one bolt's joint stand among those of the covariance.
+    #[must_use]
+    pub fn unknowns_of(&self, bolt: usize) -> Vec<usize> {
+        self.layout.indices_of(bolt)
     }
 
     /// What follows its numbers in a message: the torque at which they hold, where they are those of one torque.
@@ -66,16 +99,16 @@ impl JointEstimate {
             .unwrap_or_default()
     }
 
-    /// What the data do not determine, or hardly.
-    pub(super) fn warnings(&self) -> Vec<String> {
+    /// What the data do not determine, or hardly; `bolts` are the names of those that have joints of their own.
+    pub(super) fn warnings(&self, bolts: &[String]) -> Vec<String> {
         let covariance = &self.covariance;
         let deviations = covariance.standard_deviation();
         let at = self.place();
         let mut warnings = Vec::new();
         let unknowns = || covariance.unknowns.iter().zip(&covariance.identified);
-        let open: Vec<&str> = unknowns()
+        let open: Vec<String> = unknowns()
             .filter(|(_, identified)| !**identified)
-            .map(|(unknown, _)| unknown.name)
+            .map(|(unknown, _)| unknown.label(bolts))
             .collect();
         if !open.is_empty() {
             let mut text = format!(
@@ -90,13 +123,14 @@ impl JointEstimate {
             warnings.push(text);
         }
         for ((unknown, &identified), deviation) in unknowns().zip(deviations) {
-            let value = unknown.value(&self.free);
+            let joint = &self.free[unknown.joint];
+            let value = unknown.value(joint);
             // A coupling may be zero: it counts beside the largest that a passive joint has.
-            let size = value.abs().max(unknown.passive_bound(&self.free));
+            let size = value.abs().max(unknown.passive_bound(joint));
             if identified && deviation > UNRELIABLE * size {
                 warnings.push(format!(
                     "{} = {value:.3e} {unit}{at} has a standard deviation of {deviation:.1e} {unit}: the data hardly determine it",
-                    unknown.name,
+                    unknown.label(bolts),
                     unit = unknown.unit
                 ));
             }
@@ -105,9 +139,9 @@ impl JointEstimate {
     }
 }
 
-/// Covariance of the unknowns of all joints together, with what the residual says about the noise and about the model.
+/// Covariance of the unknowns of all torques together, with what the residual says about the noise and about the model.
 pub(super) struct CovarianceOfAll {
-    /// Of the unknowns of one joint after the other.
+    /// Of the unknowns of one torque after the other.
     pub(super) matrix: DMatrix<f64>,
     coverage_factor: f64,
     inflation: Vec<f64>,
@@ -153,15 +187,16 @@ impl CovarianceOfAll {
         }
     }
 
-    /// The part of one joint.
-    pub(super) fn of_joint<const N: usize>(
+    /// The part of torque number `joint`; `bolts` are the names of those that have joints of their own.
+    pub(super) fn of_torque<const N: usize>(
         &self,
         objective: &Objective<'_, N>,
-        model: JointModel,
+        layout: &Layout,
+        bolts: &[String],
         found: &Found,
         joint: usize,
     ) -> Covariance {
-        let size = model.unknowns();
+        let size = layout.unknowns();
         let own = joint * size..(joint + 1) * size;
         let values = found.estimate.unknowns.as_slice()[own.clone()].to_vec();
         let matrix = self
@@ -173,12 +208,16 @@ impl CovarianceOfAll {
         let block = blocks.find(|block| block.joint == joint);
         let dynamic = block.map_or([1.0; N], |block| block.dynamic_stiffness);
         let omega = block.map_or(1.0, |block| block.omega[block.lines() / 2]);
-        let unknowns = Unknown::of(model);
+        let unknowns = Unknown::of_joints(layout.model(), layout.joints());
+        let names: Vec<String> = unknowns
+            .iter()
+            .map(|unknown| unknown.label(bolts))
+            .collect();
         let (identified, sizes) =
-            uncertainty::identified(model, &values, &deviation, &dynamic, omega);
+            uncertainty::identified(layout, &values, &deviation, &dynamic, omega);
         Covariance {
             determined_together: uncertainty::determined_together(
-                &unknowns,
+                &names,
                 &identified,
                 &sizes,
                 &matrix,
@@ -194,12 +233,11 @@ impl CovarianceOfAll {
 }
 
 impl BootstrapResult {
-    /// What the draws show of one of the joints that they hold.
+    /// What the draws show of those unknowns that they hold.
     pub(super) fn of(
         bootstrap: Bootstrap,
         draws: &[DVector<f64>],
-        model: JointModel,
-        joint: usize,
+        own: std::ops::Range<usize>,
     ) -> Self {
         let sorted = |unknown: usize| {
             let mut values: Vec<f64> = draws.iter().map(|draw| draw[unknown]).collect();
@@ -217,7 +255,6 @@ impl BootstrapResult {
             let above = (below + 1).min(values.len() - 1);
             values[below] + (place - below as f64) * (values[above] - values[below])
         };
-        let own = joint * model.unknowns()..(joint + 1) * model.unknowns();
         let own = if draws.is_empty() { 0..0 } else { own };
         let unknowns: Vec<Vec<f64>> = own.map(sorted).collect();
         Self {

@@ -11,33 +11,56 @@ use crate::joint::{
 use super::identification::{FunctionFit, Identification};
 use super::joint_estimate::{BootstrapResult, JointEstimate};
 use super::model::{JointMatrices, JointModel};
-use super::uncertainty::correlation;
+use super::uncertainty;
 
 impl Identification {
-    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from.
+    /// The joint file: the estimate, its uncertainty, where it holds, how well it fits and where it comes from. Where every
+    /// bolt has a joint of its own it is that of the first; [`Self::joint_files`] gives all.
     #[must_use]
     pub fn joint_file(&self) -> JointFile {
+        self.file_of(0)
+    }
+
+    /// A joint file for each bolt that has a joint of its own, with its name; without such bolts the one for all.
+    #[must_use]
+    pub fn joint_files(&self) -> Vec<(Option<&str>, JointFile)> {
+        match self.bolts.with_own_joint() {
+            [] => vec![(None, self.file_of(0))],
+            bolts => bolts
+                .iter()
+                .enumerate()
+                .map(|(bolt, name)| (Some(name.as_str()), self.file_of(bolt)))
+                .collect(),
+        }
+    }
+
+    fn file_of(&self, bolt: usize) -> JointFile {
+        let name = match self.bolts.with_own_joint().get(bolt) {
+            Some(bolt) => format!("{}, {bolt}", self.name),
+            None => self.name.clone(),
+        };
         JointFile {
             format: Format::V1,
-            name: self.name.clone(),
-            joint: self.joint_record(),
+            name,
+            joint: self.joint_record(bolt),
             bodies: self.bodies.clone(),
-            uncertainty: self.uncertainty(),
+            uncertainty: self.uncertainty(bolt),
             validity: Some(Validity {
                 frequency_hz: self.frequency_hz(),
                 torque_n_m: self.torque_n_m,
                 level: self.level.clone(),
             }),
             residual: Some(self.residual()),
-            provenance: Some(self.provenance.clone()),
+            provenance: self.provenance.get(bolt).cloned(),
         }
     }
 
-    fn joint_record(&self) -> Joint {
+    fn joint_record(&self, bolt: usize) -> Joint {
+        let joint = &self.estimate.bolts()[bolt];
         let constant = Joint {
             dofs: self.model.into(),
-            stiffness: rows(&self.joint.stiffness),
-            damping: rows(&self.joint.damping),
+            stiffness: rows(&joint.stiffness),
+            damping: rows(&joint.damping),
             cubic: vec![0.0; self.model.dofs()],
             over_preload: None,
         };
@@ -48,8 +71,10 @@ impl Identification {
             return constant;
         };
         let each = |matrix: fn(&JointMatrices) -> &DMatrix<f64>| {
-            let joints = joints.iter().map(|(_, joint)| rows(matrix(joint.joint())));
-            joints.collect()
+            let joints = joints.iter();
+            joints
+                .map(|(_, joint)| rows(matrix(&joint.bolts()[bolt])))
+                .collect()
         };
         Joint {
             stiffness: Vec::new(),
@@ -82,7 +107,7 @@ impl Identification {
         })
     }
 
-    fn uncertainty(&self) -> Option<Uncertainty> {
+    fn uncertainty(&self, bolt: usize) -> Option<Uncertainty> {
         let all = self.estimate.covariance_of_all();
         if all.diagonal().iter().any(|variance| !variance.is_finite()) {
             return None;
@@ -99,11 +124,18 @@ impl Identification {
             "the assembly only"
         };
         let joints = self.estimate.joints();
-        let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
-        let inflation = inflation.copied().fold(1.0, f64::max);
-        let nominal = self.at_torque(joints.first()?);
-        let covariance = self.estimate.covariance();
-        let names = covariance.unknowns.iter().map(|unknown| unknown.name);
+        let inflation = joints.iter().flat_map(|joint| {
+            let own = joint.unknowns_of(bolt).into_iter();
+            own.map(|index| joint.covariance.inflation[index])
+        });
+        let inflation = inflation.fold(1.0, f64::max);
+        let nominal = joints.first()?;
+        let own = nominal.unknowns_of(bolt);
+        let correlation = nominal.covariance.correlation();
+        let names = own
+            .iter()
+            .map(|&index| nominal.covariance.unknowns[index].name);
+        let nominal = self.at_torque(nominal, bolt);
         Some(Uncertainty {
             standard_deviation: nominal.standard_deviation,
             basis: format!(
@@ -111,66 +143,71 @@ impl Identification {
             ),
             correlation: Some(Correlation {
                 unknowns: names.map(str::to_owned).collect(),
-                matrix: rows(&covariance.correlation()),
+                matrix: rows(&correlation.select_rows(&own).select_columns(&own)),
             }),
             interval_95: nominal.interval_95,
             inflation: (inflation > 1.0).then_some(inflation),
             not_identified: nominal.not_identified,
             free_estimate: nominal.free_estimate,
             bootstrap: nominal.bootstrap,
-            over_preload: (joints.len() > 1).then(|| self.uncertainty_over_preload()),
+            over_preload: (joints.len() > 1).then(|| self.uncertainty_over_preload(bolt)),
         })
     }
 
-    fn uncertainty_over_preload(&self) -> UncertaintyOverPreload {
+    fn uncertainty_over_preload(&self, bolt: usize) -> UncertaintyOverPreload {
         let joints = self.ascending();
-        let size = self.model.unknowns();
-        // The covariance has the joints in the order of the assemblies.
+        // The covariance has the torques in the order of the assemblies.
         let places: Vec<usize> = joints
             .iter()
-            .flat_map(|(number, _)| number * size..(number + 1) * size)
+            .flat_map(|(number, joint)| {
+                let first = number * joint.covariance.unknowns.len();
+                let own = joint.unknowns_of(bolt).into_iter();
+                own.map(move |index| first + index)
+            })
             .collect();
         let all = self.estimate.covariance_of_all();
-        let ascending = DMatrix::from_fn(places.len(), places.len(), |i, j| {
-            all[(places[i], places[j])]
-        });
+        let ascending = all.select_rows(&places).select_columns(&places);
         let names = joints.iter().flat_map(|(_, joint)| {
-            let unknowns = joint.covariance.unknowns.iter();
-            unknowns.map(|unknown| format!("{}@{}", unknown.name, torque(joint)))
+            let own = joint.unknowns_of(bolt).into_iter();
+            own.map(|index| {
+                let name = joint.covariance.unknowns[index].name;
+                format!("{name}@{}", torque(joint))
+            })
         });
         UncertaintyOverPreload {
             at: joints
                 .iter()
-                .map(|(_, joint)| self.at_torque(joint))
+                .map(|(_, joint)| self.at_torque(joint, bolt))
                 .collect(),
             correlation: Some(Correlation {
                 unknowns: names.collect(),
-                matrix: rows(&correlation(&ascending)),
+                matrix: rows(&uncertainty::correlation(&ascending)),
             }),
         }
     }
 
-    fn at_torque(&self, joint: &JointEstimate) -> UncertaintyAtPreload {
+    fn at_torque(&self, joint: &JointEstimate, bolt: usize) -> UncertaintyAtPreload {
         let covariance = &joint.covariance;
-        let names = covariance.unknowns.iter().map(|unknown| unknown.name);
-        let not_identified = names
-            .zip(&covariance.identified)
-            .filter(|(_, identified)| !**identified)
-            .map(|(name, _)| name.to_owned());
+        let own = joint.unknowns_of(bolt);
+        let open = own.iter().filter(|&&index| !covariance.identified[index]);
+        let (deviation, ends) = (covariance.standard_deviation(), covariance.intervals());
+        let (free, passive) = (&joint.free[bolt], &joint.bolts()[bolt]);
         UncertaintyAtPreload {
             preload: torque(joint),
-            standard_deviation: deviations(self.model, &covariance.standard_deviation()),
-            interval_95: Some(intervals(self.model, &covariance.intervals())),
-            not_identified: not_identified.collect(),
-            free_estimate: (joint.free != *joint.joint()).then(|| FreeEstimate {
-                stiffness: rows(&joint.free.stiffness),
-                damping: rows(&joint.free.damping),
+            standard_deviation: deviations(self.model, &chosen(&deviation, &own)),
+            interval_95: Some(intervals(self.model, &chosen(&ends, &own))),
+            not_identified: open
+                .map(|&index| covariance.unknowns[index].name.to_owned())
+                .collect(),
+            free_estimate: (free != passive).then(|| FreeEstimate {
+                stiffness: rows(&free.stiffness),
+                damping: rows(&free.damping),
             }),
             bootstrap: joint
                 .bootstrap
                 .as_ref()
                 .filter(|result| result.converged > 1)
-                .map(|result| bootstrap(self.model, result)),
+                .map(|result| bootstrap(self.model, result, &own)),
         }
     }
 
@@ -236,13 +273,18 @@ fn intervals(model: JointModel, intervals: &[[f64; 2]]) -> Intervals {
     }
 }
 
-fn bootstrap(model: JointModel, result: &BootstrapResult) -> BootstrapRecord {
+/// Those of the `values` that belong to the unknowns number `own`.
+fn chosen<T: Copy>(values: &[T], own: &[usize]) -> Vec<T> {
+    own.iter().map(|&index| values[index]).collect()
+}
+
+fn bootstrap(model: JointModel, result: &BootstrapResult, own: &[usize]) -> BootstrapRecord {
     BootstrapRecord {
         draws: result.draws,
         seed: result.seed,
         converged: result.converged,
-        standard_deviation: deviations(model, &result.standard_deviation),
-        interval_95: intervals(model, &result.intervals),
+        standard_deviation: deviations(model, &chosen(&result.standard_deviation, own)),
+        interval_95: intervals(model, &chosen(&result.intervals, own)),
     }
 }
 

@@ -6,6 +6,7 @@
 use num_complex::Complex64;
 
 use super::block::{Entry, Small};
+use super::layout::Place;
 
 /// Q and X of one line, a column for each point.
 #[derive(Clone, Debug, Default)]
@@ -61,15 +62,18 @@ impl<const N: usize> Kernel<N> {
         own - dot(&self.transfer[entry.row], &self.x[entry.column])
     }
 
-    /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
+    /// Derivative of H^C at `entry` by an unknown entry of K*, in every block that has it.
     #[inline]
-    pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> Complex64 {
+    pub(super) fn by_stiffness(&self, entry: Entry, place: Place) -> Complex64 {
         let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
-        if i == j {
-            -(p[i] * q[i])
-        } else {
-            -(p[i] * q[j] + p[j] * q[i])
+        let mut derivative = ZERO;
+        for (i, j) in place.all() {
+            derivative -= p[i] * q[j];
+            if i != j {
+                derivative -= p[j] * q[i];
+            }
         }
+        derivative
     }
 
     /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss in the given proportions.
@@ -188,15 +192,17 @@ fn eliminated<const N: usize>(mut matrix: Small<N>) -> Option<Small<N>> {
 
 /// K* = K + jωC from the unknowns: the stiffness of each entry, then the damping of each.
 pub(super) fn complex_stiffness<const N: usize>(
-    entries: &[(usize, usize)],
+    entries: &[Place],
     unknowns: &[f64],
     omega: f64,
 ) -> Small<N> {
     let mut stiffness = [[ZERO; N]; N];
-    for (index, &(i, j)) in entries.iter().enumerate() {
+    for (index, place) in entries.iter().enumerate() {
         let value = Complex64::new(unknowns[index], omega * unknowns[entries.len() + index]);
-        stiffness[i][j] = value;
-        stiffness[j][i] = value;
+        for (i, j) in place.all() {
+            stiffness[i][j] = value;
+            stiffness[j][i] = value;
+        }
     }
     stiffness
 }

@@ -3,32 +3,37 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::frf::Dof;
-use crate::structure::{ComplexMatrix, Partition};
+use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::assessment::Assessment;
-use super::bands::{self, Bands};
+use super::averages::{Decoupled, band_averages, decouple, is_complete, used_bands};
+use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
 use super::group::{Group, Side};
 use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
+use super::layout::{Bolts, Layout};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel};
 use super::passive;
 use super::search::{self, Data, Effort, Found};
+use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
 use super::uncertainty::Covariance;
 
 /// What an identification from lines is to do beyond the estimate itself.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
+    /// The bolts, whose DOFs follow one another in the lines.
+    pub bolts: Bolts,
     /// Noise of everything measured.
     pub noise: Noise,
     /// Bands of the averages.
-    pub bands: Bands,
-    /// A joint to start from, beside the starts that the data give.
+    pub bands: BandChoices,
+    /// A joint to start from at every bolt, beside the starts that the data give.
     pub start: Option<JointMatrices>,
     /// Whether to compare the joint models and, where there are several torques, a common joint with separate ones.
     pub compare_models: bool,
@@ -49,6 +54,7 @@ pub struct LinesEstimate {
     /// That of the first assembly first, at least one.
     joints: Vec<JointEstimate>,
     joint_of_assembly: Vec<usize>,
+    layout: Layout,
     covariance_of_all: DMatrix<f64>,
     assessment: Assessment,
     noise_level: Option<NoiseLevel>,
@@ -58,12 +64,26 @@ pub struct LinesEstimate {
     warnings: Vec<String>,
 }
 
-/// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own.
+/// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own, and
+/// at the first bolt where every bolt has its own.
 impl LinesEstimate {
-    /// K* of each line of each assembly by (3.21); `None` where it cannot be had.
+    /// K* of each line of each assembly by (3.21), over the DOFs of all bolts; `None` where it cannot be had.
     #[must_use]
     pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
         &self.decoupled
+    }
+
+    /// K* of each line of each assembly at the bolts that have joint number `bolt`, a list for each of them.
+    #[must_use]
+    pub fn decoupled_of(&self, bolt: usize) -> Vec<Vec<Vec<Option<ComplexMatrix>>>> {
+        let dofs = self.layout.model().dofs();
+        let at = |bolt| {
+            let lists = self.decoupled.iter();
+            lists
+                .map(|list| decoupling::of_bolt(list, bolt, dofs))
+                .collect()
+        };
+        self.layout.bolts_with(bolt).map(at).collect()
     }
 
     /// All joints: the common one, or one for each torque in the order of their first assemblies.
@@ -94,7 +114,7 @@ impl LinesEstimate {
         joints
     }
 
-    /// Covariance of the unknowns of one joint after the other, in the order of [`Self::joints`]: common errors of the
+    /// Covariance of the unknowns of one torque after the other, in the order of [`Self::joints`]: common errors of the
     /// substructures correlate them.
     #[must_use]
     pub fn covariance_of_all(&self) -> &DMatrix<f64> {
@@ -107,10 +127,22 @@ impl LinesEstimate {
         self.joints[0].joint()
     }
 
+    /// The joint of each bolt that has one of its own, or the one for all.
+    #[must_use]
+    pub fn bolts(&self) -> &[JointMatrices] {
+        self.joints[0].bolts()
+    }
+
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`] takes them.
+    #[must_use]
+    pub fn whole(&self) -> &JointMatrices {
+        &self.joints[0].whole
+    }
+
     /// The estimate that is free to be active.
     #[must_use]
     pub fn free(&self) -> &JointMatrices {
-        &self.joints[0].free
+        &self.joints[0].free[0]
     }
 
     /// Covariance of the unknowns, and which of them are identified.
@@ -125,13 +157,25 @@ impl LinesEstimate {
         self.joints[0].standard_deviation(model)
     }
 
+    /// How much each measured receptance of `lines`, those of an assembly, depends on each unknown entry, at this estimate.
+    ///
+    /// # Errors
+    /// [`CouplingError::Singular`] at an undamped resonance.
+    pub fn sensitivities(
+        &self,
+        assembly: usize,
+        lines: &Lines,
+    ) -> Result<Vec<Sensitivity>, CouplingError> {
+        sensitivity::to_unknowns(lines, &self.layout, self.joint_of(assembly).whole())
+    }
+
     /// Whether the residual is noise.
     #[must_use]
     pub fn assessment(&self) -> &Assessment {
         &self.assessment
     }
 
-    /// Noise of the assembly's functions, stated or estimated; `None` without degrees of freedom to estimate it.
+    /// Noise of the assembly, stated or estimated; `None` where the lines tell nothing of it.
     #[must_use]
     pub fn noise_level(&self) -> Option<NoiseLevel> {
         self.noise_level
@@ -140,7 +184,13 @@ impl LinesEstimate {
     /// Average of the decoupled values, one of the starts.
     #[must_use]
     pub fn band_average(&self) -> Option<&JointMatrices> {
-        self.joints[0].band_average.as_ref()
+        self.joints[0].band_average()
+    }
+
+    /// The bands that each entry of each bolt's joint is averaged over.
+    #[must_use]
+    pub fn bands(&self) -> &[Vec<UsedBands>] {
+        &self.joints[0].bands
     }
 
     /// How many starts were tried, and how many of them led to this estimate.
@@ -187,19 +237,25 @@ pub fn identify_lines(
 ) -> Result<LinesEstimate, IdentifyError> {
     let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
     let dofs = first.map_or(0, |lines| lines.a_joint[0].nrows());
-    if all.iter().any(|lines| lines.measured.is_empty()) || dofs < model.dofs() {
+    let layout = Layout::new(model, &options.bolts, dofs);
+    let is_empty = all.iter().any(|lines| lines.measured.is_empty());
+    let Some(layout) = layout.filter(|_| !is_empty) else {
         return Err(no_estimate(all, 0));
-    }
+    };
     match dofs {
-        1 => identify_with::<1>(all, model, options),
-        2 => identify_with::<2>(all, model, options),
+        1 => identify_with::<1>(all, layout, options),
+        2 => identify_with::<2>(all, layout, options),
+        3 => identify_with::<3>(all, layout, options),
+        4 => identify_with::<4>(all, layout, options),
+        6 => identify_with::<6>(all, layout, options),
+        8 => identify_with::<8>(all, layout, options),
         _ => Err(no_estimate(all, 0)),
     }
 }
 
 fn identify_with<const N: usize>(
     all: &[Lines],
-    model: JointModel,
+    layout: Layout,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
     let torques = Torques::of(&options.torques_n_m, all.len());
@@ -218,75 +274,74 @@ fn identify_with<const N: usize>(
         None => Assignment::common(all),
         Some(torques) => Assignment::separate(all, torques),
     };
-    let joint_of_assembly: Vec<usize> = assignment.all.iter().map(|&(_, joint)| joint).collect();
-    let decoupled: Vec<_> = all.iter().map(decouple).collect();
-    let averages: Vec<Option<JointMatrices>> = (0..assignment.joints)
-        .map(|joint| {
-            let all = assignment.all.iter().zip(&decoupled);
-            let own = all.filter(|((_, own), _)| *own == joint);
-            let (hz, pooled): (Vec<f64>, Vec<Option<ComplexMatrix>>) = own
-                .flat_map(|((lines, _), decoupled)| {
-                    lines.frequency_hz.iter().copied().zip(decoupled.clone())
-                })
-                .unzip();
-            bands::band_average(model, &hz, &pooled, &options.bands)
-        })
-        .collect();
+    let (joint_of_assembly, count): (Vec<usize>, usize) = (
+        assignment.all.iter().map(|&(_, joint)| joint).collect(),
+        assignment.joints,
+    );
+    let decoupled: Vec<_> = all.iter().map(|lines| decouple(lines, &layout)).collect();
     let noise = &options.noise;
     let problem = Problem::<N>::new(assignment, noise);
-    let starts = |average: &Option<JointMatrices>| -> Vec<DVector<f64>> {
-        let given = [options.start.as_ref(), average.as_ref()];
-        given
-            .into_iter()
-            .flatten()
-            .map(|joint| DVector::from_vec(joint.unknowns(model)))
-            .filter(|start| start.iter().all(|value| value.is_finite()))
-            .collect()
-    };
-    let starts: Vec<Vec<DVector<f64>>> = averages.iter().map(starts).collect();
+    let averaged: Vec<Averaged> = (0..count)
+        .map(|joint| {
+            let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
+            let own: Vec<Decoupled<'_>> = own
+                .filter(|(_, own)| **own == joint)
+                .map(|((lines, values), _)| Decoupled { lines, values })
+                .collect();
+            let bands = used_bands(&own, &layout, &options.bands, problem.data());
+            let averages = band_averages(&own, &layout, &bands);
+            Averaged { bands, averages }
+        })
+        .collect();
+    let starts: Vec<Vec<DVector<f64>>> = averaged
+        .iter()
+        .map(|averaged| averaged.starts(&layout, options.start.as_ref()))
+        .collect();
     let found = problem
-        .best(model, &starts, Effort::Whole)
+        .best(&layout, &starts, Effort::Whole)
         .map_err(|starts| no_estimate(all, starts))?;
-    let objective = problem.objective(model.entries());
+    let places = layout.places();
+    let objective = problem.objective(&places);
     let estimate = &found.estimate;
+    let names = options.bolts.with_own_joint();
     let covariance = CovarianceOfAll::of(&objective, noise, &found);
-    let passive = passive::passive(&objective, model, noise, estimate);
+    let passive = passive::passive(&objective, &layout, noise, estimate);
     let draws = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
         let draws = bootstrap::draws(&objective, noise, estimate, bootstrap, progress)?;
         Some((bootstrap, draws))
     });
-    let matrices = |unknowns: &DVector<f64>, joint: usize| {
-        let mut joints = unknowns.as_slice().chunks_exact(model.unknowns());
-        let own = joints.nth(joint)?;
-        Some(JointMatrices::from_unknowns(model, own))
+    let size = layout.unknowns();
+    let of_torque = |(joint, averaged): (usize, Averaged)| {
+        let own = joint * size..(joint + 1) * size;
+        let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
+        let free = matrices(&estimate.unknowns);
+        let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
+        JointEstimate {
+            torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
+            bands: averaged.bands,
+            band_averages: averaged.averages,
+            covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
+            bootstrap: draws
+                .as_ref()
+                .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
+            whole: layout.whole(passive.as_ref().unwrap_or(&free)),
+            layout: layout.clone(),
+            free,
+            passive,
+        }
     };
-    let joints: Vec<JointEstimate> = averages
-        .into_iter()
-        .enumerate()
-        .filter_map(|(joint, band_average)| {
-            Some(JointEstimate {
-                torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
-                band_average,
-                free: matrices(&estimate.unknowns, joint)?,
-                passive: passive
-                    .as_ref()
-                    .and_then(|passive| matrices(&passive.unknowns, joint)),
-                covariance: covariance.of_joint(&objective, model, &found, joint),
-                bootstrap: draws
-                    .as_ref()
-                    .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, model, joint)),
-            })
-        })
-        .collect();
+    let joints: Vec<JointEstimate> = averaged.into_iter().enumerate().map(of_torque).collect();
     let choice = options
         .compare_models
-        .then(|| choice::compare(&problem, model, noise, &found));
+        .then(|| choice::compare(&problem, &layout, noise, &found));
     let torque_choice = torques
         .filter(|_| options.compare_models)
-        .and_then(|torques| torque::compare::<N>(all, &torques, noise, model, dependence, &found));
-    let mut warnings = warnings(all, model, &found, &joints);
-    warnings.extend(joints.iter().flat_map(JointEstimate::warnings));
+        .and_then(|torques| {
+            torque::compare::<N>(all, &torques, noise, &layout, dependence, &found)
+        });
+    let mut warnings = warnings(all, &layout, &found, &joints);
+    warnings.extend(joints.iter().flat_map(|joint| joint.warnings(names)));
     warnings.extend(
         torque_choice
             .as_ref()
@@ -298,6 +353,7 @@ fn identify_with<const N: usize>(
             .then_some(estimate.levels.assembly),
         joints,
         joint_of_assembly,
+        layout,
         covariance_of_all: covariance.matrix,
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
@@ -305,6 +361,25 @@ fn identify_with<const N: usize>(
         torque_choice,
         warnings,
     })
+}
+
+/// What the decoupled values at one torque give.
+struct Averaged {
+    bands: Vec<Vec<UsedBands>>,
+    averages: Option<Vec<JointMatrices>>,
+}
+
+impl Averaged {
+    /// Starts from a `given` joint and from the averages.
+    fn starts(&self, layout: &Layout, given: Option<&JointMatrices>) -> Vec<DVector<f64>> {
+        let given = given.map(std::slice::from_ref);
+        [given, self.averages.as_deref()]
+            .into_iter()
+            .flatten()
+            .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
+            .filter(|start| start.iter().all(|value| value.is_finite()))
+            .collect()
+    }
 }
 
 impl<const N: usize> Data<N> {
@@ -331,29 +406,6 @@ impl<const N: usize> Data<N> {
     }
 }
 
-/// Whether every pair of points was measured, at least as its transpose.
-fn is_complete(lines: &Lines) -> bool {
-    let count = lines.points.len();
-    let has = |place: (usize, usize)| {
-        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
-    };
-    (0..count).all(|p| (0..count).all(|q| has((p, q))))
-}
-
-/// K* of each line by (3.21); `None` where it cannot be had.
-fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
-    let complete = is_complete(lines);
-    let line = |index: usize| {
-        let a_joint = &lines.a_joint[index];
-        // Equation (3.21) needs nothing of A but H_jj.
-        let a = Partition::of(a_joint, a_joint.nrows());
-        decoupling::from_ss(&a, &lines.b[index], &lines.assembly[index])
-    };
-    (0..lines.frequency_hz.len())
-        .map(|index| if complete { line(index) } else { None })
-        .collect()
-}
-
 pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
     let points = all.iter().flat_map(|lines| &lines.points);
     IdentifyError::NoEstimate {
@@ -364,10 +416,11 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
 
 fn warnings(
     all: &[Lines],
-    model: JointModel,
+    layout: &Layout,
     found: &Found,
     joints: &[JointEstimate],
 ) -> Vec<String> {
+    let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
         warnings.push(format!(
@@ -382,12 +435,12 @@ fn warnings(
         }
     };
     for lines in all {
-        if lines.points.len() < model.dofs() {
+        if lines.points.len() < dofs {
             let warning = format!(
-                "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
+                "{} response point{} for a joint with {dofs} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
                  determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
                 lines.points.len(),
-                model.dofs(),
+                if lines.points.len() == 1 { "" } else { "s" },
                 lines.points.len()
             );
             once(&mut warnings, warning);

@@ -15,10 +15,13 @@ use num_complex::Complex64;
 
 use super::group::Group;
 use super::kernel::{Kernel, complex_stiffness};
+use super::layout::Place;
 use super::normal::Normal;
 
-/// Entries of K* on and above the diagonal that can be unknown.
-const MAX_ENTRIES: usize = 3;
+/// Entries of K* on and above the diagonal that can be unknown: those of four bolts with a joint of their own …
+const MAX_ENTRIES: usize = 12;
+/// … and of one joint.
+const ENTRIES_OF_ONE: usize = 3;
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
@@ -56,7 +59,7 @@ pub(super) struct State {
 pub(super) struct Objective<'a, const N: usize> {
     pub(super) groups: &'a [Group<N>],
     /// Unknown entries of K*.
-    pub(super) entries: &'a [(usize, usize)],
+    pub(super) entries: &'a [Place],
 }
 
 impl<const N: usize> Objective<'_, N> {
@@ -69,7 +72,8 @@ impl<const N: usize> Objective<'_, N> {
         let count = self.entries.len();
         let mut joints = unknowns.as_slice().chunks_exact(2 * count);
         joints.all(|joint| {
-            self.entries.iter().enumerate().all(|(index, &(i, j))| {
+            self.entries.iter().enumerate().all(|(index, place)| {
+                let (i, j) = place.first();
                 let limit = RIGID * (own[i] * own[j]).sqrt();
                 joint[index].abs() <= limit && omega * joint[count + index].abs() <= limit
             })
@@ -135,7 +139,12 @@ impl<const N: usize> Objective<'_, N> {
             for index in 0..group.lines() {
                 let variances = line.weights(weights, index);
                 if group.sources.is_empty() {
-                    line.accumulate(index, unknowns.as_slice(), variances.0, &mut normal)?;
+                    let (unknowns, variances) = (unknowns.as_slice(), variances.0);
+                    if self.entries.len() <= ENTRIES_OF_ONE {
+                        line.accumulate::<ENTRIES_OF_ONE>(index, unknowns, variances, &mut normal)?;
+                    } else {
+                        line.accumulate::<MAX_ENTRIES>(index, unknowns, variances, &mut normal)?;
+                    }
                     continue;
                 }
                 {
@@ -186,7 +195,7 @@ impl<const N: usize> Objective<'_, N> {
 /// One line of a group, linearised: everything that the normal equations need of it. Reused from line to line.
 pub(super) struct Line<'g, const N: usize> {
     group: &'g Group<N>,
-    joint_entries: &'g [(usize, usize)],
+    joint_entries: &'g [Place],
     kernel: Kernel<N>,
     transfer: Vec<[Complex64; N]>,
     pub(super) index: usize,
@@ -214,7 +223,7 @@ pub(super) struct Line<'g, const N: usize> {
 }
 
 impl<'g, const N: usize> Line<'g, N> {
-    fn new(group: &'g Group<N>, joint_entries: &'g [(usize, usize)]) -> Self {
+    fn new(group: &'g Group<N>, joint_entries: &'g [Place]) -> Self {
         let size = group.entries();
         let joints = group.joints();
         Self {
@@ -336,7 +345,7 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 
     /// Linearises a line whose entries all have errors of their own and adds it to the normal equations, in one go.
-    fn accumulate(
+    fn accumulate<const E: usize>(
         &mut self,
         index: usize,
         unknowns: &[f64],
@@ -352,7 +361,7 @@ impl<'g, const N: usize> Line<'g, N> {
             let first = own_joint.start;
             let own_joint = &unknowns[own_joint];
             let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
-            let mut sums = Sums::default();
+            let mut sums = Sums::<E>::new();
             let entries = block.entries.len();
             let transfer = &block.transfer[index * block.points..(index + 1) * block.points];
             let own = &block.own[index * entries..(index + 1) * entries];
@@ -363,7 +372,7 @@ impl<'g, const N: usize> Line<'g, N> {
             for (((&entry, &own), &measured), variance) in values.zip(&mut variances) {
                 let weight = variance.recip();
                 let residual = measured - self.kernel.receptance(own, entry);
-                let mut row = [ZERO; MAX_ENTRIES];
+                let mut row = [ZERO; E];
                 for (value, &place) in row.iter_mut().zip(self.joint_entries) {
                     *value = self.kernel.by_stiffness(entry, place);
                 }
@@ -615,12 +624,23 @@ impl<'g, const N: usize> Line<'g, N> {
         normal.cost += self.cost;
         normal.signal += self.signal;
         normal.linearised_cost += self.residual.iter().map(|r| r.norm_sqr()).sum::<f64>();
+        if count <= ENTRIES_OF_ONE {
+            self.add_entries_to::<ENTRIES_OF_ONE>(normal);
+        } else {
+            self.add_entries_to::<MAX_ENTRIES>(normal);
+        }
+    }
+
+    fn add_entries_to<const E: usize>(&self, normal: &mut Normal) {
+        let count = self.joint_entries.len();
         let own_rows = || self.by_joint.chunks_exact(self.residual.len());
         for (slot, (rows, &joint)) in own_rows().zip(&self.joints).enumerate() {
             let first = self.unknowns_of(joint).start;
-            let mut sums = Sums::default();
+            let mut sums = Sums::<E>::new();
             for (residual, row) in self.residual.iter().zip(rows) {
-                sums.add(1.0, *residual, row, count);
+                if let Some(row) = row.first_chunk::<E>() {
+                    sums.add(1.0, *residual, row, count);
+                }
             }
             sums.add_to(normal, self.omega, count, first);
             // Common errors of the substructures couple the joints of assemblies that share them.
@@ -656,28 +676,31 @@ impl<'g, const N: usize> Line<'g, N> {
 }
 
 /// Sums over the entries of one line.
-#[derive(Default)]
-struct Sums {
+struct Sums<const E: usize> {
     cost: f64,
     signal: f64,
     /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
-    products: [[Complex64; MAX_ENTRIES]; MAX_ENTRIES],
+    products: [[Complex64; E]; E],
     /// Σ conj(∂H/∂K*_i) r / σ²
-    right: [Complex64; MAX_ENTRIES],
+    right: [Complex64; E],
 }
 
-impl Sums {
+impl<const E: usize> Sums<E> {
+    fn new() -> Self {
+        Self {
+            cost: 0.0,
+            signal: 0.0,
+            products: [[ZERO; E]; E],
+            right: [ZERO; E],
+        }
+    }
+
     #[inline]
-    fn add(
-        &mut self,
-        weight: f64,
-        residual: Complex64,
-        row: &[Complex64; MAX_ENTRIES],
-        count: usize,
-    ) {
-        // Rows beyond `count` are zero, so that the loops can be unrolled.
-        debug_assert!(count <= MAX_ENTRIES);
-        for i in 0..MAX_ENTRIES {
+    fn add(&mut self, weight: f64, residual: Complex64, row: &[Complex64; E], count: usize) {
+        // Rows beyond `count` are zero, so that the loops of one joint can be unrolled.
+        debug_assert!(count <= E);
+        let count = if E > ENTRIES_OF_ONE { count } else { E };
+        for i in 0..count {
             let conjugate = row[i].conj() * weight;
             self.right[i] += conjugate * residual;
             for j in 0..=i {

@@ -4,26 +4,44 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::joint::{InputFile, Provenance};
+use crate::joint::{
+    BandOriginRecord, BandRecord, BandsRecord, FromModesRecord, InputFile, Provenance,
+};
 use crate::text_file::TextFileError;
 
+use super::bands::{BandOrigin, UsedBands};
 use super::error::IdentifyError;
+use super::from_modes::FromModes;
+use super::lines_estimate::LinesEstimate;
 use super::study::{Source, Study, Substructure};
 
-/// Provenance of what is identified from this study.
-pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
+/// Provenance of each joint that is identified from this study.
+pub(super) fn of(
+    study: &Study,
+    estimate: &LinesEstimate,
+    from_modes: &[FromModes],
+) -> Result<Vec<Provenance>, IdentifyError> {
     let folder = study.path.parent().unwrap_or(Path::new(""));
     let file_of = |substructure: &Substructure| match substructure {
         Substructure::Measured { source, .. } => Some(match source {
-            Source::Frf(file) => file.path.clone(),
+            Source::Frf { file, .. } => file.path.clone(),
             Source::Modal(path) => path.clone(),
         }),
         Substructure::Beam { .. } => None,
     };
+    let modes_of = |substructure: &Substructure| match substructure {
+        Substructure::Measured {
+            source: Source::Frf { modes, .. },
+            ..
+        } => modes.clone(),
+        Substructure::Measured { .. } | Substructure::Beam { .. } => None,
+    };
     let mut named = vec![
         ("study", Some(study.path.clone())),
         ("substructure a", file_of(&study.a)),
+        ("substructure a, modes", modes_of(&study.a)),
         ("substructure b", file_of(&study.b)),
+        ("substructure b, modes", modes_of(&study.b)),
         ("assembly", Some(study.assembly.path.clone())),
     ];
     for further in &study.further {
@@ -33,7 +51,9 @@ pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
         };
         for (role, path) in [
             ("substructure a", file_of(&further.a)),
+            ("substructure a, modes", modes_of(&further.a)),
             ("substructure b", file_of(&further.b)),
+            ("substructure b, modes", modes_of(&further.b)),
             ("assembly", Some(further.file.path.clone())),
         ] {
             let entry = its_own(role, path, &named);
@@ -48,14 +68,62 @@ pub(super) fn of(study: &Study) -> Result<Provenance, IdentifyError> {
         .filter_map(|(role, path)| Some((role, path?)))
         .map(|(role, path)| input(role, &path, folder))
         .collect::<Result<Vec<_>, _>>()?;
-    Ok(Provenance {
+    let of_joint = |(joint, bands): (usize, &Vec<UsedBands>)| Provenance {
         tool: env!("CARGO_PKG_NAME").to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         method: "frf-decoupling".to_owned(),
         model: study.model.to_string(),
-        inputs,
+        inputs: inputs.clone(),
+        bolts: match study.bolts.with_own_joint().get(joint) {
+            Some(bolt) => vec![bolt.clone()],
+            None => study.bolts.names().to_vec(),
+        },
+        bands: estimate.band_average().map(|_| record(bands)),
+        from_modes: from_modes
+            .iter()
+            .map(|found| of_modes(found, folder))
+            .collect(),
         notes: study.notes.clone(),
-    })
+    };
+    Ok(estimate.bands().iter().enumerate().map(of_joint).collect())
+}
+
+fn record(bands: &[UsedBands]) -> BandsRecord {
+    let of = |name: &str| {
+        let used = bands.iter().find(|used| used.name == name)?;
+        Some(BandRecord {
+            origin: match used.origin {
+                BandOrigin::Given => BandOriginRecord::Study,
+                BandOrigin::Automatic => BandOriginRecord::Automatic,
+                BandOrigin::NoneQualifies | BandOrigin::Median => BandOriginRecord::Median,
+            },
+            frequency_hz: used.bands.clone(),
+        })
+    };
+    BandsRecord {
+        yy: of("yy"),
+        ytheta: of("ytheta"),
+        thetatheta: of("thetatheta"),
+    }
+}
+
+fn of_modes(found: &FromModes, folder: &Path) -> FromModesRecord {
+    let functions = found.functions.iter();
+    FromModesRecord {
+        substructure: found.substructure.to_owned(),
+        file: name_in(folder, &found.path),
+        functions: functions
+            .map(|(response, reference)| [response.to_string(), reference.to_string()])
+            .collect(),
+    }
+}
+
+/// A path as the study gives it.
+fn name_in(folder: &Path, path: &Path) -> String {
+    path.strip_prefix(folder)
+        .unwrap_or(path)
+        .display()
+        .to_string()
 }
 
 fn input(role: &str, path: &PathBuf, folder: &Path) -> Result<InputFile, IdentifyError> {
@@ -66,11 +134,7 @@ fn input(role: &str, path: &PathBuf, folder: &Path) -> Result<InputFile, Identif
     let digest = Sha256::digest(&bytes);
     Ok(InputFile {
         role: role.to_owned(),
-        file: path
-            .strip_prefix(folder)
-            .unwrap_or(path)
-            .display()
-            .to_string(),
+        file: name_in(folder, path),
         sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
     })
 }

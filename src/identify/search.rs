@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::assessment::{Assessment, assess};
 use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
+use super::layout::Place;
 use super::noise::Noise;
 use super::objective::Objective;
 use super::parallel;
@@ -66,7 +67,7 @@ pub(super) struct Found {
 /// The best estimate from `first` and from the search's own starts; `Err` with the number of starts if there is none.
 pub(super) fn best<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
     first: Vec<DVector<f64>>,
     effort: Effort,
@@ -106,13 +107,16 @@ pub(super) fn best<const N: usize>(
 fn softest_of_the_best<'f, const N: usize>(
     finals: &'f [Final],
     groups: &[Group<N>],
-    entries: &[(usize, usize)],
+    entries: &[Place],
 ) -> Option<&'f Final> {
     let lowest = rank(&finals.first()?.estimate);
     let own = groups.first()?.blocks.first()?.dynamic_stiffness;
     let size = |end: &&Final| -> f64 {
         let places = entries.iter().enumerate();
-        let parts = places.map(|(t, &(i, j))| end.estimate.unknowns[t].powi(2) / (own[i] * own[j]));
+        let parts = places.map(|(t, place)| {
+            let (i, j) = place.first();
+            end.estimate.unknowns[t].powi(2) / (own[i] * own[j])
+        });
         parts.sum()
     };
     finals
@@ -140,7 +144,7 @@ struct Final {
 /// Where one start leads on few lines.
 pub(super) fn try_start<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
     start: &DVector<f64>,
 ) -> Option<Estimate> {
@@ -164,7 +168,7 @@ pub(super) fn try_start<const N: usize>(
 /// The best few different `trials`, on all lines, best first.
 fn finalists<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
     trials: &[Estimate],
 ) -> Vec<Final> {

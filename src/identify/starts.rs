@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use super::block::Block;
 use super::group::Group;
 use super::kernel::{Kernel, complex_stiffness, inverse};
+use super::layout::Place;
 
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -23,11 +24,8 @@ const LINEAR_ROUNDS: usize = 6;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join.
-pub(super) fn grid<const N: usize>(
-    groups: &[Group<N>],
-    entries: &[(usize, usize)],
-) -> Vec<DVector<f64>> {
+/// A grid of diagonal joints, each DOF from soft to stiff and the same at every bolt, and one that all but does not join.
+pub(super) fn grid<const N: usize>(groups: &[Group<N>], entries: &[Place]) -> Vec<DVector<f64>> {
     let blocks: Vec<&Block<N>> = groups.iter().flat_map(|group| &group.blocks).collect();
     let typical = blocks
         .first()
@@ -35,22 +33,23 @@ pub(super) fn grid<const N: usize>(
     let omega = blocks
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);
-    let diagonal: Vec<usize> = (0..N)
-        .filter(|&dof| entries.contains(&(dof, dof)))
-        .collect();
+    let diagonal = (0..N).filter(|&dof| {
+        let mut places = entries.iter();
+        places.any(|place| place.diagonal_dof() == Some(dof))
+    });
     let mut starts = Vec::new();
     let mut push = |multiple: &dyn Fn(usize) -> f64| {
         let mut start = DVector::zeros(2 * entries.len());
-        for (index, &(i, j)) in entries.iter().enumerate() {
-            if i == j {
-                let stiffness = typical[i] * multiple(i);
+        for (index, place) in entries.iter().enumerate() {
+            if let Some(dof) = place.diagonal_dof() {
+                let stiffness = typical[place.first().0] * multiple(dof);
                 start[index] = stiffness;
                 start[entries.len() + index] = stiffness * LOSS / omega;
             }
         }
         starts.push(start);
     };
-    for combination in 0..MULTIPLES.len().pow(diagonal.len() as u32) {
+    for combination in 0..MULTIPLES.len().pow(diagonal.count() as u32) {
         push(&|dof| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()]);
     }
     push(&|_| LOOSE);
@@ -65,7 +64,7 @@ pub(super) fn grid<const N: usize>(
 /// biases the result, so that it is a start only.
 pub(super) fn linear<const N: usize>(
     groups: &[Group<N>],
-    entries: &[(usize, usize)],
+    entries: &[Place],
     first: Option<&DVector<f64>>,
 ) -> Option<DVector<f64>> {
     let mut unknowns = first
@@ -82,14 +81,14 @@ pub(super) fn linear<const N: usize>(
 }
 
 struct LinearNormal<'e> {
-    entries: &'e [(usize, usize)],
+    entries: &'e [Place],
     matrix: DMatrix<f64>,
     right: DVector<f64>,
     rows: usize,
 }
 
 impl<'e> LinearNormal<'e> {
-    fn new(entries: &'e [(usize, usize)]) -> Self {
+    fn new(entries: &'e [Place]) -> Self {
         let size = 2 * entries.len();
         Self {
             entries,
@@ -148,12 +147,15 @@ impl<'e> LinearNormal<'e> {
         let count = self.entries.len();
         let target: Complex64 = (0..N).map(|i| q[i] * x[i]).sum();
         let mut row = vec![ZERO; 2 * count];
-        for (index, &(i, j)) in self.entries.iter().enumerate() {
-            let coefficient = if i == j {
-                q[i] * w[i]
-            } else {
-                q[i] * w[j] + q[j] * w[i]
+        for (index, place) in self.entries.iter().enumerate() {
+            let of_block = |(i, j): (usize, usize)| {
+                if i == j {
+                    q[i] * w[i]
+                } else {
+                    q[i] * w[j] + q[j] * w[i]
+                }
             };
+            let coefficient: Complex64 = place.all().map(of_block).sum();
             row[index] = coefficient;
             row[count + index] = Complex64::new(0.0, omega) * coefficient;
         }

@@ -10,10 +10,11 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::assessment::{Assessment, assess};
+use super::bolt_starts::bolt_starts;
 use super::choice::bayesian_criterion;
 use super::estimator::{Estimate, Free, estimate};
+use super::layout::{Layout, Place};
 use super::lines::Lines;
-use super::model::JointModel;
 use super::noise::Noise;
 use super::objective::Objective;
 use super::search::{self, Data, Effort, Found};
@@ -167,11 +168,16 @@ impl<'a, const N: usize> Problem<'a, N> {
     }
 
     /// The objective over all lines.
-    pub(super) fn objective<'o>(&'o self, entries: &'o [(usize, usize)]) -> Objective<'o, N> {
+    pub(super) fn objective<'o>(&'o self, entries: &'o [Place]) -> Objective<'o, N> {
         Objective {
             groups: &self.data.whole,
             entries,
         }
+    }
+
+    /// The data in the forms that a search goes through.
+    pub(super) fn data(&self) -> &Data<N> {
+        &self.data
     }
 
     /// How many joints are sought.
@@ -186,26 +192,28 @@ impl<'a, const N: usize> Problem<'a, N> {
     /// the start of the estimate of all.
     pub(super) fn best(
         &self,
-        model: JointModel,
+        layout: &Layout,
         starts: &[Vec<DVector<f64>>],
         effort: Effort,
     ) -> Result<Found, usize> {
-        let (entries, noise) = (model.entries(), self.noise);
+        let (entries, noise) = (&layout.places(), self.noise);
         let own_starts = |joint: usize| starts.get(joint).cloned().unwrap_or_default();
         if self.joints() == 1 {
-            return search::best(&self.data, entries, noise, own_starts(0), effort);
+            let starts = bolt_starts(&self.data, layout, noise, own_starts(0), effort);
+            return search::best(&self.data, entries, noise, starts, effort);
         }
         let mut joints = Vec::with_capacity(self.joints());
         let (mut tried, mut agreeing) = (0, 0);
         for joint in 0..self.joints() {
             let data: Data<N> = Data::of(&self.assignment.only(joint), noise);
-            let found = search::best(&data, entries, noise, own_starts(joint), effort)
-                .map_err(|more| tried + more)?;
+            let starts = bolt_starts(&data, layout, noise, own_starts(joint), effort);
+            let found =
+                search::best(&data, entries, noise, starts, effort).map_err(|more| tried + more)?;
             tried += found.tried;
             agreeing += found.agreeing;
             joints.push(found.estimate.unknowns);
         }
-        let (estimate, assessment) = self.together(model, &joints, effort).ok_or(tried)?;
+        let (estimate, assessment) = self.together(layout, &joints, effort).ok_or(tried)?;
         Ok(Found {
             estimate,
             assessment,
@@ -218,11 +226,11 @@ impl<'a, const N: usize> Problem<'a, N> {
     /// from each of them at all torques.
     fn together(
         &self,
-        model: JointModel,
+        layout: &Layout,
         joints: &[DVector<f64>],
         effort: Effort,
     ) -> Option<(Estimate, Assessment)> {
-        let (entries, noise) = (model.entries(), self.noise);
+        let (entries, noise) = (&layout.places(), self.noise);
         let objective = self.objective(entries);
         let concatenated = |joints: &mut dyn Iterator<Item = &DVector<f64>>| {
             let values: Vec<f64> = joints.flat_map(|joint| joint.iter().copied()).collect();
@@ -264,11 +272,11 @@ pub(super) fn compare<const N: usize>(
     all: &[Lines],
     torques: &Torques,
     noise: &Noise,
-    model: JointModel,
+    layout: &Layout,
     used: TorqueDependence,
     found: &Found,
 ) -> Option<TorqueChoice> {
-    let size = model.unknowns();
+    let size = layout.unknowns();
     let joints = found.estimate.unknowns.as_slice().chunks_exact(size);
     let joints: Vec<DVector<f64>> = joints.map(DVector::from_column_slice).collect();
     let (assignment, starts) = match used {
@@ -279,7 +287,7 @@ pub(super) fn compare<const N: usize>(
         TorqueDependence::Separate => (Assignment::common(all), vec![joints]),
     };
     let other = Problem::<N>::new(assignment, noise);
-    let other = other.best(model, &starts, Effort::Related).ok()?;
+    let other = other.best(layout, &starts, Effort::Related).ok()?;
     let (common, separate) = match used {
         TorqueDependence::Common => (found, &other),
         TorqueDependence::Separate => (&other, found),

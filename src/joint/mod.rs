@@ -22,7 +22,8 @@ pub use law::LawError;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
-    Bodies, Body, BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, InputFile,
-    Intervals, Joint, JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation,
-    Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
+    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
+    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };

@@ -335,9 +335,68 @@ pub struct Provenance {
     /// Files that the parameters were determined from.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<InputFile>,
+    /// Names of the bolts at each of which the joint is, where the structure has several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bolts: Vec<String>,
+    /// Bands of the averages that the search started from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bands: Option<BandsRecord>,
+    /// Receptances of substructures that come from modes because they were not measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub from_modes: Vec<FromModesRecord>,
     /// What a reader should know before using the joint.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+/// Bands over which the decoupled values of each entry were averaged.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BandsRecord {
+    /// For k_yy and c_yy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yy: Option<BandRecord>,
+    /// For k_ytheta and c_ytheta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ytheta: Option<BandRecord>,
+    /// For k_thetatheta and c_thetatheta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thetatheta: Option<BandRecord>,
+}
+
+/// Bands of one entry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BandRecord {
+    /// Where they come from.
+    pub origin: BandOriginRecord,
+    /// Lowest and highest frequency of each, Hz; none for the median over all lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frequency_hz: Vec<[f64; 2]>,
+}
+
+/// Where the bands of an average come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BandOriginRecord {
+    /// The study gives them.
+    Study,
+    /// Chosen by sensitivity and distance to the substructures' own resonances.
+    Automatic,
+    /// The median over all lines.
+    Median,
+}
+
+/// Receptances of a substructure that its modes supplied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FromModesRecord {
+    /// `a` or `b`.
+    pub substructure: String,
+    /// Name of the file with the modes, as the study gives it.
+    pub file: String,
+    /// Response and reference of each, such as `["1:+Y", "3:+Y"]`; its transpose is the same.
+    pub functions: Vec<[String; 2]>,
 }
 
 /// A file that the parameters were determined from.

@@ -6,6 +6,7 @@
 )]
 
 mod bench;
+mod bolted;
 mod check;
 mod check_run;
 mod communication_step;
@@ -15,6 +16,8 @@ mod export;
 mod identified;
 mod joint_file;
 mod modal_file;
+mod model_choice;
+mod modes_beside;
 mod output;
 mod report;
 mod rig;

@@ -55,7 +55,7 @@ fn errors(rig: &Rig, found: &LinesEstimate, joints: &[JointMatrices]) -> Vec<f64
     pairs
         .flat_map(|(found, truth)| {
             let truth = unknowns(rig.model, truth);
-            let found = unknowns(rig.model, &found.free);
+            let found = unknowns(rig.model, &found.free[0]);
             found
                 .into_iter()
                 .zip(truth)
@@ -217,7 +217,7 @@ fn debug_seed_40() {
     for (found, joint) in found.joints().iter().zip(&joints) {
         let truth = unknowns(rig.model, joint);
         let sd = found.covariance.standard_deviation();
-        let ratio: Vec<f64> = unknowns(rig.model, &found.free)
+        let ratio: Vec<f64> = unknowns(rig.model, &found.free[0])
             .iter()
             .zip(&truth)
             .map(|(f, t)| f / t)

@@ -6,7 +6,8 @@ use super::{Assembly, IdentificationReport, counted};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    FrfFile, JointModel, Level, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+    BandOrigin, Bolts, FrfFile, FromModes, JointMatrices, JointModel, Level, NoiseLevel, Rotation,
+    Source, StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -14,9 +15,9 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut rows = vec![
         row("Study", &format!("<code>{}</code>", file_name(&study.path))),
-        row("Joint model", model(study.model)),
-        row("Substructure A", &substructure(&study.a)),
-        row("Substructure B", &substructure(&study.b)),
+        row("Joint model", &joint(study.model, &study.bolts)),
+        row("Substructure A", &substructure(&study.a, &study.bolts)),
+        row("Substructure B", &substructure(&study.b, &study.bolts)),
     ];
     let assemblies = report.assemblies();
     let further = study
@@ -39,7 +40,10 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
     for (number, further) in study.further.iter().enumerate() {
         for (name, own, common) in [("A", &further.a, &study.a), ("B", &further.b, &study.b)] {
-            let (own, common) = (substructure(own), substructure(common));
+            let (own, common) = (
+                substructure(own, &study.bolts),
+                substructure(common, &study.bolts),
+            );
             if own != common {
                 rows.push(row(
                     &format!("Substructure {name} of assembly {}", number + 2),
@@ -47,6 +51,21 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                 ));
             }
         }
+    }
+    for found in &report.found.from_modes {
+        rows.push(row(
+            &format!(
+                "From modes, substructure {}",
+                found.substructure.to_uppercase()
+            ),
+            &from_modes(found),
+        ));
+    }
+    if let Some(start) = &study.start {
+        rows.push(row(
+            "Presumed joint, a start of the search",
+            &self::start(start),
+        ));
     }
     let [from, to] = study.frequency_range_hz;
     rows.push(row(
@@ -84,35 +103,66 @@ fn model(model: JointModel) -> &'static str {
     }
 }
 
+fn joint(joint_model: JointModel, bolts: &Bolts) -> String {
+    let names: Vec<String> = bolts.names().iter().map(|name| escaped(name)).collect();
+    let names = names.join(", ");
+    let model = model(joint_model);
+    match bolts {
+        Bolts::One => model.to_owned(),
+        Bolts::Alike(_) => format!("{model}; the same joint at the bolts {names}"),
+        Bolts::Different(_) => format!("{model}; a joint of its own at each of the bolts {names}"),
+    }
+}
+
 fn dofs(dofs: &[Dof]) -> String {
     let names: Vec<String> = dofs.iter().map(|dof| escaped(&dof.to_string())).collect();
     names.join(", ")
 }
 
-fn substructure(substructure: &Substructure) -> String {
+/// The places of the joint, with the names of the bolts where there are several.
+fn at_bolts(places: Vec<String>, bolts: &Bolts) -> String {
+    let mut named = bolts.names().iter();
+    let places = places.into_iter().map(|place| match named.next() {
+        Some(name) => format!("{} {place}", escaped(name)),
+        None => place,
+    });
+    format!("joint {}", places.collect::<Vec<_>>().join("; "))
+}
+
+fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     match substructure {
-        Substructure::Measured { source, y, theta } => {
+        Substructure::Measured { source, joints } => {
             let origin = match source {
-                Source::Frf(file) => format!("FRFs in <code>{}</code>", file_name(&file.path)),
+                Source::Frf { file, modes } => {
+                    let modes = modes.as_deref().map(|path| {
+                        format!(
+                            ", those not measured from the modes in <code>{}</code>",
+                            file_name(path)
+                        )
+                    });
+                    let file = file_name(&file.path);
+                    format!("FRFs in <code>{file}</code>{}", modes.unwrap_or_default())
+                }
                 Source::Modal(path) => {
                     format!("FRFs from the modes in <code>{}</code>", file_name(path))
                 }
             };
-            let rotation = match theta {
+            let rotation = |theta: &Option<Rotation>| match theta {
                 None => String::new(),
                 Some(Rotation::Measured(theta)) => {
                     format!(", <i>θ</i> measured as {}", escaped(&theta.to_string()))
                 }
                 Some(rotation) => format!(", <i>θ</i> by {}", difference(rotation)),
             };
-            format!(
-                "measured: {origin}; joint <i>y</i> at {}{rotation}",
-                escaped(&y.to_string())
-            )
+            let places = joints.iter().map(|joint| {
+                let y = escaped(&joint.y.to_string());
+                format!("<i>y</i> at {y}{}", rotation(&joint.theta))
+            });
+            format!("measured: {origin}; {}", at_bolts(places.collect(), bolts))
         }
         Substructure::Beam {
             beam,
-            joint_m,
+            joints_m,
             positions_m,
         } => {
             let points: Vec<String> = positions_m
@@ -121,14 +171,53 @@ fn substructure(substructure: &Substructure) -> String {
                     format!("{} at {} m", escaped(&dof.to_string()), number(*position_m))
                 })
                 .collect();
+            let places = joints_m.iter().map(|x_m| format!("at {} m", number(*x_m)));
             format!(
-                "computed: {}; joint at {} m, points {}",
+                "computed: {}; {}, points {}",
                 self::beam(beam),
-                number(*joint_m),
+                at_bolts(places.collect(), bolts),
                 points.join(", ")
             )
         }
     }
+}
+
+/// What the modes supplied, and how well they give what was measured.
+fn from_modes(found: &FromModes) -> String {
+    let functions = found.functions.iter().map(|(response, reference)| {
+        format!(
+            "{} / {}",
+            escaped(&response.to_string()),
+            escaped(&reference.to_string())
+        )
+    });
+    let functions: Vec<String> = functions.collect();
+    let functions = match functions.as_slice() {
+        [] => "nothing: all functions were measured".to_owned(),
+        functions => format!("{}, taken as exact", functions.join(", ")),
+    };
+    let deviation = found.deviation.map(|deviation| {
+        format!(
+            "; of the measured functions the modes are {} away (r.m.s.)",
+            percent(deviation)
+        )
+    });
+    functions + &deviation.unwrap_or_default()
+}
+
+fn start(joint: &JointMatrices) -> String {
+    let matrix = |matrix: &nalgebra::DMatrix<f64>| {
+        let rows = matrix.row_iter().map(|row| {
+            let row: Vec<String> = row.iter().map(|value| number(*value)).collect();
+            format!("[{}]", row.join(", "))
+        });
+        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+    };
+    format!(
+        "<i>K</i> = {}, <i>C</i> = {} (SI units)",
+        matrix(&joint.stiffness),
+        matrix(&joint.damping)
+    )
 }
 
 fn difference(rotation: &Rotation) -> String {
@@ -210,30 +299,33 @@ fn assembly(
 }
 
 fn bands(report: &IdentificationReport<'_>) -> String {
-    let bands = &report.study.bands;
-    let entries: &[(&str, &[[f64; 2]])] = match report.study.model {
-        JointModel::Translation => &[("yy", &bands.yy)],
-        JointModel::Diagonal => &[("yy", &bands.yy), ("θθ", &bands.thetatheta)],
-        JointModel::Full => &[
-            ("yy", &bands.yy),
-            ("yθ", &bands.ytheta),
-            ("θθ", &bands.thetatheta),
-        ],
-    };
-    let entries: Vec<String> = entries
-        .iter()
-        .map(|(name, bands)| {
-            let ranges: Vec<String> = bands
-                .iter()
-                .map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)))
-                .collect();
-            match ranges.as_slice() {
-                [] => format!("{name}: none, median over all lines"),
-                ranges => format!("{name}: {}", ranges.join(", ")),
-            }
-        })
-        .collect();
-    entries.join("; ")
+    let bolts = report.found.bolts.with_own_joint();
+    let mut entries = Vec::new();
+    for (joint, used) in report.found.estimate.bands().iter().enumerate() {
+        for used in used {
+            let bolt = bolts.get(joint).map(|bolt| format!("{} ", escaped(bolt)));
+            let name = bolt.unwrap_or_default() + &used.name.replace("theta", "θ");
+            let ranges = used.bands.iter();
+            let ranges =
+                ranges.map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)));
+            let ranges = ranges.collect::<Vec<_>>().join(", ");
+            entries.push(match used.origin {
+                BandOrigin::Given => format!("{name}: {ranges}, given"),
+                BandOrigin::Automatic => format!("{name}: {ranges}, chosen"),
+                BandOrigin::NoneQualifies => {
+                    format!("{name}: median over all lines, because no band qualifies")
+                }
+                BandOrigin::Median => format!("{name}: median over all lines, as asked for"),
+            });
+        }
+    }
+    let mut html = entries.join("; ");
+    let mut all = report.found.estimate.bands().iter().flatten();
+    if all.any(|used| used.origin == BandOrigin::Automatic) {
+        html += ". Chosen are the most sensitive lines, 10 % or more away from the substructures' own resonances, at a preliminary \
+                 estimate";
+    }
+    html
 }
 
 fn noise(report: &IdentificationReport<'_>) -> String {
@@ -333,15 +425,15 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
                 "Substructure {name} comes from modes: their errors are not in the intervals."
             )),
             Substructure::Measured {
-                source: Source::Frf(_),
+                source: Source::Frf { .. },
                 ..
             } => {}
         }
-        if let Substructure::Measured {
-            theta: Some(rotation @ Rotation::Difference { .. }),
-            ..
-        } = substructure
-        {
+        let Substructure::Measured { joints, .. } = substructure else {
+            continue;
+        };
+        let rotations = joints.iter().filter_map(|joint| joint.theta.as_ref());
+        for rotation in rotations.filter(|r| matches!(r, Rotation::Difference { .. })) {
             list.push(format!(
                 "Rotations of {name} follow from translations by {}; the error of that difference is not in the intervals.",
                 difference(rotation)

@@ -2,7 +2,7 @@
 
 use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::IdentificationReport;
-use super::parameters::{self, symbol};
+use super::parameters;
 use crate::html::{cell, number, number_cell, quantity, shown, table};
 use crate::identify::{JointEstimate, TorqueDependence, Unknown};
 
@@ -11,12 +11,12 @@ const DAMPING: &str = "#d55e00";
 
 /// Table and figure of the parameters of `joints`, by torque.
 pub(super) fn section(report: &IdentificationReport<'_>, joints: &[&JointEstimate]) -> String {
-    let unknowns = Unknown::of(report.found.model);
+    let unknowns = &joints[0].covariance.unknowns;
     let mut rows = Vec::new();
     for (index, unknown) in unknowns.iter().enumerate() {
         for (place, joint) in joints.iter().enumerate() {
             let name = match place {
-                0 => symbol(unknown.name),
+                0 => report.symbol(unknown),
                 _ => String::new(),
             };
             rows.push(format!(
@@ -33,8 +33,8 @@ pub(super) fn section(report: &IdentificationReport<'_>, joints: &[&JointEstimat
          {}.</p>\n{}{}{}",
         quantity(nominal, "N·m"),
         table(&headings, &rows),
-        figure(joints, &unknowns),
-        coupling(report, &unknowns)
+        figure(report, joints, unknowns),
+        coupling(report, unknowns)
     )
 }
 
@@ -43,19 +43,23 @@ fn torque(joint: &JointEstimate) -> String {
 }
 
 /// Stiffnesses on the left, dampings on the right.
-fn figure(joints: &[&JointEstimate], unknowns: &[Unknown]) -> String {
+fn figure(
+    report: &IdentificationReport<'_>,
+    joints: &[&JointEstimate],
+    unknowns: &[Unknown],
+) -> String {
     let entries = unknowns.len() / 2;
     let panel = |index: usize, colour| {
         let unknown = &unknowns[index];
         let values = joints.iter().map(|joint| Estimated {
             at: joint.torque_n_m.unwrap_or(0.0),
             value: joint.covariance.identified[index].then(|| {
-                let value = unknown.value(joint.joint());
+                let value = unknown.value(&joint.bolts()[unknown.joint]);
                 (value, joint.covariance.intervals()[index])
             }),
         });
         Panel {
-            name: unknown.name.replace("theta", "θ"),
+            name: report.label(unknown),
             unit: unknown.unit.to_owned(),
             colour,
             values: values.collect(),
@@ -107,7 +111,7 @@ fn coupling(report: &IdentificationReport<'_>, unknowns: &[Unknown]) -> String {
         .collect();
     let names: Vec<String> = unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let mut headings = vec!["Correlation between"];
     headings.extend(names.iter().map(String::as_str));

@@ -19,22 +19,24 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         joints => over_torque::section(report, joints),
     };
     html += &basis(report);
-    html += &undetermined(&joints);
+    html += &undetermined(report, &joints);
     html += &correlations(report);
     for joint in joints {
-        html += &bootstrap(joint);
+        html += &bootstrap(report, joint);
     }
     html
 }
 
 fn only_joint(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String {
-    let rows: Vec<String> = Unknown::of(report.found.model)
+    let rows: Vec<String> = joint
+        .covariance
+        .unknowns
         .iter()
         .enumerate()
         .map(|(index, unknown)| {
             format!(
                 "<th scope=\"row\">{}</th>{}",
-                symbol(unknown.name),
+                report.symbol(unknown),
                 cells(joint, index, unknown)
             )
         })
@@ -55,13 +57,16 @@ pub(super) const HEADINGS: [&str; 5] = [
 pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> String {
     let covariance = &joint.covariance;
     let deviation = covariance.standard_deviation()[index];
-    let average = joint.band_average.as_ref().map_or_else(
+    let average = joint.band_averages.as_ref().map_or_else(
         || "none".to_owned(),
-        |average| shown(unknown.value(average), DIGITS),
+        |averages| shown(unknown.value(&averages[unknown.joint]), DIGITS),
     );
     let estimate = if covariance.identified[index] {
         [
-            number_cell(&beside(unknown.value(joint.joint()), deviation)),
+            number_cell(&beside(
+                unknown.value(&joint.bolts()[unknown.joint]),
+                deviation,
+            )),
             number_cell(&spread(deviation)),
             number_cell(&interval(covariance.intervals()[index], deviation)),
         ]
@@ -85,8 +90,29 @@ pub(super) fn interval([low, high]: [f64; 2], deviation: f64) -> String {
     format!("{} … {}", beside(low, deviation), beside(high, deviation))
 }
 
+impl IdentificationReport<'_> {
+    /// The estimate of an unknown.
+    pub(super) fn value(&self, unknown: &Unknown) -> f64 {
+        unknown.value(&self.found.estimate.bolts()[unknown.joint])
+    }
+
+    /// The symbol of an unknown, after the name of its bolt where every bolt has a joint of its own.
+    pub(super) fn symbol(&self, unknown: &Unknown) -> String {
+        match self.found.bolts.with_own_joint().get(unknown.joint) {
+            Some(bolt) => format!("{} {}", escaped(bolt), symbol(unknown.name)),
+            None => symbol(unknown.name),
+        }
+    }
+
+    /// The same in plain letters.
+    pub(super) fn label(&self, unknown: &Unknown) -> String {
+        let label = unknown.label(self.found.bolts.with_own_joint());
+        label.replace("theta", "θ")
+    }
+}
+
 /// A parameter's name with its index set low: `k_yy` becomes k with index yy.
-pub(super) fn symbol(name: &str) -> String {
+fn symbol(name: &str) -> String {
     match name.split_once('_') {
         Some((letter, index)) => format!(
             "<i>{}</i><sub>{}</sub>",
@@ -104,7 +130,7 @@ fn basis(report: &IdentificationReport<'_>) -> String {
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
          over the bands (Tol, equation 3.21); it is given for comparison.",
     );
-    if joints.iter().any(|joint| joint.free != *joint.joint()) {
+    if joints.iter().any(|joint| joint.free != joint.bolts()) {
         html += " The free estimate is not passive. The estimate above is the passive joint that fits best; the interval is about \
                  the free one.";
     }
@@ -120,8 +146,8 @@ fn basis(report: &IdentificationReport<'_>) -> String {
     html + "</p>\n"
 }
 
-fn undetermined(joints: &[&JointEstimate]) -> String {
-    let html: String = joints.iter().map(|joint| open(joint)).collect();
+fn undetermined(report: &IdentificationReport<'_>, joints: &[&JointEstimate]) -> String {
+    let html: String = joints.iter().map(|joint| open(report, joint)).collect();
     if html.is_empty() {
         return "<p>The data determine every parameter of this joint model.</p>\n".to_owned();
     }
@@ -129,14 +155,14 @@ fn undetermined(joints: &[&JointEstimate]) -> String {
 }
 
 /// What the data do not determine of one joint; nothing if there is nothing.
-fn open(joint: &JointEstimate) -> String {
+fn open(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String {
     let covariance = &joint.covariance;
     let open: Vec<String> = covariance
         .unknowns
         .iter()
         .zip(&covariance.identified)
         .filter(|(_, identified)| !**identified)
-        .map(|(unknown, _)| symbol(unknown.name))
+        .map(|(unknown, _)| report.symbol(unknown))
         .collect();
     if open.is_empty() {
         return String::new();
@@ -163,7 +189,7 @@ fn correlations(report: &IdentificationReport<'_>) -> String {
     let names: Vec<String> = covariance
         .unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let rows: Vec<String> = names
         .iter()
@@ -215,7 +241,7 @@ fn correlations(report: &IdentificationReport<'_>) -> String {
     )
 }
 
-fn bootstrap(joint: &JointEstimate) -> String {
+fn bootstrap(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String {
     let Some(result) = &joint.bootstrap else {
         return String::new();
     };
@@ -234,7 +260,7 @@ fn bootstrap(joint: &JointEstimate) -> String {
             .map(|(index, unknown)| {
                 format!(
                     "<th scope=\"row\">{}</th>{}{}{}",
-                    symbol(unknown.name),
+                    report.symbol(unknown),
                     number_cell(&spread(result.standard_deviation[index])),
                     number_cell(&interval(
                         result.intervals[index],

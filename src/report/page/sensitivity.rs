@@ -6,10 +6,9 @@ use super::super::axis::Axis;
 use super::super::chart::{Chart, ChartStrip, Curve};
 use super::super::look::Look;
 use super::figure::figure;
-use super::parameters::symbol;
 use super::{Assembly, IdentificationReport};
 use crate::html::{cell, escaped, number_cell, shown, table};
-use crate::identify::{JointMatrices, Sensitivity, Unknown, sensitivities};
+use crate::identify::{JointMatrices, Sensitivity, Unknown};
 
 /// Functions whose sensitivities are drawn at most.
 const MOST_FIGURES: usize = 3;
@@ -26,13 +25,12 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                     small the measurement says little about the parameter.</p>\n"
         .to_owned();
     let assemblies = report.assemblies();
-    let unknowns = Unknown::of(report.found.model);
+    let unknowns = &report.found.estimate.covariance().unknowns;
     let mut rows = Vec::new();
     let mut figures = String::new();
     for (number, assembly) in assemblies.iter().enumerate() {
-        let joint = report.found.estimate.joint_of(number).joint();
-        let found = sensitivities(assembly.lines, report.found.model, joint);
-        let found = match found {
+        let joints = report.found.estimate.joint_of(number).bolts();
+        let found = match report.found.estimate.sensitivities(number, assembly.lines) {
             Ok(found) => found,
             Err(error) => {
                 html += &format!("<p class=\"warning\">{}</p>\n", escaped(&error.to_string()));
@@ -49,7 +47,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             if own.is_empty() {
                 continue;
             }
-            let curves = curves(joint, &unknowns, &own);
+            let curves = curves(report, joints, unknowns, &own);
             let name = format!("{} / {}", fit.response, fit.reference);
             let assembly_cell = match assemblies.len() {
                 1 => String::new(),
@@ -68,7 +66,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
     let names: Vec<String> = unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let mut headings = match assemblies.len() {
         1 => Vec::new(),
@@ -81,7 +79,12 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     html + &figures
 }
 
-fn curves(joint: &JointMatrices, unknowns: &[Unknown], own: &[&Sensitivity]) -> Vec<Curve> {
+fn curves(
+    report: &IdentificationReport<'_>,
+    joints: &[JointMatrices],
+    unknowns: &[Unknown],
+    own: &[&Sensitivity],
+) -> Vec<Curve> {
     let entries = unknowns.len() / 2;
     let relative = |derivative: &[Complex64], of: &Sensitivity, scale: f64| -> Vec<f64> {
         let lines = derivative.iter().zip(&of.assembly);
@@ -94,7 +97,7 @@ fn curves(joint: &JointMatrices, unknowns: &[Unknown], own: &[&Sensitivity]) -> 
         .enumerate()
         .filter_map(|(index, unknown)| {
             let sensitivity = own.get(index % entries)?;
-            let scale = unknown.value(joint).abs();
+            let scale = unknown.value(&joints[unknown.joint]).abs();
             let colour = COLOURS[index % entries % COLOURS.len()];
             let (look, values) = if index < entries {
                 (
@@ -108,7 +111,7 @@ fn curves(joint: &JointMatrices, unknowns: &[Unknown], own: &[&Sensitivity]) -> 
                 )
             };
             Some(Curve {
-                name: unknown.name.replace("theta", "θ"),
+                name: report.label(unknown),
                 look,
                 values,
             })

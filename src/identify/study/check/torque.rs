@@ -1,15 +1,15 @@
 //! Checks of what a study says of torques and levels.
 
-use super::super::error::IdentifyError;
-use super::super::level::{Level, LevelQuantity};
-use super::super::torque::{TorqueDependence, Torques};
-use super::FurtherAssembly;
-use super::check::Checker;
-use super::tables::ExcitationTable;
+use super::super::super::error::IdentifyError;
+use super::super::super::level::{Level, LevelQuantity};
+use super::super::super::torque::{TorqueDependence, Torques};
+use super::super::FurtherAssembly;
+use super::super::tables::ExcitationTable;
+use super::Checker;
 
 impl Checker<'_> {
     /// Joints over the torque need a torque of every assembly, and two different ones.
-    pub(super) fn torques(
+    pub(in super::super) fn torques(
         &self,
         dependence: TorqueDependence,
         assemblies: &[FurtherAssembly],
@@ -40,7 +40,7 @@ impl Checker<'_> {
         )
     }
 
-    pub(super) fn level(
+    pub(in super::super) fn level(
         &self,
         table: Option<&ExcitationTable>,
     ) -> Result<Option<Level>, IdentifyError> {

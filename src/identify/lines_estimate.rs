@@ -12,6 +12,7 @@ use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
+use super::estimator::{self, Free};
 use super::group::{Group, Side};
 use super::layout::{Bolts, Layout};
 use super::lines::Lines;
@@ -250,7 +251,13 @@ fn identify_with<const N: usize>(
 ) -> Result<LinesEstimate, IdentifyError> {
     let decoupled: Vec<_> = all.iter().map(|lines| decouple(lines, &layout)).collect();
     let data = data::<N>(all, &options.noise);
-    let bands = used_bands(all, &decoupled, &layout, &options.bands, &data);
+    let bands = used_bands(
+        all,
+        &decoupled,
+        &layout,
+        (&options.bands, &options.noise),
+        &data,
+    );
     let band_averages = band_averages(all, &decoupled, &layout, &bands);
     let noise = &options.noise;
     let start = options.start.as_ref().map(std::slice::from_ref);
@@ -382,12 +389,12 @@ fn band_averages(
 }
 
 /// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at a preliminary
-/// estimate: the linear one, or the medians where there is none.
+/// estimate.
 fn used_bands<const N: usize>(
     all: &[Lines],
     decoupled: &[Vec<Option<ComplexMatrix>>],
     layout: &Layout,
-    choices: &BandChoices,
+    (choices, noise): (&BandChoices, &Noise),
     data: &Data<N>,
 ) -> Vec<Vec<UsedBands>> {
     let medians = || {
@@ -399,13 +406,21 @@ fn used_bands<const N: usize>(
         if !choices.any_is_automatic() || !decoupled.iter().flatten().any(Option::is_some) {
             return None;
         }
-        let linear = starts::linear(&data.thinned, &layout.places(), None);
-        let preliminary = linear.map(|unknowns| unknowns.as_slice().to_vec());
-        let preliminary = preliminary.or_else(medians)?;
+        let places = layout.places();
+        let start = starts::linear(&data.thinned, &places, None);
+        let start = start.or_else(|| medians().map(DVector::from_vec))?;
+        // Noise biases both: a fit to a few lines, which takes the substructures as exact, is nearer.
+        let thinned = Objective {
+            groups: &data.thinned,
+            entries: &places,
+        };
+        let levels = Some(estimator::first_levels(&thinned, noise));
+        let fitted = estimator::estimate(&thinned, noise, levels, &Free, &start, None);
+        let preliminary = fitted.map_or(start, |fitted| fitted.unknowns);
         let block = data.whole.first()?.blocks.first()?;
         let own_hz = band_choice::own_resonances(all);
         let (hz, given) = (&all.first()?.frequency_hz, choices.given());
-        band_choice::chosen(block, hz, &own_hz, layout, &preliminary, &given)
+        band_choice::chosen(block, hz, &own_hz, layout, preliminary.as_slice(), &given)
     };
     band_choice::used(layout, choices, chosen().as_deref())
 }

@@ -3,16 +3,16 @@
 use nalgebra::DVector;
 
 use crate::frf::Dof;
-use crate::structure::{ComplexMatrix, CouplingError, Partition};
+use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::assessment::{self, Assessment};
-use super::band_choice;
-use super::bands::{self, BandChoice, BandChoices, Bands, UsedBands};
+use super::averages::{band_averages, decouple, is_complete, used_bands};
+use super::bands::{BandChoices, UsedBands};
+use super::bolt_starts::bolt_starts;
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
-use super::estimator::{self, Free};
 use super::group::{Group, Side};
 use super::layout::{Bolts, Layout};
 use super::lines::Lines;
@@ -22,7 +22,6 @@ use super::objective::Objective;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
 use super::sensitivity::{self, Sensitivity};
-use super::starts;
 use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
 
@@ -332,139 +331,6 @@ fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
         },
         whole,
     }
-}
-
-/// Whether every pair of points was measured, at least as its transpose.
-fn is_complete(lines: &Lines) -> bool {
-    let count = lines.points.len();
-    let has = |place: (usize, usize)| {
-        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
-    };
-    (0..count).all(|p| (0..count).all(|q| has((p, q))))
-}
-
-/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
-fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
-    let complete = is_complete(lines);
-    let used = layout.used_dofs();
-    let line = |index: usize| {
-        let a_joint = lines.a_joint[index]
-            .select_rows(&used)
-            .select_columns(&used);
-        // Equation (3.21) needs nothing of A but H_jj.
-        let a = Partition::of(&a_joint, used.len());
-        let b = &lines.b[index];
-        let b = Partition {
-            joint: b.joint.select_rows(&used).select_columns(&used),
-            joint_points: b.joint_points.select_rows(&used),
-            points_joint: b.points_joint.select_columns(&used),
-            points: b.points.clone(),
-        };
-        decoupling::from_ss(&a, &b, &lines.assembly[index])
-    };
-    (0..lines.frequency_hz.len())
-        .map(|index| if complete { line(index) } else { None })
-        .collect()
-}
-
-/// The average of the decoupled values of each joint over bands, from all lines of all assemblies and all bolts that have it.
-fn band_averages(
-    all: &[Lines],
-    decoupled: &[Vec<Option<ComplexMatrix>>],
-    layout: &Layout,
-    bands: &[Vec<UsedBands>],
-) -> Option<Vec<JointMatrices>> {
-    let average = |joint: usize| {
-        let (mut frequency_hz, mut values) = (Vec::new(), Vec::new());
-        for bolt in layout.bolts_with(joint) {
-            for (lines, decoupled) in all.iter().zip(decoupled) {
-                frequency_hz.extend(&lines.frequency_hz);
-                values.extend(decoupling::of_bolt(decoupled, bolt, layout.model().dofs()));
-            }
-        }
-        let bands = Bands::of_used(&bands[joint]);
-        bands::band_average(layout.model(), &frequency_hz, &values, &bands)
-    };
-    (0..layout.joints()).map(average).collect()
-}
-
-/// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at a preliminary
-/// estimate.
-fn used_bands<const N: usize>(
-    all: &[Lines],
-    decoupled: &[Vec<Option<ComplexMatrix>>],
-    layout: &Layout,
-    (choices, noise): (&BandChoices, &Noise),
-    data: &Data<N>,
-) -> Vec<Vec<UsedBands>> {
-    let medians = || {
-        let medians = BandChoices::all(BandChoice::Median);
-        let bands = band_choice::used(layout, &medians, None);
-        layout.unknowns_of(&band_averages(all, decoupled, layout, &bands)?)
-    };
-    let chosen = || {
-        if !choices.any_is_automatic() || !decoupled.iter().flatten().any(Option::is_some) {
-            return None;
-        }
-        let places = layout.places();
-        let start = starts::linear(&data.thinned, &places, None);
-        let start = start.or_else(|| medians().map(DVector::from_vec))?;
-        // Noise biases both: a fit to a few lines, which takes the substructures as exact, is nearer.
-        let thinned = Objective {
-            groups: &data.thinned,
-            entries: &places,
-        };
-        let levels = Some(estimator::first_levels(&thinned, noise));
-        let fitted = estimator::estimate(&thinned, noise, levels, &Free, &start, None);
-        let preliminary = fitted.map_or(start, |fitted| fitted.unknowns);
-        let block = data.whole.first()?.blocks.first()?;
-        let own_hz = band_choice::own_resonances(all);
-        let (hz, given) = (&all.first()?.frequency_hz, choices.given());
-        band_choice::chosen(block, hz, &own_hz, layout, preliminary.as_slice(), &given)
-    };
-    band_choice::used(layout, choices, chosen().as_deref())
-}
-
-/// Factors by which one of several bolts is softer or stiffer in a start than the joint that suits them all.
-const UNLIKE: [f64; 2] = [0.2, 5.0];
-
-/// The starts that `first` and the bolts give: for bolts that differ, the estimate in which they are alike, and that with
-/// one of them softer or stiffer.
-fn bolt_starts<const N: usize>(
-    data: &Data<N>,
-    layout: &Layout,
-    options: &Options<'_>,
-    mut first: Vec<DVector<f64>>,
-) -> Vec<DVector<f64>> {
-    if layout.joints() == 1 {
-        return first;
-    }
-    let alike = layout.with_bolts_alike();
-    let given = options.start.as_ref().map(std::slice::from_ref);
-    let given = given
-        .and_then(|start| alike.unknowns_of(start))
-        .map(DVector::from_vec);
-    let given: Vec<DVector<f64>> = given.into_iter().collect();
-    let (places, noise) = (alike.places(), &options.noise);
-    // Its own starts only: where they lead nowhere, the search proper has a grid.
-    let Ok(found) = search::best(data, &places, noise, given, Effort::Related) else {
-        return first;
-    };
-    let joint = alike.matrices(found.estimate.unknowns.as_slice());
-    let Some(start) = layout.unknowns_of(&joint).map(DVector::from_vec) else {
-        return first;
-    };
-    for joint in 0..layout.joints() {
-        for factor in UNLIKE {
-            let mut start = start.clone();
-            for index in layout.indices_of(joint) {
-                start[index] *= factor;
-            }
-            first.push(start);
-        }
-    }
-    first.push(start);
-    first
 }
 
 pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {

@@ -5,9 +5,11 @@
 
 mod assemble;
 mod assessment;
+mod averages;
 mod band_choice;
 mod bands;
 mod block;
+mod bolt_starts;
 mod bootstrap;
 mod choice;
 mod decoupling;

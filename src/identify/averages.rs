@@ -1,0 +1,108 @@
+//! Decoupling line by line, and the average of each joint's entries over bands.
+
+use nalgebra::DVector;
+
+use crate::structure::{ComplexMatrix, Partition};
+
+use super::band_choice;
+use super::bands::{self, BandChoice, BandChoices, Bands, UsedBands};
+use super::decoupling;
+use super::estimator::{self, Free};
+use super::layout::Layout;
+use super::lines::Lines;
+use super::model::JointMatrices;
+use super::noise::Noise;
+use super::objective::Objective;
+use super::search::Data;
+use super::starts;
+
+/// Whether every pair of points was measured, at least as its transpose.
+pub(super) fn is_complete(lines: &Lines) -> bool {
+    let count = lines.points.len();
+    let has = |place: (usize, usize)| {
+        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
+    };
+    (0..count).all(|p| (0..count).all(|q| has((p, q))))
+}
+
+/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
+pub(super) fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
+    let complete = is_complete(lines);
+    let used = layout.used_dofs();
+    let line = |index: usize| {
+        let a_joint = lines.a_joint[index]
+            .select_rows(&used)
+            .select_columns(&used);
+        // Equation (3.21) needs nothing of A but H_jj.
+        let a = Partition::of(&a_joint, used.len());
+        let b = &lines.b[index];
+        let b = Partition {
+            joint: b.joint.select_rows(&used).select_columns(&used),
+            joint_points: b.joint_points.select_rows(&used),
+            points_joint: b.points_joint.select_columns(&used),
+            points: b.points.clone(),
+        };
+        decoupling::from_ss(&a, &b, &lines.assembly[index])
+    };
+    (0..lines.frequency_hz.len())
+        .map(|index| if complete { line(index) } else { None })
+        .collect()
+}
+
+/// The average of the decoupled values of each joint over bands, from all lines of all assemblies and all bolts that have it.
+pub(super) fn band_averages(
+    all: &[Lines],
+    decoupled: &[Vec<Option<ComplexMatrix>>],
+    layout: &Layout,
+    bands: &[Vec<UsedBands>],
+) -> Option<Vec<JointMatrices>> {
+    let average = |joint: usize| {
+        let (mut frequency_hz, mut values) = (Vec::new(), Vec::new());
+        for bolt in layout.bolts_with(joint) {
+            for (lines, decoupled) in all.iter().zip(decoupled) {
+                frequency_hz.extend(&lines.frequency_hz);
+                values.extend(decoupling::of_bolt(decoupled, bolt, layout.model().dofs()));
+            }
+        }
+        let bands = Bands::of_used(&bands[joint]);
+        bands::band_average(layout.model(), &frequency_hz, &values, &bands)
+    };
+    (0..layout.joints()).map(average).collect()
+}
+
+/// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at a preliminary
+/// estimate.
+pub(super) fn used_bands<const N: usize>(
+    all: &[Lines],
+    decoupled: &[Vec<Option<ComplexMatrix>>],
+    layout: &Layout,
+    (choices, noise): (&BandChoices, &Noise),
+    data: &Data<N>,
+) -> Vec<Vec<UsedBands>> {
+    let medians = || {
+        let medians = BandChoices::all(BandChoice::Median);
+        let bands = band_choice::used(layout, &medians, None);
+        layout.unknowns_of(&band_averages(all, decoupled, layout, &bands)?)
+    };
+    let chosen = || {
+        if !choices.any_is_automatic() || !decoupled.iter().flatten().any(Option::is_some) {
+            return None;
+        }
+        let places = layout.places();
+        let start = starts::linear(&data.thinned, &places, None);
+        let start = start.or_else(|| medians().map(DVector::from_vec))?;
+        // Noise biases both: a fit to a few lines, which takes the substructures as exact, is nearer.
+        let thinned = Objective {
+            groups: &data.thinned,
+            entries: &places,
+        };
+        let levels = Some(estimator::first_levels(&thinned, noise));
+        let fitted = estimator::estimate(&thinned, noise, levels, &Free, &start, None);
+        let preliminary = fitted.map_or(start, |fitted| fitted.unknowns);
+        let block = data.whole.first()?.blocks.first()?;
+        let own_hz = band_choice::own_resonances(all);
+        let (hz, given) = (&all.first()?.frequency_hz, choices.given());
+        band_choice::chosen(block, hz, &own_hz, layout, preliminary.as_slice(), &given)
+    };
+    band_choice::used(layout, choices, chosen().as_deref())
+}

@@ -19,7 +19,7 @@ const JOINT: &str = include_str!("data/joint/m10-aluminium.joint.json");
 const PRELOAD: &str = include_str!("data/joint/over-preload.joint.json");
 
 /// What a writer by hand, or by accident, puts into such files.
-const TOKENS: [&str; 24] = [
+const TOKENS: [&str; 28] = [
     "-1",
     "1e999",
     "nan",
@@ -44,6 +44,10 @@ const TOKENS: [&str; 24] = [
     "units = { length = \"mm\", force = \"N\" }\n",
     "averages = 0\n",
     "\"11:+Y\"",
+    "bands = \"median\"\n",
+    "bolts = \"different\"\n",
+    "joint = [{ name = \"x\", x = 0.1 }, { name = \"y\", x = 0.2 }]\n",
+    "start = { stiffness = [[1]], damping = [[]] }\n",
 ];
 
 fn damaged(text: &str, damages: &[(usize, usize, Option<usize>)]) -> String {

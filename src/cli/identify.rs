@@ -8,8 +8,7 @@ use serde_json::json;
 
 use crate::export::Timestamp;
 use crate::identify::{
-    BandOrigin, Bolts, Bootstrap, BootstrapResult, Identification, JointEstimate, Study,
-    identify_and_draw,
+    Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
 };
 use crate::joint::JointFile;
 use crate::report::{FrfFigure, FrfPanel, IdentificationReport};
@@ -18,6 +17,7 @@ use crate::whole_file;
 use super::IdentifyArguments;
 use super::bolt_files::of_bolts;
 use super::error::CliError;
+use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::output::{check_output, message, print, write_file};
 use super::progress::Progress;
 use super::table::{Table, number};
@@ -61,13 +61,10 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     };
     let study = Study::read(&arguments.study)?;
     let outputs = of_bolts(&arguments.output, &study.bolts);
-    for output in &outputs {
-        let others: Vec<&PathBuf> = taken
-            .iter()
-            .copied()
-            .filter(|&path| path != output)
-            .collect();
-        check_output(output, &others)?;
+    if outputs.len() > 1 {
+        for output in &outputs {
+            check_output(output, &taken)?;
+        }
     }
     let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
         draws: draws as usize,
@@ -97,14 +94,26 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         message(&format!("warning: {warning}"));
     }
     if arguments.json {
-        let mut value = json!({
+        let bolts: Vec<_> = outputs
+            .iter()
+            .zip(&joint_files)
+            .map(|(output, (bolt, file))| {
+                json!({ "bolt": bolt, "output": output.display().to_string(), "joint_file": file })
+            })
+            .collect();
+        let models = found.estimate.model_choice();
+        let not_compared = study.models_not_compared();
+        let only = |key: &str| (bolts.len() == 1).then(|| &bolts[0][key]);
+        let value = json!({
+            "output": only("output"),
             "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
+            "joint_file": only("joint_file"),
+            "bolts": (bolts.len() > 1).then_some(&bolts),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
             "warnings": warnings,
-            "models_not_compared": study.models_not_compared(),
-            "models": found.estimate.model_choice().filter(|_| study.models_not_compared().is_none()).map(|choice| json!({
+            "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
                 "compared": choice.models.iter().map(|fit| json!({
                     "model": fit.model,
@@ -122,18 +131,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
                     "adequate": fit.adequate,
                 })),
             })),
+            "models_not_compared": not_compared,
         });
-        if let (Some(object), [output], [(None, file)]) =
-            (value.as_object_mut(), &*outputs, &*joint_files)
-        {
-            object.insert("output".to_owned(), json!(output.display().to_string()));
-            object.insert("joint_file".to_owned(), json!(file));
-        } else if let Some(object) = value.as_object_mut() {
-            let bolts = outputs.iter().zip(&joint_files).map(|(output, (bolt, file))| {
-                json!({ "bolt": bolt, "output": output.display().to_string(), "joint_file": file })
-            });
-            object.insert("bolts".to_owned(), bolts.collect());
-        }
         return print(&serde_json::to_string_pretty(&value)?);
     }
     let mut text = summary(&found, &study);
@@ -242,61 +241,6 @@ fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
     table.render()
 }
 
-/// What the averages of the table were taken over.
-fn averaged(joint: &JointEstimate, bolts: &[String]) -> String {
-    if joint.band_averages.is_none() {
-        return String::new();
-    }
-    let mut text = format!("\nband averages{} over\n", place(joint));
-    for (bolt, used) in joint.bands.iter().enumerate() {
-        for used in used {
-            let bolt = bolts.get(bolt).map(|bolt| format!("{bolt} "));
-            let ranges = used.bands.iter();
-            let ranges =
-                ranges.map(|[from, to]| format!("{} to {}", number(*from, 4), number(*to, 4)));
-            let ranges = ranges.collect::<Vec<_>>().join(", ");
-            let what = match used.origin {
-                BandOrigin::Given => format!("{ranges} Hz, as in the study"),
-                BandOrigin::Automatic => {
-                    format!("{ranges} Hz, chosen by sensitivity and distance to resonances")
-                }
-                BandOrigin::NoneQualifies => {
-                    "all lines, their median: no band qualifies".to_owned()
-                }
-                BandOrigin::Median => "all lines, their median, as in the study".to_owned(),
-            };
-            let _ = writeln!(text, "  {}{}: {what}", bolt.unwrap_or_default(), used.name);
-        }
-    }
-    text
-}
-
-/// What modes supplied beside measured functions.
-fn from_modes(found: &Identification) -> String {
-    let mut text = String::new();
-    for found in &found.from_modes {
-        let pairs = found.functions.iter();
-        let pairs: Vec<String> = pairs.map(|(p, q)| format!("{p} / {q}")).collect();
-        let functions = match pairs.as_slice() {
-            [] => "nothing, all functions were measured".to_owned(),
-            pairs => format!("{}, taken as exact", pairs.join(", ")),
-        };
-        let deviation = found.deviation.map(|deviation| {
-            format!(
-                "; of the measured functions the modes are {:.2} % away (r.m.s.)",
-                100.0 * deviation
-            )
-        });
-        let _ = writeln!(
-            text,
-            "\nfrom the modes of {}: {functions}{}",
-            found.substructure,
-            deviation.unwrap_or_default()
-        );
-    }
-    text
-}
-
 /// The joint models beside each other.
 fn models(found: &Identification, study: &Study) -> String {
     let Some(choice) = found.estimate.model_choice() else {
@@ -361,14 +305,6 @@ fn leaves(adequate: bool) -> &'static str {
     }
 }
 
-/// What follows in a message what holds at one torque.
-fn place(joint: &JointEstimate) -> String {
-    joint
-        .torque_n_m
-        .map(|torque| format!(" at {torque} N·m"))
-        .unwrap_or_default()
-}
-
 fn bootstrap(result: &BootstrapResult, joint: &JointEstimate, bolts: &[String]) -> String {
     let at = place(joint);
     let unknowns = &joint.covariance.unknowns;
@@ -399,14 +335,10 @@ pub(super) fn basis(found: &Identification) -> String {
         let ending = if count == 1 { "" } else { "s" };
         format!("{count} {thing}{ending}")
     };
-    let bolts = match &found.bolts {
-        Bolts::One => String::new(),
-        Bolts::Alike(names) => format!(", the same at {},", listed(names)),
-        Bolts::Different(names) => format!(", one each at {},", listed(names)),
-    };
     format!(
-        "joint model \"{}\"{bolts} from {} at {}, {} from {} to {} Hz",
+        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz",
         found.model,
+        at_bolts(&found.bolts),
         counted(
             found.fits.len()
                 + found
@@ -421,14 +353,6 @@ pub(super) fn basis(found: &Identification) -> String {
         number(frequency_hz[0], 4),
         number(frequency_hz[frequency_hz.len() - 1], 4),
     )
-}
-
-fn listed(names: &[String]) -> String {
-    match names.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
-        None => String::new(),
-    }
 }
 
 /// How well the result fits, in one line.

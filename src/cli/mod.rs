@@ -6,6 +6,7 @@ mod communication_step;
 mod demo;
 mod error;
 mod export;
+mod identified_from;
 mod identify;
 mod output;
 mod progress;

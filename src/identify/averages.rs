@@ -1,15 +1,21 @@
 //! Averages of the decoupled values over bands, and which bands these are.
 
+use nalgebra::DVector;
+
 use crate::structure::{ComplexMatrix, Partition};
 
 use super::band_choice;
 use super::bands::{self, BandChoice, BandChoices, Bands, UsedBands};
 use super::block::Block;
 use super::decoupling;
+use super::estimator::{self, Free};
+use super::group::Group;
 use super::layout::Layout;
 use super::lines::Lines;
 use super::model::JointMatrices;
-use super::search::Data;
+use super::noise::Noise;
+use super::objective::Objective;
+use super::search;
 use super::starts;
 
 /// An assembly with its decoupled values.
@@ -77,12 +83,12 @@ pub(super) fn band_averages(
 }
 
 /// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at a preliminary
-/// estimate: the linear one of all assemblies in `data`, or the medians where there is none.
+/// estimate.
 pub(super) fn used_bands<const N: usize>(
     all: &[Decoupled<'_>],
     layout: &Layout,
     choices: &BandChoices,
-    data: &Data<N>,
+    noise: &Noise,
 ) -> Vec<Vec<UsedBands>> {
     let medians = || {
         let medians = BandChoices::all(BandChoice::Median);
@@ -94,14 +100,24 @@ pub(super) fn used_bands<const N: usize>(
         if !choices.any_is_automatic() || !values.any(Option::is_some) {
             return None;
         }
-        let linear = starts::linear(&data.thinned, &layout.places(), None);
-        let preliminary = linear.map(|unknowns| unknowns.as_slice().to_vec());
-        let preliminary = preliminary.or_else(medians)?;
+        let places = layout.places();
+        let lines: Vec<(&Lines, usize)> = all.iter().map(|a| (a.lines, 0)).collect();
+        let thinned = Group::<N>::all(&lines, search::stride(&lines), |_| false);
+        let start = starts::linear(&thinned, &places, None);
+        let start = start.or_else(|| medians().map(DVector::from_vec))?;
+        // Noise biases both: a fit to a few lines, which takes the substructures as exact, is nearer.
+        let thinned = Objective {
+            groups: &thinned,
+            entries: &places,
+        };
+        let levels = Some(estimator::first_levels(&thinned, noise));
+        let fitted = estimator::estimate(&thinned, noise, levels, &Free, &start, None);
+        let preliminary = fitted.map_or(start, |fitted| fitted.unknowns);
         let first = all.first()?.lines;
         let block = Block::<N>::new(first, 0, 1);
         let own_hz = band_choice::own_resonances(all.iter().map(|assembly| assembly.lines));
         let (hz, given) = (&first.frequency_hz, choices.given());
-        band_choice::chosen(&block, hz, &own_hz, layout, &preliminary, &given)
+        band_choice::chosen(&block, hz, &own_hz, layout, preliminary.as_slice(), &given)
     };
     band_choice::used(layout, choices, chosen().as_deref())
 }

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use crate::frf::resonances;
-use crate::structure::CouplingError;
+use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
@@ -15,17 +15,19 @@ use super::model::{JointMatrices, JointModel};
 /// Lines closer than this part of the frequency to a resonance of a substructure are avoided; the thesis stays off its
 /// resonance at 336 Hz by 11 %.
 const DISTANCE: f64 = 0.1;
-/// The part of the other lines, those most sensitive to an entry, that its bands hold.
-const MOST_SENSITIVE: f64 = 0.25;
+/// A band holds the lines whose sensitivity is at least this part of the highest; of the next part where no band has it.
+const SHARES: [f64; 3] = [1.0 / 3.0, 0.1, 0.03];
+/// Sine of the angle between columns of the Jacobian, below which one line does not tell them apart.
+const DEPENDENT: f64 = 1e-6;
 /// A band has so many lines at least.
 const SHORTEST_BAND: usize = 3;
 
-/// Bands from sensitivity and distance (Tol 4.2.2): for each entry of `model` the quarter of the lines on which the
-/// assembly's receptances depend on it most, among those 10 % or more away from the substructures' own resonances.
+/// Bands from sensitivity and distance (Tol 4.2.2): for each entry of `model` the lines that determine it best, among those
+/// 10 % or more away from the substructures' own resonances.
 ///
-/// An entry for which `given` has bands keeps them. The measure of a line is the largest |∂H^C/∂k|/|H^C| of the measured
-/// receptances; at an antiresonance the median of |H^C| over the lines takes its place. Of several bolts in
-/// `joint` the bands are those of the first.
+/// An entry for which `given` has bands keeps them. The measure of a line is 1/√[(JᴴΣ⁻¹J)⁻¹]_ii with J = ∂H^C/∂K* and
+/// Σ = diag |H^C|²: the sensitivity |∂H^C/∂K*|/|H^C| as far as no other entry could have the same effect. At an antiresonance the
+/// median of |H^C| over the lines takes the place of |H^C|. Of several bolts in `joint` the bands are those of the first.
 ///
 /// # Errors
 /// [`CouplingError::Singular`] at an undamped resonance, or if the joint's DOFs are not those of the lines.
@@ -136,31 +138,48 @@ pub(super) fn chosen<const N: usize>(
 ) -> Option<Vec<Bands>> {
     let is_far = |hz: f64| own_hz.iter().all(|own| (hz - own).abs() >= DISTANCE * own);
     let far: Vec<bool> = frequency_hz.iter().map(|&hz| is_far(hz)).collect();
-    let measures = measures(block, &layout.places(), unknowns)?;
+    let decoupled = layout.decoupled_places();
+    let measures = measures(block, &layout.places(), unknowns, &decoupled)?;
+    let measure_at = |place: (usize, usize)| {
+        let index = decoupled.iter().position(|other| other.first() == place)?;
+        measures.get(index)
+    };
+    let places = layout.places();
     let entries = layout.model().entries();
     let bands_of = |joint: usize| {
         let mut bands = given.clone();
         for (index, &entry) in entries.iter().enumerate() {
             let bands = bands.of_entry_mut(entry);
-            if bands.is_empty() {
-                let measure = &measures[joint * entries.len() + index];
-                *bands = most_sensitive(frequency_hz, &far, measure);
+            if !bands.is_empty() {
+                continue;
             }
+            // An average over several bolts is as good as its worst value.
+            let own = places[joint * entries.len() + index].all();
+            let own: Vec<&Vec<f64>> = own.filter_map(measure_at).collect();
+            let worst = |line: usize| {
+                own.iter()
+                    .map(|own| own[line])
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let measure: Vec<f64> = (0..frequency_hz.len()).map(worst).collect();
+            *bands = most_sensitive(frequency_hz, &far, &measure);
         }
         bands
     };
     Some((0..layout.joints()).map(bands_of).collect())
 }
 
-/// For each unknown entry the largest |∂H^C/∂k|/|H^C| of the measured receptances, line by line.
+/// For each of `decoupled` and each line, how well the line determines that entry of K* while the others are unknown, too:
+/// 1/√[(JᴴΣ⁻¹J)⁻¹]_ii with J = ∂H^C/∂K* and Σ = diag |H^C|², at the joint with these `unknowns`.
 fn measures<const N: usize>(
     block: &Block<N>,
     places: &[Place],
     unknowns: &[f64],
+    decoupled: &[Place],
 ) -> Option<Vec<Vec<f64>>> {
     let (lines, entries) = (block.lines(), block.entries.len());
     let mut sizes = vec![Vec::with_capacity(lines); entries];
-    let mut derivatives = vec![vec![Vec::with_capacity(lines); entries]; places.len()];
+    let mut jacobians = Vec::with_capacity(lines);
     let mut kernel = Kernel::new();
     for line in 0..lines {
         let stiffness = complex_stiffness::<N>(places, unknowns, block.omega[line]);
@@ -169,52 +188,114 @@ fn measures<const N: usize>(
         for (e, &entry) in block.entries.iter().enumerate() {
             let own = block.own[line * entries + e];
             sizes[e].push(kernel.receptance(own, entry).norm());
-            for (derivatives, &place) in derivatives.iter_mut().zip(places) {
-                derivatives[e].push(kernel.by_stiffness(entry, place).norm());
-            }
         }
+        jacobians.push(ComplexMatrix::from_fn(entries, decoupled.len(), |e, t| {
+            kernel.by_stiffness(block.entries[e], decoupled[t])
+        }));
     }
     let usual: Vec<f64> = sizes
         .iter()
         .map(|sizes| median(sizes.clone()).unwrap_or(0.0))
         .collect();
-    let measure = |derivatives: &Vec<Vec<f64>>| {
-        (0..lines)
-            .map(|line| {
-                let relative =
-                    (0..entries).map(|e| derivatives[e][line] / sizes[e][line].max(usual[e]));
-                relative.fold(0.0, f64::max)
-            })
-            .collect()
-    };
-    Some(derivatives.iter().map(measure).collect())
+    let mut measures = vec![Vec::with_capacity(lines); decoupled.len()];
+    for (line, mut jacobian) in jacobians.into_iter().enumerate() {
+        for (e, mut row) in jacobian.row_iter_mut().enumerate() {
+            row /= Complex64::from(sizes[e][line].max(usual[e]));
+        }
+        let determined = determined(&jacobian);
+        for (t, measures) in measures.iter_mut().enumerate() {
+            measures.push(determined.as_ref().map_or(0.0, |determined| determined[t]));
+        }
+    }
+    Some(measures)
+}
+
+/// 1/√[(JᴴJ)⁻¹]_ii; `None` where J determines a combination of its columns only.
+fn determined(jacobian: &ComplexMatrix) -> Option<Vec<f64>> {
+    let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
+    let mut scaled = jacobian.clone();
+    for (mut column, &length) in scaled.column_iter_mut().zip(&lengths) {
+        if !(length.is_finite() && length > 0.0) {
+            return None;
+        }
+        column /= Complex64::from(length);
+    }
+    let factor = (scaled.adjoint() * &scaled).cholesky()?;
+    let pivots = factor.l_dirty().diagonal();
+    if pivots.iter().any(|pivot| pivot.re < DEPENDENT) {
+        return None;
+    }
+    let inverse = factor.inverse();
+    let measure = |(index, length): (usize, &f64)| length / inverse[(index, index)].re.sqrt();
+    Some(lengths.iter().enumerate().map(measure).collect())
 }
 
 /// The bands in which the measure is highest among the lines that are `far` from resonances.
 fn most_sensitive(frequency_hz: &[f64], far: &[bool], measure: &[f64]) -> Vec<[f64; 2]> {
-    let mut ranked: Vec<f64> = (0..measure.len())
-        .filter(|&line| far[line])
-        .map(|line| measure[line])
-        .collect();
-    ranked.sort_by(|a, b| b.total_cmp(a));
-    let Some(&threshold) = ranked.get((MOST_SENSITIVE * ranked.len() as f64) as usize) else {
+    let away = (0..measure.len()).filter(|&line| far[line]);
+    let highest = away.map(|line| measure[line]).fold(0.0, f64::max);
+    if highest == 0.0 {
         return Vec::new();
-    };
-    let holds = |line: usize| far[line] && measure[line] > threshold;
-    let mut bands = Vec::new();
+    }
+    let found = SHARES.iter().map(|share| {
+        let holds = |line: usize| far[line] && measure[line] >= share * highest;
+        stretches(measure.len(), holds)
+    });
+    let lines = found.into_iter().find(|found| !found.is_empty());
+    let hz = |[first, last]: [usize; 2]| [frequency_hz[first], frequency_hz[last]];
+    lines.unwrap_or_default().into_iter().map(hz).collect()
+}
+
+/// First and last line of each stretch of lines that is long enough for a band.
+fn stretches(lines: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
+    let mut found = Vec::new();
     let mut start = None;
-    for line in 0..=measure.len() {
-        let inside = line < measure.len() && holds(line);
-        match (start, inside) {
+    for line in 0..=lines {
+        match (start, line < lines && holds(line)) {
             (None, true) => start = Some(line),
             (Some(first), false) => {
                 if line - first >= SHORTEST_BAND {
-                    bands.push([frequency_hz[first], frequency_hz[line - 1]]);
+                    found.push([first, line - 1]);
                 }
                 start = None;
             }
             _ => {}
         }
     }
-    bands
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_other_entries_could_do_as_well_does_not_count() {
+        let c = |re| Complex64::new(re, 0.0);
+        // Columns of length 2 and 1 at an angle of 60°: what is at right angles to the other is sin 60° of each.
+        let jacobian = nalgebra::dmatrix![c(2.0), c(0.5); c(0.0), c(0.75_f64.sqrt())];
+        let found = determined(&jacobian).unwrap();
+        let sine = 0.75_f64.sqrt();
+        assert!((found[0] - 2.0 * sine).abs() < 1e-12 && (found[1] - sine).abs() < 1e-12);
+        assert!(determined(&nalgebra::dmatrix![c(2.0), c(1.0); c(4.0), c(2.0)]).is_none());
+        assert!(determined(&nalgebra::dmatrix![c(2.0), c(1.0)]).is_none());
+    }
+
+    #[test]
+    fn bands_are_where_the_measure_is_high_and_lines_are_far_from_resonances() {
+        let hz: Vec<f64> = (0..12).map(f64::from).collect();
+        let measure = [0.0, 3.0, 3.0, 3.0, 0.1, 9.0, 9.0, 9.0, 9.0, 1.0, 1.0, 1.0];
+        let mut far = [true; 12];
+        assert_eq!(
+            most_sensitive(&hz, &far, &measure),
+            [[1.0, 3.0], [5.0, 8.0]]
+        );
+        // A resonance among the best lines leaves too few of them beside it.
+        far[6] = false;
+        assert_eq!(most_sensitive(&hz, &far, &measure), [[1.0, 3.0]]);
+        // No three lines with a third of the best: the next best will do.
+        far[2] = false;
+        assert_eq!(most_sensitive(&hz, &far, &measure), [[7.0, 11.0]]);
+        assert!(most_sensitive(&hz, &far, &[0.0; 12]).is_empty());
+    }
 }

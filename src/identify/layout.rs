@@ -187,6 +187,22 @@ impl Layout {
         (0..self.joints()).flat_map(of_joint).collect()
     }
 
+    /// Every entry of K* over the DOFs that the model makes use of, above and on the diagonal, whether it is unknown or zero:
+    /// what decoupling solves for.
+    pub(super) fn decoupled_places(&self) -> Vec<Place> {
+        let used = self.used_dofs();
+        let of_column = |column: usize| {
+            let place = |row: &usize| Place {
+                row: *row,
+                column: used[column],
+                copies: 1,
+                stride: self.dofs,
+            };
+            used[..=column].iter().map(place).collect::<Vec<_>>()
+        };
+        (0..used.len()).flat_map(of_column).collect()
+    }
+
     /// The matrices of each joint from the unknowns.
     pub(super) fn matrices(&self, unknowns: &[f64]) -> Vec<JointMatrices> {
         let of = |joint| JointMatrices::from_unknowns(self.model, &self.of_joint(unknowns, joint));

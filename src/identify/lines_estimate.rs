@@ -288,7 +288,7 @@ fn identify_with<const N: usize>(
                 .filter(|(_, own)| **own == joint)
                 .map(|((lines, values), _)| Decoupled { lines, values })
                 .collect();
-            let bands = used_bands(&own, &layout, &options.bands, problem.data());
+            let bands = used_bands::<N>(&own, &layout, &options.bands, noise);
             let averages = band_averages(&own, &layout, &bands);
             Averaged { bands, averages }
         })
@@ -385,8 +385,7 @@ impl Averaged {
 impl<const N: usize> Data<N> {
     /// Assemblies, each with the number of its joint, in the forms that a search goes through.
     pub(super) fn of(all: &[(&Lines, usize)], noise: &Noise) -> Self {
-        let longest = all.iter().map(|(lines, _)| lines.frequency_hz.len()).max();
-        let stride = (longest.unwrap_or(0) / search::LINES_FOR_STARTS).max(1);
+        let stride = search::stride(all);
         let noisy = |side: Side| noise.acts_on(side);
         let whole = Group::all(all, 1, noisy);
         let has_sources = whole.iter().any(|group| !group.sources.is_empty());

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::assessment::{Assessment, assess};
 use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
+use super::lines::Lines;
 use super::layout::Place;
 use super::noise::Noise;
 use super::objective::Objective;
@@ -12,7 +13,13 @@ use super::parallel;
 use super::starts;
 
 /// Lines that are enough to tell which start leads to the best estimate.
-pub(super) const LINES_FOR_STARTS: usize = 200;
+const LINES_FOR_STARTS: usize = 200;
+
+/// Which part of the lines is enough: every one, or every second …
+pub(super) fn stride(all: &[(&Lines, usize)]) -> usize {
+    let longest = all.iter().map(|(lines, _)| lines.frequency_hz.len()).max();
+    (longest.unwrap_or(0) / LINES_FOR_STARTS).max(1)
+}
 
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;

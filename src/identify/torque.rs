@@ -175,11 +175,6 @@ impl<'a, const N: usize> Problem<'a, N> {
         }
     }
 
-    /// The data in the forms that a search goes through.
-    pub(super) fn data(&self) -> &Data<N> {
-        &self.data
-    }
-
     /// How many joints are sought.
     pub(super) fn joints(&self) -> usize {
         self.assignment.joints

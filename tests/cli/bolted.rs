@@ -145,6 +145,7 @@ fn of_the_files_of_two_bolts_both_are_written_or_none() {
         &["o.right.joint.json: cannot be written"],
     );
     assert_eq!(bench.text("o.left.joint.json"), "old");
+    std::fs::remove_dir(bench.path("o.right.joint.json")).unwrap();
     // A study in the way of a bolt's file is an input, not an output.
     let study = bench.text("study.toml");
     bench.write("o.left.joint.json", study);

@@ -122,7 +122,7 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
     );
     let output = bench.done(&IDENTIFY).stdout;
     for fragment in [
-        "yy: 20 to 60 Hz, as in the study",
+        "yy: 20.00 to 60.00 Hz, as in the study",
         "ytheta: all lines, their median, as in the study",
     ] {
         assert!(output.contains(fragment), "{output}");

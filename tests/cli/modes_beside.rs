@@ -1,7 +1,5 @@
 //! FRFs of a substructure together with its modes, which supply what was not measured.
 
-use std::fmt::Write as _;
-
 use crate::bench::{Bench, replaced};
 use crate::rig::{self, FULL, matrix_of, modes_of_a};
 
@@ -134,8 +132,6 @@ shape = [[0.9, 0.0], [0.9, 0.0]]
             "modes.toml: no mode shape at 3:+Y; the points are 1:+Y, 2:+Y",
         ],
     );
-    let mut broken = without_3.to_owned();
-    let _ = write!(broken, "[[mode]]\n");
-    bench.write("modes.toml", broken);
+    bench.write("modes.toml", without_3.to_owned() + "[[mode]]\n");
     bench.refused(&IDENTIFY, &["modes.toml: ", "missing field"]);
 }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use super::beside;
 use super::{Assembly, IdentificationReport, counted};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    BandOrigin, Bolts, FrfFile, FromModes, JointMatrices, JointModel, Level, NoiseLevel, Rotation,
-    Source, StatedLevel, Substructure,
+    Bolts, FrfFile, JointModel, Level, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -58,13 +58,13 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                 "From modes, substructure {}",
                 found.substructure.to_uppercase()
             ),
-            &from_modes(found),
+            &beside::from_modes(found),
         ));
     }
     if let Some(start) = &study.start {
         rows.push(row(
             "Presumed joint, a start of the search",
-            &self::start(start),
+            &beside::start(start),
         ));
     }
     let [from, to] = study.frequency_range_hz;
@@ -72,7 +72,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         "Frequency range",
         &format!("{} to {} Hz", number(from), number(to)),
     ));
-    rows.push(row("Bands of the average", &bands(report)));
+    rows.push(row("Bands of the average", &beside::bands(report)));
     rows.push(row("Noise", &noise(report)));
     for note in &study.notes {
         rows.push(row("Note", &escaped(note)));
@@ -182,44 +182,6 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     }
 }
 
-/// What the modes supplied, and how well they give what was measured.
-fn from_modes(found: &FromModes) -> String {
-    let functions = found.functions.iter().map(|(response, reference)| {
-        format!(
-            "{} / {}",
-            escaped(&response.to_string()),
-            escaped(&reference.to_string())
-        )
-    });
-    let functions: Vec<String> = functions.collect();
-    let functions = match functions.as_slice() {
-        [] => "nothing: all functions were measured".to_owned(),
-        functions => format!("{}, taken as exact", functions.join(", ")),
-    };
-    let deviation = found.deviation.map(|deviation| {
-        format!(
-            "; of the measured functions the modes are {} away (r.m.s.)",
-            percent(deviation)
-        )
-    });
-    functions + &deviation.unwrap_or_default()
-}
-
-fn start(joint: &JointMatrices) -> String {
-    let matrix = |matrix: &nalgebra::DMatrix<f64>| {
-        let rows = matrix.row_iter().map(|row| {
-            let row: Vec<String> = row.iter().map(|value| number(*value)).collect();
-            format!("[{}]", row.join(", "))
-        });
-        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
-    };
-    format!(
-        "<i>K</i> = {}, <i>C</i> = {} (SI units)",
-        matrix(&joint.stiffness),
-        matrix(&joint.damping)
-    )
-}
-
 fn difference(rotation: &Rotation) -> String {
     match rotation {
         Rotation::Measured(theta) => escaped(&theta.to_string()),
@@ -294,36 +256,6 @@ fn assembly(
     }
     if let Some(level) = level {
         html += &format!("; {}", escaped(&level.to_string()));
-    }
-    html
-}
-
-fn bands(report: &IdentificationReport<'_>) -> String {
-    let bolts = report.found.bolts.with_own_joint();
-    let mut entries = Vec::new();
-    for (joint, used) in report.found.estimate.bands().iter().enumerate() {
-        for used in used {
-            let bolt = bolts.get(joint).map(|bolt| format!("{} ", escaped(bolt)));
-            let name = bolt.unwrap_or_default() + &used.name.replace("theta", "θ");
-            let ranges = used.bands.iter();
-            let ranges =
-                ranges.map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)));
-            let ranges = ranges.collect::<Vec<_>>().join(", ");
-            entries.push(match used.origin {
-                BandOrigin::Given => format!("{name}: {ranges}, given"),
-                BandOrigin::Automatic => format!("{name}: {ranges}, chosen"),
-                BandOrigin::NoneQualifies => {
-                    format!("{name}: median over all lines, because no band qualifies")
-                }
-                BandOrigin::Median => format!("{name}: median over all lines, as asked for"),
-            });
-        }
-    }
-    let mut html = entries.join("; ");
-    let mut all = report.found.estimate.bands().iter().flatten();
-    if all.any(|used| used.origin == BandOrigin::Automatic) {
-        html += ". Chosen are the most sensitive lines, 10 % or more away from the substructures' own resonances, at a preliminary \
-                 estimate";
     }
     html
 }
@@ -425,7 +357,13 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
                 "Substructure {name} comes from modes: their errors are not in the intervals."
             )),
             Substructure::Measured {
-                source: Source::Frf { .. },
+                source: Source::Frf { modes: Some(_), .. },
+                ..
+            } => list.push(format!(
+                "Functions of substructure {name} that come from modes are taken as exact: their errors are not in the intervals."
+            )),
+            Substructure::Measured {
+                source: Source::Frf { modes: None, .. },
                 ..
             } => {}
         }

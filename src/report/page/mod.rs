@@ -1,5 +1,6 @@
 //! The report of an identification: one page without any reference to the network, for a screen and for paper.
 
+mod beside;
 mod decoupled;
 mod figure;
 mod functions;

@@ -72,6 +72,8 @@ const HIDDEN_GAIN: f64 = 1e-12;
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
+/// Gain that is enough while the variances are not yet those of the errors.
+const GAIN_WHILE_EASING: f64 = 1e-3;
 
 /// Estimates the unknowns from `start` coordinates; `None` if the start cannot be evaluated.
 ///
@@ -207,6 +209,30 @@ pub(super) fn minimum<const N: usize>(
     let none = vec![Vec::new(); objective.groups.len()];
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
     Some(levenberg_marquardt(objective, weights, &Free, start, none, control)?.coordinates)
+}
+
+/// Parts of what the errors of the substructures add to the variance of the assembly's receptances, by which these are taken
+/// for worse than they are, step by step less.
+const EASING: [f64; 5] = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
+
+/// Unknowns and corrections near the minimum that `start` belongs to, where the errors of the substructures act too far from
+/// linearly to be let free at once: near a resonance a correction that has to explain several assemblies exactly ends far off.
+/// First the assemblies count for no better than they can be computed from the substructures as measured.
+pub(super) fn eased_minimum<const N: usize>(
+    objective: &Objective<'_, N>,
+    noise: &Noise,
+    start: DVector<f64>,
+) -> Option<(DVector<f64>, Vec<Vec<Complex64>>)> {
+    let levels = first_levels(objective, noise);
+    let mut state = objective.unweighted(start, None)?;
+    for part in EASING {
+        let weights = objective.eased_weights(levels, &state, part)?;
+        let control = (GAIN_WHILE_EASING, FIRST_DAMPING);
+        let (unknowns, corrections) = (state.unknowns, state.corrections);
+        state =
+            levenberg_marquardt(objective, &weights, &Free, &unknowns, corrections, control)?.state;
+    }
+    Some((state.unknowns, state.corrections))
 }
 
 /// Where an iteration with held weights came to rest.

@@ -28,6 +28,8 @@ const RIGID: f64 = 1e6;
 const CORRECTION_ROUNDS: usize = 8;
 /// … as long as they promise to lower its cost by this fraction …
 const CORRECTION_GAIN: f64 = 1e-3;
+/// (by this one where the full step does not lower it) …
+const CORRECTION_GAIN_OF_SHORT_STEPS: f64 = 1e-12;
 /// … each shortened to a quarter at most so many times.
 const CORRECTION_HALVINGS: usize = 6;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
@@ -510,6 +512,7 @@ impl<'g, const N: usize> Line<'g, N> {
         delta: &mut [Complex64],
     ) -> Option<()> {
         let mut trial = std::mem::take(&mut self.trial);
+        let mut negligible = CORRECTION_GAIN;
         if let Some(from) = from {
             trial.clear();
             trial.extend_from_slice(delta);
@@ -520,6 +523,9 @@ impl<'g, const N: usize> Line<'g, N> {
             let after = self.cost_at(index, variances, to, &trial);
             if after <= before {
                 delta.copy_from_slice(&trial);
+            } else {
+                // Full steps overshoot here, and would for ever.
+                negligible = CORRECTION_GAIN_OF_SHORT_STEPS;
             }
         }
         for _ in 0..CORRECTION_ROUNDS {
@@ -528,7 +534,7 @@ impl<'g, const N: usize> Line<'g, N> {
             trial.clear();
             trial.extend_from_slice(delta);
             self.follow(variances, to, to, &mut trial)?;
-            if before - self.residual_cost <= CORRECTION_GAIN * before {
+            if before - self.residual_cost <= negligible * before {
                 break;
             }
             let mut accepted = false;

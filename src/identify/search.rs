@@ -149,7 +149,7 @@ struct Final {
 }
 
 /// Where one start leads on few lines.
-pub(super) fn try_start<const N: usize>(
+fn try_start<const N: usize>(
     data: &Data<N>,
     entries: &[Place],
     noise: &Noise,
@@ -220,7 +220,7 @@ const ROBUST_ROUNDS: usize = 8;
 
 /// An estimate that takes the substructures as measured, but each value of the assembly only for as good as the errors of
 /// the substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
-fn robust_start<const N: usize>(
+pub(super) fn robust_start<const N: usize>(
     exact: &Objective<'_, N>,
     whole: &Objective<'_, N>,
     noise: &Noise,

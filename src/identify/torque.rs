@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::assessment::{Assessment, assess};
 use super::bolt_starts::bolt_starts;
 use super::choice::bayesian_criterion;
-use super::estimator::{Estimate, Free, estimate};
+use super::estimator::{Estimate, Free, eased_minimum, estimate};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::noise::Noise;
@@ -237,12 +237,7 @@ impl<'a, const N: usize> Problem<'a, N> {
         let starts = std::iter::once(concatenated(&mut joints.iter())).chain(everywhere);
         let mut best: Option<(Estimate, Assessment)> = None;
         for start in starts {
-            // The errors of the substructures have moved each joint by itself, and differently. First all have to be moved alike
-            // by them: a joint too far from its neighbours would be explained by other errors than theirs.
-            let Some(near) = search::try_start(&self.data, entries, noise, &start) else {
-                continue;
-            };
-            let Some(found) = estimate(&objective, noise, None, &Free, &near.unknowns, None) else {
+            let Some(found) = self.estimate_together(&objective, start) else {
                 continue;
             };
             let Some(assessment) = assess(&objective, &found, noise) else {
@@ -258,6 +253,28 @@ impl<'a, const N: usize> Problem<'a, N> {
             }
         }
         best
+    }
+
+    /// The estimate that a start of all joints leads to.
+    fn estimate_together(
+        &self,
+        objective: &Objective<'_, N>,
+        start: DVector<f64>,
+    ) -> Option<Estimate> {
+        let noise = self.noise;
+        if self.data.thinned_whole.is_empty() {
+            return estimate(objective, noise, None, &Free, &start, None);
+        }
+        // Each joint by itself has been moved by other corrections of the same substructures. First all are moved alike, to where
+        // there are no corrections at all.
+        let few = |groups| Objective {
+            groups,
+            ..*objective
+        };
+        let (thinned, whole) = (few(&self.data.thinned), few(&self.data.thinned_whole));
+        let start = search::robust_start(&thinned, &whole, noise, start)?;
+        let (start, corrections) = eased_minimum(objective, noise, start)?;
+        estimate(objective, noise, None, &Free, &start, Some(corrections))
     }
 }
 

@@ -86,6 +86,30 @@ impl<const N: usize> Objective<'_, N> {
         Some(all)
     }
 
+    /// Variances at `state` that let the assemblies count for worse than they are, by a part of what the errors of the
+    /// substructures as measured would add.
+    pub(super) fn eased_weights(
+        &self,
+        levels: Levels,
+        state: &State,
+        part: f64,
+    ) -> Option<Vec<Weights>> {
+        let mut all = self.weights(levels, state)?;
+        self.visit(None, state, |number, line| {
+            let weights = &mut all[number];
+            let (size, sources) = (line.computed.len(), self.groups[number].sources.len());
+            for e in 0..size {
+                let of_sources = (0..sources).map(|s| {
+                    let variance = weights.sources[line.index * sources + s];
+                    line.by_source[s * size + e].norm_sqr() * variance
+                });
+                let added: f64 = of_sources.sum();
+                weights.entries[line.index * size + e] += part * added;
+            }
+        })?;
+        Some(all)
+    }
+
     /// The level that makes the residuals at `state` most likely, where `noise` does not state it.
     ///
     /// `shrinkage` is what fitting has left of the residuals' variance.

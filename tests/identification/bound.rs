@@ -3,7 +3,7 @@
 use bolted_joint::identify::NoiseLevel;
 
 use crate::cases::axis;
-use crate::measured::{Noisy, Rig, joint};
+use crate::measured::{Noisy, Rig, joint, thesis};
 use crate::monte_carlo::{print, run};
 
 const DRAWS: u64 = 100;
@@ -30,7 +30,7 @@ fn check(rig: &Rig, noisy: Noisy, relative: f64, most: f64) {
 
 #[test]
 fn a_medium_joint_with_noise_on_the_assembly() {
-    let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 1.0));
+    let rig = Rig::new("medium joint", joint(1.0, 1.0), thesis(axis(500.0, 1.0)));
     check(&rig, Noisy::Assembly, 0.01, 1.2);
     check(&rig, Noisy::Assembly, 0.05, 1.5);
 }
@@ -38,7 +38,7 @@ fn a_medium_joint_with_noise_on_the_assembly() {
 #[test]
 fn noise_on_everything_is_told_from_the_joint() {
     // Few draws: up to 27 receptances with errors of their own on each line. The benchmark has many.
-    let rig = Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 2.0));
+    let rig = Rig::new("medium joint", joint(1.0, 1.0), thesis(axis(500.0, 2.0)));
     let level = NoiseLevel {
         relative: 0.01,
         floor: 0.0,

@@ -33,6 +33,9 @@ const FINALISTS: usize = 4;
 /// the thinned lines makes up for it.
 const COMPARABLE: f64 = 10.0;
 
+/// Starts of the grid between two looks at whether the fit is beyond doubt.
+const STARTS_AT_A_TIME: usize = 4;
+
 /// The data in the three forms that the search goes through.
 pub(super) struct Data<const N: usize> {
     /// Few lines, substructures taken as exact.
@@ -82,15 +85,15 @@ pub(super) fn best<const N: usize>(
         .collect();
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials);
-    // With errors in the substructures a wrong minimum can pass for noise: then two starts have to agree.
-    let certain = finals.first().is_some_and(|best| {
-        best.assessment.is_certain() && agreeing(&trials, &finals, &best.estimate) > 1
-    });
-    if effort == Effort::Whole && !certain {
-        let grid = starts::grid(&data.thinned, entries);
-        tried += grid.len();
-        trials.extend(parallel::map(&grid, trial).into_iter().flatten());
-        finals = finalists(data, entries, noise, &trials);
+    if effort == Effort::Whole {
+        for part in starts::grid(&data.thinned, entries).chunks(STARTS_AT_A_TIME) {
+            if is_certain(&trials, &finals) {
+                break;
+            }
+            tried += part.len();
+            trials.extend(parallel::map(part, trial).into_iter().flatten());
+            finals = finalists(data, entries, noise, &trials);
+        }
     }
     let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
     Ok(Found {
@@ -119,6 +122,14 @@ fn softest_of_the_best<'f, const N: usize>(
         .iter()
         .filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
         .min_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// Whether no other minimum can be better. With errors in the substructures a wrong one can pass for noise: two starts have
+/// to agree.
+fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
+    finals.first().is_some_and(|best| {
+        best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
+    })
 }
 
 /// How many of the trials led to `best`.

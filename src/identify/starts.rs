@@ -15,6 +15,9 @@ const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// which a single spring acts where the measured points hardly move.
 const LOOSE: f64 = 1e-6;
 
+/// Stride through the grid; it shares no divisor with 5 or 17, the starts of one and of two DOFs.
+const FAR_APART: usize = 6;
+
 /// Loss of a start's joint at the middle of the frequency range, ωc/k.
 const LOSS: f64 = 1e-2;
 
@@ -23,7 +26,8 @@ const LINEAR_ROUNDS: usize = 6;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join.
+/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join; neighbours in the list are
+/// far apart in the grid.
 pub(super) fn grid<const N: usize>(
     groups: &[Group<N>],
     entries: &[(usize, usize)],
@@ -54,7 +58,9 @@ pub(super) fn grid<const N: usize>(
         push(&|dof| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()]);
     }
     push(&|_| LOOSE);
-    starts
+    let count = starts.len();
+    let order = (0..count).map(|index| index * FAR_APART % count);
+    order.map(|index| starts[index].clone()).collect()
 }
 
 /// Estimate by linear least squares, refined by weights from the one before; `None` if no column of H^C_ss was measured at

@@ -17,11 +17,14 @@ const MAX_ENTRIES: usize = 3;
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
-const CORRECTION_ROUNDS: usize = 8;
+const CORRECTION_ROUNDS: usize = 40;
 /// … as long as they promise to lower its cost by this fraction …
 const CORRECTION_GAIN: f64 = 1e-3;
-/// … each shortened to a quarter at most so many times.
-const CORRECTION_HALVINGS: usize = 6;
+/// … each shortened to a quarter at most so many times …
+const CORRECTION_QUARTERINGS: usize = 8;
+/// … until it lowers the cost by this part of what the linear model promises of it. At a sharp resonance a step can end beyond
+/// the pole, where the receptance is next to nothing and from where no small step leads back.
+const CORRECTION_KEPT_PROMISE: f64 = 0.1;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.
@@ -480,15 +483,20 @@ impl<'g, const N: usize> Line<'g, N> {
             trial.clear();
             trial.extend_from_slice(delta);
             self.follow(variances, to, to, &mut trial)?;
-            if before - self.residual_cost <= CORRECTION_GAIN * before {
+            let promised = before - self.residual_cost;
+            if promised <= CORRECTION_GAIN * before {
                 break;
             }
             let mut accepted = false;
-            for _ in 0..CORRECTION_HALVINGS {
-                if self.cost_at(index, variances, to, &trial) <= before {
+            let mut share = 1.0;
+            for _ in 0..CORRECTION_QUARTERINGS {
+                let gained = before - self.cost_at(index, variances, to, &trial);
+                // Along a step S falls by (2α − α²) of what the whole step promises.
+                if gained >= CORRECTION_KEPT_PROMISE * share * (2.0 - share) * promised {
                     accepted = true;
                     break;
                 }
+                share *= 0.25;
                 for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
                     *trial = *delta + (*trial - *delta) * 0.25;
                 }

@@ -6,6 +6,7 @@ use super::assessment::{Assessment, assess};
 use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
 use super::noise::Noise;
+use super::normal::relative_change;
 use super::objective::Objective;
 use super::parallel;
 use super::starts;
@@ -229,7 +230,12 @@ fn robust_start<const N: usize>(
     for _ in 0..ROBUST_ROUNDS {
         let state = whole.unweighted(start.clone(), None)?;
         let weights = whole.marginal_weights(first_levels(whole, noise), &state)?;
-        start = minimum(exact, &weights, &start)?;
+        let next = minimum(exact, &weights, &start)?;
+        let moved = relative_change(&start, &next, &DVector::zeros(next.len()));
+        start = next;
+        if moved < SAME_UNKNOWN {
+            break;
+        }
     }
     Some(start)
 }

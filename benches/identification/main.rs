@@ -40,6 +40,7 @@ fn main() {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
         ["write", file] => write(file),
+        ["repeat", count] => repeat(count.parse().unwrap()),
         ["table"] => table(100, ""),
         ["table", draws] => table(draws.parse().unwrap(), ""),
         ["table", draws, chosen] => table(draws.parse().unwrap(), chosen),
@@ -49,6 +50,19 @@ fn main() {
 
 fn rig() -> Rig {
     Rig::new("timing", joint(1.0, 1.0), thesis(axis(LINES, 0.25)))
+}
+
+fn repeat(count: usize) {
+    let rig = rig();
+    let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
+    let options = Options {
+        noise: Noise::stated(ONE_PER_CENT),
+        ..Options::default()
+    };
+    for _ in 0..count {
+        let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+        assert!(found.assessment().fits());
+    }
 }
 
 fn time() {

@@ -228,7 +228,7 @@ fn robust_start<const N: usize>(
     mut start: DVector<f64>,
 ) -> Option<DVector<f64>> {
     for _ in 0..ROBUST_ROUNDS {
-        let state = whole.unweighted(start.clone(), None)?;
+        let state = whole.unweighted(start.clone(), None);
         let weights = whole.marginal_weights(first_levels(whole, noise), &state)?;
         let next = minimum(exact, &weights, &start)?;
         let moved = relative_change(&start, &next, &DVector::zeros(next.len()));

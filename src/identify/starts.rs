@@ -1,12 +1,15 @@
 //! Starting values of the estimator: the linearised problem solved as it is, and joints from soft to stiff beside the
 //! substructures.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::block::Block;
 use super::group::Group;
-use super::kernel::{Kernel, complex_stiffness, inverse};
+use super::kernel::{dot, inverse};
+use super::lanes::{Complexes, LANES, Reals};
+use super::normal::Normal;
+use super::strip::{Products, Strip, Sums};
 
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -74,113 +77,120 @@ pub(super) fn linear<const N: usize>(
     entries: &[(usize, usize)],
     first: Option<&DVector<f64>>,
 ) -> Option<DVector<f64>> {
+    let blocks = groups.iter().flat_map(|group| &group.blocks);
+    let transmitted: Vec<Transmitted<N>> = blocks
+        .filter(|block| block.points >= N)
+        .map(Transmitted::of)
+        .filter(|transmitted| transmitted.is_measured())
+        .collect();
+    if transmitted.is_empty() {
+        return None;
+    }
     let mut unknowns = first
         .cloned()
         .unwrap_or_else(|| DVector::zeros(2 * entries.len()));
     for _ in 0..LINEAR_ROUNDS {
-        let mut normal = LinearNormal::new(entries);
-        for block in groups.iter().flat_map(|group| &group.blocks) {
-            normal.add(block, &unknowns);
+        let mut normal = Normal::zero(unknowns.len());
+        for transmitted in &transmitted {
+            transmitted.add_to(&mut normal, entries, unknowns.as_slice())?;
         }
-        unknowns = normal.solution()?;
+        normal.matrix.fill_upper_triangle_with_lower_triangle();
+        unknowns = normal.step(0.0)?;
+        if unknowns.iter().any(|value| !value.is_finite()) {
+            return None;
+        }
     }
     Some(unknowns)
 }
 
-struct LinearNormal<'e> {
-    entries: &'e [(usize, usize)],
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
-    rows: usize,
+/// What the joint of one assembly transmits as measured, for each line and each complete column of H^C_ss.
+struct Transmitted<'b, const N: usize> {
+    block: &'b Block<N>,
+    /// Complete columns of H^C_ss.
+    columns: usize,
+    /// X
+    x: Vec<[Complex64; N]>,
+    /// W = H_ks − F X
+    w: Vec<[Complex64; N]>,
+    /// Weight of each point, zero where a value cannot be used.
+    weight: Vec<f64>,
 }
 
-impl<'e> LinearNormal<'e> {
-    fn new(entries: &'e [(usize, usize)]) -> Self {
-        let size = 2 * entries.len();
-        Self {
-            entries,
-            matrix: DMatrix::zeros(size, size),
-            right: DVector::zeros(size),
-            rows: 0,
-        }
-    }
-
-    fn add<const N: usize>(&mut self, block: &Block<N>, weights_from: &DVector<f64>) {
-        if block.points < N {
-            return;
-        }
-        let columns: Vec<(usize, Vec<usize>)> = (0..block.points)
+impl<'b, const N: usize> Transmitted<'b, N> {
+    fn of(block: &'b Block<N>) -> Self {
+        let complete: Vec<(usize, Vec<usize>)> = (0..block.points)
             .filter_map(|column| Some((column, whole_column(block, column)?)))
             .collect();
-        let mut kernel = Kernel::new();
+        let mut transmitted = Self {
+            block,
+            columns: complete.len(),
+            x: Vec::new(),
+            w: Vec::new(),
+            weight: Vec::new(),
+        };
         for line in 0..block.lines() {
-            let omega = block.omega[line];
-            let before = complex_stiffness::<N>(self.entries, weights_from.as_slice(), omega);
             let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
             let free = &block.free[line];
-            if kernel.solve(free, transfer, &before).is_none() {
-                continue;
-            }
             let at = line * block.entries.len();
-            for (column, places) in &columns {
+            for (column, places) in &complete {
                 let measured = |row: usize| block.measured[at + places[row]];
                 let difference = |row: usize| block.own[at + places[row]] - measured(row);
-                let Some(x) = transmitted(transfer, measured, difference) else {
-                    continue;
-                };
-                // W = H_ks − F X
-                let w: [Complex64; N] = std::array::from_fn(|i| {
+                let found = self::transmitted(transfer, measured, difference);
+                let x = found.unwrap_or([ZERO; N]);
+                transmitted.x.push(x);
+                transmitted.w.push(std::array::from_fn(|i| {
                     transfer[*column][i] - (0..N).map(|j| free[i][j] * x[j]).sum::<Complex64>()
-                });
-                for row in 0..block.points {
+                }));
+                transmitted.weight.extend((0..block.points).map(|row| {
                     let weight = measured(row).norm_sqr().recip();
-                    if weight.is_finite() {
-                        self.add_row(omega, weight, kernel.q(row), &x, &w);
-                    }
+                    let is_usable = found.is_some() && weight.is_finite();
+                    if is_usable { weight } else { 0.0 }
+                }));
+            }
+        }
+        transmitted
+    }
+
+    fn is_measured(&self) -> bool {
+        self.weight.iter().any(|weight| *weight > 0.0)
+    }
+
+    /// Rows of all lines: Qᵀ_p X = Σ K*_ij (Q_i W_j + Q_j W_i), with Q of the joint before.
+    fn add_to(
+        &self,
+        normal: &mut Normal,
+        entries: &[(usize, usize)],
+        before: &[f64],
+    ) -> Option<()> {
+        let block = self.block;
+        let mut sums = Sums::default();
+        let mut strip = Strip::new(block);
+        for first in (0..block.lines()).step_by(LANES) {
+            strip.solve(first, entries, before)?;
+            let mut products = Products::NONE;
+            for column in 0..self.columns {
+                let at = strip.index.map(|line| line * self.columns + column);
+                let of = |values: &[[Complex64; N]]| -> [Complexes; N] {
+                    std::array::from_fn(|i| Complexes::of(|lane| values[at[lane]][i]))
+                };
+                let (x, w) = (of(&self.x), of(&self.w));
+                for point in 0..block.points {
+                    let weight = Reals::of(|lane| self.weight[at[lane] * block.points + point]);
+                    let q = strip.kernel.q(point);
+                    let row = |i: usize, j: usize| {
+                        if i == j {
+                            q[i] * w[i]
+                        } else {
+                            q[i] * w[j] + q[j] * w[i]
+                        }
+                    };
+                    products.add::<N>(strip.used * weight, row, dot(q, &x));
                 }
             }
+            sums.add_products(strip.omega, &products);
         }
-    }
-
-    /// One row: Qᵀ_p X = Σ K*_ij (Q_i W_j + Q_j W_i).
-    fn add_row<const N: usize>(
-        &mut self,
-        omega: f64,
-        weight: f64,
-        q: &[Complex64; N],
-        x: &[Complex64; N],
-        w: &[Complex64; N],
-    ) {
-        let count = self.entries.len();
-        let target: Complex64 = (0..N).map(|i| q[i] * x[i]).sum();
-        let mut row = vec![ZERO; 2 * count];
-        for (index, &(i, j)) in self.entries.iter().enumerate() {
-            let coefficient = if i == j {
-                q[i] * w[i]
-            } else {
-                q[i] * w[j] + q[j] * w[i]
-            };
-            row[index] = coefficient;
-            row[count + index] = Complex64::new(0.0, omega) * coefficient;
-        }
-        for i in 0..2 * count {
-            self.right[i] += weight * (row[i].conj() * target).re;
-            for j in 0..2 * count {
-                self.matrix[(i, j)] += weight * (row[i].conj() * row[j]).re;
-            }
-        }
-        self.rows += 1;
-    }
-
-    fn solution(&self) -> Option<DVector<f64>> {
-        let scale = self
-            .matrix
-            .diagonal()
-            .map(|entry| entry.max(f64::MIN_POSITIVE).sqrt().recip());
-        let scaled = super::normal::scaled_by(&self.matrix, &scale);
-        let right = self.right.component_mul(&scale);
-        let solution = scaled.cholesky()?.solve(&right).component_mul(&scale);
-        (self.rows > 0 && solution.iter().all(|value| value.is_finite())).then_some(solution)
+        sums.add_to::<N>(normal, entries);
+        Some(())
     }
 }
 

@@ -10,7 +10,7 @@ use super::noise::{Levels, Noise, NoiseLevel, Sample, StatedLevel, most_likely_l
 use super::objective::{Line, Objective, State, Weights};
 
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
-const LEAST_RELATIVE: f64 = 1e-14;
+pub(super) const LEAST_RELATIVE: f64 = 1e-14;
 
 impl<const N: usize> Objective<'_, N> {
     /// Variances at `state`; `None` where one is not a number above zero.
@@ -22,7 +22,6 @@ impl<const N: usize> Objective<'_, N> {
                 entries: Vec::with_capacity(group.lines() * group.entries()),
                 sources: Vec::with_capacity(group.lines() * group.sources.len()),
                 scatter: 0.0,
-                scatter_log: 0.0,
             })
             .collect();
         let mut usable = true;
@@ -38,7 +37,6 @@ impl<const N: usize> Objective<'_, N> {
                 usable &= variance.is_finite() && variance > 0.0;
                 weights.entries.push(variance / f64::from(entry.count));
                 weights.scatter += entry.scatter / variance;
-                weights.scatter_log += f64::from(entry.count - 1) * variance.ln();
             });
             for (s, source) in group.sources.iter().enumerate() {
                 let power = source_power(source, state, number, line.index, s, group);
@@ -63,7 +61,6 @@ impl<const N: usize> Objective<'_, N> {
                 entries: Vec::new(),
                 sources: Vec::new(),
                 scatter: 0.0,
-                scatter_log: 0.0,
             }));
         }
         self.visit(None, state, |number, line| {

@@ -76,7 +76,8 @@ const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 
 /// Estimates the unknowns from `start` coordinates; `None` if the start cannot be evaluated.
 ///
-/// With `levels` the weights follow from them and no level is estimated.
+/// With `levels`, as for the trial of a start, the weights follow from them and no level is estimated, and an iteration that
+/// wanders is given up.
 pub(super) fn estimate<const N: usize>(
     objective: &Objective<'_, N>,
     noise: &Noise,
@@ -85,6 +86,7 @@ pub(super) fn estimate<const N: usize>(
     start: &DVector<f64>,
     corrections: Option<Vec<Vec<Complex64>>>,
 ) -> Option<Estimate> {
+    let is_trial = levels.is_some();
     let estimates_level = levels.is_none() && !noise.is_stated();
     let mut levels = levels.unwrap_or_else(|| first_levels(objective, noise));
     let mut coordinates = start.clone();
@@ -119,6 +121,10 @@ pub(super) fn estimate<const N: usize>(
             ..
         } = rest.state;
         (weights, state) = objective.renewed(levels, unknowns, Some(corrections))?;
+        if is_trial && !settled {
+            // It wanders, and renewed weights would not lead it back.
+            break;
+        }
         if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;

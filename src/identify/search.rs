@@ -24,6 +24,9 @@ const NEAR_UNKNOWN: f64 = 0.05;
 /// deviation: data without noise leave a misfit of rounding alone.
 const SAME_UNKNOWN: f64 = 1e-6;
 
+/// Two robust starts have met if their unknowns agree to this.
+const MET: f64 = 1e-4;
+
 /// By how much the −2 log-likelihood of an estimate that has not converged must be lower to rank before one that has.
 const DECISIVE_MISFIT: f64 = 20.0;
 
@@ -79,11 +82,8 @@ pub(super) fn best<const N: usize>(
     for guess in [None, candidates.last().cloned()] {
         candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
     }
-    let trial = |start: &DVector<f64>| try_start(data, entries, noise, start);
-    let mut trials: Vec<Estimate> = parallel::map(&candidates, trial)
-        .into_iter()
-        .flatten()
-        .collect();
+    let mut ways = Vec::new();
+    let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials);
     if effort == Effort::Whole {
@@ -92,7 +92,7 @@ pub(super) fn best<const N: usize>(
                 break;
             }
             tried += part.len();
-            trials.extend(parallel::map(part, trial).into_iter().flatten());
+            trials.extend(try_starts(data, entries, noise, part, &mut ways));
             finals = finalists(data, entries, noise, &trials);
         }
     }
@@ -149,13 +149,20 @@ struct Final {
     assessment: Assessment,
 }
 
-/// Where one start leads on few lines.
-fn try_start<const N: usize>(
+/// A robust start and the estimate to which it led.
+struct Way {
+    start: DVector<f64>,
+    estimate: Option<Estimate>,
+}
+
+/// Where each of the starts leads on few lines. `ways` are those gone so far: two starts that meet go on as one.
+fn try_starts<const N: usize>(
     data: &Data<N>,
     entries: &[(usize, usize)],
     noise: &Noise,
-    start: &DVector<f64>,
-) -> Option<Estimate> {
+    starts: &[DVector<f64>],
+    ways: &mut Vec<Way>,
+) -> Vec<Estimate> {
     let thinned = Objective {
         groups: &data.thinned,
         entries,
@@ -163,14 +170,37 @@ fn try_start<const N: usize>(
     // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
     let levels = Some(first_levels(&thinned, noise));
     if data.thinned_whole.is_empty() {
-        return estimate(&thinned, noise, levels, &Free, start, None);
+        let trial = |start: &DVector<f64>| estimate(&thinned, noise, levels, &Free, start, None);
+        return parallel::map(starts, trial).into_iter().flatten().collect();
     }
     let whole = Objective {
         groups: &data.thinned_whole,
         entries,
     };
-    let start = robust_start(&thinned, &whole, noise, start.clone())?;
-    estimate(&whole, noise, levels, &Free, &start, None)
+    let robust = |start: &DVector<f64>| robust_start(&thinned, &whole, noise, start.clone());
+    let starts: Vec<DVector<f64>> = parallel::map(starts, robust)
+        .into_iter()
+        .flatten()
+        .collect();
+    let meets = |one: &DVector<f64>, other: &DVector<f64>| {
+        relative_change(one, other, &DVector::zeros(one.len())) < MET
+    };
+    let mut new: Vec<DVector<f64>> = Vec::new();
+    for start in &starts {
+        let known = ways.iter().map(|way| &way.start).chain(&new);
+        if !known.into_iter().any(|known| meets(known, start)) {
+            new.push(start.clone());
+        }
+    }
+    let trial = |start: &DVector<f64>| estimate(&whole, noise, levels, &Free, start, None);
+    let estimates = parallel::map(&new, trial);
+    let led = new.into_iter().zip(estimates);
+    ways.extend(led.map(|(start, estimate)| Way { start, estimate }));
+    let end = |start: &DVector<f64>| {
+        let way = ways.iter().find(|way| meets(&way.start, start))?;
+        way.estimate.clone()
+    };
+    starts.iter().filter_map(end).collect()
 }
 
 /// The best few different `trials`, on all lines, best first.

@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use bolted_joint::identify::{Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines};
 
-use measured::{Noisy, Rig, Setup, joint, thesis};
+use measured::{Noisy, Rig, joint, stiff_and_soft, thesis};
 
 const ONE_PER_CENT: NoiseLevel = NoiseLevel {
     relative: 0.01,
@@ -108,23 +108,10 @@ fn time() {
 }
 
 fn table(draws: u64, chosen: &str) {
-    for (name, factor, damping, damping_ratio) in [
-        ("stiff joint, light damping", 5.0, 5.0, 0.002),
-        ("stiff joint, heavy damping", 5.0, 50.0, 0.03),
-        ("soft joint, light damping", 0.1, 0.3, 0.002),
-        ("soft joint, heavy damping", 0.1, 1.0, 0.03),
-    ] {
-        // Points 80 mm apart and lines up to 1,500 Hz: with the thesis's 15 mm and 500 Hz, errors on everything leave bounds
-        // of a hundred per cent and more for the stiff joints.
-        let setup = || Setup {
-            spacing_m: 0.08,
-            damping_ratio,
-            frequency_hz: axis(500, 3.0),
-        };
-        let rig = Rig::new(name, joint(factor, damping), setup());
+    for rig in stiff_and_soft() {
         for noisy in [Noisy::Assembly, Noisy::AssemblyAndA, Noisy::Everything] {
             for relative in [0.01, 0.05] {
-                let case = format!("{name}, {} % on {noisy:?}", 100.0 * relative);
+                let case = format!("{}, {} % on {noisy:?}", rig.name, 100.0 * relative);
                 if !case.contains(chosen) {
                     continue;
                 }

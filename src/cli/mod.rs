@@ -215,6 +215,7 @@ enum NoiseProcedure {
 
 /// `reproduce`
 #[derive(Debug, Args)]
+#[command(after_help = reproduce::names())]
 struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
     tables: Vec<PublishedTable>,
@@ -228,8 +229,11 @@ struct ReproduceArguments {
     #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
     samples: Vec<u32>,
     /// Print the tables as JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with = "markdown")]
     json: bool,
+    /// Print the tables as a document in Markdown
+    #[arg(long)]
+    markdown: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -8,17 +8,26 @@ mod error;
 mod lumped;
 mod outcome;
 mod published;
+mod receptances;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
 pub use outcome::{Reproduction, Row, Spread};
 pub use published::{PublishedTable, UnknownTable};
 
-/// Computes a published table anew.
+use draws::Repetition;
+
+/// Computes a published table anew. `progress` is called after each draw of the noise, of which there are `draws.count` for each of
+/// [`PublishedTable::noisy_cases`].
 ///
 /// # Errors
 /// [`ReproduceError`] if the numbers of `draws` make no sense.
-pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, ReproduceError> {
+pub fn reproduce(
+    table: PublishedTable,
+    draws: &Draws,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Reproduction, ReproduceError> {
+    let draws = Repetition { draws, progress };
     match table {
         PublishedTable::Table4_2 => lumped::table_4_2(draws),
         PublishedTable::Table4_3 => Ok(beams::table_4_3()),
@@ -34,8 +43,11 @@ pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, R
         PublishedTable::M10x35 => bolted::m10x35_chain(draws),
         PublishedTable::M8x35 => bolted::m8x35_chain(draws),
         PublishedTable::LongM8x35 => bolted::long_m8x35(draws),
-        PublishedTable::Torques => bolted::torques(),
+        PublishedTable::Torques => bolted::torques(draws),
         PublishedTable::M6x30 => bolted::m6x30_chain(draws),
         PublishedTable::TwoM6x30 => bolted::two_m6x30(),
+        PublishedTable::Table5_10 => bolted::table_5_10(draws),
+        PublishedTable::Table5_11 => bolted::table_5_11(draws),
+        PublishedTable::Table5_12 => bolted::table_5_12(draws),
     }
 }

@@ -3,28 +3,20 @@
 mod bolts;
 mod chain;
 mod longer_beam;
+mod qualities;
 mod single_line;
+mod sizes;
 mod structures;
 mod torques;
 mod two_bolts;
+mod update;
 
 pub(in crate::reproduce) use chain::{
     m6x30_chain, m8x16_chain, m8x35_chain, m10x16_chain, m10x35_chain,
 };
 pub(in crate::reproduce) use longer_beam::long_m8x35;
+pub(in crate::reproduce) use qualities::table_5_10;
 pub(in crate::reproduce) use single_line::table_5_2;
+pub(in crate::reproduce) use sizes::{table_5_11, table_5_12};
 pub(in crate::reproduce) use torques::torques;
 pub(in crate::reproduce) use two_bolts::two_m6x30;
-
-use super::outcome::{Row, Spread};
-
-fn frequency_row(case: &str, index: usize, published: Option<f64>, hz: f64) -> Row {
-    Row {
-        case: case.to_owned(),
-        quantity: format!("f_{}", index + 1),
-        unit: "Hz",
-        truth: None,
-        published,
-        obtained: Some(Spread::exact(hz)),
-    }
-}

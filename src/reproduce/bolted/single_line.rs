@@ -1,7 +1,9 @@
 //! The joint that the decoupling equation returns at a single line: Table 5.2, and the initial estimates of the update.
 
+use num_complex::Complex64;
+
 use crate::identify::{Equation, Inverse, JointMatrices, JointModel, Lines, decouple};
-use crate::reproduce::draws::{Draws, polluted, rows};
+use crate::reproduce::draws::{Repetition, rows};
 use crate::reproduce::error::ReproduceError;
 use crate::reproduce::outcome::{Reproduction, Row};
 use crate::reproduce::published::PublishedTable;
@@ -10,9 +12,15 @@ use crate::structure::{ComplexMatrix, Partition};
 
 use super::bolts::{Bolt, LEVEL, m10x16};
 use super::structures;
+use super::update::noisy;
+
+/// An error of phase that a measurement may well have near a resonance.
+const LATE_DEG: f64 = 5.0;
 
 /// Table 5.2: what the decoupling equation returns at 112.5 and 344 Hz.
-pub(in crate::reproduce) fn table_5_2(draws: &Draws) -> Result<Reproduction, ReproduceError> {
+pub(in crate::reproduce) fn table_5_2(
+    draws: Repetition<'_>,
+) -> Result<Reproduction, ReproduceError> {
     let lines = m10x16().lines()?;
     let noise = Pollution::Frf { level: LEVEL }.checked()?;
     let mut found = Vec::new();
@@ -26,15 +34,14 @@ pub(in crate::reproduce) fn table_5_2(draws: &Draws) -> Result<Reproduction, Rep
             .collect();
         let case = format!("{hz} Hz, no noise, 2s");
         found.extend(rows(&case, JointModel::Full, None, &published, &middle));
-        let noisy = draws.joints(|generator| {
-            let noisy = Lines {
-                assembly: polluted(&lines.assembly, &noise, generator),
-                ..lines.clone()
-            };
-            at_line(&noisy, line)
-        });
+        let middle: Vec<_> = at_line(&with_late_a(&structures::measured_at(&lines, &[1])), line)
+            .into_iter()
+            .collect();
+        let case = format!("{hz} Hz, no noise, 2s, phase of A 5° late");
+        found.extend(rows(&case, JointModel::Full, None, &published, &middle));
+        let joints = draws.joints(|generator| at_line(&noisy(&lines, &noise, generator), line));
         let case = format!("{hz} Hz, 1 % noise, 1s–3s");
-        found.extend(rows(&case, JointModel::Full, None, &published, &noisy));
+        found.extend(rows(&case, JointModel::Full, None, &published, &joints));
     }
     Ok(Reproduction {
         table: PublishedTable::Table5_2,
@@ -42,7 +49,7 @@ pub(in crate::reproduce) fn table_5_2(draws: &Draws) -> Result<Reproduction, Rep
         rows: found,
         differences: vec![
             "The stiffnesses are those that one point returns for the joint of Table 5.3: rank-one answers.".to_owned(),
-            "The dampings are small differences of large numbers, and follow the measurement's own errors.".to_owned(),
+            "The dampings follow the phases: 5° in those of A, which is an error of 9 %, moves c_yy and c_ytheta at 112.5 Hz and c_thetatheta at 344 Hz by more than their size. c_thetatheta at 112.5 Hz, published three times as large as obtained, is left unexplained.".to_owned(),
         ],
         not_given: vec!["the measured receptances of the assembly, and their noise".to_owned()],
     })
@@ -54,7 +61,7 @@ impl Bolt {
         lines: &Lines,
         used: &Lines,
         modes: &[f64],
-        draws: &Draws,
+        draws: Repetition<'_>,
     ) -> Result<Vec<Row>, ReproduceError> {
         let [Some(second), Some(third)] = [1, 2].map(|mode| {
             let hz = modes.get(mode)?;
@@ -80,19 +87,23 @@ impl Bolt {
             &middle,
         );
         let noise = Pollution::Frf { level: LEVEL }.checked()?;
-        let noisy = draws.joints(|generator| {
-            estimate(&Lines {
-                assembly: polluted(&used.assembly, &noise, generator),
-                ..used.clone()
-            })
-        });
+        let joints = draws.joints(|generator| estimate(&noisy(used, &noise, generator)));
         let case = if self.used.len() == 3 {
             "initial, 1 % noise, 1s–3s"
         } else {
             "initial, 1 % noise, 2s"
         };
-        found.extend(rows(case, JointModel::Full, None, &self.initial, &noisy));
+        found.extend(rows(case, JointModel::Full, None, &self.initial, &joints));
         Ok(found)
+    }
+}
+
+/// The same lines with the receptances of A later in phase.
+fn with_late_a(lines: &Lines) -> Lines {
+    let late = Complex64::from_polar(1.0, -LATE_DEG.to_radians());
+    Lines {
+        a_joint: lines.a_joint.iter().map(|h| h * late).collect(),
+        ..lines.clone()
     }
 }
 

@@ -3,36 +3,30 @@
 use nalgebra::DMatrix;
 
 use crate::identify::{JointMatrices, Lines};
-use crate::reproduce::beams::{rotation, translation};
 use crate::reproduce::error::ReproduceError;
-use crate::reproduce::outcome::Reproduction;
+use crate::reproduce::outcome::{Reproduction, Row};
 use crate::reproduce::published::PublishedTable;
+use crate::reproduce::receptances::{rotation, translation};
 use crate::structure::{ComplexMatrix, Difference, FiniteDifference, Order, Partition};
 
 use super::bolts::m6x30;
-use super::frequency_row;
 use super::structures::{self, SPACING_M, joint};
 
 /// Section 5.3.3.3: two M6x30 bolts, each with the joint of Table 5.9.
 pub(in crate::reproduce) fn two_m6x30() -> Result<Reproduction, ReproduceError> {
     let bolt = joint(m6x30().updated);
-    let mut found = Vec::new();
+    let both = JointMatrices::of_bolts(&[bolt.clone(), bolt.clone()]);
+    let rigid = structures::stiffened(&both, 1e3);
     let one = two_bolt_lines(1, &bolt)?;
-    let two = two_bolt_lines(2, &JointMatrices::of_bolts(&[bolt.clone(), bolt.clone()]))?;
-    let rigid = structures::stiffened(&JointMatrices::of_bolts(&[bolt.clone(), bolt]), 1e3);
+    let two = two_bolt_lines(2, &both)?;
+    let mut found = Vec::new();
     for (case, lines, joint) in [
-        ("one bolt", &one, &joint(m6x30().updated)),
-        (
-            "two bolts",
-            &two,
-            &JointMatrices::of_bolts(&[joint(m6x30().updated), joint(m6x30().updated)]),
-        ),
+        ("one bolt", &one, &bolt),
+        ("two bolts", &two, &both),
         ("two bolts, 1000 times as stiff", &two, &rigid),
     ] {
-        let indexed = structures::resonances_hz(lines, joint)?
-            .into_iter()
-            .enumerate();
-        found.extend(indexed.map(|(index, hz)| frequency_row(case, index, None, hz)));
+        let modes = structures::resonances_hz(lines, joint)?;
+        found.extend(Row::resonances(case, &[], &modes));
     }
     Ok(Reproduction {
         table: PublishedTable::TwoM6x30,

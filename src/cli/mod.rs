@@ -222,7 +222,7 @@ struct ReproduceArguments {
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
     draws: u32,
-    /// Seed of the first draw
+    /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times

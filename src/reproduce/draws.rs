@@ -14,7 +14,7 @@ use super::outcome::{Row, Spread};
 pub struct Draws {
     /// Number of draws.
     pub count: u32,
-    /// Seed of the first one.
+    /// Seed of the noise: the same seed gives the same draws.
     pub seed: u64,
     /// Samples of each harmonic test in response pollution: one set of rows for each number.
     pub samples: Vec<u32>,
@@ -58,11 +58,9 @@ impl<'a> Repetition<'a> {
         &self,
         identify: impl Fn(&mut Generator) -> Option<JointMatrices> + Sync,
     ) -> Vec<JointMatrices> {
-        let seeds: Vec<u64> = (0..u64::from(self.draws.count))
-            .map(|draw| self.draws.seed.wrapping_add(draw))
-            .collect();
-        let joints = parallel::map(&seeds, |&seed| {
-            let joint = identify(&mut Generator::new(seed));
+        let numbers: Vec<u64> = (0..u64::from(self.draws.count)).collect();
+        let joints = parallel::map(&numbers, |&draw| {
+            let joint = identify(&mut Generator::of_draw(self.draws.seed, draw));
             (self.progress)();
             joint
         });

@@ -5,12 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bolted_joint::reproduce::{Draws, PublishedTable, Reproduction, Row, reproduce};
 
-const DRAWS: u32 = 4;
-
-/// A table over a few draws; the draws are counted.
+/// A table over a few draws.
 pub(crate) fn reproduced(table: &str, samples: &[u32]) -> Reproduction {
+    reproduced_over(4, table, samples)
+}
+
+/// A table over so many draws; the draws are counted.
+pub(crate) fn reproduced_over(count: u32, table: &str, samples: &[u32]) -> Reproduction {
     let draws = Draws {
-        count: DRAWS,
+        count,
         seed: 1,
         samples: samples.to_vec(),
     };
@@ -20,7 +23,7 @@ pub(crate) fn reproduced(table: &str, samples: &[u32]) -> Reproduction {
         done.fetch_add(1, Ordering::Relaxed);
     };
     let found = reproduce(table, &draws, &progress).unwrap();
-    let expected = table.noisy_cases(samples.len()) * DRAWS as usize;
+    let expected = table.noisy_cases(samples.len()) * count as usize;
     assert_eq!(done.load(Ordering::Relaxed), expected, "{table}");
     found
 }

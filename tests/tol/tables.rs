@@ -2,7 +2,9 @@
 
 use bolted_joint::reproduce::PublishedTable;
 
-use crate::reproduced::{assert_published, case, mean, reproduced, standard_deviation};
+use crate::reproduced::{
+    assert_published, case, mean, reproduced, reproduced_over, standard_deviation,
+};
 
 #[test]
 fn the_lumped_chain_returns_its_joint_by_every_equation() {
@@ -24,16 +26,24 @@ fn the_lumped_chain_returns_its_joint_by_every_equation() {
 
 #[test]
 fn the_published_chain_is_one_draw_of_more_noise() {
-    let found = reproduced("4.2", &[1024]);
     let equations = ["(3.18), mass 1", "(3.19), masses 1 and 4", "(3.21), mass 4"];
-    let rows = equations.map(|equation| case(&found, &format!("{equation}, N = 1024")));
-    for row in rows.iter().flatten() {
-        let away = (row.published.unwrap() - mean(row)).abs();
-        assert!(away < 2.0 * standard_deviation(row), "{row:?}");
+    let found = reproduced_over(100, "4.2", &[1024, 4096]);
+    for equation in equations {
+        for row in case(&found, &format!("{equation}, N = 1024")) {
+            let away = (row.published.unwrap() - mean(row)).abs();
+            assert!(away < 2.0 * standard_deviation(row), "{row:?}");
+        }
     }
-    // The order of the published errors of k: 8, 16 and 20 N/m.
-    let [first, second, third] = rows.map(|rows| standard_deviation(rows[0]));
-    assert!(first < second && second < third, "{first} {second} {third}");
+    let [by_rr, by_rs, by_ss] = equations.map(|equation| {
+        let rows = case(&found, &format!("{equation}, N = 4096"));
+        // No bias: within four standard deviations of the mean.
+        for row in &rows {
+            let away = (mean(row) - row.truth.unwrap()).abs();
+            assert!(away < 4.0 * standard_deviation(row) / 10.0, "{row:?}");
+        }
+        standard_deviation(rows[0])
+    });
+    assert!((by_rs / by_rr - 1.0).abs() < 0.3 && (by_ss / by_rr - 2.0).abs() < 0.5);
 }
 
 #[test]

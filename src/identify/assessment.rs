@@ -77,12 +77,13 @@ pub(super) fn assess<const N: usize>(
     estimate: &Estimate,
     noise: &Noise,
 ) -> Option<Assessment> {
-    let (weights, state) = objective.reached(estimate)?;
+    let corrections = Some(estimate.corrections.clone());
+    let state = objective.unweighted(estimate.unknowns.clone(), corrections);
     let mut last: Vec<Complex64> = Vec::new();
     let mut last_group = usize::MAX;
     let (mut product, mut power, mut pairs) = (0.0, 0.0, 0_usize);
     let (mut relative_power, mut count) = (0.0, 0_usize);
-    objective.visit(Some(&weights), &state, |group, line| {
+    objective.visit_whitened(estimate.levels, &state, |group, line| {
         relative_power += line.relative_power;
         count += line.residual.len();
         power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();

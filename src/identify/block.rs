@@ -109,19 +109,22 @@ impl<const N: usize> Block<N> {
         self.free.push(std::array::from_fn(|i| {
             std::array::from_fn(|j| symmetric(a, i, j) + symmetric(&b.joint, i, j))
         }));
-        for point in 0..self.points {
-            self.transfer.push(std::array::from_fn(|i| {
-                0.5 * (b.joint_points[(i, point)] + b.points_joint[(point, i)])
-            }));
-        }
-        for entry in &self.entries {
-            self.own.push(symmetric(&b.points, entry.row, entry.column));
-        }
+        let rows = b.joint_points.column_iter().zip(b.points_joint.row_iter());
+        self.transfer
+            .extend(rows.map(|(column, row)| std::array::from_fn(|i| 0.5 * (column[i] + row[i]))));
+        let own = self.entries.iter();
+        self.own
+            .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
     }
 
     fn push_assembly(&mut self, lines: &Lines, places: &[Vec<(usize, usize)>], line: usize) {
         let assembly = &lines.assembly[line];
         for places in places {
+            if let ([place], None) = (&places[..], &lines.repeats) {
+                self.measured.push(assembly[*place]);
+                self.scatter.push(0.0);
+                continue;
+            }
             let sum: Complex64 = places.iter().map(|&place| assembly[place]).sum();
             let mean = sum / places.len() as f64;
             self.measured.push(mean);

@@ -5,6 +5,8 @@
 //! raising its own σ would. For the same reason ln det of J Σ_H Jᴴ does not count: the errors of the substructures are
 //! unknowns of their own (see `objective`), not part of the residual's variance.
 
+use std::slice;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -195,10 +197,18 @@ fn log_determinant<const N: usize>(
     weights: &[Weights],
     state: &State,
 ) -> Option<f64> {
-    let mut sum = 0.0;
-    objective.visit(Some(weights), state, |_, line| {
-        sum += line.log_determinant()
-    })?;
+    let pairs = objective.groups.iter().zip(weights);
+    let independent = pairs.filter(|(group, _)| group.sources.is_empty());
+    let mut sum: f64 = independent
+        .map(|(_, weights)| log_variances(slice::from_ref(weights)))
+        .sum();
+    if !objective.is_independent() {
+        objective.visit(Some(weights), state, |group, line| {
+            if !objective.groups[group].sources.is_empty() {
+                sum += line.log_determinant();
+            }
+        })?;
+    }
     Some(sum)
 }
 

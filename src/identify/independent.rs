@@ -11,7 +11,7 @@ use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
 use super::strip::{Strip, Sums};
-use super::weights::LEAST_RELATIVE;
+use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
 /// processors there are.
@@ -72,23 +72,28 @@ pub(super) fn renew<const N: usize>(
             .enumerate()
             .map(|(piece, variances)| (piece * PIECE, variances))
             .collect();
+        let counts: Vec<f64> = block
+            .entries
+            .iter()
+            .map(|entry| f64::from(entry.count))
+            .collect();
         let sums = parallel::map_each(pieces, |(first, variances)| {
             let mut sums = Sums::default();
             let mut strip = Strip::new(block);
             let mut scatter = Reals::ZERO;
-            for line in (first..first + variances.len() / size).step_by(LANES) {
-                strip.solve(line, entries, unknowns)?;
+            for (number, variances) in variances.chunks_mut(size * LANES).enumerate() {
+                strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
                 let scatter = &mut scatter;
                 sums.add_strip(strip, |e, power| {
                     let variance = variance(strip, e, level, power);
-                    let count = block.entries[e].count;
-                    if count > 1 {
+                    if counts[e] > 1.0 {
                         *scatter += strip.real(&block.scatter, e) * strip.used / variance;
                     }
-                    let of_mean = variance / Reals::all(f64::from(count));
-                    for lane in 0..strip.count {
-                        variances[(line - first + lane) * size + at + e] = of_mean.0[lane];
+                    let of_mean = variance * Reals::all(counts[e].recip());
+                    for (lane, place) in variances.iter_mut().skip(at + e).step_by(size).enumerate()
+                    {
+                        *place = of_mean.0[lane];
                     }
                     of_mean
                 });
@@ -135,11 +140,9 @@ fn variance<const N: usize>(
     level: NoiseLevel,
     power: Reals,
 ) -> Reals {
-    let (relative, floor) = (level.relative.powi(2), level.floor.powi(2));
-    let least = LEAST_RELATIVE * LEAST_RELATIVE;
     if strip.block.known.is_empty() {
-        return power * Reals::all(relative.max(least)) + Reals::all(floor);
+        return Reals::of(|lane| of_one(level, None, power.0[lane]));
     }
     let known = strip.real(&strip.block.known, e);
-    Reals::of(|lane| known.0[lane].max(least)) * power
+    Reals::of(|lane| of_one(level, Some(known.0[lane]), power.0[lane]))
 }

@@ -28,7 +28,7 @@ impl<const N: usize, T: Number> Kernel<N, T> {
     }
 
     /// Solves one line, whose H_ks has these columns; `None` where I + F K* is singular.
-    #[inline]
+    #[inline(always)]
     pub(super) fn solve(
         &mut self,
         free: &Small<N, T>,
@@ -54,26 +54,32 @@ impl<const N: usize, T: Number> Kernel<N, T> {
     }
 
     /// Q of one point.
-    #[inline]
+    #[inline(always)]
     pub(super) fn q(&self, point: usize) -> &[T; N] {
         &self.q[point]
     }
 
     /// H^C at an entry from H_ss there.
-    #[inline]
+    #[inline(always)]
     pub(super) fn receptance(&self, own: T, entry: Entry) -> T {
         own - dot(&self.transfer[entry.row], &self.x[entry.column])
     }
 
-    /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
-    #[inline]
-    pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> T {
+    /// Qᵀ E Q at `entry`, E having ones at (i, j) and (j, i).
+    #[inline(always)]
+    pub(super) fn through(&self, entry: Entry, (i, j): (usize, usize)) -> T {
         let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
         if i == j {
-            -(p[i] * q[i])
+            p[i] * q[i]
         } else {
-            -(p[i] * q[j] + p[j] * q[i])
+            p[i] * q[j] + p[j] * q[i]
         }
+    }
+
+    /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
+    #[inline]
+    pub(super) fn by_stiffness(&self, entry: Entry, place: (usize, usize)) -> T {
+        -self.through(entry, place)
     }
 }
 
@@ -104,7 +110,7 @@ impl<const N: usize> Kernel<N> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn product<const N: usize, T: Number>(left: &Small<N, T>, right: &Small<N, T>) -> Small<N, T> {
     let mut product = [[T::ZERO; N]; N];
     for i in 0..N {
@@ -117,13 +123,13 @@ fn product<const N: usize, T: Number>(left: &Small<N, T>, right: &Small<N, T>) -
     product
 }
 
-#[inline]
+#[inline(always)]
 fn times<const N: usize, T: Number>(matrix: &Small<N, T>, vector: &[T; N]) -> [T; N] {
     std::array::from_fn(|i| dot(&matrix[i], vector))
 }
 
 /// Σ left·right, without conjugation.
-#[inline]
+#[inline(always)]
 pub(super) fn dot<const N: usize, T: Number>(left: &[T; N], right: &[T; N]) -> T {
     let mut sum = T::ZERO;
     for (l, r) in left.iter().zip(right) {
@@ -133,7 +139,7 @@ pub(super) fn dot<const N: usize, T: Number>(left: &[T; N], right: &[T; N]) -> T
 }
 
 /// Inverse of a small matrix; `None` if it is singular, at any of several lines.
-#[inline]
+#[inline(always)]
 pub(super) fn inverse<const N: usize, T: Number>(matrix: Small<N, T>) -> Option<Small<N, T>> {
     if N != 2 {
         return eliminated(matrix);

@@ -8,7 +8,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 use num_complex::Complex64;
 
 /// Lines side by side.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 2;
 
 /// A real number of each of several lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,13 +47,13 @@ impl Number for Complex64 {
     const ZERO: Self = Complex64::new(0.0, 0.0);
     const ONE: Self = Complex64::new(1.0, 0.0);
 
-    #[inline]
+    #[inline(always)]
     fn reciprocal(self) -> Option<Self> {
         let size = self.norm_sqr();
         (size.is_finite() && size > 0.0).then(|| self.conj() / size)
     }
 
-    #[inline]
+    #[inline(always)]
     fn outweighs(self, other: Self) -> bool {
         self.norm_sqr() > other.norm_sqr()
     }
@@ -69,7 +69,7 @@ impl Number for Complexes {
         im: Reals::ZERO,
     };
 
-    #[inline]
+    #[inline(always)]
     fn reciprocal(self) -> Option<Self> {
         let size = self.norm_sqr();
         if !size.0.iter().all(|size| size.is_finite() && *size > 0.0) {
@@ -81,7 +81,7 @@ impl Number for Complexes {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn outweighs(self, other: Self) -> bool {
         self.norm_sqr().sum() > other.norm_sqr().sum()
     }
@@ -91,24 +91,34 @@ impl Reals {
     pub(super) const ZERO: Self = Self([0.0; LANES]);
 
     /// The same number in every lane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn all(value: f64) -> Self {
         Self([value; LANES])
     }
 
     /// The number of each lane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(value: impl Fn(usize) -> f64) -> Self {
         Self(std::array::from_fn(value))
     }
 
     /// The sum over the lanes.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sum(self) -> f64 {
         self.0.iter().sum()
     }
 
-    #[inline]
+    #[inline(always)]
+    pub(super) fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    pub(super) fn reciprocal(self) -> Self {
+        Self(self.0.map(f64::recip))
+    }
+
+    #[inline(always)]
     fn with(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|lane| {
             operation(self.0[lane], other.0[lane])
@@ -118,7 +128,7 @@ impl Reals {
 
 impl Complexes {
     /// The number of each lane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(value: impl Fn(usize) -> Complex64) -> Self {
         let values: [Complex64; LANES] = std::array::from_fn(value);
         Self {
@@ -128,17 +138,17 @@ impl Complexes {
     }
 
     /// The number of one lane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn lane(self, lane: usize) -> Complex64 {
         Complex64::new(self.re.0[lane], self.im.0[lane])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn norm_sqr(self) -> Reals {
         self.re * self.re + self.im * self.im
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn conj(self) -> Self {
         Self {
             re: self.re,
@@ -146,7 +156,7 @@ impl Complexes {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn scaled(self, by: Reals) -> Self {
         Self {
             re: self.re * by,
@@ -158,7 +168,7 @@ impl Complexes {
 impl Add for Reals {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         self.with(other, |a, b| a + b)
     }
@@ -167,7 +177,7 @@ impl Add for Reals {
 impl Sub for Reals {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self.with(other, |a, b| a - b)
     }
@@ -176,7 +186,7 @@ impl Sub for Reals {
 impl Mul for Reals {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.with(other, |a, b| a * b)
     }
@@ -185,7 +195,7 @@ impl Mul for Reals {
 impl std::ops::Div for Reals {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         self.with(other, |a, b| a / b)
     }
@@ -194,14 +204,14 @@ impl std::ops::Div for Reals {
 impl Neg for Reals {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self(self.0.map(|value| -value))
     }
 }
 
 impl AddAssign for Reals {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -210,7 +220,7 @@ impl AddAssign for Reals {
 impl Add for Complexes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self {
             re: self.re + other.re,
@@ -222,7 +232,7 @@ impl Add for Complexes {
 impl Sub for Complexes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self {
             re: self.re - other.re,
@@ -234,7 +244,7 @@ impl Sub for Complexes {
 impl Mul for Complexes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             re: self.re * other.re - self.im * other.im,
@@ -246,7 +256,7 @@ impl Mul for Complexes {
 impl Neg for Complexes {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             re: -self.re,
@@ -256,14 +266,14 @@ impl Neg for Complexes {
 }
 
 impl AddAssign for Complexes {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Complexes {
-    #[inline]
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

@@ -1,12 +1,11 @@
 //! K* of each line of an assembly by (3.21), as `decoupling` computes it, in matrices of fixed size: there are many lines.
 
-use num_complex::Complex64;
-
 use crate::structure::{ComplexMatrix, Partition};
 
 use super::block::Small;
 use super::decoupling;
-use super::kernel::inverse;
+use super::kernel::{dot, inverse};
+use super::lanes::{Complexes, LANES, Number, Reals};
 use super::lines::Lines;
 
 /// A column of unit length of which less than this is left beside those before it depends on them.
@@ -27,26 +26,39 @@ pub(super) fn decouple<const N: usize>(lines: &Lines) -> Vec<Option<ComplexMatri
     if !is_complete(lines) {
         return vec![None; count];
     }
+    let is_fixed = lines.points.len() > N && lines.a_joint.iter().all(|a| a.nrows() == N);
     let mut least_squares = LeastSquares::<N>::default();
-    (0..count)
-        .map(|line| {
-            let (a_joint, b) = (&lines.a_joint[line], &lines.b[line]);
-            let assembly = &lines.assembly[line];
-            let is_fixed = a_joint.nrows() == N && lines.points.len() > N;
-            let found = is_fixed.then(|| least_squares.from_ss(a_joint, b, assembly));
-            match found.flatten() {
-                Some(found) => Some(ComplexMatrix::from_fn(N, N, |i, j| found[i][j])),
-                // Equation (3.21) needs nothing of A but H_jj.
-                None => {
-                    let a = Partition::of(a_joint, a_joint.nrows());
-                    decoupling::from_ss(&a, b, assembly)
-                }
-            }
-        })
-        .collect()
+    let mut decoupled = Vec::with_capacity(count);
+    for first in (0..count).step_by(LANES) {
+        let last = LANES.min(count - first) - 1;
+        let index: [usize; LANES] = std::array::from_fn(|lane| first + lane.min(last));
+        let found = is_fixed.then(|| least_squares.from_ss(lines, index));
+        let found = found.flatten();
+        decoupled.extend(index[..=last].iter().enumerate().map(|(lane, &line)| {
+            let Some(found) = found else {
+                return alone(lines, line);
+            };
+            let stiffness = ComplexMatrix::from_fn(N, N, |i, j| found[i][j].lane(lane));
+            is_finite(&stiffness).then_some(stiffness)
+        }));
+    }
+    decoupled
 }
 
-/// The least-squares solution of (3.21) from more points than joint DOFs.
+/// One line, whatever its matrices are.
+fn alone(lines: &Lines, line: usize) -> Option<ComplexMatrix> {
+    let a_joint = &lines.a_joint[line];
+    // Equation (3.21) needs nothing of A but H_jj.
+    let a = Partition::of(a_joint, a_joint.nrows());
+    decoupling::from_ss(&a, &lines.b[line], &lines.assembly[line])
+}
+
+fn is_finite(matrix: &ComplexMatrix) -> bool {
+    let mut values = matrix.iter();
+    values.all(|value| value.re.is_finite() && value.im.is_finite())
+}
+
+/// The least-squares solution of (3.21) from more points than joint DOFs, for lines side by side.
 #[derive(Default)]
 struct LeastSquares<const N: usize> {
     left: PseudoInverse<N>,
@@ -54,24 +66,25 @@ struct LeastSquares<const N: usize> {
 }
 
 impl<const N: usize> LeastSquares<N> {
-    /// `None` where columns depend on each other, or a matrix is singular.
-    fn from_ss(
-        &mut self,
-        a_joint: &ComplexMatrix,
-        b: &Partition,
-        assembly: &ComplexMatrix,
-    ) -> Option<Small<N>> {
-        let points = b.points.nrows();
+    /// `None` where columns depend on each other, or a matrix is singular, at any of the lines.
+    fn from_ss(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
+        let (a, assembly) = (
+            index.map(|i| &lines.a_joint[i]),
+            index.map(|i| &lines.assembly[i]),
+        );
+        let b = index.map(|line| &lines.b[line]);
+        let points = lines.points.len();
+        let of = |matrix: [&ComplexMatrix; LANES], i, j| Complexes::of(|lane| matrix[lane][(i, j)]);
         self.left
-            .of(points, |point, i| b.points_joint[(point, i)])?;
+            .of(points, |p, i| of(b.map(|b| &b.points_joint), p, i))?;
         self.right
-            .of(points, |point, i| b.joint_points[(i, point)])?;
+            .of(points, |p, i| of(b.map(|b| &b.joint_points), i, p))?;
         // Z⁻¹ = H_sk⁺ (H_ss − H^C_ss) H_ks⁺
-        let mut z_inverse = [[Complex64::ZERO; N]; N];
+        let mut z_inverse = [[Complexes::ZERO; N]; N];
         for (q, right) in self.right.columns.iter().enumerate() {
-            let mut product = [Complex64::ZERO; N];
+            let mut product = [Complexes::ZERO; N];
             for (p, left) in self.left.columns.iter().enumerate() {
-                let difference = b.points[(p, q)] - assembly[(p, q)];
+                let difference = of(b.map(|b| &b.points), p, q) - of(assembly, p, q);
                 for i in 0..N {
                     product[i] += left[i] * difference;
                 }
@@ -86,14 +99,10 @@ impl<const N: usize> LeastSquares<N> {
         let mut z = inverse(z_inverse)?;
         for i in 0..N {
             for j in 0..N {
-                z[i][j] -= a_joint[(i, j)] + b.joint[(i, j)];
+                z[i][j] -= of(a, i, j) + of(b.map(|b| &b.joint), i, j);
             }
         }
-        let stiffness = inverse(z)?;
-        let mut values = stiffness.iter().flatten();
-        values
-            .all(|value| value.re.is_finite() && value.im.is_finite())
-            .then_some(stiffness)
+        inverse(z)
     }
 }
 
@@ -101,70 +110,67 @@ impl<const N: usize> LeastSquares<N> {
 #[derive(Default)]
 struct PseudoInverse<const N: usize> {
     /// M by rows, then its orthonormal basis.
-    rows: Vec<[Complex64; N]>,
+    rows: Vec<[Complexes; N]>,
     /// M⁺, a column for each point.
-    columns: Vec<[Complex64; N]>,
+    columns: Vec<[Complexes; N]>,
 }
 
 impl<const N: usize> PseudoInverse<N> {
     /// M = Q R by Gram and Schmidt, twice over, from columns of unit length; M⁺ = R⁻¹ Qᴴ.
-    fn of(&mut self, points: usize, entry: impl Fn(usize, usize) -> Complex64) -> Option<()> {
+    fn of(&mut self, points: usize, entry: impl Fn(usize, usize) -> Complexes) -> Option<()> {
         self.rows.clear();
         let row = |point| std::array::from_fn(|i| entry(point, i));
         self.rows.extend((0..points).map(row));
-        let mut lengths = [0.0; N];
-        for (i, length) in lengths.iter_mut().enumerate() {
-            *length = self.length(i);
-            self.scale(i, length.recip());
-        }
         // Q = M A: A takes the part of every operation that R⁻¹ is made of.
-        let mut factor = [[0.0.into(); N]; N];
-        for (i, factor) in factor.iter_mut().enumerate() {
-            factor[i] = Complex64::from(lengths[i].recip());
+        let mut factor = [[Complexes::ZERO; N]; N];
+        for i in 0..N {
+            let scale = self.length(i).reciprocal();
+            self.scale(i, scale);
+            factor[i][i].re = scale;
         }
         for i in 0..N {
             for _ in 0..2 {
                 for before in 0..i {
-                    let pairs = self.rows.iter().map(|row| row[before].conj() * row[i]);
-                    let part: Complex64 = pairs.sum();
-                    for row in &mut self.rows {
-                        let other = row[before];
-                        row[i] -= other * part;
+                    let mut part = Complexes::ZERO;
+                    for row in &self.rows {
+                        part += row[before].conj() * row[i];
                     }
-                    for row in &mut factor {
-                        let other = row[before];
-                        row[i] -= other * part;
+                    for row in self.rows.iter_mut().chain(&mut factor) {
+                        row[i] = row[i] - row[before] * part;
                     }
                 }
             }
             let left = self.length(i);
-            if !(left > DEPENDENT && left.is_finite()) {
+            let is_independent = |&left: &f64| left > DEPENDENT && left.is_finite();
+            if !left.0.iter().all(is_independent) {
                 return None;
             }
-            self.scale(i, left.recip());
+            let scale = left.reciprocal();
+            self.scale(i, scale);
             for row in &mut factor {
-                row[i] *= left.recip();
+                row[i] = row[i].scaled(scale);
             }
         }
         // M⁺ = A Qᴴ
         self.columns.clear();
         self.columns.extend(self.rows.iter().map(|row| {
-            std::array::from_fn(|i| {
-                let products = (0..N).map(|k| factor[i][k] * row[k].conj());
-                products.sum()
-            })
+            let conjugate = row.map(Complexes::conj);
+            std::array::from_fn(|i| dot(&factor[i], &conjugate))
         }));
         Some(())
     }
 
-    fn length(&self, column: usize) -> f64 {
-        let squares: f64 = self.rows.iter().map(|row| row[column].norm_sqr()).sum();
+    fn length(&self, column: usize) -> Reals {
+        let mut squares = Reals::ZERO;
+        for row in &self.rows {
+            squares += row[column].norm_sqr();
+        }
         squares.sqrt()
     }
 
-    fn scale(&mut self, column: usize, factor: f64) {
+    fn scale(&mut self, column: usize, factor: Reals) {
         for row in &mut self.rows {
-            row[column] *= factor;
+            row[column] = row[column].scaled(factor);
         }
     }
 }
@@ -172,6 +178,7 @@ impl<const N: usize> PseudoInverse<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_complex::Complex64;
 
     #[test]
     fn the_pseudo_inverse_obeys_its_definition_for_columns_of_any_size() {
@@ -181,15 +188,20 @@ mod tests {
             [c(-1.0, 0.5), c(2e-6, 0.0)],
             [c(0.25, -2.0), c(-1e-6, 5e-6)],
         ];
+        let of = |point: usize, i: usize| {
+            Complexes::of(|lane| matrix[point][i] + matrix[(point + lane) % 3][i])
+        };
         let mut inverse = PseudoInverse::<2>::default();
-        inverse.of(3, |point, i| matrix[point][i]).unwrap();
+        inverse.of(3, of).unwrap();
         for i in 0..2 {
             for j in 0..2 {
-                let products = (0..3).map(|p| inverse.columns[p][i] * matrix[p][j]);
-                let product: Complex64 = products.sum();
-                let scale = [1.0, 1e-6][j] / [1.0, 1e-6][i];
-                let unit = if i == j { 1.0 } else { 0.0 };
-                assert!((product - unit).norm() < 1e-14 * scale, "{i} {j} {product}");
+                for lane in 0..LANES {
+                    let products = (0..3).map(|p| (inverse.columns[p][i] * of(p, j)).lane(lane));
+                    let product: Complex64 = products.sum();
+                    let scale = [1.0, 1e-6][j] / [1.0, 1e-6][i];
+                    let unit = if i == j { 1.0 } else { 0.0 };
+                    assert!((product - unit).norm() < 1e-14 * scale, "{i} {j} {product}");
+                }
             }
         }
     }
@@ -198,7 +210,7 @@ mod tests {
     fn columns_that_depend_on_each_other_are_refused() {
         let mut inverse = PseudoInverse::<2>::default();
         let of = inverse.of(3, |point, i| {
-            Complex64::from((point * 7 + 1) as f64 * [1.0, 3.0][i])
+            Complexes::of(|_| Complex64::from((point * 7 + 1) as f64 * [1.0, 3.0][i]))
         });
         assert_eq!(of, None);
     }

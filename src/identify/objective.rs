@@ -11,9 +11,10 @@ use num_complex::Complex64;
 use super::group::Group;
 use super::independent;
 use super::kernel::{Kernel, complex_stiffness};
-use super::noise::Levels;
+use super::noise::{Levels, NoiseLevel};
 use super::normal::Normal;
 use super::parallel;
+use super::weights::of_one;
 
 /// Entries of K* on and above the diagonal that can be unknown.
 pub(super) const MAX_ENTRIES: usize = 3;
@@ -51,6 +52,15 @@ pub(super) struct State {
     /// For each group, δ of each source, line by line.
     pub(super) corrections: Vec<Vec<Complex64>>,
     pub(super) normal: Normal,
+}
+
+/// How lines whose entries have errors of their own are divided by σ.
+#[derive(Clone, Copy)]
+enum Whitening<'w> {
+    None,
+    Held(&'w Weights),
+    /// By what the level makes of the computed receptance.
+    Renewed(NoiseLevel),
 }
 
 /// The model with data and weights.
@@ -179,6 +189,11 @@ impl<const N: usize> Objective<'_, N> {
         Some(())
     }
 
+    /// Whether all entries have errors of their own: no substructure's error is an unknown.
+    pub(super) fn is_independent(&self) -> bool {
+        self.groups.iter().all(|group| group.sources.is_empty())
+    }
+
     /// The point `unknowns` with these corrections, and the weights that it gives itself.
     pub(super) fn renewed(
         &self,
@@ -186,7 +201,7 @@ impl<const N: usize> Objective<'_, N> {
         unknowns: DVector<f64>,
         corrections: Option<Vec<Vec<Complex64>>>,
     ) -> Option<(Vec<Weights>, State)> {
-        if self.groups.iter().any(|group| !group.sources.is_empty()) {
+        if !self.is_independent() {
             let state = self.unweighted(unknowns, corrections);
             let weights = self.weights(levels, &state)?;
             let state = self.at(&weights, state.unknowns, Some(state.corrections))?;
@@ -225,10 +240,29 @@ impl<const N: usize> Objective<'_, N> {
         for (number, group) in self.groups.iter().enumerate() {
             let weights = weights.map(|weights| &weights[number]);
             if group.sources.is_empty() {
-                self.visit_independent(group, weights, state, |line| visit(number, line))?;
+                let held = weights.map_or(Whitening::None, Whitening::Held);
+                self.visit_independent(group, held, state, |line| visit(number, line))?;
             } else {
                 self.visit_linearised(number, weights, state, |line| visit(number, line))?;
             }
+        }
+        Some(())
+    }
+
+    /// The same, whitened by the variances that `levels` give there.
+    pub(super) fn visit_whitened(
+        &self,
+        levels: Levels,
+        state: &State,
+        mut visit: impl FnMut(usize, &Line<'_, N>),
+    ) -> Option<()> {
+        if !self.is_independent() {
+            let weights = self.weights(levels, state)?;
+            return self.visit(Some(&weights), state, visit);
+        }
+        for (number, group) in self.groups.iter().enumerate() {
+            let own = Whitening::Renewed(levels.assembly);
+            self.visit_independent(group, own, state, |line| visit(number, line))?;
         }
         Some(())
     }
@@ -249,7 +283,7 @@ impl<const N: usize> Objective<'_, N> {
     fn visit_independent(
         &self,
         group: &Group<N>,
-        weights: Option<&Weights>,
+        whitening: Whitening<'_>,
         state: &State,
         mut visit: impl FnMut(&Line<'_, N>),
     ) -> Option<()> {
@@ -262,9 +296,13 @@ impl<const N: usize> Objective<'_, N> {
         let mut line = Line::new(group, self.entries);
         for index in 0..group.lines() {
             line.take(index, &computed);
-            if let Some(weights) = weights {
-                let (variances, _) = line.weights(weights, index);
-                line.whiten_independent(variances);
+            match whitening {
+                Whitening::None => {}
+                Whitening::Held(weights) => {
+                    let (variances, _) = line.weights(weights, index);
+                    line.whiten_independent(variances);
+                }
+                Whitening::Renewed(level) => line.whiten_by(level),
             }
             visit(&line);
         }
@@ -457,13 +495,30 @@ impl<'g, const N: usize> Line<'g, N> {
     /// Divides by σ where every entry has an error of its own.
     fn whiten_independent(&mut self, variances: &[f64]) {
         self.measure();
-        self.log_determinant = variances.iter().map(|variance| variance.ln()).sum();
         for (e, variance) in variances.iter().enumerate() {
             let weight = variance.recip().sqrt();
             self.residual[e] *= weight;
             for value in &mut self.by_joint[e][..self.joint_entries.len()] {
                 *value *= weight;
             }
+        }
+    }
+
+    /// The same with the variances that `level` gives for the computed receptances.
+    fn whiten_by(&mut self, level: NoiseLevel) {
+        self.measure();
+        let mut at = 0;
+        for block in &self.group.blocks {
+            let count = block.entries.len();
+            let known = block
+                .known
+                .get(self.index * count..(self.index + 1) * count);
+            for (e, entry) in block.entries.iter().enumerate() {
+                let known = known.map(|known| known[e]);
+                let variance = of_one(level, known, self.computed[at + e].norm_sqr());
+                self.residual[at + e] *= (f64::from(entry.count) / variance).sqrt();
+            }
+            at += count;
         }
     }
 

@@ -79,8 +79,9 @@ pub(super) fn best<const N: usize>(
     effort: Effort,
 ) -> Result<Found, usize> {
     let mut candidates = first;
+    let linear = starts::Linear::of(&data.thinned);
     for guess in [None, candidates.last().cloned()] {
-        candidates.extend(starts::linear(&data.thinned, entries, guess.as_ref()));
+        candidates.extend(linear.from(entries, guess.as_ref()));
     }
     let mut ways = Vec::new();
     let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);

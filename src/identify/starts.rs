@@ -66,41 +66,49 @@ pub(super) fn grid<const N: usize>(
     order.map(|index| starts[index].clone()).collect()
 }
 
-/// Estimate by linear least squares, refined by weights from the one before; `None` if no column of H^C_ss was measured at
-/// enough points.
+/// Estimate by linear least squares, refined by weights from the one before.
 ///
 /// With D = H_ss − H^C_ss measured, X = H_sk⁺ D is Z⁻¹ H_ks as measured, and X = K* (H_ks − F X) is linear in K*. Its
 /// error times Qᵀ of the joint before is that of H^C, to first order. Exact data give the joint in one round; noise
 /// biases the result, so that it is a start only.
-pub(super) fn linear<const N: usize>(
-    groups: &[Group<N>],
-    entries: &[(usize, usize)],
-    first: Option<&DVector<f64>>,
-) -> Option<DVector<f64>> {
-    let blocks = groups.iter().flat_map(|group| &group.blocks);
-    let transmitted: Vec<Transmitted<N>> = blocks
-        .filter(|block| block.points >= N)
-        .map(Transmitted::of)
-        .filter(|transmitted| transmitted.is_measured())
-        .collect();
-    if transmitted.is_empty() {
-        return None;
+pub(super) struct Linear<'b, const N: usize>(Vec<Transmitted<'b, N>>);
+
+impl<'b, const N: usize> Linear<'b, N> {
+    /// The data in the form that it needs.
+    pub(super) fn of(groups: &'b [Group<N>]) -> Self {
+        let blocks = groups.iter().flat_map(|group| &group.blocks);
+        let usable = blocks
+            .filter(|block| block.points >= N)
+            .map(Transmitted::of)
+            .filter(Transmitted::is_measured);
+        Self(usable.collect())
     }
-    let mut unknowns = first
-        .cloned()
-        .unwrap_or_else(|| DVector::zeros(2 * entries.len()));
-    for _ in 0..LINEAR_ROUNDS {
-        let mut normal = Normal::zero(unknowns.len());
-        for transmitted in &transmitted {
-            transmitted.add_to(&mut normal, entries, unknowns.as_slice())?;
-        }
-        normal.matrix.fill_upper_triangle_with_lower_triangle();
-        unknowns = normal.step(0.0)?;
-        if unknowns.iter().any(|value| !value.is_finite()) {
+
+    /// The estimate whose first weights are those of `first`, or of no joint; `None` if no column of H^C_ss was measured at
+    /// enough points.
+    pub(super) fn from(
+        &self,
+        entries: &[(usize, usize)],
+        first: Option<&DVector<f64>>,
+    ) -> Option<DVector<f64>> {
+        if self.0.is_empty() {
             return None;
         }
+        let none = || DVector::zeros(2 * entries.len());
+        let mut unknowns = first.cloned().unwrap_or_else(none);
+        for _ in 0..LINEAR_ROUNDS {
+            let mut normal = Normal::zero(unknowns.len());
+            for transmitted in &self.0 {
+                transmitted.add_to(&mut normal, entries, unknowns.as_slice())?;
+            }
+            normal.matrix.fill_upper_triangle_with_lower_triangle();
+            unknowns = normal.step(0.0)?;
+            if unknowns.iter().any(|value| !value.is_finite()) {
+                return None;
+            }
+        }
+        Some(unknowns)
     }
-    Some(unknowns)
 }
 
 /// What the joint of one assembly transmits as measured, for each line and each complete column of H^C_ss.

@@ -34,7 +34,7 @@ impl<'b, const N: usize> Strip<'b, N> {
     }
 
     /// Solves the lines from `first` on; `None` where that cannot be done.
-    #[inline]
+    #[inline(always)]
     pub(super) fn solve(
         &mut self,
         first: usize,
@@ -69,19 +69,19 @@ impl<'b, const N: usize> Strip<'b, N> {
     }
 
     /// A number of each line that is stored line by line and entry by entry.
-    #[inline]
+    #[inline(always)]
     pub(super) fn complex(&self, values: &[Complex64], e: usize) -> Complexes {
         let count = self.block.entries.len();
         Complexes::of(|lane| values[self.index[lane] * count + e])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn real(&self, values: &[f64], e: usize) -> Reals {
         let count = self.block.entries.len();
         Reals::of(|lane| values[self.index[lane] * count + e])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn computed(&self, e: usize, entry: Entry) -> Complexes {
         let own = self.complex(&self.block.own, e);
         self.kernel.receptance(own, entry)
@@ -109,7 +109,7 @@ impl Products {
     };
 
     /// Adds one row, given for each place of K*, with its right-hand side.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add<const N: usize>(
         &mut self,
         weight: Reals,
@@ -150,7 +150,7 @@ pub(super) struct Sums {
 
 impl Sums {
     /// Adds the entries of a strip, as measured and as computed; `variance` is asked for that of each, given |H^C|².
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_strip<const N: usize>(
         &mut self,
         strip: &Strip<'_, N>,
@@ -161,17 +161,18 @@ impl Sums {
             let computed = strip.computed(e, entry);
             let measured = strip.complex(&strip.block.measured, e);
             let weight = strip.used / variance(e, computed.norm_sqr());
-            let residual = measured - computed;
+            let residual = computed - measured;
             self.signal += weight * measured.norm_sqr();
             self.cost += weight * residual.norm_sqr();
-            let row = |i, j| strip.kernel.by_stiffness(entry, (i, j));
+            // ∂H^C/∂K* = −Qᵀ E Q: both signs changed here.
+            let row = |i, j| strip.kernel.through(entry, (i, j));
             products.add::<N>(weight, row, residual);
         }
         self.add_products(strip.omega, &products);
     }
 
     /// Adds rows by K*: ∂K*/∂k = E, ∂K*/∂c = jωE.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_products(&mut self, omega: Reals, products: &Products) {
         for i in 0..MAX_ENTRIES {
             self.by_stiffness[i] += products.right[i].re;

@@ -10,7 +10,7 @@ use super::noise::{Levels, Noise, NoiseLevel, Sample, StatedLevel, most_likely_l
 use super::objective::{Line, Objective, State, Weights};
 
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
-pub(super) const LEAST_RELATIVE: f64 = 1e-14;
+const LEAST_RELATIVE: f64 = 1e-14;
 
 impl<const N: usize> Objective<'_, N> {
     /// Variances at `state`; `None` where one is not a number above zero.
@@ -29,11 +29,7 @@ impl<const N: usize> Objective<'_, N> {
             let group = &self.groups[number];
             let weights = &mut all[number];
             for_each_entry(group, line, |entry| {
-                let variance = entry.known.map_or_else(
-                    || levels.assembly.variance(entry.power),
-                    |known| known * entry.power,
-                );
-                let variance = variance.max(LEAST_RELATIVE * LEAST_RELATIVE * entry.power);
+                let variance = of_one(levels.assembly, entry.known, entry.power);
                 usable &= variance.is_finite() && variance > 0.0;
                 weights.entries.push(variance / f64::from(entry.count));
                 weights.scatter += entry.scatter / variance;
@@ -126,6 +122,17 @@ impl<const N: usize> Objective<'_, N> {
         })?;
         Some(most_likely_level(&samples, noise.assembly))
     }
+}
+
+/// Variance of one measurement of the assembly from its computed |H^C|², or from what is `known` of it as a fraction of that.
+#[inline]
+pub(super) fn of_one(level: NoiseLevel, known: Option<f64>, power: f64) -> f64 {
+    let least = LEAST_RELATIVE * LEAST_RELATIVE * power;
+    let variance = match known {
+        Some(known) => known * power,
+        None => level.variance(power),
+    };
+    if variance < least { least } else { variance }
 }
 
 fn add_source<const N: usize>(

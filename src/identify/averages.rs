@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::structure::{ComplexMatrix, Partition};
+use crate::structure::ComplexMatrix;
 
 use super::band_choice;
 use super::bands::{self, BandChoice, BandChoices, Bands, UsedBands};
@@ -16,46 +16,13 @@ use super::model::JointMatrices;
 use super::noise::Noise;
 use super::objective::Objective;
 use super::search;
-use super::starts;
+use super::starts::Linear;
 
 /// An assembly with its decoupled values.
 #[derive(Clone, Copy)]
 pub(super) struct Decoupled<'a> {
     pub(super) lines: &'a Lines,
     pub(super) values: &'a [Option<ComplexMatrix>],
-}
-
-/// Whether every pair of points was measured, at least as its transpose.
-pub(super) fn is_complete(lines: &Lines) -> bool {
-    let count = lines.points.len();
-    let has = |place: (usize, usize)| {
-        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
-    };
-    (0..count).all(|p| (0..count).all(|q| has((p, q))))
-}
-
-/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
-pub(super) fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
-    let complete = is_complete(lines);
-    let used = layout.used_dofs();
-    let line = |index: usize| {
-        let a_joint = lines.a_joint[index]
-            .select_rows(&used)
-            .select_columns(&used);
-        // Equation (3.21) needs nothing of A but H_jj.
-        let a = Partition::of(&a_joint, used.len());
-        let b = &lines.b[index];
-        let b = Partition {
-            joint: b.joint.select_rows(&used).select_columns(&used),
-            joint_points: b.joint_points.select_rows(&used),
-            points_joint: b.points_joint.select_columns(&used),
-            points: b.points.clone(),
-        };
-        decoupling::from_ss(&a, &b, &lines.assembly[index])
-    };
-    (0..lines.frequency_hz.len())
-        .map(|index| if complete { line(index) } else { None })
-        .collect()
 }
 
 /// The average of the decoupled values of each joint over bands, from all lines of the assemblies and all bolts that have it.
@@ -103,7 +70,7 @@ pub(super) fn used_bands<const N: usize>(
         let places = layout.places();
         let lines: Vec<(&Lines, usize)> = all.iter().map(|a| (a.lines, 0)).collect();
         let thinned = Group::<N>::all(&lines, search::stride(&lines), |_| false);
-        let start = starts::linear(&thinned, &places, None);
+        let start = Linear::of(&thinned).from(&places, None);
         let start = start.or_else(|| medians().map(DVector::from_vec))?;
         // Noise biases both: a fit to a few lines, which takes the substructures as exact, is nearer.
         let thinned = Objective {

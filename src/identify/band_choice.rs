@@ -184,7 +184,7 @@ fn measures<const N: usize>(
     for line in 0..lines {
         let stiffness = complex_stiffness::<N>(places, unknowns, block.omega[line]);
         let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
-        kernel.solve(&block.free[line], transfer, &stiffness)?;
+        kernel.solve(&block.free[line], transfer.iter().copied(), &stiffness)?;
         for (e, &entry) in block.entries.iter().enumerate() {
             let own = block.own[line * entries + e];
             sizes[e].push(kernel.receptance(own, entry).norm());

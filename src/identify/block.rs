@@ -3,14 +3,17 @@
 //! With symmetric substructures and a symmetric joint H^C_pq and H^C_qp are one number. Two measurements of it enter as
 //! their mean; their difference tells noise alone.
 
+use std::ops::Range;
+
 use num_complex::Complex64;
 
 use crate::structure::ComplexMatrix;
 
+use super::layout::Place;
 use super::lines::Lines;
 
-/// A symmetric matrix or a vector of the joint's DOFs at one line.
-pub(super) type Small<const N: usize> = [[Complex64; N]; N];
+/// A matrix of the joint's DOFs at one line, or at several side by side.
+pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
 
 /// One entry of the symmetric H^C_ss, measured once or more often.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,21 +52,22 @@ pub(super) struct Block<const N: usize> {
 impl<const N: usize> Block<N> {
     /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
     pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
-        let measured = lines.independent();
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
+        let measured = lines.independent();
         let mut entries: Vec<Entry> = Vec::new();
+        let mut places: Vec<Vec<(usize, usize)>> = Vec::new();
         for &(p, q) in &measured {
             let (row, column) = (p.min(q), p.max(q));
-            match entries
-                .iter_mut()
-                .find(|entry| (entry.row, entry.column) == (row, column))
-            {
-                Some(entry) => entry.count += repeats,
-                None => entries.push(Entry {
-                    row,
-                    column,
-                    count: repeats,
-                }),
+            let known = entries
+                .iter()
+                .position(|entry| (entry.row, entry.column) == (row, column));
+            if let Some(known) = known {
+                entries[known].count += repeats;
+                places[known].push((p, q));
+            } else {
+                let count = repeats;
+                entries.push(Entry { row, column, count });
+                places.push(vec![(p, q)]);
             }
         }
         let points = lines.points.len();
@@ -72,7 +76,9 @@ impl<const N: usize> Block<N> {
         let mut block = Self {
             joint,
             points,
-            omega: Vec::with_capacity(count),
+            omega: chosen()
+                .map(|line| std::f64::consts::TAU * lines.frequency_hz[line])
+                .collect(),
             free: Vec::with_capacity(count),
             dynamic_stiffness: [0.0; N],
             transfer: Vec::with_capacity(count * points),
@@ -83,68 +89,87 @@ impl<const N: usize> Block<N> {
             entries,
         };
         for line in chosen() {
-            block.push(lines, &measured, line);
+            block.push_substructures(lines, line);
+            block.push_assembly(lines, &places, line);
+        }
+        if let Some(known) = &lines.relative_variance {
+            block.add_known(lines, known, stride);
         }
         block.dynamic_stiffness = std::array::from_fn(|dof| {
             let diagonal = block.free.iter().map(|free| free[dof][dof]);
-            let mut values: Vec<f64> = diagonal.map(|value| value.norm().recip()).collect();
-            values.sort_by(f64::total_cmp);
-            values.get(values.len() / 2).copied().unwrap_or(1.0)
+            let mut sizes: Vec<f64> = diagonal.map(|value| value.norm_sqr()).collect();
+            if sizes.is_empty() {
+                return 1.0;
+            }
+            // The upper median of the reciprocals is the lower one of the receptances.
+            let middle = (sizes.len() - 1) / 2;
+            let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+            median.sqrt().recip()
         });
         block
     }
 
-    fn push(&mut self, lines: &Lines, measured: &[(usize, usize)], line: usize) {
-        let (a, b, assembly) = (&lines.a_joint[line], &lines.b[line], &lines.assembly[line]);
-        self.omega
-            .push(std::f64::consts::TAU * lines.frequency_hz[line]);
+    fn push_substructures(&mut self, lines: &Lines, line: usize) {
+        let (a, b) = (&lines.a_joint[line], &lines.b[line]);
         let symmetric = |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
         self.free.push(std::array::from_fn(|i| {
             std::array::from_fn(|j| symmetric(a, i, j) + symmetric(&b.joint, i, j))
         }));
-        for point in 0..self.points {
-            self.transfer.push(std::array::from_fn(|i| {
-                0.5 * (b.joint_points[(i, point)] + b.points_joint[(point, i)])
-            }));
-        }
-        for entry in &self.entries {
-            let (row, column) = (entry.row, entry.column);
-            self.own.push(symmetric(&b.points, row, column));
-            let places = [(row, column), (column, row)];
-            let distinct = if row == column { 1 } else { 2 };
-            let own = || {
-                places[..distinct]
-                    .iter()
-                    .filter(|place| measured.contains(place))
-            };
-            let mean =
-                own().map(|&place| assembly[place]).sum::<Complex64>() / own().count() as f64;
+        let rows = b.joint_points.column_iter().zip(b.points_joint.row_iter());
+        self.transfer
+            .extend(rows.map(|(column, row)| std::array::from_fn(|i| 0.5 * (column[i] + row[i]))));
+        let own = self.entries.iter();
+        self.own
+            .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
+    }
+
+    fn push_assembly(&mut self, lines: &Lines, places: &[Vec<(usize, usize)>], line: usize) {
+        let assembly = &lines.assembly[line];
+        for places in places {
+            if let ([place], None) = (&places[..], &lines.repeats) {
+                self.measured.push(assembly[*place]);
+                self.scatter.push(0.0);
+                continue;
+            }
+            let sum: Complex64 = places.iter().map(|&place| assembly[place]).sum();
+            let mean = sum / places.len() as f64;
             self.measured.push(mean);
-            let between: f64 = own()
-                .map(|&place| (assembly[place] - mean).norm_sqr())
-                .sum();
+            let difference = |&place: &(usize, usize)| (assembly[place] - mean).norm_sqr();
+            let between: f64 = places.iter().map(difference).sum();
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
-                    let within: f64 = own().map(|&place| repeats.scatter[line][place]).sum();
+                    let scatter = &repeats.scatter[line];
+                    let within: f64 = places.iter().map(|&place| scatter[place]).sum();
                     within + f64::from(repeats.count) * between
                 }
                 None => between,
             });
         }
-        if let Some(known) = &lines.relative_variance {
-            for entry in &self.entries {
-                let place =
-                    |(p, q): (usize, usize)| (p.min(q), p.max(q)) == (entry.row, entry.column);
-                let of_entry = || {
-                    let pairs = lines.measured.iter().zip(known);
-                    pairs
-                        .filter(|&(&pair, _)| place(pair))
-                        .map(|(_, v)| v[line])
-                };
-                self.known
-                    .push(of_entry().sum::<f64>() / of_entry().count().max(1) as f64);
+    }
+
+    fn add_known(&mut self, lines: &Lines, known: &[Vec<f64>], stride: usize) {
+        let of_entry: Vec<Vec<&Vec<f64>>> = self
+            .entries
+            .iter()
+            .map(|entry| {
+                let pairs = lines.measured.iter().zip(known);
+                let own =
+                    pairs.filter(|&(&(p, q), _)| (p.min(q), p.max(q)) == (entry.row, entry.column));
+                own.map(|(_, variances)| variances).collect()
+            })
+            .collect();
+        for line in (0..lines.frequency_hz.len()).step_by(stride) {
+            for variances in &of_entry {
+                let sum: f64 = variances.iter().map(|variances| variances[line]).sum();
+                self.known.push(sum / variances.len().max(1) as f64);
             }
         }
+    }
+
+    /// Where the unknowns of its joint are among those of all, each joint having these entries.
+    pub(super) fn unknowns(&self, entries: &[Place]) -> Range<usize> {
+        let size = 2 * entries.len();
+        self.joint * size..(self.joint + 1) * size
     }
 
     pub(super) fn lines(&self) -> usize {

@@ -82,6 +82,11 @@ impl Place {
         })
     }
 
+    /// Whether one block alone holds it.
+    pub(super) fn is_single(self) -> bool {
+        self.copies == 1
+    }
+
     /// The DOF of a bolt whose diagonal entry this is.
     pub(super) fn diagonal_dof(self) -> Option<usize> {
         (self.row == self.column).then_some(self.row % self.stride)

@@ -6,7 +6,7 @@ use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::assessment::Assessment;
-use super::averages::{Decoupled, band_averages, decouple, is_complete, used_bands};
+use super::averages::{Decoupled, band_averages, used_bands};
 use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
@@ -15,6 +15,7 @@ use super::error::IdentifyError;
 use super::group::{Group, Side};
 use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
 use super::layout::{Bolts, Layout};
+use super::line_by_line::{decouple, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel};
@@ -278,7 +279,10 @@ fn identify_with<const N: usize>(
         assignment.all.iter().map(|&(_, joint)| joint).collect(),
         assignment.joints,
     );
-    let decoupled: Vec<_> = all.iter().map(|lines| decouple(lines, &layout)).collect();
+    let decoupled: Vec<_> = all
+        .iter()
+        .map(|lines| decouple::<N>(lines, &layout))
+        .collect();
     let noise = &options.noise;
     let problem = Problem::<N>::new(assignment, noise);
     let averaged: Vec<Averaged> = (0..count)

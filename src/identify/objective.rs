@@ -5,33 +5,25 @@
 //! own on every line. Eliminated, they leave the normal equations with Σ = Σ_C + J Σ_H Jᴴ, J = ∂H^C/∂û; so
 //! S = r̃ᴴ Σ⁻¹ r̃ at the minimum over δ, with r̃ = y − H^C + Jδ.
 //!
-//! θ holds the unknowns of one joint after the other; each assembly has one of them. Where assemblies with different joints
+//! θ holds the unknowns of one torque after the other; each assembly has one of them. Where assemblies with different joints
 //! share a substructure, δ couples these.
-
-use std::ops::Range;
 
 use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::group::Group;
-use super::kernel::{Kernel, complex_stiffness};
+use super::independent;
 use super::layout::Place;
+use super::line::Line;
+use super::noise::{Levels, NoiseLevel};
 use super::normal::Normal;
+use super::parallel;
 
-/// Entries of K* on and above the diagonal that can be unknown: those of four bolts with a joint of their own …
-const MAX_ENTRIES: usize = 12;
-/// … and of one joint.
-const ENTRIES_OF_ONE: usize = 3;
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
-/// Gauss–Newton steps of one line's corrections for each step of the unknowns …
-const CORRECTION_ROUNDS: usize = 8;
-/// … as long as they promise to lower its cost by this fraction …
-const CORRECTION_GAIN: f64 = 1e-3;
-/// (by this one where the full step does not lower it) …
-const CORRECTION_GAIN_OF_SHORT_STEPS: f64 = 1e-12;
-/// … each shortened to a quarter at most so many times.
-const CORRECTION_HALVINGS: usize = 6;
+/// Lines with corrections that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on
+/// how many processors there are.
+const PIECE: usize = 64;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.
@@ -43,8 +35,6 @@ pub(super) struct Weights {
     pub(super) sources: Vec<f64>,
     /// Σ|y − mean|²/σ² over repeated measurements: part of the cost that no joint changes.
     pub(super) scatter: f64,
-    /// Σ ln σ² over measurements beyond the first of an entry.
-    pub(super) scatter_log: f64,
 }
 
 /// A point: the unknowns, what the substructures' receptances are corrected by, and the normal equations there.
@@ -56,11 +46,20 @@ pub(super) struct State {
     pub(super) normal: Normal,
 }
 
+/// How lines whose entries have errors of their own are divided by σ.
+#[derive(Clone, Copy)]
+enum Whitening<'w> {
+    None,
+    Held(&'w Weights),
+    /// By what the level makes of the computed receptance.
+    Renewed(NoiseLevel),
+}
+
 /// The model with data and weights.
 #[derive(Clone, Copy)]
 pub(super) struct Objective<'a, const N: usize> {
     pub(super) groups: &'a [Group<N>],
-    /// Unknown entries of K*.
+    /// Unknown entries of the K* of each torque.
     pub(super) entries: &'a [Place],
 }
 
@@ -72,12 +71,12 @@ impl<const N: usize> Objective<'_, N> {
         };
         let (own, omega) = (&block.dynamic_stiffness, block.omega[block.lines() / 2]);
         let count = self.entries.len();
-        let mut joints = unknowns.as_slice().chunks_exact(2 * count);
-        joints.all(|joint| {
+        let mut torques = unknowns.as_slice().chunks_exact(2 * count);
+        torques.all(|unknowns| {
             self.entries.iter().enumerate().all(|(index, place)| {
                 let (i, j) = place.first();
                 let limit = RIGID * (own[i] * own[j]).sqrt();
-                joint[index].abs() <= limit && omega * joint[count + index].abs() <= limit
+                unknowns[index].abs() <= limit && omega * unknowns[count + index].abs() <= limit
             })
         })
     }
@@ -98,13 +97,13 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         unknowns: DVector<f64>,
         corrections: Option<Vec<Vec<Complex64>>>,
-    ) -> Option<State> {
+    ) -> State {
         let normal = Normal::zero(unknowns.len());
-        Some(State {
+        State {
             unknowns,
             corrections: corrections.unwrap_or_else(|| self.no_corrections()),
             normal,
-        })
+        }
     }
 
     fn no_corrections(&self) -> Vec<Vec<Complex64>> {
@@ -137,25 +136,11 @@ impl<const N: usize> Objective<'_, N> {
         let mut normal = Normal::zero(unknowns.len());
         let groups = self.groups.iter().zip(weights).zip(&mut corrections);
         for ((group, weights), corrections) in groups {
-            let mut line = Line::new(group, self.entries);
-            for index in 0..group.lines() {
-                let variances = line.weights(weights, index);
-                if group.sources.is_empty() {
-                    let (unknowns, variances) = (unknowns.as_slice(), variances.0);
-                    if self.entries.len() <= ENTRIES_OF_ONE {
-                        line.accumulate::<ENTRIES_OF_ONE>(index, unknowns, variances, &mut normal)?;
-                    } else {
-                        line.accumulate::<MAX_ENTRIES>(index, unknowns, variances, &mut normal)?;
-                    }
-                    continue;
-                }
-                {
-                    let at = index * group.sources.len();
-                    let delta = &mut corrections[at..at + group.sources.len()];
-                    line.settle(index, variances, from, &unknowns, delta)?;
-                    line.whiten(variances, delta)?;
-                }
-                line.add_to(&mut normal);
+            if group.sources.is_empty() {
+                let unknowns = unknowns.as_slice();
+                independent::accumulate(group, self.entries, unknowns, weights, &mut normal)?;
+            } else {
+                self.settle(group, weights, (from, &unknowns), corrections, &mut normal)?;
             }
             normal.cost += weights.scatter;
             normal.linearised_cost += weights.scatter;
@@ -168,7 +153,80 @@ impl<const N: usize> Objective<'_, N> {
         })
     }
 
-    /// Calls `visit` with each line of each group as it is at `state`: linearised and, with `weights`, whitened.
+    /// Adds a group whose lines have corrections, which follow the unknowns, to the normal equations.
+    fn settle(
+        &self,
+        group: &Group<N>,
+        weights: &Weights,
+        (from, to): (Option<&DVector<f64>>, &DVector<f64>),
+        corrections: &mut [Complex64],
+        normal: &mut Normal,
+    ) -> Option<()> {
+        let count = group.sources.len();
+        let pieces: Vec<(usize, &mut [Complex64])> = corrections
+            .chunks_mut(count * PIECE)
+            .enumerate()
+            .map(|(piece, corrections)| (piece * PIECE, corrections))
+            .collect();
+        let sums = parallel::map_each(pieces, |(first, corrections)| {
+            let mut line = Line::new(group, self.entries);
+            let mut normal = Normal::zero(to.len());
+            for (index, delta) in (first..).zip(corrections.chunks_mut(count)) {
+                let variances = line.weights(weights, index);
+                line.settle(index, variances, from, to, delta)?;
+                line.whiten(variances, delta)?;
+                line.add_to(&mut normal);
+            }
+            Some(normal)
+        });
+        for sum in sums {
+            normal.add(&sum?);
+        }
+        Some(())
+    }
+
+    /// Whether all entries have errors of their own: no substructure's error is an unknown.
+    pub(super) fn is_independent(&self) -> bool {
+        self.groups.iter().all(|group| group.sources.is_empty())
+    }
+
+    /// The point `unknowns` with these corrections, and the weights that it gives itself.
+    pub(super) fn renewed(
+        &self,
+        levels: Levels,
+        unknowns: DVector<f64>,
+        corrections: Option<Vec<Vec<Complex64>>>,
+    ) -> Option<(Vec<Weights>, State)> {
+        if !self.is_independent() {
+            let state = self.unweighted(unknowns, corrections);
+            let weights = self.weights(levels, &state)?;
+            let state = self.at(&weights, state.unknowns, Some(state.corrections))?;
+            return Some((weights, state));
+        }
+        let mut normal = Normal::zero(unknowns.len());
+        let all: Option<Vec<Weights>> = self
+            .groups
+            .iter()
+            .map(|group| {
+                let unknowns = unknowns.as_slice();
+                independent::renew(group, self.entries, unknowns, levels.assembly, &mut normal)
+            })
+            .collect();
+        let all = all?;
+        let scatter: f64 = all.iter().map(|weights| weights.scatter).sum();
+        normal.cost += scatter;
+        normal.linearised_cost += scatter;
+        normal.matrix.fill_upper_triangle_with_lower_triangle();
+        let state = State {
+            corrections: self.no_corrections(),
+            unknowns,
+            normal,
+        };
+        state.normal.cost.is_finite().then_some((all, state))
+    }
+
+    /// Calls `visit` with each line of each group as it is at `state`: computed and, with `weights`, whitened. Derivatives by
+    /// the joint are there only where there are sources.
     pub(super) fn visit(
         &self,
         weights: Option<&[Weights]>,
@@ -176,612 +234,98 @@ impl<const N: usize> Objective<'_, N> {
         mut visit: impl FnMut(usize, &Line<'_, N>),
     ) -> Option<()> {
         for (number, group) in self.groups.iter().enumerate() {
-            let mut line = Line::new(group, self.entries);
-            let sources = group.sources.len();
-            for index in 0..group.lines() {
-                let delta = &state.corrections[number][index * sources..(index + 1) * sources];
-                line.linearise(index, state.unknowns.as_slice(), delta)?;
-                if let Some(weights) = weights {
-                    let variances = line.weights(&weights[number], index);
-                    line.whiten(variances, delta)?;
-                } else {
-                    line.add_corrections(delta);
-                }
-                visit(number, &line);
-            }
-        }
-        Some(())
-    }
-}
-
-/// One line of a group, linearised: everything that the normal equations need of it. Reused from line to line.
-pub(super) struct Line<'g, const N: usize> {
-    group: &'g Group<N>,
-    joint_entries: &'g [Place],
-    kernel: Kernel<N>,
-    transfer: Vec<[Complex64; N]>,
-    pub(super) index: usize,
-    pub(super) omega: f64,
-    /// H^C at each entry of all blocks.
-    pub(super) computed: Vec<Complex64>,
-    /// y − H^C, then r̃, then whitened.
-    pub(super) residual: Vec<Complex64>,
-    /// The joints of this group, ascending.
-    joints: Vec<usize>,
-    /// ∂H^C/∂K*, then whitened: for each of `joints`, for each entry of all blocks, one of each unknown entry of its K*.
-    by_joint: Vec<[Complex64; MAX_ENTRIES]>,
-    /// Unknowns of all joints together.
-    unknowns: usize,
-    /// J: for each source, every entry of all blocks.
-    pub(super) by_source: Vec<Complex64>,
-    /// Σ, then its Cholesky factor.
-    factor: Vec<Complex64>,
-    cost: f64,
-    /// The cost that is left once the corrections have followed, as linearised.
-    residual_cost: f64,
-    signal: f64,
-    log_determinant: f64,
-    trial: Vec<Complex64>,
-}
-
-impl<'g, const N: usize> Line<'g, N> {
-    fn new(group: &'g Group<N>, joint_entries: &'g [Place]) -> Self {
-        let size = group.entries();
-        let joints = group.joints();
-        Self {
-            group,
-            joint_entries,
-            kernel: Kernel::new(),
-            transfer: Vec::new(),
-            index: 0,
-            omega: 0.0,
-            computed: vec![ZERO; size],
-            residual: vec![ZERO; size],
-            by_joint: vec![[ZERO; MAX_ENTRIES]; size * joints.len()],
-            joints,
-            unknowns: 0,
-            by_source: vec![ZERO; size * group.sources.len()],
-            factor: vec![
-                ZERO;
-                if group.sources.is_empty() {
-                    0
-                } else {
-                    size * size
-                }
-            ],
-            cost: 0.0,
-            residual_cost: 0.0,
-            signal: 0.0,
-            log_determinant: 0.0,
-            trial: Vec::new(),
-        }
-    }
-
-    fn weights<'w>(&self, weights: &'w Weights, index: usize) -> (&'w [f64], &'w [f64]) {
-        let (size, sources) = (self.computed.len(), self.group.sources.len());
-        (
-            &weights.entries[index * size..(index + 1) * size],
-            &weights.sources[index * sources..(index + 1) * sources],
-        )
-    }
-
-    /// H^C, the residual and the derivatives at this line.
-    fn linearise(&mut self, index: usize, unknowns: &[f64], delta: &[Complex64]) -> Option<()> {
-        self.compute(index, unknowns, delta, true)
-    }
-
-    /// The same, the derivatives being left as they are unless they are wanted.
-    fn compute(
-        &mut self,
-        index: usize,
-        unknowns: &[f64],
-        delta: &[Complex64],
-        derivatives: bool,
-    ) -> Option<()> {
-        self.index = index;
-        self.omega = self.group.blocks.first()?.omega[index];
-        self.unknowns = unknowns.len();
-        let size = self.computed.len();
-        if derivatives && self.joints.len() > 1 {
-            self.by_joint.fill([ZERO; MAX_ENTRIES]);
-        }
-        let mut at = 0;
-        for (number, block) in self.group.blocks.iter().enumerate() {
-            let own_joint = &unknowns[self.unknowns_of(block.joint)];
-            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
-            let slot = size * self.slot(block.joint);
-            let columns = index * block.points..(index + 1) * block.points;
-            let count = block.entries.len();
-            let own = &block.own[index * count..(index + 1) * count];
-            let measured = &block.measured[index * count..(index + 1) * count];
-            let mut free = block.free[index];
-            self.transfer.clear();
-            self.transfer.extend_from_slice(&block.transfer[columns]);
-            for (source, &delta) in self.group.sources.iter().zip(delta) {
-                if let Some(pattern) = &source.patterns[number] {
-                    if pattern.acts_on_free {
-                        for i in 0..N {
-                            for j in 0..N {
-                                free[i][j] += delta * pattern.free[i][j];
-                            }
-                        }
-                    }
-                    for (column, change) in self.transfer.iter_mut().zip(&pattern.transfer) {
-                        for i in 0..N {
-                            column[i] += delta * change[i];
-                        }
-                    }
-                }
-            }
-            self.kernel.solve(&free, &self.transfer, &stiffness)?;
-            for (e, &entry) in block.entries.iter().enumerate() {
-                let mut own = own[e];
-                for (source, &delta) in self.group.sources.iter().zip(delta) {
-                    if let Some(pattern) = &source.patterns[number]
-                        && let Some(&share) = pattern.own.get(e)
-                    {
-                        own += delta * share;
-                    }
-                }
-                let computed = self.kernel.receptance(own, entry);
-                self.computed[at + e] = computed;
-                self.residual[at + e] = measured[e] - computed;
-                if !derivatives {
-                    continue;
-                }
-                for (t, &place) in self.joint_entries.iter().enumerate() {
-                    self.by_joint[slot + at + e][t] = self.kernel.by_stiffness(entry, place);
-                }
-                for (s, source) in self.group.sources.iter().enumerate() {
-                    self.by_source[s * size + at + e] =
-                        source.patterns[number].as_ref().map_or(ZERO, |pattern| {
-                            let own = pattern.own.get(e).copied().unwrap_or(0.0);
-                            let free = pattern.acts_on_free.then_some(&pattern.free);
-                            self.kernel.by_source(entry, free, &pattern.transfer, own)
-                        });
-                }
-            }
-            at += count;
-        }
-        Some(())
-    }
-
-    /// Linearises a line whose entries all have errors of their own and adds it to the normal equations, in one go.
-    fn accumulate<const E: usize>(
-        &mut self,
-        index: usize,
-        unknowns: &[f64],
-        variances: &[f64],
-        normal: &mut Normal,
-    ) -> Option<()> {
-        let count = self.joint_entries.len();
-        let block = self.group.blocks.first()?;
-        self.omega = block.omega[index];
-        let mut variances = variances.iter();
-        for block in &self.group.blocks {
-            let own_joint = self.unknowns_of(block.joint);
-            let first = own_joint.start;
-            let own_joint = &unknowns[own_joint];
-            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
-            let mut sums = Sums::<E>::new();
-            let entries = block.entries.len();
-            let transfer = &block.transfer[index * block.points..(index + 1) * block.points];
-            let own = &block.own[index * entries..(index + 1) * entries];
-            let measured = &block.measured[index * entries..(index + 1) * entries];
-            self.kernel
-                .solve(&block.free[index], transfer, &stiffness)?;
-            let values = block.entries.iter().zip(own).zip(measured);
-            for (((&entry, &own), &measured), variance) in values.zip(&mut variances) {
-                let weight = variance.recip();
-                let residual = measured - self.kernel.receptance(own, entry);
-                let mut row = [ZERO; E];
-                for (value, &place) in row.iter_mut().zip(self.joint_entries) {
-                    *value = self.kernel.by_stiffness(entry, place);
-                }
-                sums.signal += weight * measured.norm_sqr();
-                sums.cost += weight * residual.norm_sqr();
-                sums.add(weight, residual, &row, count);
-            }
-            normal.signal += sums.signal;
-            normal.cost += sums.cost;
-            normal.linearised_cost += sums.cost;
-            sums.add_to(normal, self.omega, count, first);
-        }
-        Some(())
-    }
-
-    /// Where the unknowns of a joint are among those of all.
-    fn unknowns_of(&self, joint: usize) -> Range<usize> {
-        let size = 2 * self.joint_entries.len();
-        joint * size..(joint + 1) * size
-    }
-
-    /// Place of a joint among those of this group.
-    fn slot(&self, joint: usize) -> usize {
-        self.joints.partition_point(|&other| other < joint)
-    }
-
-    /// Divides by σ where every entry has an error of its own.
-    fn whiten_independent(&mut self, variances: &[f64]) {
-        let measured = self.group.blocks.iter().flat_map(|block| {
-            let count = block.entries.len();
-            &block.measured[self.index * count..(self.index + 1) * count]
-        });
-        (self.cost, self.signal, self.log_determinant) = (0.0, 0.0, 0.0);
-        for (e, measured) in measured.enumerate() {
-            let weight = variances[e].recip().sqrt();
-            self.signal += weight * weight * measured.norm_sqr();
-            self.residual[e] *= weight;
-            self.cost += self.residual[e].norm_sqr();
-            for by_joint in self.by_joint.chunks_exact_mut(self.residual.len()) {
-                for value in &mut by_joint[e][..self.joint_entries.len()] {
-                    *value *= weight;
-                }
-            }
-        }
-    }
-
-    /// y − H^C + Jδ: the residual as if the substructures' receptances were those measured.
-    fn add_corrections(&mut self, delta: &[Complex64]) {
-        let size = self.residual.len();
-        for (s, delta) in delta.iter().enumerate() {
-            for e in 0..size {
-                self.residual[e] += self.by_source[s * size + e] * delta;
-            }
-        }
-    }
-
-    /// Σ = Σ_C + J Σ_H Jᴴ = L Lᴴ, and L⁻¹ before residual and derivatives.
-    fn whiten(
-        &mut self,
-        (variances, of_sources): (&[f64], &[f64]),
-        delta: &[Complex64],
-    ) -> Option<()> {
-        if self.group.sources.is_empty() {
-            self.whiten_independent(variances);
-            self.log_determinant = variances.iter().map(|variance| variance.ln()).sum();
-            return Some(());
-        }
-        let size = self.residual.len();
-        let powers = self.computed.iter().zip(variances);
-        self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
-        self.cost = self.whole_cost((variances, of_sources), delta);
-        self.add_corrections(delta);
-        self.factorise(variances, of_sources)?;
-        forward(&self.factor, size, &mut self.residual);
-        for by_joint in self.by_joint.chunks_exact_mut(size) {
-            for t in 0..self.joint_entries.len() {
-                for row in 0..size {
-                    let mut value = by_joint[row][t];
-                    for column in 0..row {
-                        value -= self.factor[row * size + column] * by_joint[column][t];
-                    }
-                    by_joint[row][t] = value / self.factor[row * size + row].re;
-                }
-            }
-        }
-        Some(())
-    }
-
-    fn factorise(&mut self, variances: &[f64], of_sources: &[f64]) -> Option<()> {
-        let size = self.residual.len();
-        self.factor.fill(ZERO);
-        for (e, variance) in variances.iter().enumerate() {
-            self.factor[e * size + e] = Complex64::from(*variance);
-        }
-        for (s, &variance) in of_sources.iter().enumerate() {
-            let column = &self.by_source[s * size..(s + 1) * size];
-            for row in 0..size {
-                let left = column[row] * variance;
-                for other in 0..=row {
-                    self.factor[row * size + other] += left * column[other].conj();
-                }
-            }
-        }
-        self.log_determinant = 0.0;
-        for row in 0..size {
-            for column in 0..=row {
-                let mut value = self.factor[row * size + column];
-                for k in 0..column {
-                    value -= self.factor[row * size + k] * self.factor[column * size + k].conj();
-                }
-                if row == column {
-                    if !(value.re.is_finite() && value.re > 0.0) {
-                        return None;
-                    }
-                    self.log_determinant += value.re.ln();
-                    self.factor[row * size + row] = Complex64::from(value.re.sqrt());
-                } else {
-                    self.factor[row * size + column] =
-                        value / self.factor[column * size + column].re;
-                }
-            }
-        }
-        Some(())
-    }
-
-    /// Lets the corrections follow the unknowns, and linearises the line there: δ first as the step's own linear model says,
-    /// then by Gauss–Newton on this line alone, no step of which may raise its cost. Near a resonance the errors of the
-    /// substructures act far from linearly.
-    fn settle(
-        &mut self,
-        index: usize,
-        variances: (&[f64], &[f64]),
-        from: Option<&DVector<f64>>,
-        to: &DVector<f64>,
-        delta: &mut [Complex64],
-    ) -> Option<()> {
-        let mut trial = std::mem::take(&mut self.trial);
-        let mut negligible = CORRECTION_GAIN;
-        if let Some(from) = from {
-            trial.clear();
-            trial.extend_from_slice(delta);
-            if self.linearise(index, from.as_slice(), &trial).is_some() {
-                self.follow(variances, from, to, &mut trial)?;
-            }
-            let before = self.cost_at(index, variances, to, delta);
-            let after = self.cost_at(index, variances, to, &trial);
-            if after <= before {
-                delta.copy_from_slice(&trial);
+            let weights = weights.map(|weights| &weights[number]);
+            if group.sources.is_empty() {
+                let held = weights.map_or(Whitening::None, Whitening::Held);
+                self.visit_independent(group, held, state, |line| visit(number, line))?;
             } else {
-                // Full steps overshoot here, and would for ever.
-                negligible = CORRECTION_GAIN_OF_SHORT_STEPS;
+                self.visit_linearised(number, weights, state, |line| visit(number, line))?;
             }
-        }
-        for _ in 0..CORRECTION_ROUNDS {
-            self.linearise(index, to.as_slice(), delta)?;
-            let before = self.whole_cost(variances, delta);
-            trial.clear();
-            trial.extend_from_slice(delta);
-            self.follow(variances, to, to, &mut trial)?;
-            if before - self.residual_cost <= negligible * before {
-                break;
-            }
-            let mut accepted = false;
-            for _ in 0..CORRECTION_HALVINGS {
-                if self.cost_at(index, variances, to, &trial) <= before {
-                    accepted = true;
-                    break;
-                }
-                for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
-                    *trial = *delta + (*trial - *delta) * 0.25;
-                }
-            }
-            if !accepted {
-                break;
-            }
-            delta.copy_from_slice(&trial);
-        }
-        self.trial = trial;
-        self.linearise(index, to.as_slice(), delta)
-    }
-
-    /// What this line adds to the cost with these corrections; infinite where it cannot be computed.
-    fn cost_at(
-        &mut self,
-        index: usize,
-        variances: (&[f64], &[f64]),
-        unknowns: &DVector<f64>,
-        delta: &[Complex64],
-    ) -> f64 {
-        if self
-            .compute(index, unknowns.as_slice(), delta, false)
-            .is_none()
-        {
-            return f64::INFINITY;
-        }
-        let cost = self.whole_cost(variances, delta);
-        if cost.is_finite() {
-            cost
-        } else {
-            f64::INFINITY
-        }
-    }
-
-    /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²
-    fn whole_cost(&self, (variances, of_sources): (&[f64], &[f64]), delta: &[Complex64]) -> f64 {
-        let residuals = self.residual.iter().zip(variances);
-        let mut cost: f64 = residuals.map(|(r, variance)| r.norm_sqr() / variance).sum();
-        for (delta, variance) in delta.iter().zip(of_sources) {
-            if *variance > 0.0 {
-                cost += delta.norm_sqr() / variance;
-            }
-        }
-        cost
-    }
-
-    /// δ ← Σ_H Jᴴ Σ⁻¹ (r̃ − ∂H^C/∂θ Δθ): the corrections that go with a step of the unknowns.
-    fn follow(
-        &mut self,
-        (variances, of_sources): (&[f64], &[f64]),
-        from: &DVector<f64>,
-        to: &DVector<f64>,
-        delta: &mut [Complex64],
-    ) -> Option<()> {
-        let size = self.residual.len();
-        self.add_corrections(delta);
-        let step = to - from;
-        let count = self.joint_entries.len();
-        for (slot, &joint) in self.joints.iter().enumerate() {
-            let first = self.unknowns_of(joint).start;
-            for e in 0..size {
-                for t in 0..count {
-                    let (k, c) = (step[first + t], step[first + count + t]);
-                    let change = Complex64::new(k, self.omega * c);
-                    self.residual[e] -= self.by_joint[slot * size + e][t] * change;
-                }
-            }
-        }
-        self.factorise(variances, of_sources)?;
-        forward(&self.factor, size, &mut self.residual);
-        self.residual_cost = self.residual.iter().map(|r| r.norm_sqr()).sum();
-        backward(&self.factor, size, &mut self.residual);
-        for (s, delta) in delta.iter_mut().enumerate() {
-            let column = &self.by_source[s * size..(s + 1) * size];
-            let pairs = column.iter().zip(&self.residual);
-            *delta = of_sources[s] * pairs.map(|(j, r)| j.conj() * r).sum::<Complex64>();
         }
         Some(())
     }
 
-    /// Adds the whitened line to the normal equations (lower triangle).
-    fn add_to(&self, normal: &mut Normal) {
-        let count = self.joint_entries.len();
-        normal.cost += self.cost;
-        normal.signal += self.signal;
-        normal.linearised_cost += self.residual.iter().map(|r| r.norm_sqr()).sum::<f64>();
-        if count <= ENTRIES_OF_ONE {
-            self.add_entries_to::<ENTRIES_OF_ONE>(normal);
-        } else {
-            self.add_entries_to::<MAX_ENTRIES>(normal);
+    /// The same, whitened by the variances that `levels` give there.
+    pub(super) fn visit_whitened(
+        &self,
+        levels: Levels,
+        state: &State,
+        mut visit: impl FnMut(usize, &Line<'_, N>),
+    ) -> Option<()> {
+        if !self.is_independent() {
+            let weights = self.weights(levels, state)?;
+            return self.visit(Some(&weights), state, visit);
         }
+        for (number, group) in self.groups.iter().enumerate() {
+            let own = Whitening::Renewed(levels.assembly);
+            self.visit_independent(group, own, state, |line| visit(number, line))?;
+        }
+        Some(())
     }
 
-    fn add_entries_to<const E: usize>(&self, normal: &mut Normal) {
-        let count = self.joint_entries.len();
-        let own_rows = || self.by_joint.chunks_exact(self.residual.len());
-        for (slot, (rows, &joint)) in own_rows().zip(&self.joints).enumerate() {
-            let first = self.unknowns_of(joint).start;
-            let mut sums = Sums::<E>::new();
-            for (residual, row) in self.residual.iter().zip(rows) {
-                if let Some(row) = row.first_chunk::<E>() {
-                    sums.add(1.0, *residual, row, count);
+    /// The same, whitened, with the derivatives by the joint.
+    pub(super) fn visit_scores(
+        &self,
+        weights: &[Weights],
+        state: &State,
+        mut visit: impl FnMut(usize, &Line<'_, N>),
+    ) -> Option<()> {
+        for (number, weights) in weights.iter().enumerate() {
+            self.visit_linearised(number, Some(weights), state, |line| visit(number, line))?;
+        }
+        Some(())
+    }
+
+    fn visit_independent(
+        &self,
+        group: &Group<N>,
+        whitening: Whitening<'_>,
+        state: &State,
+        mut visit: impl FnMut(&Line<'_, N>),
+    ) -> Option<()> {
+        let unknowns = state.unknowns.as_slice();
+        let blocks = group.blocks.iter();
+        let computed: Option<Vec<Vec<Complex64>>> = blocks
+            .map(|block| independent::computed(block, self.entries, unknowns))
+            .collect();
+        let computed = computed?;
+        let mut line = Line::new(group, self.entries);
+        for index in 0..group.lines() {
+            line.take(index, &computed);
+            match whitening {
+                Whitening::None => {}
+                Whitening::Held(weights) => {
+                    let (variances, _) = line.weights(weights, index);
+                    line.whiten_independent(variances);
                 }
+                Whitening::Renewed(level) => line.whiten_by(level),
             }
-            sums.add_to(normal, self.omega, count, first);
-            // Common errors of the substructures couple the joints of assemblies that share them.
-            for (others, &other) in own_rows().zip(&self.joints).take(slot) {
-                let first = (first, self.unknowns_of(other).start);
-                add_coupling(normal, self.omega, count, first, rows.iter().zip(others));
+            visit(&line);
+        }
+        Some(())
+    }
+
+    fn visit_linearised(
+        &self,
+        number: usize,
+        weights: Option<&Weights>,
+        state: &State,
+        mut visit: impl FnMut(&Line<'_, N>),
+    ) -> Option<()> {
+        let group = &self.groups[number];
+        let mut line = Line::new(group, self.entries);
+        let sources = group.sources.len();
+        for index in 0..group.lines() {
+            let delta = &state.corrections[number][index * sources..(index + 1) * sources];
+            line.linearise(index, state.unknowns.as_slice(), delta)?;
+            if let Some(weights) = weights {
+                let variances = line.weights(weights, index);
+                line.whiten(variances, delta)?;
+            } else {
+                line.add_corrections(delta);
             }
+            visit(&line);
         }
-    }
-
-    /// Jᵀr of this whitened line by the unknowns: what it adds to the gradient.
-    pub(super) fn score(&self) -> Vec<f64> {
-        let count = self.joint_entries.len();
-        let mut score = vec![0.0; self.unknowns];
-        let own_rows = self.by_joint.chunks_exact(self.residual.len());
-        for (rows, &joint) in own_rows.zip(&self.joints) {
-            let first = self.unknowns_of(joint).start;
-            for (residual, row) in self.residual.iter().zip(rows) {
-                for t in 0..count {
-                    let product = row[t].conj() * residual;
-                    score[first + t] += product.re;
-                    score[first + count + t] += self.omega * product.im;
-                }
-            }
-        }
-        score
-    }
-
-    /// ln det Σ of the whitened line.
-    pub(super) fn log_determinant(&self) -> f64 {
-        self.log_determinant
-    }
-}
-
-/// Sums over the entries of one line.
-struct Sums<const E: usize> {
-    cost: f64,
-    signal: f64,
-    /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
-    products: [[Complex64; E]; E],
-    /// Σ conj(∂H/∂K*_i) r / σ²
-    right: [Complex64; E],
-}
-
-impl<const E: usize> Sums<E> {
-    fn new() -> Self {
-        Self {
-            cost: 0.0,
-            signal: 0.0,
-            products: [[ZERO; E]; E],
-            right: [ZERO; E],
-        }
-    }
-
-    #[inline]
-    fn add(&mut self, weight: f64, residual: Complex64, row: &[Complex64; E], count: usize) {
-        // Rows beyond `count` are zero, so that the loops of one joint can be unrolled.
-        debug_assert!(count <= E);
-        let count = if E > ENTRIES_OF_ONE { count } else { E };
-        for i in 0..count {
-            let conjugate = row[i].conj() * weight;
-            self.right[i] += conjugate * residual;
-            for j in 0..=i {
-                self.products[i][j] += conjugate * row[j];
-            }
-        }
-    }
-
-    /// ∂K*/∂k = E, ∂K*/∂c = jωE, of the joint whose unknowns begin at `first`.
-    fn add_to(&self, normal: &mut Normal, omega: f64, count: usize, first: usize) {
-        let (k, c) = (first, first + count);
-        for i in 0..count {
-            normal.gradient[k + i] += self.right[i].re;
-            normal.gradient[c + i] += omega * self.right[i].im;
-            for j in 0..=i {
-                let product = self.products[i][j];
-                normal.matrix[(k + i, k + j)] += product.re;
-                normal.matrix[(c + i, c + j)] += omega * omega * product.re;
-                normal.matrix[(c + i, k + j)] += omega * product.im;
-                if i != j {
-                    normal.matrix[(c + j, k + i)] -= omega * product.im;
-                }
-            }
-        }
-    }
-}
-
-/// What one line adds to the normal equations between the unknowns of two joints, which begin at `first` and at `other`
-/// before it.
-fn add_coupling<'r>(
-    normal: &mut Normal,
-    omega: f64,
-    count: usize,
-    (first, other): (usize, usize),
-    rows: impl Iterator<Item = (&'r [Complex64; MAX_ENTRIES], &'r [Complex64; MAX_ENTRIES])>,
-) {
-    let mut products = [[ZERO; MAX_ENTRIES]; MAX_ENTRIES];
-    for (row, other) in rows {
-        for i in 0..count {
-            for j in 0..count {
-                products[i][j] += row[i].conj() * other[j];
-            }
-        }
-    }
-    for (i, products) in products.iter().enumerate().take(count) {
-        for (j, product) in products.iter().enumerate().take(count) {
-            // Re((∂r/∂p)* ∂r/∂q) with ∂r/∂k = ∂r/∂K* and ∂r/∂c = jω ∂r/∂K*
-            let (k, c) = (first + i, first + count + i);
-            let (other_k, other_c) = (other + j, other + count + j);
-            normal.matrix[(k, other_k)] += product.re;
-            normal.matrix[(k, other_c)] -= omega * product.im;
-            normal.matrix[(c, other_k)] += omega * product.im;
-            normal.matrix[(c, other_c)] += omega * omega * product.re;
-        }
-    }
-}
-
-/// x ← L⁻¹ x
-fn forward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
-    for row in 0..size {
-        let mut value = x[row];
-        for column in 0..row {
-            value -= factor[row * size + column] * x[column];
-        }
-        x[row] = value / factor[row * size + row].re;
-    }
-}
-
-/// x ← L⁻ᴴ x
-fn backward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
-    for row in (0..size).rev() {
-        let mut value = x[row];
-        for other in row + 1..size {
-            value -= factor[other * size + row].conj() * x[other];
-        }
-        x[row] = value / factor[row * size + row].re;
+        Some(())
     }
 }

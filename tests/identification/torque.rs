@@ -7,7 +7,7 @@ use bolted_joint::identify::{
 use nalgebra::DMatrix;
 
 use crate::cases::axis;
-use crate::measured::{Noisy, Rig, joint, unknowns};
+use crate::measured::{Noisy, Rig, joint, thesis, unknowns};
 
 const LEVEL: NoiseLevel = NoiseLevel {
     relative: 0.01,
@@ -28,7 +28,7 @@ fn over_torque() -> [JointMatrices; 4] {
 }
 
 fn rig() -> Rig {
-    Rig::new("medium joint", joint(1.0, 1.0), 0.01, axis(500.0, 2.5))
+    Rig::new("medium joint", joint(1.0, 1.0), thesis(axis(500.0, 2.5)))
 }
 
 fn identified(

@@ -185,7 +185,9 @@ fn digits_of(value: f64) -> usize {
 
 /// An error in per cent; far-off ones by their size alone.
 fn percent(value: f64) -> String {
-    if value.abs() < 1e3 {
+    if value.abs() < 0.05 {
+        "0.0 %".to_owned()
+    } else if value.abs() < 1e3 {
         format!("{value:+.1} %")
     } else {
         format!("{value:+.0e} %")

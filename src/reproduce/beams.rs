@@ -256,8 +256,8 @@ pub(super) fn table_4_4(draws: Repetition<'_>) -> Result<Reproduction, Reproduce
         differences: vec![
             "All equations are exact without noise. What noise leaves of them is a bias: it hides the smaller singular value of H_rr − H^C_rr or H_ss − H^C_ss, and the other one tells what one receptance tells.".to_owned(),
             "(3.21): the published values are those of the translation at s alone (last rows), within 7 % in all six.".to_owned(),
-            "(3.18): the published values are near the true ones, so its noise was low enough to leave the smaller singular value. Where it is not, the values are those of the translation at r alone.".to_owned(),
-            "(3.19) does not follow. Its k_thetatheta comes out between −740 and 650 with N = 2²⁴ as r goes from 0.05 to 0.25 m; from 0.15 m on that of (3.18) is within 20 % of the true one.".to_owned(),
+            "(3.18): the published values are near the true ones, so its noise was low enough to leave the smaller singular value. Where it is not, the values are within 11 % those of the translation at r alone.".to_owned(),
+            "(3.19) does not follow. Its k_thetatheta goes from about −720 to 680 with N = 2²⁴ as r goes from 0.05 to 0.25 m; from 0.15 m on that of (3.18) is within 20 % of the true one.".to_owned(),
             "Printed k_Fy of (3.21): 9.02·10⁶ with an error of 10 %; it must be 9.02·10⁵, which is the value above.".to_owned(),
         ],
         not_given: not_given(draws),

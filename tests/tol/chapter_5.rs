@@ -17,10 +17,11 @@ fn value(rows: &[&Row], quantity: &str) -> f64 {
 fn table_5_2_is_what_one_point_returns() {
     let found = chapter_5("5.2");
     for hz in ["112.5 Hz", "344 Hz"] {
-        for how in ["no noise, 2s", "1 % noise, 1s–3s"] {
-            let rows = case(found, &format!("{hz}, {how}"));
-            assert_published(&rows[..3], &[Some(0.06); 3]);
-        }
+        let alone = case(found, &format!("{hz}, no noise, 2s"));
+        assert_published(&alone[..3], &[Some(0.06); 3]);
+        // Few draws: the standard deviation of k_Fy is a tenth of it at 112.5 Hz.
+        let noisy = case(found, &format!("{hz}, 1 % noise, 1s–3s"));
+        assert_published(&noisy[..3], &[Some(0.20), Some(0.10), Some(0.06)]);
     }
     // Its dampings are a matter of phase.
     for (hz, quantities) in [

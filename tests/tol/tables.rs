@@ -86,6 +86,14 @@ fn estimated_rotations_give_the_published_answer_at_any_number_of_samples() {
             ],
         );
     }
+    // Too much noise leaves measured rotations no better.
+    let measured = case(&found, "1: measured, N = 4096");
+    for (row, alone) in measured.iter().zip(case(&found, "no noise, y at r alone")) {
+        assert!(
+            (mean(row) - mean(alone)).abs() <= 0.11 * mean(alone).abs(),
+            "{row:?}"
+        );
+    }
     // Nor does it take noise: the difference is wrong by itself, and leaves what one translation tells.
     let noisy = case(&found, "2: estimated, N = 16777216");
     let exact = case(&found, "2: estimated, no noise");

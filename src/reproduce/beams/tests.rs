@@ -72,7 +72,7 @@ fn the_rotational_stiffness_of_identification_2_depends_on_r() {
 #[test]
 fn equation_3_19_depends_on_r_more_than_3_18() {
     let draws = Draws {
-        count: 2,
+        count: 6,
         seed: 1,
         samples: Vec::new(),
     };
@@ -90,12 +90,12 @@ fn equation_3_19_depends_on_r_more_than_3_18() {
             .iter()
             .map(|joint| joint.stiffness[(1, 1)])
             .sum::<f64>()
-            / 2.0
+            / 6.0
     };
     // NumPy, other draws: −736 and 653 N·m/rad.
     let by_rs = [0.05, 0.25].map(|r_m| mean(&Case::new(r_m).unwrap(), Equation::Rs));
-    assert!((-760.0..-700.0).contains(&by_rs[0]), "{by_rs:?}");
-    assert!((600.0..700.0).contains(&by_rs[1]), "{by_rs:?}");
+    assert!((-760.0..-680.0).contains(&by_rs[0]), "{by_rs:?}");
+    assert!((620.0..740.0).contains(&by_rs[1]), "{by_rs:?}");
     for r_m in [0.15, 0.2, 0.25, 0.28] {
         let by_rr = mean(&Case::new(r_m).unwrap(), Equation::Rr);
         assert!((by_rr / 1e3 - 1.0).abs() < 0.2, "{r_m} {by_rr}");

@@ -6,7 +6,9 @@
 )]
 
 mod description;
+mod files;
 mod terminals;
+mod variables;
 mod xml;
 mod zip;
 
@@ -16,8 +18,7 @@ use std::path::{Path, PathBuf};
 
 use ::zip::ZipArchive;
 use bolted_joint::export::{
-    ExportError, ExportOptions, Exported, FmiVersion, Interface, LibrarySource, Timestamp,
-    fmu_bytes,
+    ExportError, ExportOptions, Exported, FmiVersion, Interface, Timestamp, fmu_bytes,
 };
 use bolted_joint::joint::JointFile;
 use bolted_joint_interface::Interface as Declared;

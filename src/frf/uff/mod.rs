@@ -5,7 +5,10 @@
 
 mod ahead;
 mod binary;
+mod data_type;
+mod degree_of_freedom;
 mod fields;
+mod function_type;
 mod header;
 mod lines;
 mod meaning;

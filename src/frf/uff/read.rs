@@ -6,9 +6,8 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::binary::Form;
-use super::header::{
-    COHERENCE, FREQUENCY_RESPONSE, Header, InRecord, RECORDS, function_type, function_type_name,
-};
+use super::function_type::{COHERENCE, FREQUENCY_RESPONSE, function_type_name};
+use super::header::{Header, InRecord, RECORDS, function_type};
 use super::lines::Lines;
 use super::meaning::{check_abscissa, decide};
 use super::{UffProblem, UnitSystem, binary, values};

@@ -1,8 +1,8 @@
 //! From the units of a file to SI: data set 164, unit labels and the caller's word, refused where they disagree.
 
 use super::UffProblem;
+use super::data_type::{inverse_name, is_load};
 use super::header::{Axis, Header, InRecord};
-use super::meaning::{inverse_name, is_load};
 use super::units::{UnitSystem, agree};
 use crate::frf::unit_label::Unit;
 use crate::frf::{Direction, ReadOptions};

@@ -114,11 +114,17 @@ impl<const N: usize> Block<N> {
                     .iter()
                     .filter(|place| measured.contains(place))
             };
-            let mean =
-                own().map(|&place| assembly[place]).sum::<Complex64>() / own().count() as f64;
+            // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
+            let weight = |place: (usize, usize)| lines.known_variance(place, line).recip();
+            let total: f64 = own().map(|&place| weight(place)).sum();
+            let mean = own()
+                .map(|&place| assembly[place] * weight(place))
+                .sum::<Complex64>()
+                / total;
             self.measured.push(mean);
+            let common = own().count() as f64 / total;
             let between: f64 = own()
-                .map(|&place| (assembly[place] - mean).norm_sqr())
+                .map(|&place| common * weight(place) * (assembly[place] - mean).norm_sqr())
                 .sum();
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
@@ -127,19 +133,8 @@ impl<const N: usize> Block<N> {
                 }
                 None => between,
             });
-        }
-        if let Some(known) = &lines.relative_variance {
-            for entry in &self.entries {
-                let place =
-                    |(p, q): (usize, usize)| (p.min(q), p.max(q)) == (entry.row, entry.column);
-                let of_entry = || {
-                    let pairs = lines.measured.iter().zip(known);
-                    pairs
-                        .filter(|&(&pair, _)| place(pair))
-                        .map(|(_, v)| v[line])
-                };
-                self.known
-                    .push(of_entry().sum::<f64>() / of_entry().count().max(1) as f64);
+            if lines.relative_variance.is_some() {
+                self.known.push(common);
             }
         }
     }

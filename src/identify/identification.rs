@@ -37,7 +37,7 @@ pub struct Identification {
     pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
-    /// χ² over degrees of freedom, where the study states the noise: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
     pub reduced_chi_squared: Option<f64>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
@@ -140,9 +140,8 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
-        reduced_chi_squared: study
-            .noise
-            .is_stated()
+        reduced_chi_squared: (estimate.assessment.noise_is_stated
+            || estimate.assessment.noise_is_known)
             .then_some(estimate.assessment.reduced_chi_squared)
             .flatten(),
         starts: estimate.starts,

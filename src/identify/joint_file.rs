@@ -54,6 +54,8 @@ impl Identification {
         }
         let noise = if self.noise_is_stated {
             "the stated noise"
+        } else if self.estimate.assessment().noise_is_known {
+            "the noise that coherence and averages tell"
         } else {
             "the noise that the residual shows"
         };

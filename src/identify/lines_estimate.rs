@@ -109,7 +109,8 @@ impl LinesEstimate {
         &self.assessment
     }
 
-    /// Noise of the assembly's functions, stated or estimated; `None` without degrees of freedom to estimate it.
+    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
+    /// degrees of freedom to estimate it.
     #[must_use]
     pub fn noise_level(&self) -> Option<NoiseLevel> {
         self.noise_level
@@ -215,7 +216,8 @@ fn identify_with<const N: usize>(
         free,
         passive,
         noise_level: (noise.is_stated() || estimate.degrees_of_freedom > 0)
-            .then_some(estimate.levels.assembly),
+            .then_some(estimate.levels.assembly)
+            .filter(|_| !found.assessment.noise_is_known),
         covariance,
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
@@ -290,8 +292,10 @@ fn covariance<const N: usize>(
     let estimate = &found.estimate;
     let unit = uncertainty::unit_covariance(&estimate.information);
     let reduced = estimate.reduced_chi_squared();
-    // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level.
+    // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level. What coherence
+    // tells is the least that the noise can be.
     let (scale, freedom) = match reduced {
+        Some(chi) if found.assessment.noise_is_known => (chi.max(1.0), usize::MAX),
         Some(chi) if !noise.is_stated() => (chi, estimate.degrees_of_freedom),
         Some(chi) if found.assessment.chi_squared_excess > assessment::SIGNIFICANT => {
             (chi, usize::MAX)
@@ -301,7 +305,7 @@ fn covariance<const N: usize>(
     };
     let mut matrix = &unit * scale;
     let mut inflation = vec![scale.max(1.0).sqrt(); unit.nrows()];
-    if !noise.is_stated() {
+    if !noise.is_stated() && !found.assessment.noise_is_known {
         inflation.fill(1.0);
     }
     if found.assessment.line_correlation_excess > assessment::SIGNIFICANT

@@ -8,6 +8,7 @@
 mod bench;
 mod check;
 mod check_run;
+mod coherence;
 mod communication_step;
 mod demo;
 mod estimator;

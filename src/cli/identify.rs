@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         "identifying",
         bootstrap.map_or(0, |bootstrap| bootstrap.draws),
     );
-    let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
+    let found = identify_and_draw(&study, bootstrap, &progress)?;
     drop(progress);
     let joint_file = found.joint_file();
     let drawing = arguments

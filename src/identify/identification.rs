@@ -1,16 +1,18 @@
 //! The identification itself, from lines to a joint with its uncertainty.
 
-use crate::frf::Dof;
+use crate::frf::{Dof, FileSummary};
 use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
+use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
+use super::provenance;
 use super::study::Study;
-use super::{assemble, provenance};
+use super::watch::Watch;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -45,6 +47,8 @@ pub struct Identification {
     pub warnings: Vec<String>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
+    /// What each file of functions states.
+    pub files: Vec<FileSummary>,
     pub(super) provenance: Provenance,
     pub(super) torque_n_m: Option<[f64; 2]>,
     pub(super) noise_is_stated: bool,
@@ -83,24 +87,28 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
     identify_and_draw(study, None, &|| ())
 }
 
-/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `progress` is called
-/// after each draw.
+/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `watch` is told how far it
+/// has come.
 ///
 /// # Errors
 /// As [`identify`].
 pub fn identify_and_draw(
     study: &Study,
     bootstrap: Option<Bootstrap>,
-    progress: &(dyn Fn() + Sync),
+    watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
-    let (all, mut warnings) = assemble::lines(study)?;
+    let Assembled {
+        lines: all,
+        files,
+        mut warnings,
+    } = assemble::lines(study, watch)?;
     let options = Options {
         noise: study.noise,
         bands: study.bands.clone(),
         start: None,
         compare_models: true,
         bootstrap,
-        progress: Some(progress),
+        progress: Some(&|| watch.drawn()),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
@@ -125,7 +133,7 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let provenance = provenance::of(study)?;
+    let provenance = provenance::of(study, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
@@ -146,6 +154,7 @@ pub fn identify_and_draw(
             .flatten(),
         starts: estimate.starts,
         warnings,
+        files,
         provenance,
         torque_n_m: torques(study),
         noise_is_stated: study.noise.is_stated(),

@@ -32,6 +32,7 @@ mod study;
 mod two_step;
 mod uncertainty;
 mod unknown;
+mod watch;
 mod weights;
 
 pub use assemble::{predict_assembly, predict_lines};
@@ -51,3 +52,4 @@ pub use study::{FrfFile, FurtherAssembly, Rotation, Source, Study, Substructure}
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::Covariance;
 pub use unknown::Unknown;
+pub use watch::Watch;

@@ -11,7 +11,8 @@ use super::array::Array;
 use super::axes::Over;
 use crate::frf::gathered::Gathered;
 use crate::frf::statement::{Stated, Statement};
-use crate::frf::{Coherence, Dof, FrfReading, Quantity, ReadOptions};
+use crate::frf::summary::Statements;
+use crate::frf::{Coherence, Dof, FileFormat, FrfReading, Quantity, ReadOptions};
 
 /// How the elements of a matrix lie.
 pub(super) struct Place {
@@ -157,22 +158,25 @@ impl Functions<'_> {
             path: path.to_owned(),
             functions: Vec::new(),
             coherences: Vec::new(),
-            averages: self.options.averages.or(averages),
+            averages: self.options.averages_or(averages),
             not_selected: BTreeSet::new(),
             skipped_functions: Vec::new(),
             skipped_datasets: 0,
-            units_stated: true,
+            statements: Statements::default(),
         };
         for ((&pair, stated), values) in self.pairs.iter().zip(stated).zip(lines) {
             let Some(stated) = stated else {
                 reading.not_selected.insert(pair);
                 continue;
             };
-            reading.units_stated &= stated.units_stated;
             let gathered = Gathered::of_band(kept_hz.clone(), values, &self.frequency_hz);
             let selection = &self.options.selection;
-            let frf = gathered.into_frf(pair, stated.quantity, stated.to_si, selection);
+            let frf = gathered.into_frf(pair, stated.quantity.0, stated.to_si, selection);
             reading.functions.push(frf.map_err(function)?);
+            let units = stated.units.clone();
+            reading
+                .statements
+                .add(FileFormat::Archive, stated.quantity, units);
         }
         for (&pair, values) in self.pairs.iter().zip(coherence.unwrap_or_default()) {
             if self.wants(pair) {

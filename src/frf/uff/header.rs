@@ -1,5 +1,7 @@
 //! The eleven header records of data set 58: which function this is, between what, and how its values are stored.
 
+use std::ops::RangeInclusive;
+
 use super::UffProblem;
 use super::degree_of_freedom::dof;
 use super::fields::{columns, split_blanks, split_columns};
@@ -8,6 +10,9 @@ use crate::frf::Dof;
 
 /// Header records before the values.
 pub(super) const RECORDS: usize = 11;
+
+/// No quantity has a length or a force to a higher power.
+const UNIT_EXPONENTS: RangeInclusive<i32> = -9..=9;
 
 /// A problem and the record (1 to 11) in which it is.
 pub(super) type InRecord = (usize, UffProblem);
@@ -183,10 +188,17 @@ fn axis(line: &str, record: usize) -> Result<Axis, InRecord> {
         false => String::new(),
     };
     let expected = "a whole number";
+    let exponent = |text: &str, name| -> Result<i32, InRecord> {
+        let exponent = integer(text, record, name, expected)?;
+        match UNIT_EXPONENTS.contains(&exponent) {
+            true => Ok(exponent),
+            false => Err(field(record, name, text, "a whole number from -9 to 9")),
+        }
+    };
     Ok(Axis {
         data_type: integer(&data_type, record, "the specific data type", expected)?,
-        length_exponent: integer(&length, record, "the length units exponent", expected)?,
-        force_exponent: integer(&force, record, "the force units exponent", expected)?,
+        length_exponent: exponent(&length, "the length units exponent")?,
+        force_exponent: exponent(&force, "the force units exponent")?,
         label: label(25, 46),
         units_label: label(46, 80),
     })
@@ -350,6 +362,11 @@ mod tests {
             ),
             (6, "", "ordinate data type"),
             (8, "acceleration", "specific data type"),
+            (
+                8,
+                "8 -2147483648 0 0 NONE NONE",
+                "as the length units exponent, expected a whole number from -9 to 9",
+            ),
         ] {
             let mut records = records();
             records[index] = line.to_owned();

@@ -137,8 +137,25 @@ impl<R: BufRead> Lines<R> {
             if self.delimiter_follows()? {
                 return Ok(true);
             }
-            if self.take_bytes(1, None)? == 0 {
-                return Ok(false);
+            let mut passed = 0;
+            loop {
+                let ahead = match self.reader.fill_buf() {
+                    Ok(ahead) => ahead,
+                    Err(source) if source.kind() == ErrorKind::Interrupted => continue,
+                    Err(source) => return Err(self.failed(source)),
+                };
+                if ahead.is_empty() {
+                    return Ok(false);
+                }
+                // At least one byte, and all up to one that a closing `-1` may begin with.
+                let least = usize::from(passed == 0).min(ahead.len());
+                let begins = |byte: &u8| matches!(byte, b' ' | b'\r' | b'\n');
+                let next = ahead[least..].iter().position(begins);
+                let count = next.map_or(ahead.len(), |next| least + next);
+                passed += self.take_bytes(count as u64, None)?;
+                if next.is_some() {
+                    break;
+                }
             }
         }
     }

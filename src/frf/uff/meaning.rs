@@ -5,15 +5,14 @@ use super::data_type::{Kind, data_type_name, inverse_name, kind};
 use super::header::{Axis, Header, InRecord};
 use super::scale::{UnitLabels, decide_scale};
 use super::units::UnitSystem;
-use crate::frf::{Quantity, ReadOptions};
+use crate::frf::{Quantity, ReadOptions, StatedBy, UnitStatement};
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Meaning {
-    pub(super) quantity: Quantity,
+    pub(super) quantity: (Quantity, StatedBy),
     pub(super) to_si: f64,
-    /// Whether the units are stated (or given by the caller) rather than taken for SI.
-    pub(super) units_stated: bool,
+    pub(super) units: UnitStatement,
 }
 
 /// A statement of the file, for messages.
@@ -35,11 +34,11 @@ pub(super) fn decide(
     check_abscissa(&header.abscissa)?;
     let labels = UnitLabels::read(header)?;
     let quantity = decide_quantity(header, &labels, options)?;
-    let (to_si, units_stated) = decide_scale(header, &labels, dataset_164, options)?;
+    let (to_si, units) = decide_scale(header, &labels, dataset_164, options)?;
     Ok(Meaning {
         quantity,
         to_si,
-        units_stated,
+        units,
     })
 }
 
@@ -60,7 +59,7 @@ fn decide_quantity(
     header: &Header,
     labels: &UnitLabels,
     options: &ReadOptions,
-) -> Result<Quantity, InRecord> {
+) -> Result<(Quantity, StatedBy), InRecord> {
     let (numerator, denominator) = (header.numerator.data_type, header.denominator.data_type);
     let by_type = match (kind(numerator), kind(denominator)) {
         // An unstated denominator of a frequency response function is its load.
@@ -104,12 +103,12 @@ fn decide_quantity(
         });
     let by_label = quantity_of_axis_label(&header.numerator.label)?;
     if let Some(quantity) = options.quantity {
-        return Ok(quantity);
+        return Ok((quantity, StatedBy::Caller));
     }
     let mut statements = [by_type, by_unit, by_label].into_iter().flatten();
     let first = statements.next().ok_or((9, UffProblem::UnknownQuantity))?;
     match statements.find(|statement| statement.quantity != first.quantity) {
-        None => Ok(first.quantity),
+        None => Ok((first.quantity, StatedBy::File)),
         Some(second) => Err((
             second.record,
             UffProblem::ContradictingQuantities {
@@ -236,9 +235,9 @@ mod tests {
                 assert_eq!(
                     meaning,
                     Meaning {
-                        quantity,
+                        quantity: (quantity, StatedBy::File),
                         to_si: 1.0,
-                        units_stated: false
+                        units: UnitStatement::Assumed
                     }
                 );
             }
@@ -255,7 +254,7 @@ mod tests {
             ("", "g", Quantity::Accelerance),
         ] {
             let meaning = decided(axis(0, label, unit), axis(0, "", ""), None).unwrap();
-            assert_eq!(meaning.quantity, quantity, "{label} {unit}");
+            assert_eq!(meaning.quantity.0, quantity, "{label} {unit}");
         }
         for (label, unit) in [
             ("", ""),
@@ -310,7 +309,7 @@ mod tests {
             };
             assert_eq!(
                 decide(&header, None, &stated).unwrap().quantity,
-                Quantity::Mobility
+                (Quantity::Mobility, StatedBy::Caller)
             );
         }
     }

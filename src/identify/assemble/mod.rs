@@ -12,15 +12,30 @@ pub use prediction::{predict_assembly, predict_lines};
 use super::error::IdentifyError;
 use super::lines::Lines;
 use super::study::{Study, Substructure};
+use super::watch::Watch;
+use crate::frf::FileSummary;
 use axis::Axis;
 use labelled::{Completeness, labelled_functions};
 use reader::{Reader, in_file};
 use repeats::repeated;
 use substructure::substructures;
 
-/// Everything that the study names, line by line for each assembly, and what the user should know about the files.
-pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), IdentifyError> {
-    let mut reader = Reader::default();
+/// What the files of a study hold.
+pub(super) struct Assembled {
+    /// Everything that the study names, line by line for each assembly.
+    pub(super) lines: Vec<Lines>,
+    /// What each file of functions states.
+    pub(super) files: Vec<FileSummary>,
+    /// What the user should know about the files.
+    pub(super) warnings: Vec<String>,
+}
+
+/// Reads everything that the study names.
+pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, IdentifyError> {
+    let mut reader = Reader {
+        watch: Some(watch),
+        ..Reader::default()
+    };
     let mut all = vec![assembly_lines(study, &mut reader)?];
     for further in &study.further {
         let its_study = Study {
@@ -48,7 +63,11 @@ pub(super) fn lines(study: &Study) -> Result<(Vec<Lines>, Vec<String>), Identify
     }
     reader.warnings.sort();
     reader.warnings.dedup();
-    Ok((all, reader.warnings))
+    Ok(Assembled {
+        lines: all,
+        files: reader.files,
+        warnings: reader.warnings,
+    })
 }
 
 /// A and B of the first `count` assemblies.

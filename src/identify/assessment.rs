@@ -24,7 +24,7 @@ pub struct Assessment {
     pub reduced_chi_squared: Option<f64>,
     /// Whether the noise was stated, so that χ² is a test.
     pub noise_is_stated: bool,
-    /// Whether coherence tells the variance of everything that is not stated, line by line. It is an estimate itself, so that
+    /// Whether coherence tells the variance of all of the assembly, and of the substructures where it is not stated. It is an estimate itself, so that
     /// χ² does not reject: with n averages its mean is n/(n − 2).
     pub noise_is_known: bool,
     /// χ² too high, in its standard deviations.
@@ -102,10 +102,11 @@ pub(super) fn assess<const N: usize>(
     let reduced = estimate.reduced_chi_squared();
     let freedom = estimate.degrees_of_freedom as f64;
     let lines: usize = objective.groups.iter().map(|group| group.lines()).sum();
+    let noise_is_known = is_known(objective, noise);
     Some(Assessment {
         reduced_chi_squared: reduced,
-        noise_is_stated: noise.is_stated(),
-        noise_is_known: !noise.is_stated() && is_known(objective, noise),
+        noise_is_stated: noise.is_stated() && !noise_is_known,
+        noise_is_known,
         chi_squared_excess: reduced.map_or(0.0, |chi| (chi - 1.0) / (2.0 / freedom).sqrt()),
         line_correlation,
         line_correlation_excess: line_correlation / deviation,

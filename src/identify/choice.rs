@@ -65,8 +65,8 @@ pub(super) fn compare<const N: usize>(
         .map(|fit| ModelFit {
             model: fit.0,
             bic_difference: bic(fit) - lowest,
-            reduced_chi_squared: noise
-                .is_stated()
+            reduced_chi_squared: (fit.1.assessment.noise_is_stated
+                || fit.1.assessment.noise_is_known)
                 .then(|| fit.1.estimate.reduced_chi_squared())
                 .flatten(),
             adequate: fit.1.assessment.fits(),

@@ -52,10 +52,10 @@ impl Identification {
         if deviation.iter().any(|value| !value.is_finite()) {
             return None;
         }
-        let noise = if self.noise_is_stated {
-            "the stated noise"
-        } else if self.estimate.assessment().noise_is_known {
+        let noise = if self.estimate.assessment().noise_is_known {
             "the noise that coherence and averages tell"
+        } else if self.noise_is_stated {
+            "the stated noise"
         } else {
             "the noise that the residual shows"
         };

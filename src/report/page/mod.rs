@@ -2,6 +2,7 @@
 
 mod decoupled;
 mod figure;
+mod files;
 mod functions;
 mod judgement;
 mod measured;

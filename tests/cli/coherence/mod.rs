@@ -3,6 +3,7 @@
 
 mod likelihood;
 mod measurement;
+mod told;
 
 use nalgebra::Vector6;
 use rand_chacha::ChaCha8Rng;

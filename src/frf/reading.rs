@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::summary::{FileSummary, StatedBy, Statements};
+use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
 use super::{Coherence, Dof, Frf, FrfError, FrfSet};
 
 /// A function of a file that is no frequency response function and was passed over.
@@ -102,6 +102,9 @@ impl FrfReading {
             units,
             coherences: self.coherences.len(),
             averages: self.averages,
+            coherence_noise: self
+                .averages()
+                .and_then(|averages| coherence_noise(&self.coherences, averages)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{ByteOrder, Quantity, UnitSystem};
+use super::{ByteOrder, Coherence, Quantity, UnitSystem, relative_variance};
 
 /// Different statements of one kind that are kept.
 const MOST_LISTED: usize = 12;
@@ -61,6 +61,19 @@ pub struct FileSummary {
     pub coherences: usize,
     /// Averages behind every function, where they are known, and who says so.
     pub averages: Option<(f64, StatedBy)>,
+    /// Lowest, median and highest σ/|H| over the lines that coherence and averages give, where both are known.
+    pub coherence_noise: Option<[f64; 3]>,
+}
+
+/// Lowest, median and highest σ/|H| of coherences with this number of averages.
+pub(super) fn coherence_noise(coherences: &[Coherence], averages: f64) -> Option<[f64; 3]> {
+    let lines = coherences.iter().flat_map(Coherence::gamma_squared);
+    let mut noise: Vec<f64> = lines
+        .map(|&gamma_squared| relative_variance(gamma_squared, averages).sqrt())
+        .collect();
+    noise.sort_by(f64::total_cmp);
+    let median = noise.get(noise.len() / 2)?;
+    Some([*noise.first()?, *median, *noise.last()?])
 }
 
 /// Statements about the functions of a file, each once.

@@ -24,6 +24,9 @@ const MATRIX: &[&str] = &[
 const RESPONSE: &[&str] = &["response", "responses"];
 const REFERENCE: &[&str] = &["reference", "references"];
 
+/// More functions than any test has: a thousand responses to a thousand references.
+const MOST_FUNCTIONS: usize = 1 << 20;
+
 /// Reads the functions of a NumPy archive (`.npz`), stored or deflated.
 ///
 /// Its arrays are `frequency` (Hz), `frf` (real or complex, with one axis for responses, one for references, one for
@@ -92,8 +95,16 @@ fn read(
     let unit = archive.text("unit")?;
     let averages = archive.averages()?;
     let array = archive.array(&matrix)?;
-    // Before anything is reserved for them: as many functions as the names make are in the file.
+    // Before anything is reserved for them: as many functions as the names make are in the file, and not too many, since a
+    // swollen matrix takes next to no room there.
     let matrix_place = place(&matrix, &array.header)?;
+    if responses.len().saturating_mul(references.len()) > MOST_FUNCTIONS {
+        return Err(NpzProblem::TooMany {
+            responses: responses.len(),
+            references: references.len(),
+            limit: MOST_FUNCTIONS,
+        });
+    }
     let functions = Functions {
         pairs: (0..responses.len() * references.len())
             .map(|index| {

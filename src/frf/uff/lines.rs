@@ -245,6 +245,37 @@ mod tests {
     }
 
     #[test]
+    fn a_closing_delimiter_is_found_among_any_bytes() {
+        let filling: [&[u8]; 6] = [
+            b"",
+            b"\0\0",
+            b"     ",
+            b"\n\r    -\r\n   -1\n     -2\n",
+            b"x    -1x\n    -12\n",
+            &[7; 300],
+        ];
+        for before in filling {
+            for first in filling {
+                for end in ["    -1", "    -1\n", "\n    -1   \r\n", "\r\n    -1\nmore"] {
+                    let bytes = [before, first, end.as_bytes()].concat();
+                    let mut lines = lines(&bytes);
+                    assert!(lines.skip_to_delimiter().unwrap(), "{bytes:?}");
+                    while lines.advance().unwrap() && !lines.is_delimiter() {}
+                    assert!(lines.is_delimiter());
+                    let newlines = bytes
+                        .iter()
+                        .rev()
+                        .skip_while(|b| **b != b'1')
+                        .filter(|b| **b == b'\n');
+                    assert_eq!(lines.number(), 1 + newlines.count());
+                }
+            }
+            let mut without = lines(before);
+            assert!(!without.skip_to_delimiter().unwrap());
+        }
+    }
+
+    #[test]
     fn an_endless_line_is_refused_before_it_fills_the_memory() {
         let mut lines = Lines::new(
             std::io::BufReader::new(std::io::repeat(b'x')),

@@ -1,8 +1,8 @@
 //! The measured files: how they are written, and by whose word their values are what they were taken for.
 
-use super::IdentificationReport;
+use super::{IdentificationReport, counted};
 use crate::frf::{ByteOrder, FileFormat, FileSummary, StatedBy, UnitStatement, UnitSystem};
-use crate::html::{cell, escaped, number, table};
+use crate::html::{cell, escaped, number, percent, table};
 
 /// Units of length and force that have a name, with how many make one SI unit.
 const LENGTHS: [(&str, f64); 6] = [
@@ -124,8 +124,25 @@ fn coherence(file: &FileSummary) -> String {
     match (file.coherences, file.averages) {
         (0, _) => "none".to_owned(),
         (count, Some((averages, by))) => {
-            format!("{count}; {} averages ({})", number(averages), who(by))
+            let noise = file.coherence_noise.map(|[lowest, median, highest]| {
+                format!(
+                    "; <i>σ</i>/|<i>H</i>| from {} to {}, median {}",
+                    percent(lowest),
+                    percent(highest),
+                    percent(median)
+                )
+            });
+            format!(
+                "{}; {} averages ({}){}",
+                counted(count, "function"),
+                number(averages),
+                who(by),
+                noise.unwrap_or_default()
+            )
         }
-        (count, None) => format!("{count}, not used: nobody states the averages"),
+        (count, None) => format!(
+            "{}, not used: nobody states the averages",
+            counted(count, "function")
+        ),
     }
 }

@@ -14,7 +14,7 @@ use crate::identify::{Sensitivity, Unknown, sensitivities};
 
 /// Functions of one assembly whose sensitivities are drawn at most, and of all; but one of each.
 const MOST_FIGURES: usize = 3;
-const MOST_OF_ALL: usize = 9;
+const MOST_OF_ALL: usize = 6;
 const HEIGHT: f64 = 240.0;
 const DECADES: i32 = 5;
 

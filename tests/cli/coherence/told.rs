@@ -35,6 +35,7 @@ const COHERENT: &str = "of the assembly: from coherence, line by line";
 
 #[test]
 fn every_format_is_named_with_what_the_file_states() {
+    // γ² = 0.9 of 20 averages: √(0.1/(20·0.9)) = 7.45 %
     let functions = silent_assembly();
     for (name, bytes, more, expected) in [
         (
@@ -46,7 +47,7 @@ fn every_format_is_named_with_what_the_file_states() {
                 "9",
                 "receptance (file)",
                 "SI (assumed: nobody states them)",
-                "9; 20 averages (study)",
+                "9 functions; 20 averages (study); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %",
             ],
         ),
         (
@@ -58,7 +59,7 @@ fn every_format_is_named_with_what_the_file_states() {
                 "9",
                 "receptance (file)",
                 "m/N (file)",
-                "9; 20 averages (file)",
+                "9 functions; 20 averages (file); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %",
             ],
         ),
         (
@@ -70,7 +71,7 @@ fn every_format_is_named_with_what_the_file_states() {
                 "9",
                 "receptance (file)",
                 "m/N (file)",
-                "9; 20 averages (file)",
+                "9 functions; 20 averages (file); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %",
             ],
         ),
     ] {
@@ -130,7 +131,7 @@ fn coherence_without_averages_is_told_to_be_unused() {
     let page = page(&bench);
     assert_eq!(
         row(&page, "measured.uff")[5],
-        "9, not used: nobody states the averages"
+        "9 functions, not used: nobody states the averages"
     );
     assert!(!page.contains(COHERENT) && page.contains("estimated from the residual"));
 }

@@ -111,3 +111,25 @@ fn deep_nesting_is_an_error() {
         assert!(Study::from_toml(&text, Path::new("study.toml")).is_err());
     }
 }
+
+/// A path to something else, such as a measurement, does not fill the memory.
+#[test]
+fn files_of_texts_are_not_read_to_an_end_that_is_far() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.toml");
+    std::fs::File::create(&path)
+        .unwrap()
+        .set_len(20_000_000_000)
+        .unwrap();
+    let messages = [
+        Study::read(&path).unwrap_err().to_string(),
+        ModalModel::read(&path).unwrap_err().to_string(),
+        JointFile::read(&path).unwrap_err().to_string(),
+    ];
+    for message in messages {
+        assert!(
+            message.contains("long.toml: found more than 16777216 bytes, expected"),
+            "{message}"
+        );
+    }
+}

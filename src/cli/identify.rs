@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         "identifying",
         bootstrap.map_or(0, |bootstrap| bootstrap.draws),
     );
-    let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
+    let found = identify_and_draw(&study, bootstrap, &progress)?;
     drop(progress);
     let joint_files = found.joint_files();
     let drawing = arguments

@@ -92,9 +92,6 @@ impl<const N: usize> Block<N> {
             block.push_substructures(lines, line);
             block.push_assembly(lines, &places, line);
         }
-        if let Some(known) = &lines.relative_variance {
-            block.add_known(lines, known, stride);
-        }
         block.dynamic_stiffness = std::array::from_fn(|dof| {
             let diagonal = block.free.iter().map(|free| free[dof][dof]);
             let mut sizes: Vec<f64> = diagonal.map(|value| value.norm_sqr()).collect();
@@ -125,17 +122,30 @@ impl<const N: usize> Block<N> {
 
     fn push_assembly(&mut self, lines: &Lines, places: &[Vec<(usize, usize)>], line: usize) {
         let assembly = &lines.assembly[line];
+        let is_known = lines.relative_variance.is_some();
         for places in places {
             if let ([place], None) = (&places[..], &lines.repeats) {
                 self.measured.push(assembly[*place]);
                 self.scatter.push(0.0);
+                if is_known {
+                    self.known.push(lines.known_variance(*place, line));
+                }
                 continue;
             }
-            let sum: Complex64 = places.iter().map(|&place| assembly[place]).sum();
-            let mean = sum / places.len() as f64;
+            // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
+            let weight = |place: (usize, usize)| lines.known_variance(place, line).recip();
+            let total: f64 = places.iter().map(|&place| weight(place)).sum();
+            let weighted = places.iter().map(|&place| assembly[place] * weight(place));
+            let mean = weighted.sum::<Complex64>() / total;
             self.measured.push(mean);
-            let difference = |&place: &(usize, usize)| (assembly[place] - mean).norm_sqr();
+            let common = places.len() as f64 / total;
+            let difference = |&place: &(usize, usize)| {
+                common * weight(place) * (assembly[place] - mean).norm_sqr()
+            };
             let between: f64 = places.iter().map(difference).sum();
+            if is_known {
+                self.known.push(common);
+            }
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
                     let scatter = &repeats.scatter[line];
@@ -144,25 +154,6 @@ impl<const N: usize> Block<N> {
                 }
                 None => between,
             });
-        }
-    }
-
-    fn add_known(&mut self, lines: &Lines, known: &[Vec<f64>], stride: usize) {
-        let of_entry: Vec<Vec<&Vec<f64>>> = self
-            .entries
-            .iter()
-            .map(|entry| {
-                let pairs = lines.measured.iter().zip(known);
-                let own =
-                    pairs.filter(|&(&(p, q), _)| (p.min(q), p.max(q)) == (entry.row, entry.column));
-                own.map(|(_, variances)| variances).collect()
-            })
-            .collect();
-        for line in (0..lines.frequency_hz.len()).step_by(stride) {
-            for variances in &of_entry {
-                let sum: f64 = variances.iter().map(|variances| variances[line]).sum();
-                self.known.push(sum / variances.len().max(1) as f64);
-            }
         }
     }
 

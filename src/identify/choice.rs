@@ -5,9 +5,8 @@ use nalgebra::DVector;
 use super::estimator::Estimate;
 use super::layout::Layout;
 use super::model::JointModel;
-use super::noise::Noise;
 use super::search::{Effort, Found};
-use super::torque::{Problem, stated_chi_squared};
+use super::torque::{Problem, tested_chi_squared};
 
 /// The joint models that the data allow, compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +44,6 @@ pub(super) fn bayesian_criterion(estimate: &Estimate) -> f64 {
 pub(super) fn compare<const N: usize>(
     problem: &Problem<'_, N>,
     layout: &Layout,
-    noise: &Noise,
     found: &Found,
 ) -> ModelChoice {
     let all = [
@@ -77,7 +75,7 @@ pub(super) fn compare<const N: usize>(
             model: fit.0.model(),
             unknowns: fit.1.estimate.unknowns.len(),
             bic_difference: bic(fit) - lowest,
-            reduced_chi_squared: stated_chi_squared(noise, &fit.1.estimate),
+            reduced_chi_squared: tested_chi_squared(&fit.1),
             adequate: fit.1.assessment.fits(),
         })
         .collect();

@@ -1,6 +1,6 @@
 //! The identification itself, from lines to a joint with its uncertainty.
 
-use crate::frf::Dof;
+use crate::frf::{Dof, FileSummary};
 use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
@@ -9,11 +9,13 @@ use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::layout::Bolts;
+use super::level;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
+use super::provenance;
 use super::study::Study;
-use super::{level, provenance};
+use super::watch::Watch;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -43,7 +45,7 @@ pub struct Identification {
     pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
-    /// χ² over degrees of freedom, where the study states the noise: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
     pub reduced_chi_squared: Option<f64>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
@@ -53,7 +55,9 @@ pub struct Identification {
     pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
-    /// Of each joint.
+    /// What each file of functions states.
+    pub files: Vec<FileSummary>,
+    /// Of each bolt's joint.
     pub(super) provenance: Vec<Provenance>,
     pub(super) torque_n_m: Option<[f64; 2]>,
     pub(super) level: Option<String>,
@@ -93,21 +97,22 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
     identify_and_draw(study, None, &|| ())
 }
 
-/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `progress` is called
-/// after each draw.
+/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `watch` is told how far it
+/// has come.
 ///
 /// # Errors
 /// As [`identify`].
 pub fn identify_and_draw(
     study: &Study,
     bootstrap: Option<Bootstrap>,
-    progress: &(dyn Fn() + Sync),
+    watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
     let Assembled {
         lines: all,
+        files,
         mut warnings,
         from_modes,
-    } = assemble::lines(study)?;
+    } = assemble::lines(study, watch)?;
     let options = Options {
         bolts: study.bolts.clone(),
         noise: study.noise,
@@ -117,7 +122,7 @@ pub fn identify_and_draw(
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
         bootstrap,
-        progress: Some(progress),
+        progress: Some(&|| watch.drawn()),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
@@ -142,7 +147,7 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let provenance = provenance::of(study, &estimate, &from_modes)?;
+    let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings().iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
@@ -158,14 +163,14 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
-        reduced_chi_squared: study
-            .noise
-            .is_stated()
+        reduced_chi_squared: (estimate.assessment().noise_is_stated
+            || estimate.assessment().noise_is_known)
             .then_some(estimate.assessment().reduced_chi_squared)
             .flatten(),
         starts: estimate.starts(),
         warnings,
         from_modes,
+        files,
         provenance,
         torque_n_m: torques(study).and_then(range),
         level: level::in_words(study),

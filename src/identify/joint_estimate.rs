@@ -156,8 +156,11 @@ impl CovarianceOfAll {
         let estimate = &found.estimate;
         let unit = uncertainty::unit_covariance(&estimate.information);
         let reduced = estimate.reduced_chi_squared();
-        // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level.
+        let is_known = found.assessment.noise_is_known;
+        // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level. What coherence
+        // tells is the least that the noise can be.
         let (scale, freedom) = match reduced {
+            Some(chi) if is_known => (chi.max(1.0), usize::MAX),
             Some(chi) if !noise.is_stated() => (chi, estimate.degrees_of_freedom),
             Some(chi) if found.assessment.chi_squared_excess > assessment::SIGNIFICANT => {
                 (chi, usize::MAX)
@@ -167,7 +170,7 @@ impl CovarianceOfAll {
         };
         let mut matrix = &unit * scale;
         let mut inflation = vec![scale.max(1.0).sqrt(); unit.nrows()];
-        if !noise.is_stated() {
+        if !noise.is_stated() && !is_known {
             inflation.fill(1.0);
         }
         if found.assessment.line_correlation_excess > assessment::SIGNIFICANT

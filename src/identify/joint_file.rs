@@ -112,7 +112,9 @@ impl Identification {
         if all.diagonal().iter().any(|variance| !variance.is_finite()) {
             return None;
         }
-        let noise = if self.noise_is_stated {
+        let noise = if self.estimate.assessment().noise_is_known {
+            "the noise that coherence and averages tell"
+        } else if self.noise_is_stated {
             "the stated noise"
         } else {
             "the noise that the residual shows"

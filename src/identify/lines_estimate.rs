@@ -176,7 +176,8 @@ impl LinesEstimate {
         &self.assessment
     }
 
-    /// Noise of the assembly, stated or estimated; `None` where the lines tell nothing of it.
+    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
+    /// degrees of freedom to estimate it.
     #[must_use]
     pub fn noise_level(&self) -> Option<NoiseLevel> {
         self.noise_level
@@ -338,7 +339,7 @@ fn identify_with<const N: usize>(
     let joints: Vec<JointEstimate> = averaged.into_iter().enumerate().map(of_torque).collect();
     let choice = options
         .compare_models
-        .then(|| choice::compare(&problem, &layout, noise, &found));
+        .then(|| choice::compare(&problem, &layout, &found));
     let torque_choice = torques
         .filter(|_| options.compare_models)
         .and_then(|torques| {
@@ -354,7 +355,8 @@ fn identify_with<const N: usize>(
     Ok(LinesEstimate {
         decoupled,
         noise_level: (noise.is_stated() || estimate.degrees_of_freedom > 0)
-            .then_some(estimate.levels.assembly),
+            .then_some(estimate.levels.assembly)
+            .filter(|_| !found.assessment.noise_is_known),
         joints,
         joint_of_assembly,
         layout,

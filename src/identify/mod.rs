@@ -45,6 +45,7 @@ mod torque;
 mod two_step;
 mod uncertainty;
 mod unknown;
+mod watch;
 mod weights;
 
 pub use assemble::{predict_assembly, predict_lines};
@@ -70,3 +71,4 @@ pub use torque::{DependenceFit, TorqueChoice, TorqueDependence};
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::Covariance;
 pub use unknown::Unknown;
+pub use watch::Watch;

@@ -1,5 +1,7 @@
 //! Where a joint comes from: the files it was identified from, by their hashes.
 
+use std::fs::File;
+use std::io::{self, ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -14,12 +16,17 @@ use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::lines_estimate::LinesEstimate;
 use super::study::{Source, Study, Substructure};
+use super::watch::Watch;
 
-/// Provenance of each joint that is identified from this study.
+/// Bytes of a file that are read at a time.
+const PIECE: usize = 1 << 16;
+
+/// Provenance of each bolt's joint that is identified from this study.
 pub(super) fn of(
     study: &Study,
     estimate: &LinesEstimate,
     from_modes: &[FromModes],
+    watch: &dyn Watch,
 ) -> Result<Vec<Provenance>, IdentifyError> {
     let folder = study.path.parent().unwrap_or(Path::new(""));
     let file_of = |substructure: &Substructure| match substructure {
@@ -66,7 +73,7 @@ pub(super) fn of(
     let inputs = named
         .into_iter()
         .filter_map(|(role, path)| Some((role, path?)))
-        .map(|(role, path)| input(role, &path, folder))
+        .map(|(role, path)| input(role, &path, folder, watch))
         .collect::<Result<Vec<_>, _>>()?;
     let of_joint = |(joint, bands): (usize, &Vec<UsedBands>)| Provenance {
         tool: env!("CARGO_PKG_NAME").to_owned(),
@@ -126,15 +133,45 @@ fn name_in(folder: &Path, path: &Path) -> String {
         .to_string()
 }
 
-fn input(role: &str, path: &PathBuf, folder: &Path) -> Result<InputFile, IdentifyError> {
-    let bytes = std::fs::read(path).map_err(|source| TextFileError::Unreadable {
-        path: path.clone(),
+fn input(
+    role: &str,
+    path: &Path,
+    folder: &Path,
+    watch: &dyn Watch,
+) -> Result<InputFile, IdentifyError> {
+    let digest = digest(path, watch).map_err(|source| TextFileError::Unreadable {
+        path: path.to_owned(),
         source,
     })?;
-    let digest = Sha256::digest(&bytes);
     Ok(InputFile {
         role: role.to_owned(),
         file: name_in(folder, path),
-        sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256: digest
+            .as_ref()
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect(),
     })
+}
+
+/// SHA-256 of a file, which may be larger than the memory.
+fn digest(path: &Path, watch: &dyn Watch) -> io::Result<impl AsRef<[u8]> + use<>> {
+    let mut file = File::open(path)?;
+    let of = file.metadata()?.len();
+    let mut digest = Sha256::new();
+    let mut piece = vec![0; PIECE];
+    let mut read = 0;
+    loop {
+        let count = match file.read(&mut piece) {
+            Ok(0) => break,
+            Ok(count) => count,
+            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+            Err(error) => return Err(error),
+        };
+        digest.update(&piece[..count]);
+        read += count as u64;
+        watch.read(path, read.min(of), of);
+    }
+    watch.read(path, of, of);
+    Ok(digest.finalize())
 }

@@ -310,7 +310,7 @@ pub(super) fn compare<const N: usize>(
         dependence,
         unknowns: found.estimate.unknowns.len(),
         bic_difference: criterion(found) - lowest,
-        reduced_chi_squared: stated_chi_squared(noise, &found.estimate),
+        reduced_chi_squared: tested_chi_squared(found),
         adequate: found.assessment.fits(),
     };
     let compared = [
@@ -336,11 +336,10 @@ pub(super) fn compare<const N: usize>(
     })
 }
 
-/// χ² over degrees of freedom as a test, which it is where the noise is stated.
-pub(super) fn stated_chi_squared(noise: &Noise, estimate: &Estimate) -> Option<f64> {
-    noise
-        .is_stated()
-        .then(|| estimate.reduced_chi_squared())
+/// χ² over degrees of freedom as a test, which it is where the noise is stated or known.
+pub(super) fn tested_chi_squared(found: &Found) -> Option<f64> {
+    (found.assessment.noise_is_stated || found.assessment.noise_is_known)
+        .then(|| found.estimate.reduced_chi_squared())
         .flatten()
 }
 

@@ -281,14 +281,14 @@ pub struct Residual {
     /// The same for each function compared.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub functions: Vec<FunctionResidual>,
-    /// χ² over degrees of freedom, where the noise was stated: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the noise was stated or coherence told it: about 1 if the model fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub reduced_chi_squared: Option<f64>,
     /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line_correlation: Option<f64>,
-    /// Noise of the assembly's functions.
+    /// Noise of the assembly's functions, unless coherence told it line by line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
 }

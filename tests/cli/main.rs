@@ -9,6 +9,7 @@ mod bench;
 mod bolted;
 mod check;
 mod check_run;
+mod coherence;
 mod communication_step;
 mod demo;
 mod estimator;

@@ -14,9 +14,9 @@ use crate::bench::Bench;
 /// Distance between the points of A, m.
 const SPACING: f64 = 0.03;
 /// Lines at 2, 5, … 200 Hz.
-const FIRST_HZ: f64 = 2.0;
-const STEP_HZ: f64 = 3.0;
-const LINES: usize = 67;
+pub(crate) const FIRST_HZ: f64 = 2.0;
+pub(crate) const STEP_HZ: f64 = 3.0;
+pub(crate) const LINES: usize = 67;
 
 /// The even axis of these lines as record 7 states it.
 pub(crate) const AXIS: &str = "    2.00000e0    3.00000e0";
@@ -104,8 +104,8 @@ impl Quantity {
 
 /// A measured degree of freedom: its node, and its motion by those of the body's centre.
 #[derive(Clone, Copy)]
-struct Point {
-    node: u32,
+pub(crate) struct Point {
+    pub(crate) node: u32,
     rotation: bool,
     row: RowVector2<f64>,
 }
@@ -120,7 +120,7 @@ fn translation(node: u32, x_m: f64) -> Point {
 }
 
 /// Points one spacing apart, three for one bolt and five for two: the first is at point 2, the second at 4.
-fn points_of_a() -> Vec<Point> {
+pub(crate) fn points_of_a() -> Vec<Point> {
     (0..5)
         .map(|step| translation(step + 1, SPACING * (1.0 - f64::from(step))))
         .collect()
@@ -168,7 +168,7 @@ fn joints_of_b() -> Vec<Point> {
     [at(20, JOINT_ON_B_M), at(30, JOINT_ON_B_M - 2.0 * SPACING)].concat()
 }
 
-fn points_of_b() -> Vec<Point> {
+pub(crate) fn points_of_b() -> Vec<Point> {
     vec![
         translation(21, 0.02),
         translation(22, 0.06),
@@ -177,7 +177,7 @@ fn points_of_b() -> Vec<Point> {
 }
 
 /// Receptances between `points` of a body that moves by H (2×2) about its centre.
-fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Complex64 {
+pub(crate) fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Complex64 {
     let (left, right) = (
         response.row.map(Complex64::from),
         reference.row.map(Complex64::from),
@@ -186,7 +186,7 @@ fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Comp
 }
 
 /// H of B's centre in the assembly: each joint's load acts on both bodies.
-fn assembled(bolts: &[Bolt], omega: f64) -> Matrix2<Complex64> {
+pub(crate) fn assembled(bolts: &[Bolt], omega: f64) -> Matrix2<Complex64> {
     let mut z = Matrix4::zeros();
     z.fixed_view_mut::<2, 2>(0, 0)
         .copy_from(&A.dynamic_stiffness(omega));
@@ -233,7 +233,12 @@ fn universal_file(
 }
 
 /// One data set 58: complex values in double precision, even abscissa.
-fn function(response: Point, reference: Point, quantity: Quantity, values: &[Complex64]) -> String {
+pub(crate) fn function(
+    response: Point,
+    reference: Point,
+    quantity: Quantity,
+    values: &[Complex64],
+) -> String {
     let direction = |point: Point| if point.rotation { 6 } else { 2 };
     let mut text = "    -1\n    58\nNONE\nNONE\nNONE\nNONE\nNONE\n".to_owned();
     let _ = write!(text, "{:>5}{:>10}{:>5}{:>10}", 4, 0, 0, 0);
@@ -268,6 +273,11 @@ fn function(response: Point, reference: Point, quantity: Quantity, values: &[Com
         text.push('\n');
     }
     text + "    -1\n"
+}
+
+/// H of A's centre.
+pub(crate) fn motion_of_a(omega: f64) -> Matrix2<Complex64> {
+    A.dynamic_stiffness(omega).try_inverse().unwrap()
 }
 
 /// Writes `a.uff`, `b.uff` and `c.uff`: what is measured on A, on B and on the assembly with one bolt.

@@ -13,15 +13,20 @@ use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::lines::Lines;
 use super::study::{Study, Substructure};
+use super::watch::Watch;
+use crate::frf::FileSummary;
 use axis::Axis;
 use labelled::{Completeness, labelled_functions};
 use reader::{Reader, in_file};
 use repeats::repeated;
 use substructure::substructures;
 
-/// Everything that a study names, line by line for each assembly.
+/// What the files of a study hold.
 pub(super) struct Assembled {
+    /// Everything that the study names, line by line for each assembly.
     pub(super) lines: Vec<Lines>,
+    /// What each file of functions states.
+    pub(super) files: Vec<FileSummary>,
     /// What the user should know about the files.
     pub(super) warnings: Vec<String>,
     /// What modes supplied beside measured functions.
@@ -29,8 +34,11 @@ pub(super) struct Assembled {
 }
 
 /// Reads and computes everything that the study names.
-pub(super) fn lines(study: &Study) -> Result<Assembled, IdentifyError> {
-    let mut reader = Reader::default();
+pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, IdentifyError> {
+    let mut reader = Reader {
+        watch: Some(watch),
+        ..Reader::default()
+    };
     let mut all = vec![assembly_lines(study, &mut reader)?];
     for further in &study.further {
         let its_study = Study {
@@ -66,6 +74,7 @@ pub(super) fn lines(study: &Study) -> Result<Assembled, IdentifyError> {
     }
     Ok(Assembled {
         lines: all,
+        files: reader.files,
         warnings: reader.warnings,
         from_modes,
     })

@@ -5,16 +5,20 @@ use std::path::Path;
 use super::super::error::IdentifyError;
 use super::super::from_modes::FromModes;
 use super::super::study::FrfFile;
-use crate::frf::{Dof, FrfError, FrfSet, ReadOptions, Selection, read_frfs};
+use super::super::watch::Watch;
+use crate::frf::{Dof, FileSummary, FrfError, FrfSet, ReadOptions, Selection, read_frfs_watched};
 
-/// Reads files of functions and remembers what it had to assume.
+/// Reads files of functions and remembers what they state and what it had to assume.
 #[derive(Default)]
-pub(super) struct Reader {
+pub(super) struct Reader<'watch> {
+    pub(super) watch: Option<&'watch dyn Watch>,
     pub(super) warnings: Vec<String>,
     pub(super) from_modes: Vec<FromModes>,
+    /// Of each file that was read, each once.
+    pub(super) files: Vec<FileSummary>,
 }
 
-impl Reader {
+impl Reader<'_> {
     /// The functions between `dofs` in a band (Hz); of a large file the rest is not held.
     pub(super) fn read(
         &mut self,
@@ -28,7 +32,16 @@ impl Reader {
             averages: file.averages,
             selection: Selection::between(dofs.iter().copied()).within(from_hz, to_hz),
         };
-        let reading = read_frfs(&file.path, &options)?;
+        let watch = |bytes, of| {
+            if let Some(watch) = self.watch {
+                watch.read(&file.path, bytes, of);
+            }
+        };
+        let reading = read_frfs_watched(&file.path, &options, &watch)?;
+        let summary = reading.summary();
+        if !self.files.contains(&summary) {
+            self.files.push(summary);
+        }
         if !reading.units_are_stated() {
             self.warnings.push(format!(
                 "{}: states no units, so SI units are assumed; state units beside frf if they are others",

@@ -89,7 +89,15 @@ fn fit(report: &IdentificationReport<'_>) -> String {
                 ),
             ));
         }
-        _ => rows.push(row(
+        (Some(chi_squared), false) => rows.push(row(
+            "χ² per degree of freedom",
+            &format!(
+                "{}, with the noise that coherence tells; no test, because coherence is an estimate itself: with <i>n</i> averages \
+                 <i>n</i>/(<i>n</i> − 2) is to be expected",
+                shown(chi_squared, 4)
+            ),
+        )),
+        (None, _) => rows.push(row(
             "χ² per degree of freedom",
             "no test: the study does not state the noise, its level follows from the residual",
         )),

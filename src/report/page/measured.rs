@@ -1,13 +1,14 @@
 //! What was measured, what was computed, and what the identification takes for granted.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use super::beside;
-use super::{Assembly, IdentificationReport, counted};
+use super::{Assembly, IdentificationReport, beside, counted, files};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    Bolts, FrfFile, JointModel, Level, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+    Bolts, FrfFile, JointModel, Level, Lines, MeasuredSubstructure, NoiseLevel, Rotation, Source,
+    StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -78,8 +79,9 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         rows.push(row("Note", &escaped(note)));
     }
     format!(
-        "<h2>What was measured and assumed</h2>\n{}{}",
+        "<h2>What was measured and assumed</h2>\n{}{}{}",
         table(&[], &rows).replace("<thead><tr></tr></thead>\n", ""),
+        files::section(report),
         assumptions(report)
     )
 }
@@ -273,51 +275,63 @@ fn noise(report: &IdentificationReport<'_>) -> String {
         }
         parts.join(" and ")
     };
-    let lines = report.assemblies();
-    let mut sentences = Vec::new();
-    if lines
-        .iter()
-        .all(|assembly| assembly.lines.relative_variance.is_some())
-    {
-        sentences.push("of the assembly: from coherence and averages, line by line".to_owned());
-    } else if lines
-        .iter()
-        .all(|assembly| assembly.lines.repeats.is_some())
-        && !noise.is_stated()
-    {
-        sentences
-            .push("of the assembly: from the scatter of the repeats and the residual".to_owned());
-    }
+    let assemblies = report.assemblies();
+    let all = |has: fn(&Lines) -> bool| assemblies.iter().all(|assembly| has(assembly.lines));
     let origin = if noise.is_stated() {
         "stated"
+    } else if all(|lines| lines.repeats.is_some()) {
+        "from the scatter of the repeats and the residual"
     } else {
         "estimated from the residual"
     };
-    match found.estimate.noise_level() {
-        Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
-        None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
+    let mut sentences = Vec::new();
+    if all(|lines| lines.relative_variance.is_some()) {
+        sentences.push(
+            "of the assembly: from coherence, line by line, <i>σ</i>²/|<i>H</i>|² = (1 − <i>γ</i>²)/(<i>n</i> <i>γ</i>²)".to_owned(),
+        );
+    } else {
+        match found.estimate.noise_level() {
+            Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
+            None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
+        }
+        let coherent: Vec<String> = (1..)
+            .zip(&assemblies)
+            .filter(|(_, assembly)| assembly.lines.relative_variance.is_some())
+            .map(|(number, _)| number.to_string())
+            .collect();
+        if !coherent.is_empty() {
+            let numbers = coherent.join(", ");
+            sentences.push(format!(
+                "but of assembly {numbers} from coherence, line by line"
+            ));
+        }
     }
+    let measured = |of: &Option<Arc<MeasuredSubstructure>>| {
+        let variance = of.as_ref().map(|measured| &measured.relative_variance);
+        variance.map(Option::is_some)
+    };
     for (name, measured, stated) in [
-        ("A", found.lines.a_measured.is_some(), noise.a),
-        ("B", found.lines.b_measured.is_some(), noise.b),
+        ("A", measured(&found.lines.a_measured), noise.a),
+        ("B", measured(&found.lines.b_measured), noise.b),
     ] {
         let words = match (measured, stated) {
-            (false, _) => "taken as exact".to_owned(),
+            (None, _) => "taken as exact".to_owned(),
             (
-                true,
+                Some(_),
                 StatedLevel {
                     relative: Some(0.0),
                     floor: Some(0.0),
                 },
             ) => "stated to be exact".to_owned(),
+            (Some(true), _) => "from coherence, line by line".to_owned(),
             (
-                true,
+                Some(false),
                 StatedLevel {
                     relative: None,
                     floor: None,
                 },
             ) => "as the assembly's".to_owned(),
-            (true, stated) => {
+            (Some(false), stated) => {
                 let part = |value: Option<f64>, unit: &str| match value {
                     Some(value) => format!("{}{unit}", shown(value, 3)),
                     None => "as the assembly's".to_owned(),

@@ -3,6 +3,7 @@
 mod beside;
 mod decoupled;
 mod figure;
+mod files;
 mod functions;
 mod judgement;
 mod measured;

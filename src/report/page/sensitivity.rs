@@ -6,12 +6,14 @@ use super::super::axis::Axis;
 use super::super::chart::{Chart, ChartStrip, Curve};
 use super::super::look::Look;
 use super::figure::figure;
+use super::functions::shares;
 use super::{Assembly, IdentificationReport};
 use crate::html::{cell, escaped, number_cell, shown, table};
 use crate::identify::{JointMatrices, Sensitivity, Unknown};
 
-/// Functions whose sensitivities are drawn at most.
+/// Functions of one assembly whose sensitivities are drawn at most, and of all; but one of each.
 const MOST_FIGURES: usize = 3;
+const MOST_OF_ALL: usize = 6;
 const HEIGHT: f64 = 240.0;
 const DECADES: i32 = 5;
 
@@ -28,7 +30,10 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let unknowns = &report.found.estimate.covariance().unknowns;
     let mut rows = Vec::new();
     let mut figures = String::new();
-    for (number, assembly) in assemblies.iter().enumerate() {
+    let count = assemblies.len();
+    let most = (MOST_FIGURES * count).min(MOST_OF_ALL).max(count);
+    for (number, (assembly, share)) in assemblies.iter().zip(shares(&assemblies, most)).enumerate()
+    {
         let joints = report.found.estimate.joint_of(number).bolts();
         let found = match report.found.estimate.sensitivities(number, assembly.lines) {
             Ok(found) => found,
@@ -58,9 +63,13 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                 .map(|curve| number_cell(&shown(rms(&curve.values), 2)))
                 .collect();
             rows.push(format!("{assembly_cell}{}{cells}", cell(&escaped(&name))));
-            if number == 0 && drawn < MOST_FIGURES {
+            if drawn < share.min(MOST_FIGURES) {
+                if drawn == 0 && count > 1 {
+                    figures += &format!("<h3>Assembly {}</h3>\n", number + 1);
+                }
                 drawn += 1;
-                figures += &chart(assembly, &name, drawn, curves);
+                let id = format!("sensitivity-{}-{drawn}", number + 1);
+                figures += &chart(assembly, &name, id, curves);
             }
         }
     }
@@ -119,10 +128,10 @@ fn curves(
         .collect()
 }
 
-fn chart(assembly: &Assembly<'_>, name: &str, number: usize, curves: Vec<Curve>) -> String {
+fn chart(assembly: &Assembly<'_>, name: &str, id: String, curves: Vec<Curve>) -> String {
     let values = curves.iter().flat_map(|curve| curve.values.iter().copied());
     let chart = Chart {
-        id: format!("sensitivity-{number}"),
+        id,
         title: format!("Sensitivity of {name} to each parameter over frequency"),
         frequency_hz: &assembly.lines.frequency_hz,
         strips: vec![ChartStrip {

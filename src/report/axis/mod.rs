@@ -1,16 +1,18 @@
 //! Axes of a diagram: which range to show, where a value lies in it, and which ticks a reader expects.
 
+mod series;
+mod ticks;
+
+use series::{one_two_five, series_at_least, series_at_most};
+pub(super) use ticks::{TickLabel, Ticks, with_minus_sign};
+use ticks::{linear_ticks, logarithmic_ticks, phase_tick};
+
 /// Magnitudes outside this range are not drawn on a logarithmic axis; inside it, no rounding step overflows.
 const DRAWABLE: std::ops::RangeInclusive<f64> = 1e-300..=1e300;
-/// Ticks of a logarithmic axis are written as plain numbers if all lie within these powers of ten.
-const PLAIN_EXPONENTS: std::ops::RangeInclusive<i32> = -3..=3;
 /// Room between the extremes of the data and the end of a logarithmic axis, a ratio.
 const LOGARITHMIC_MARGIN: f64 = 1.25;
 /// A phase axis goes on beyond half a turn (degrees), so that a curve along its edge can be seen.
 pub(super) const PHASE_END: f64 = 195.0;
-/// Part of a tick step that rounding may take a tick past the end of its axis.
-const TICK_ROUNDING: f64 = 1e-9;
-
 /// A range of values and the rule that spreads them over a length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Axis {
@@ -30,36 +32,6 @@ pub(super) enum Axis {
     },
     /// An angle in degrees over one turn, −180 to 180, and a little more.
     Phase,
-}
-
-/// Text beside a tick.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum TickLabel {
-    /// Text as it stands.
-    Plain(String),
-    /// `mantissa · 10^exponent`, the mantissa 1 being left out.
-    Power {
-        /// 1, 2 or 5.
-        mantissa: u8,
-        /// Power of ten.
-        exponent: i32,
-    },
-}
-
-/// A labelled tick.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tick {
-    pub(super) value: f64,
-    pub(super) label: TickLabel,
-}
-
-/// The ticks of an axis in ascending order.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Ticks {
-    /// Labelled, with a grid line.
-    pub(super) major: Vec<Tick>,
-    /// Between the major ones, without a label.
-    pub(super) minor: Vec<f64>,
 }
 
 impl Axis {
@@ -129,13 +101,6 @@ impl Axis {
     }
 }
 
-fn phase_tick(degrees: i32) -> Tick {
-    Tick {
-        value: degrees.into(),
-        label: TickLabel::Plain(with_minus_sign(&degrees.to_string())),
-    }
-}
-
 fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     values.fold(None, |found, value| match found {
         None => Some((value, value)),
@@ -143,133 +108,9 @@ fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// Number `index` of the series …, 0.5, 1, 2, 5, 10, …, where number 0 is 1.
-fn one_two_five(index: i32) -> f64 {
-    f64::from(mantissa(index)) * 10_f64.powi(index.div_euclid(3))
-}
-
-fn mantissa(index: i32) -> u8 {
-    match index.rem_euclid(3) {
-        0 => 1,
-        1 => 2,
-        _ => 5,
-    }
-}
-
-/// The largest number of the series that is not above `value`, which must be drawable.
-fn series_at_most(value: f64) -> i32 {
-    let above = 3 * (decade(value) + 2);
-    (above - 9..above)
-        .rev()
-        .find(|&index| one_two_five(index) <= value * (1.0 + TICK_ROUNDING))
-        .unwrap_or(above - 9)
-}
-
-/// The smallest number of the series that is not below `value`, which must be drawable.
-fn series_at_least(value: f64) -> i32 {
-    let below = 3 * (decade(value) - 1);
-    (below..below + 9)
-        .find(|&index| one_two_five(index) >= value * (1.0 - TICK_ROUNDING))
-        .unwrap_or(below + 9)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "powers of ten of f64 lie within ±308"
-)]
-fn decade(value: f64) -> i32 {
-    value.log10().floor() as i32
-}
-
-fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
-    let step_number = series_at_least((high - low) / f64::from(most.max(1)));
-    let step = one_two_five(step_number);
-    let parts = if mantissa(step_number) == 2 { 4 } else { 5 };
-    let decimals = usize::try_from(-step_number.div_euclid(3)).unwrap_or(0);
-    let minor_step = step / f64::from(parts);
-
-    let mut ticks = Ticks::default();
-    let first = (low / minor_step - TICK_ROUNDING).ceil();
-    let last = (high / minor_step + TICK_ROUNDING).floor();
-    let mut count = first;
-    while count <= last {
-        let value = count * minor_step;
-        if count % f64::from(parts) == 0.0 {
-            // Adding zero turns −0 into 0.
-            let text = format!("{:.decimals$}", count / f64::from(parts) * step + 0.0);
-            ticks.major.push(Tick {
-                value,
-                label: TickLabel::Plain(with_minus_sign(&text)),
-            });
-        } else {
-            ticks.minor.push(value);
-        }
-        count += 1.0;
-    }
-    ticks
-}
-
-fn logarithmic_ticks(low: i32, high: i32, most: u32) -> Ticks {
-    let most = i32::try_from(most.max(2)).unwrap_or(i32::MAX);
-    let first_decade = low.div_euclid(3);
-    let last_decade = high.div_euclid(3);
-    let plain = PLAIN_EXPONENTS.contains(&first_decade) && PLAIN_EXPONENTS.contains(&last_decade);
-    // Up to 1 … 20: the powers of ten alone would be too few.
-    let between = high - low <= 4;
-    let stride = (last_decade - first_decade) / most + 1;
-
-    let mut ticks = Ticks::default();
-    for exponent in first_decade..=last_decade {
-        for digit in 1..=9_u8 {
-            let series = match digit {
-                1 => Some(3 * exponent),
-                2 => Some(3 * exponent + 1),
-                5 => Some(3 * exponent + 2),
-                _ => None,
-            };
-            let value = f64::from(digit) * 10_f64.powi(exponent);
-            let inside = series.map_or_else(
-                || value > one_two_five(low) && value < one_two_five(high),
-                |index| (low..=high).contains(&index),
-            );
-            if !inside {
-                continue;
-            }
-            let labelled = if between {
-                series.is_some()
-            } else {
-                digit == 1 && exponent.rem_euclid(stride) == 0
-            };
-            if labelled {
-                ticks.major.push(Tick {
-                    value,
-                    label: logarithmic_label(digit, exponent, plain),
-                });
-            } else if digit == 1 || stride == 1 {
-                ticks.minor.push(value);
-            }
-        }
-    }
-    ticks
-}
-
-fn logarithmic_label(mantissa: u8, exponent: i32, plain: bool) -> TickLabel {
-    if plain {
-        let decimals = usize::try_from(-exponent).unwrap_or(0);
-        let value = f64::from(mantissa) * 10_f64.powi(exponent);
-        TickLabel::Plain(format!("{value:.decimals$}"))
-    } else {
-        TickLabel::Power { mantissa, exponent }
-    }
-}
-
-/// `number` with the typographic minus sign, which is as wide as a plus.
-pub(super) fn with_minus_sign(number: &str) -> String {
-    number.replace('-', "−")
-}
-
 #[cfg(test)]
 mod tests {
+    use super::ticks::Tick;
     use super::*;
 
     fn labels(ticks: &Ticks) -> Vec<String> {
@@ -360,18 +201,6 @@ mod tests {
         let minor = axis.ticks(8).minor;
         assert_eq!(minor.len(), 8 + 3 * 8 + 1);
         assert!((minor[0] / 2e-7 - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn values_on_the_series_are_not_rounded_away() {
-        for exponent in -299..300 {
-            for digit in [1, 2, 5] {
-                let value: f64 = format!("{digit}e{exponent}").parse().expect("number");
-                let index = series_at_most(value);
-                assert_eq!(index, series_at_least(value), "{value:e}");
-                assert!((one_two_five(index) / value - 1.0).abs() < 1e-12);
-            }
-        }
     }
 
     #[test]

@@ -48,13 +48,11 @@ def stiffness(data, theta):
     return joint
 
 
-def linearised(data, theta, derivatives=True):
+def linearised(data, theta):
     joint = stiffness(data, theta)
     q = np.linalg.solve(np.eye(2) + data.free @ joint, data.transfer)
     x = joint @ q
     computed = data.own - np.einsum("lie,lie->le", data.transfer[:, :, data.p], x[:, :, data.q])
-    if not derivatives:
-        return computed, None
     left, right = q[:, :, data.p], q[:, :, data.q]
     by = np.stack(
         [
@@ -67,60 +65,72 @@ def linearised(data, theta, derivatives=True):
     return computed, by
 
 
-def normal(data, variance, theta):
-    computed, by = linearised(data, theta)
-    weight = np.sqrt(data.count / variance)
-    residual = (data.measured - computed) * weight
-    by = by * weight[..., None]
-    rows = np.concatenate([by, 1j * data.omega[:, None, None] * by], axis=-1).reshape(-1, 6)
-    real = np.concatenate([rows.real, rows.imag])
-    flat = np.concatenate([residual.real.ravel(), residual.imag.ravel()])
-    cost = flat @ flat + np.sum(data.scatter / variance)
-    return cost, real.T @ real, real.T @ flat, residual
+class Model:
+    """The receptances at theta, computed once, however often they are weighted."""
+
+    def __init__(self, data, theta):
+        self.theta = theta
+        self.computed, by = linearised(data, theta)
+        rows = np.concatenate([by, 1j * data.omega[:, None, None] * by], axis=-1).reshape(-1, 6)
+        self.rows = np.stack([rows.real, rows.imag])
+        self.residual = data.measured - self.computed
 
 
-def step(matrix, gradient, damping):
-    scale = 1.0 / np.sqrt(np.diag(matrix))
-    system = matrix * scale[:, None] * scale + damping * np.eye(6)
-    return scale * scipy.linalg.cho_solve(scipy.linalg.cho_factor(system), gradient * scale)
+class Normal:
+    """Normal equations of a model with given variances."""
+
+    def __init__(self, data, model, variance):
+        weight = np.sqrt(data.count / variance)
+        self.residual = model.residual * weight
+        rows = (model.rows * weight.reshape(1, -1, 1)).reshape(-1, 6)
+        flat = np.concatenate([self.residual.real.ravel(), self.residual.imag.ravel()])
+        self.cost = flat @ flat + np.sum(data.scatter / variance)
+        self.matrix = rows.T @ rows
+        self.gradient = rows.T @ flat
+        self.scale = 1.0 / np.sqrt(np.diag(self.matrix))
+
+    def step(self, damping):
+        system = self.matrix * self.scale[:, None] * self.scale + damping * np.eye(6)
+        factor = scipy.linalg.cho_factor(system, check_finite=False)
+        right = self.gradient * self.scale
+        return self.scale * scipy.linalg.cho_solve(factor, right, check_finite=False)
+
+    def is_settled(self, theta, negligible):
+        full = self.step(1e-12)
+        size = np.maximum(np.maximum(np.abs(theta), np.abs(theta + full)), self.scale)
+        return full @ self.gradient <= negligible * self.cost or np.max(np.abs(full) / size) < 1e-10
 
 
-def settled(cost, matrix, gradient, theta, negligible):
-    full = step(matrix, gradient, 1e-12)
-    scale = 1.0 / np.sqrt(np.diag(matrix))
-    size = np.maximum(np.maximum(np.abs(theta), np.abs(theta + full)), scale)
-    return full @ gradient <= negligible * cost or np.max(np.abs(full) / size) < 1e-10
-
-
-def levenberg_marquardt(data, variance, theta, negligible):
-    state = normal(data, variance, theta)
-    damping = 1e-3
+def levenberg_marquardt(data, variance, model, negligible, damping):
+    normal = Normal(data, model, variance)
     for _ in range(100):
-        if settled(*state[:3], theta, negligible):
+        if normal.is_settled(model.theta, negligible):
             break
-        trial = theta + step(state[1], state[2], damping)
-        following = normal(data, variance, trial)
-        if following[0] <= state[0]:
-            theta, state, damping = trial, following, max(0.1 * damping, 1e-15)
+        trial = Model(data, model.theta + normal.step(damping))
+        following = Normal(data, trial, variance)
+        if following.cost <= normal.cost:
+            model, normal, damping = trial, following, max(0.01 * damping, 1e-15)
         else:
             damping *= 10
             if damping > 1e12:
                 break
-    return theta, state
-
-
-def variances(data, theta):
-    return (RELATIVE * np.abs(linearised(data, theta, False)[0])) ** 2
+    return model, normal, min(damping, 1e-3)
 
 
 def estimate(data, theta):
+    model, damping = Model(data, theta), 1e-3
+    variance = (RELATIVE * np.abs(model.computed)) ** 2
     for renewal in range(20):
-        variance = variances(data, theta)
-        before = theta
-        theta, state = levenberg_marquardt(data, variance, theta, 1e-6 if renewal == 0 else 1e-15)
-        if renewal > 0 and np.max(np.abs(theta - before) / np.abs(theta)) < 1e-8:
+        before = model.theta
+        negligible = 1e-6 if renewal == 0 else 1e-13
+        model, normal, damping = levenberg_marquardt(data, variance, model, negligible, damping)
+        variance = (RELATIVE * np.abs(model.computed)) ** 2
+        change = np.abs(model.theta - before)
+        deviation = normal.scale * np.sqrt(normal.cost / data.count.sum() / len(data.omega))
+        size = np.maximum(np.maximum(np.abs(before), np.abs(model.theta)), normal.scale)
+        if renewal > 0 and (np.max(change / size) < 1e-8 or np.max(change / deviation) < 1e-5):
             break
-    return theta, state
+    return model.theta, Normal(data, model, variance)
 
 
 def linear(data, theta):
@@ -156,7 +166,10 @@ def linear(data, theta):
         rows = rows.reshape(-1, 6)
         real = np.concatenate([rows.real, rows.imag])
         right = np.concatenate([target.real.ravel(), target.imag.ravel()])
-        theta = step(real.T @ real, real.T @ right, 0.0)
+        matrix = real.T @ real
+        scale = 1.0 / np.sqrt(np.diag(matrix))
+        factor = scipy.linalg.cho_factor(matrix * scale[:, None] * scale, check_finite=False)
+        theta = scale * scipy.linalg.cho_solve(factor, real.T @ right * scale, check_finite=False)
     return theta
 
 
@@ -175,11 +188,12 @@ def identify(lines):
     first = decoupled_median(*lines)
     starts = [first, linear(thinned, np.zeros(6)), linear(thinned, first)]
     trials = [estimate(thinned, start) for start in starts]
-    best = min(trials, key=lambda trial: trial[1][0])[0]
-    theta, state = estimate(data, best)
-    scale = 1.0 / np.sqrt(np.diag(state[1]))
-    covariance = 0.5 * np.linalg.inv(state[1] * scale[:, None] * scale) * scale[:, None] * scale
-    z = state[3]
+    best = min(trials, key=lambda trial: trial[1].cost)[0]
+    theta, normal = estimate(data, best)
+    scale = normal.scale
+    unit = normal.matrix * scale[:, None] * scale
+    covariance = 0.5 * np.linalg.inv(unit) * scale[:, None] * scale
+    z = normal.residual
     correlation = np.sum((z[:-1].conj() * z[1:]).real) / np.sum(np.abs(z) ** 2)
     return theta, np.sqrt(np.diag(covariance)), correlation
 

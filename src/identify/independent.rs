@@ -16,7 +16,7 @@ use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
 /// processors there are.
-const PIECE: usize = 4096;
+const PIECE: usize = 1024;
 
 /// Adds all lines of `group` to the normal equations, with variances that are held.
 pub(super) fn accumulate<const N: usize>(
@@ -114,24 +114,28 @@ fn renew_rows<const N: usize, const E: usize>(
             let mut sums = Sums::<E>::new();
             let mut strip = Strip::new(block);
             let mut scatter = Reals::ZERO;
+            let mut is_usable = true;
             for (number, variances) in variances.chunks_mut(size * LANES).enumerate() {
                 strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
                 let scatter = &mut scatter;
                 sums.add_strip(strip, entries, |e, power| {
                     let variance = variance(strip, e, level, power);
+                    for variance in variance.0 {
+                        is_usable &= variance > 0.0 && variance < f64::INFINITY;
+                    }
                     if counts[e] > 1.0 {
                         *scatter += strip.real(&block.scatter, e) * strip.used / variance;
                     }
                     let of_mean = variance * Reals::all(counts[e].recip());
-                    for (lane, place) in variances.iter_mut().skip(at + e).step_by(size).enumerate()
-                    {
-                        *place = of_mean.0[lane];
+                    let places = variances[at + e..].iter_mut().step_by(size);
+                    for (place, of_mean) in places.zip(of_mean.0) {
+                        *place = of_mean;
                     }
                     of_mean
                 });
             }
-            Some((sums, scatter.sum()))
+            is_usable.then(|| (sums, scatter.sum()))
         });
         for sums in sums {
             let (sums, scatter) = sums?;
@@ -140,8 +144,7 @@ fn renew_rows<const N: usize, const E: usize>(
         }
         at += block.entries.len();
     }
-    let usable = |variance: &f64| variance.is_finite() && *variance > 0.0;
-    weights.entries.iter().all(usable).then_some(weights)
+    Some(weights)
 }
 
 /// H^C of one assembly, line by line and entry by entry.

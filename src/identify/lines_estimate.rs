@@ -19,6 +19,7 @@ use super::line_by_line::{decouple, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel};
+use super::parallel;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
 use super::sensitivity::{self, Sensitivity};
@@ -280,12 +281,16 @@ fn identify_with<const N: usize>(
         assignment.all.iter().map(|&(_, joint)| joint).collect(),
         assignment.joints,
     );
-    let decoupled: Vec<_> = all
-        .iter()
-        .map(|lines| decouple::<N>(lines, &layout))
-        .collect();
     let noise = &options.noise;
-    let problem = Problem::<N>::new(assignment, noise);
+    let (problem, decoupled) = parallel::both(
+        || Problem::<N>::new(assignment, noise),
+        || {
+            let lines = all.iter();
+            lines
+                .map(|lines| decouple::<N>(lines, &layout))
+                .collect::<Vec<_>>()
+        },
+    );
     let averaged: Vec<Averaged> = (0..count)
         .map(|joint| {
             let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);

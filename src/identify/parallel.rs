@@ -28,12 +28,32 @@ pub(crate) fn map_each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + 
     })
 }
 
+/// What two pieces of work come to.
+pub(crate) fn both<A: Send, B: Send>(
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if SHARES.get() || processors() == 1 {
+        return (one(), other());
+    }
+    thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        match one.join() {
+            Ok(one) => (one, other),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
+}
+
+/// Processors of this machine; asking the system takes longer than some of the work.
+fn processors() -> usize {
+    static PROCESSORS: OnceLock<usize> = OnceLock::new();
+    *PROCESSORS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))
+}
+
 /// What `work` makes of each index below `count`.
 fn share<R: Send>(count: usize, work: impl Fn(usize) -> Option<R> + Sync) -> Vec<R> {
-    // Asking the system takes longer than some of the work.
-    static PROCESSORS: OnceLock<usize> = OnceLock::new();
-    let processors =
-        || *PROCESSORS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get));
     if count < 2 || SHARES.get() || processors() == 1 {
         return (0..count).filter_map(work).collect();
     }

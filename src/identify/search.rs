@@ -88,9 +88,9 @@ pub(super) fn best<const N: usize>(
 ) -> Result<Found, usize> {
     let mut candidates = first;
     let linear = starts::Linear::of(&data.thinned);
-    for guess in [None, candidates.last().cloned()] {
-        candidates.extend(linear.from(entries, guess.as_ref()));
-    }
+    let guesses = [None, candidates.last().cloned()];
+    let from_guess = |guess: &Option<DVector<f64>>| linear.from(entries, guess.as_ref());
+    candidates.extend(parallel::map(&guesses, from_guess).into_iter().flatten());
     let mut ways = Vec::new();
     let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
     let mut tried = candidates.len();

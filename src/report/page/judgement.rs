@@ -138,6 +138,7 @@ fn choice(report: &IdentificationReport<'_>) -> String {
         return String::new();
     };
     let used = report.found.model;
+    let joints = report.found.estimate.joints().len();
     let rows: Vec<String> = choice
         .models
         .iter()
@@ -155,7 +156,7 @@ fn choice(report: &IdentificationReport<'_>) -> String {
             }
             [
                 cell(&fit.model.to_string()),
-                number_cell(&fit.model.unknowns().to_string()),
+                number_cell(&(joints * fit.model.unknowns()).to_string()),
                 number_cell(&format!("{:.1}", fit.bic_difference)),
                 number_cell(
                     &fit.reduced_chi_squared

@@ -9,7 +9,7 @@ use bolted_joint_importer::FmiVersion;
 use serde_json::{Map, Value, json};
 
 use crate::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
-use crate::export::{ExportError, Interface};
+use crate::export::Interface;
 use crate::joint::{DofSet, JointFile};
 
 use super::communication_step::communication_step;
@@ -100,7 +100,10 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
     ];
     facts.extend(passivity.matrices.iter().map(ToString::to_string));
     // What a simulation does with the joint is told at the nominal preload, which an export has.
-    let constant = file.at_preload(None).map_err(ExportError::from)?;
+    let constant = file.at_preload(None).map_err(|source| CliError::Preload {
+        path: path.to_owned(),
+        source,
+    })?;
     if let Some(table) = &file.joint.over_preload {
         let preloads: Vec<String> = table.preload.iter().map(f64::to_string).collect();
         facts.push(format!(

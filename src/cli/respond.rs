@@ -181,15 +181,23 @@ fn joints(path: &Path, study: &Study) -> Result<Vec<JointMatrices>, CliError> {
     paths.iter().map(|path| joint(path, study)).collect()
 }
 
+/// The joint that the assembly is to have; of one over the preload, that at the first assembly's torque.
 fn joint(path: &Path, study: &Study) -> Result<JointMatrices, CliError> {
     let file = JointFile::read(path)?;
+    let torque_n_m = file.joint.over_preload.as_ref().and(study.torque_n_m);
+    let file = file
+        .at_preload(torque_n_m)
+        .map_err(|source| CliError::Preload {
+            path: path.to_owned(),
+            source,
+        })?;
     let size = study.model.dofs();
     let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, CliError> {
         if rows.len() != size {
             return Err(CliError::Option {
                 option: "--joint",
                 found: format!("{} with {} degrees of freedom", path.display(), rows.len()),
-                expected: "one with constant matrices and as many as the study's joint model has",
+                expected: "as many as the study's joint model has",
             });
         }
         Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j]))

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use nalgebra::matrix;
 use serde_json::{Value, json};
 
 use crate::bench::{Bench, replaced};
@@ -211,6 +212,41 @@ fn an_export_is_at_one_preload() {
             .stdout
             .contains("preloads: 10, 20, 25 N·m, nominal 20 N·m")
     );
+}
+
+#[test]
+fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
+    let bench = ready("separate");
+    let active = Joint {
+        stiffness: FULL.stiffness,
+        damping: matrix![6.0, 0.3; 0.3, 0.005],
+    };
+    measure(&bench, &active, [Quantity::Receptance; 3]);
+    fs::rename(bench.path("c.uff"), bench.path("c0.uff")).unwrap();
+    let outcome = bench.done(&IDENTIFY);
+    assert!(
+        outcome.stdout.contains("free estimate"),
+        "{}",
+        outcome.stdout
+    );
+    let file = bench.json("o.joint.json");
+    let table = &file["joint"]["over_preload"];
+    let damping = &table["damping"][1];
+    let entry = |i: usize, j: usize| damping[i][j].as_f64().unwrap();
+    // On the boundary of the cone: singular, not negative.
+    let ratio = entry(0, 1).powi(2) / (entry(0, 0) * entry(1, 1));
+    assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
+    let at = &file["uncertainty"]["over_preload"]["at"];
+    let free = &at[1]["free_estimate"]["damping"];
+    assert!((free[0][1].as_f64().unwrap() - 0.3).abs() < 1e-6);
+    // The others are passive as they are, and stay where they were but for what the substructures have in common.
+    for (place, factor) in [(0, 0.7), (2, 1.05)] {
+        assert_eq!(at[place]["free_estimate"], Value::Null);
+        let own =
+            json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
+        assert!(error(&own, factor) < 1e-2, "{}", error(&own, factor));
+    }
+    bench.done(&["export", "o.joint.json", "-o", "o.fmu"]);
 }
 
 #[test]

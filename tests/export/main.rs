@@ -132,9 +132,18 @@ fn what_cannot_be_exported_is_refused_with_a_reason() {
         message.starts_with("bodies: not found, expected the inertia"),
         "{message}"
     );
-    let message = refusal(&over_preload, &element);
+    let at = |preload_n_m| ExportOptions {
+        preload_n_m: Some(preload_n_m),
+        ..element.clone()
+    };
+    let message = refusal(&over_preload, &at(9.0));
     assert!(
-        message.starts_with("joint.over_preload: found a joint that depends on the preload"),
+        message.starts_with("preload: found 9.0 N·m, expected 10.0 to 25.0 N·m"),
+        "{message}"
+    );
+    let message = refusal(&m10, &at(10.0));
+    assert!(
+        message.starts_with("preload: found 10.0 N·m for a joint that does not depend"),
         "{message}"
     );
 

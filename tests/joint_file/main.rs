@@ -6,6 +6,7 @@
 )]
 
 mod contents;
+mod preload;
 mod text;
 
 use std::fs;

@@ -351,9 +351,7 @@ fn noise(report: &IdentificationReport<'_>) -> String {
 fn assumptions(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut list = vec![
-        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency, nor on the level at which \
-         was measured."
-            .to_owned(),
+        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency or amplitude.".to_owned(),
         "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
         "Errors of measured functions are independent from line to line and from function to function, and circular in the \
          complex plane. Standard deviations are those of the complex error."

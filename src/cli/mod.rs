@@ -215,21 +215,25 @@ enum NoiseProcedure {
 
 /// `reproduce`
 #[derive(Debug, Args)]
+#[command(after_help = reproduce::names())]
 struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
     tables: Vec<PublishedTable>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
     draws: u32,
-    /// Seed of the first draw
+    /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
     #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
     samples: Vec<u32>,
     /// Print the tables as JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with = "markdown")]
     json: bool,
+    /// Print the tables as a document in Markdown
+    #[arg(long)]
+    markdown: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

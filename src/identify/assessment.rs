@@ -81,11 +81,15 @@ pub(super) fn assess<const N: usize>(
     estimate: &Estimate,
     noise: &Noise,
 ) -> Option<Assessment> {
-    let (weights, state) = objective.reached(estimate)?;
+    let corrections = Some(estimate.corrections.clone());
+    let state = objective.unweighted(estimate.unknowns.clone(), corrections);
     let mut last: Vec<Complex64> = Vec::new();
     let mut last_group = usize::MAX;
     let (mut product, mut power, mut pairs) = (0.0, 0.0, 0_usize);
-    objective.visit(Some(&weights), &state, |group, line| {
+    let (mut relative_power, mut count) = (0.0, 0_usize);
+    objective.visit_whitened(estimate.levels, &state, |group, line| {
+        relative_power += line.relative_power;
+        count += line.residual.len();
         power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
         if group == last_group {
             let both = last.iter().zip(&line.residual);
@@ -111,7 +115,7 @@ pub(super) fn assess<const N: usize>(
         line_correlation,
         line_correlation_excess: line_correlation / deviation,
         has_power: lines >= FEWEST_LINES,
-        is_exact: residual_power(objective, estimate)? < ROUNDING_POWER,
+        is_exact: relative_power / (count.max(1) as f64) < ROUNDING_POWER,
     })
 }
 
@@ -131,25 +135,6 @@ fn is_known<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> bool
     })
 }
 
-/// Σ|y − H^C|²/|H^C|² over entries and lines, as a mean.
-fn residual_power<const N: usize>(
-    objective: &Objective<'_, N>,
-    estimate: &Estimate,
-) -> Option<f64> {
-    let state = objective.unweighted(
-        estimate.unknowns.clone(),
-        Some(estimate.corrections.clone()),
-    )?;
-    let (mut sum, mut count) = (0.0, 0_usize);
-    objective.visit(None, &state, |_, line| {
-        for (residual, computed) in line.residual.iter().zip(&line.computed) {
-            sum += residual.norm_sqr() / computed.norm_sqr();
-            count += 1;
-        }
-    })?;
-    Some(sum / count.max(1) as f64)
-}
-
 /// By how much the standard deviation of each unknown has to grow because the residuals of neighbouring lines are
 /// correlated: √ of the variance of the scores beside the one that the information promises (a sandwich with Bartlett's
 /// weights; Newey and West), at least one. `unit` times `scale` is the covariance that it promises.
@@ -161,7 +146,7 @@ pub(super) fn inflation<const N: usize>(
 ) -> Option<DVector<f64>> {
     let (weights, state) = objective.reached(estimate)?;
     let mut scores: Vec<Vec<(usize, DVector<f64>)>> = Vec::new();
-    objective.visit(Some(&weights), &state, |group, line| {
+    objective.visit_scores(&weights, &state, |group, line| {
         if scores.len() <= group {
             scores.resize_with(group + 1, Vec::new);
         }
@@ -200,7 +185,7 @@ impl<const N: usize> Objective<'_, N> {
         let state = self.unweighted(
             estimate.unknowns.clone(),
             Some(estimate.corrections.clone()),
-        )?;
+        );
         Some((self.weights(estimate.levels, &state)?, state))
     }
 }

@@ -9,8 +9,8 @@ use crate::structure::ComplexMatrix;
 
 use super::lines::Lines;
 
-/// A symmetric matrix or a vector of the joint's DOFs at one line.
-pub(super) type Small<const N: usize> = [[Complex64; N]; N];
+/// A matrix of the joint's DOFs at one line, or at several side by side.
+pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
 
 /// One entry of the symmetric H^C_ss, measured once or more often.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,24 +44,28 @@ pub(super) struct Block<const N: usize> {
     pub(super) known: Vec<f64>,
 }
 
+/// No measurement is taken for better than that: its reciprocal is a number.
+const LEAST_VARIANCE: f64 = 1e-300;
+
 impl<const N: usize> Block<N> {
     /// Every `stride`th line of `lines`, whose joint has N DOFs.
     pub(super) fn new(lines: &Lines, stride: usize) -> Self {
-        let measured = lines.independent();
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
+        let measured = lines.independent();
         let mut entries: Vec<Entry> = Vec::new();
+        let mut places: Vec<Vec<(usize, usize)>> = Vec::new();
         for &(p, q) in &measured {
             let (row, column) = (p.min(q), p.max(q));
-            match entries
-                .iter_mut()
-                .find(|entry| (entry.row, entry.column) == (row, column))
-            {
-                Some(entry) => entry.count += repeats,
-                None => entries.push(Entry {
-                    row,
-                    column,
-                    count: repeats,
-                }),
+            let known = entries
+                .iter()
+                .position(|entry| (entry.row, entry.column) == (row, column));
+            if let Some(known) = known {
+                entries[known].count += repeats;
+                places[known].push((p, q));
+            } else {
+                let count = repeats;
+                entries.push(Entry { row, column, count });
+                places.push(vec![(p, q)]);
             }
         }
         let points = lines.points.len();
@@ -69,7 +73,9 @@ impl<const N: usize> Block<N> {
         let count = chosen().count();
         let mut block = Self {
             points,
-            omega: Vec::with_capacity(count),
+            omega: chosen()
+                .map(|line| std::f64::consts::TAU * lines.frequency_hz[line])
+                .collect(),
             free: Vec::with_capacity(count),
             dynamic_stiffness: [0.0; N],
             transfer: Vec::with_capacity(count * points),
@@ -79,67 +85,97 @@ impl<const N: usize> Block<N> {
             known: Vec::new(),
             entries,
         };
+        let variances = variances(lines, &places);
         for line in chosen() {
-            block.push(lines, &measured, line);
+            block.push_substructures(lines, line);
+            block.push_assembly(lines, &places, variances.as_deref(), line);
         }
         block.dynamic_stiffness = std::array::from_fn(|dof| {
             let diagonal = block.free.iter().map(|free| free[dof][dof]);
-            let mut values: Vec<f64> = diagonal.map(|value| value.norm().recip()).collect();
-            values.sort_by(f64::total_cmp);
-            values.get(values.len() / 2).copied().unwrap_or(1.0)
+            let mut sizes: Vec<f64> = diagonal.map(|value| value.norm_sqr()).collect();
+            if sizes.is_empty() {
+                return 1.0;
+            }
+            // The upper median of the reciprocals is the lower one of the receptances.
+            let middle = (sizes.len() - 1) / 2;
+            let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+            median.sqrt().recip()
         });
         block
     }
 
-    fn push(&mut self, lines: &Lines, measured: &[(usize, usize)], line: usize) {
-        let (a, b, assembly) = (&lines.a_joint[line], &lines.b[line], &lines.assembly[line]);
-        self.omega
-            .push(std::f64::consts::TAU * lines.frequency_hz[line]);
+    fn push_substructures(&mut self, lines: &Lines, line: usize) {
+        let (a, b) = (&lines.a_joint[line], &lines.b[line]);
         let symmetric = |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
         self.free.push(std::array::from_fn(|i| {
             std::array::from_fn(|j| symmetric(a, i, j) + symmetric(&b.joint, i, j))
         }));
-        for point in 0..self.points {
-            self.transfer.push(std::array::from_fn(|i| {
-                0.5 * (b.joint_points[(i, point)] + b.points_joint[(point, i)])
-            }));
-        }
-        for entry in &self.entries {
-            let (row, column) = (entry.row, entry.column);
-            self.own.push(symmetric(&b.points, row, column));
-            let places = [(row, column), (column, row)];
-            let distinct = if row == column { 1 } else { 2 };
-            let own = || {
-                places[..distinct]
-                    .iter()
-                    .filter(|place| measured.contains(place))
-            };
+        let rows = b.joint_points.column_iter().zip(b.points_joint.row_iter());
+        self.transfer
+            .extend(rows.map(|(column, row)| std::array::from_fn(|i| 0.5 * (column[i] + row[i]))));
+        let own = self.entries.iter();
+        self.own
+            .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
+    }
+
+    /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
+    fn push_assembly(
+        &mut self,
+        lines: &Lines,
+        places: &[Vec<(usize, usize)>],
+        variances: Option<&[Vec<&[f64]>]>,
+        line: usize,
+    ) {
+        let assembly = &lines.assembly[line];
+        for (entry, places) in places.iter().enumerate() {
+            let known = variances.map(|variances| &variances[entry]);
+            if let ([place], None) = (&places[..], &lines.repeats) {
+                self.measured.push(assembly[*place]);
+                self.scatter.push(0.0);
+                self.known.extend(known.map(|known| known[0][line]));
+                continue;
+            }
             // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
-            let weight = |place: (usize, usize)| lines.known_variance(place, line).recip();
-            let total: f64 = own().map(|&place| weight(place)).sum();
-            let mean = own()
-                .map(|&place| assembly[place] * weight(place))
-                .sum::<Complex64>()
-                / total;
+            let weight =
+                |index: usize| known.map_or(1.0, |k| k[index][line].max(LEAST_VARIANCE).recip());
+            let weighted = || (0..places.len()).map(|index| (weight(index), places[index]));
+            let total: f64 = weighted().map(|(weight, _)| weight).sum();
+            let sum: Complex64 = weighted()
+                .map(|(weight, place)| assembly[place] * weight)
+                .sum();
+            let mean = sum / total;
             self.measured.push(mean);
-            let common = own().count() as f64 / total;
-            let between: f64 = own()
-                .map(|&place| common * weight(place) * (assembly[place] - mean).norm_sqr())
+            let common = places.len() as f64 / total;
+            self.known.extend(known.map(|_| common));
+            let between: f64 = weighted()
+                .map(|(weight, place)| common * weight * (assembly[place] - mean).norm_sqr())
                 .sum();
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
-                    let within: f64 = own().map(|&place| repeats.scatter[line][place]).sum();
+                    let scatter = &repeats.scatter[line];
+                    let within: f64 = places.iter().map(|&place| scatter[place]).sum();
                     within + f64::from(repeats.count) * between
                 }
                 None => between,
             });
-            if lines.relative_variance.is_some() {
-                self.known.push(common);
-            }
         }
     }
 
     pub(super) fn lines(&self) -> usize {
         self.omega.len()
     }
+}
+
+/// σ²/|H|² of each place over the lines, where it is known.
+fn variances<'lines>(
+    lines: &'lines Lines,
+    places: &[Vec<(usize, usize)>],
+) -> Option<Vec<Vec<&'lines [f64]>>> {
+    let known = lines.relative_variance.as_ref()?;
+    let of_place = |place: &(usize, usize)| {
+        let index = lines.measured.iter().position(|other| other == place)?;
+        Some(known.get(index)?.as_slice())
+    };
+    let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
+    places.iter().map(of_entry).collect()
 }

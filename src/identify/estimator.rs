@@ -5,9 +5,12 @@
 //! raising its own σ would. For the same reason ln det of J Σ_H Jᴴ does not count: the errors of the substructures are
 //! unknowns of their own (see `objective`), not part of the residual's variance.
 
+use std::slice;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::group::Group;
 use super::noise::{Levels, Noise, NoiseLevel};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Objective, State, Weights};
@@ -75,7 +78,8 @@ const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 
 /// Estimates the unknowns from `start` coordinates; `None` if the start cannot be evaluated.
 ///
-/// With `levels` the weights follow from them and no level is estimated.
+/// With `levels`, as for the trial of a start, the weights follow from them and no level is estimated, and an iteration that
+/// wanders is given up.
 pub(super) fn estimate<const N: usize>(
     objective: &Objective<'_, N>,
     noise: &Noise,
@@ -84,11 +88,11 @@ pub(super) fn estimate<const N: usize>(
     start: &DVector<f64>,
     corrections: Option<Vec<Vec<Complex64>>>,
 ) -> Option<Estimate> {
+    let is_trial = levels.is_some();
     let estimates_level = levels.is_none() && !noise.is_stated();
     let mut levels = levels.unwrap_or_else(|| first_levels(objective, noise));
     let mut coordinates = start.clone();
-    let mut state = objective.unweighted(chart.unknowns(start), corrections)?;
-    let mut weights = objective.weights(levels, &state)?;
+    let (mut weights, mut state) = objective.renewed(levels, chart.unknowns(start), corrections)?;
     let measurements = measurements(objective);
     let unknowns = start.len();
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
@@ -100,15 +104,8 @@ pub(super) fn estimate<const N: usize>(
         } else {
             NEGLIGIBLE_GAIN
         };
-        let from = state.corrections;
-        let rest = levenberg_marquardt(
-            objective,
-            &weights,
-            chart,
-            &coordinates,
-            from,
-            (gain, damping),
-        )?;
+        let control = (gain, damping);
+        let rest = levenberg_marquardt(objective, &weights, chart, &coordinates, state, control);
         damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
         // In standard deviations, at least: σ ≥ 1/√(JᵀΣ⁻¹J)_ii times that of the residual, S/N.
@@ -116,21 +113,30 @@ pub(super) fn estimate<const N: usize>(
         let step = (&rest.coordinates - &coordinates).component_div(&deviation);
         let shift = step.amax();
         let settled = rest.settled;
-        (coordinates, state) = (rest.coordinates, rest.state);
+        coordinates = rest.coordinates;
         if estimates_level && shrinkage > 0.0 {
-            levels = noise.levels(objective.level(noise, &state, shrinkage)?);
+            levels = noise.levels(objective.level(noise, &rest.state, shrinkage)?);
         }
-        weights = objective.weights(levels, &state)?;
+        let State {
+            unknowns,
+            corrections,
+            ..
+        } = rest.state;
+        (weights, state) = objective.renewed(levels, unknowns, Some(corrections))?;
+        if is_trial && !settled {
+            // It wanders, and renewed weights would not lead it back.
+            break;
+        }
         if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;
         }
     }
-    let state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
+    let scatter = log_variances_of_scatter(objective, &weights);
     let log_determinant = if noise.is_stated() {
-        log_variances(&weights)
+        scatter + log_variances(&weights)
     } else {
-        log_determinant(objective, &weights, &state)?
+        scatter + log_determinant(objective, &weights, &state)?
     };
     let cost = state.normal.linearised_cost;
     let count = measurements as f64;
@@ -153,12 +159,34 @@ pub(super) fn estimate<const N: usize>(
     })
 }
 
-/// Σ ln σ² of everything measured: the likelihood with the corrections as unknowns.
+/// Σ ln σ² over measurements beyond the first of each entry.
+fn log_variances_of_scatter<const N: usize>(
+    objective: &Objective<'_, N>,
+    weights: &[Weights],
+) -> f64 {
+    let of_group = |(group, weights): (&Group<N>, &Weights)| {
+        let entries = group.blocks.iter().flat_map(|block| &block.entries);
+        let counts: Vec<f64> = entries.map(|entry| f64::from(entry.count)).collect();
+        let lines = weights.entries.chunks_exact(counts.len().max(1));
+        let of_line = |variances: &[f64]| -> f64 {
+            let pairs = counts.iter().zip(variances);
+            let repeated = pairs.filter(|(count, _)| **count > 1.0);
+            repeated
+                .map(|(n, of_mean)| (n - 1.0) * (n * of_mean).ln())
+                .sum()
+        };
+        lines.map(of_line).sum::<f64>()
+    };
+    objective.groups.iter().zip(weights).map(of_group).sum()
+}
+
+/// Σ ln σ² of the means of everything measured: the likelihood with the corrections as unknowns.
 fn log_variances(weights: &[Weights]) -> f64 {
-    let of = |weights: &Weights| {
+    let of = |weights: &Weights| -> f64 {
         let all = weights.entries.iter().chain(&weights.sources);
-        let logarithms = all.filter(|variance| **variance > 0.0).map(|v| v.ln());
-        weights.scatter_log + logarithms.sum::<f64>()
+        all.filter(|variance| **variance > 0.0)
+            .map(|v| v.ln())
+            .sum()
     };
     weights.iter().map(of).sum()
 }
@@ -169,10 +197,18 @@ fn log_determinant<const N: usize>(
     weights: &[Weights],
     state: &State,
 ) -> Option<f64> {
-    let mut sum: f64 = weights.iter().map(|weights| weights.scatter_log).sum();
-    objective.visit(Some(weights), state, |_, line| {
-        sum += line.log_determinant()
-    })?;
+    let pairs = objective.groups.iter().zip(weights);
+    let independent = pairs.filter(|(group, _)| group.sources.is_empty());
+    let mut sum: f64 = independent
+        .map(|(_, weights)| log_variances(slice::from_ref(weights)))
+        .sum();
+    if !objective.is_independent() {
+        objective.visit(Some(weights), state, |group, line| {
+            if !objective.groups[group].sources.is_empty() {
+                sum += line.log_determinant();
+            }
+        })?;
+    }
     Some(sum)
 }
 
@@ -205,8 +241,9 @@ pub(super) fn minimum<const N: usize>(
     start: &DVector<f64>,
 ) -> Option<DVector<f64>> {
     let none = vec![Vec::new(); objective.groups.len()];
+    let state = objective.at(weights, start.clone(), Some(none))?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
-    Some(levenberg_marquardt(objective, weights, &Free, start, none, control)?.coordinates)
+    Some(levenberg_marquardt(objective, weights, &Free, start, state, control).coordinates)
 }
 
 /// Where an iteration with held weights came to rest.
@@ -219,16 +256,16 @@ struct Rest {
     damping: f64,
 }
 
+/// The iteration from `start` coordinates, at which `state` is.
 fn levenberg_marquardt<const N: usize>(
     objective: &Objective<'_, N>,
     weights: &[Weights],
     chart: &impl Chart,
     start: &DVector<f64>,
-    corrections: Vec<Vec<Complex64>>,
+    mut state: State,
     (negligible_gain, first_damping): (f64, f64),
-) -> Option<Rest> {
+) -> Rest {
     let mut coordinates = start.clone();
-    let mut state = objective.at(weights, chart.unknowns(start), Some(corrections))?;
     let in_chart = |state: &State, coordinates: &DVector<f64>| -> Normal {
         state.normal.in_chart(&chart.derivative(coordinates))
     };
@@ -259,11 +296,11 @@ fn levenberg_marquardt<const N: usize>(
         }
     }
     settled = settled || normal.is_settled(&coordinates, HIDDEN_GAIN);
-    Some(Rest {
+    Rest {
         scale: normal.scale(),
         coordinates,
         state,
         settled,
         damping: damping.min(FIRST_DAMPING),
-    })
+    }
 }

@@ -1,4 +1,4 @@
-//! H^C_ss of a joint at one line, with what its derivatives are made of.
+//! H^C_ss of a joint at one line, or at several side by side, with what its derivatives are made of.
 //!
 //! With symmetric matrices (Tol 3.17), Q = (I + F K*)⁻¹ H_ks, X = Z⁻¹ H_ks = K* Q and F = H_jj + H_kk:
 //! H^C_ss = H_ss − H_sk X, its derivative by K* is −Qᵀ dK* Q, by F it is +Xᵀ dF X, by H_ks −(dH_skᵀ X + Xᵀ dH_ks).
@@ -6,20 +6,19 @@
 use num_complex::Complex64;
 
 use super::block::{Entry, Small};
+use super::lanes::Number;
 
 /// Q and X of one line, a column for each point.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Kernel<const N: usize> {
-    transfer: Vec<[Complex64; N]>,
+pub(super) struct Kernel<const N: usize, T = Complex64> {
+    transfer: Vec<[T; N]>,
     /// Q = (I + F K*)⁻¹ H_ks
-    q: Vec<[Complex64; N]>,
+    q: Vec<[T; N]>,
     /// X = K* Q
-    x: Vec<[Complex64; N]>,
+    x: Vec<[T; N]>,
 }
 
-const ZERO: Complex64 = Complex64::new(0.0, 0.0);
-
-impl<const N: usize> Kernel<N> {
+impl<const N: usize, T: Number> Kernel<N, T> {
     pub(super) fn new() -> Self {
         Self {
             transfer: Vec::new(),
@@ -28,50 +27,63 @@ impl<const N: usize> Kernel<N> {
         }
     }
 
-    /// Solves one line; `None` where I + F K* is singular.
+    /// Solves one line, whose H_ks has these columns; `None` where I + F K* is singular.
+    #[inline(always)]
     pub(super) fn solve(
         &mut self,
-        free: &Small<N>,
-        transfer: &[[Complex64; N]],
-        stiffness: &Small<N>,
+        free: &Small<N, T>,
+        transfer: impl ExactSizeIterator<Item = [T; N]>,
+        stiffness: &Small<N, T>,
     ) -> Option<()> {
         let mut loop_gain = product(free, stiffness);
         for (i, row) in loop_gain.iter_mut().enumerate() {
-            row[i] += 1.0;
+            row[i] += T::ONE;
         }
         let inverse = inverse(loop_gain)?;
-        self.transfer.resize(transfer.len(), [ZERO; N]);
-        self.q.resize(transfer.len(), [ZERO; N]);
-        self.x.resize(transfer.len(), [ZERO; N]);
-        self.transfer.copy_from_slice(transfer);
-        for ((column, q), x) in transfer.iter().zip(&mut self.q).zip(&mut self.x) {
-            *q = times(&inverse, column);
+        let zero = [T::ZERO; N];
+        for columns in [&mut self.transfer, &mut self.q, &mut self.x] {
+            columns.resize(transfer.len(), zero);
+        }
+        let own = self.transfer.iter_mut().zip(&mut self.q).zip(&mut self.x);
+        for (column, ((own, q), x)) in transfer.zip(own) {
+            *own = column;
+            *q = times(&inverse, &column);
             *x = times(stiffness, q);
         }
         Some(())
     }
 
     /// Q of one point.
-    pub(super) fn q(&self, point: usize) -> &[Complex64; N] {
+    #[inline(always)]
+    pub(super) fn q(&self, point: usize) -> &[T; N] {
         &self.q[point]
     }
 
     /// H^C at an entry from H_ss there.
-    pub(super) fn receptance(&self, own: Complex64, entry: Entry) -> Complex64 {
+    #[inline(always)]
+    pub(super) fn receptance(&self, own: T, entry: Entry) -> T {
         own - dot(&self.transfer[entry.row], &self.x[entry.column])
+    }
+
+    /// Qᵀ E Q at `entry`, E having ones at (i, j) and (j, i).
+    #[inline(always)]
+    pub(super) fn through(&self, entry: Entry, (i, j): (usize, usize)) -> T {
+        let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
+        if i == j {
+            p[i] * q[i]
+        } else {
+            p[i] * q[j] + p[j] * q[i]
+        }
     }
 
     /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
     #[inline]
-    pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> Complex64 {
-        let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
-        if i == j {
-            -(p[i] * q[i])
-        } else {
-            -(p[i] * q[j] + p[j] * q[i])
-        }
+    pub(super) fn by_stiffness(&self, entry: Entry, place: (usize, usize)) -> T {
+        -self.through(entry, place)
     }
+}
 
+impl<const N: usize> Kernel<N> {
     /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss in the given proportions.
     pub(super) fn by_source(
         &self,
@@ -98,9 +110,9 @@ impl<const N: usize> Kernel<N> {
     }
 }
 
-#[inline]
-fn product<const N: usize>(left: &Small<N>, right: &Small<N>) -> Small<N> {
-    let mut product = [[ZERO; N]; N];
+#[inline(always)]
+fn product<const N: usize, T: Number>(left: &Small<N, T>, right: &Small<N, T>) -> Small<N, T> {
+    let mut product = [[T::ZERO; N]; N];
     for i in 0..N {
         for j in 0..N {
             for k in 0..N {
@@ -111,36 +123,30 @@ fn product<const N: usize>(left: &Small<N>, right: &Small<N>) -> Small<N> {
     product
 }
 
-#[inline]
-fn times<const N: usize>(matrix: &Small<N>, vector: &[Complex64; N]) -> [Complex64; N] {
-    let mut product = [ZERO; N];
-    for i in 0..N {
-        product[i] = dot(&matrix[i], vector);
-    }
-    product
+#[inline(always)]
+fn times<const N: usize, T: Number>(matrix: &Small<N, T>, vector: &[T; N]) -> [T; N] {
+    std::array::from_fn(|i| dot(&matrix[i], vector))
 }
 
-#[inline]
-fn dot<const N: usize>(left: &[Complex64; N], right: &[Complex64; N]) -> Complex64 {
-    let mut sum = ZERO;
+/// Σ left·right, without conjugation.
+#[inline(always)]
+pub(super) fn dot<const N: usize, T: Number>(left: &[T; N], right: &[T; N]) -> T {
+    let mut sum = T::ZERO;
     for (l, r) in left.iter().zip(right) {
-        sum += l * r;
+        sum += *l * *r;
     }
     sum
 }
 
-/// Inverse of a small matrix; `None` if it is singular.
-pub(super) fn inverse<const N: usize>(matrix: Small<N>) -> Option<Small<N>> {
+/// Inverse of a small matrix; `None` if it is singular, at any of several lines.
+#[inline(always)]
+pub(super) fn inverse<const N: usize, T: Number>(matrix: Small<N, T>) -> Option<Small<N, T>> {
     if N != 2 {
         return eliminated(matrix);
     }
     // [a b; c d]⁻¹ = [d −b; −c a]/(ad − bc)
     let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
-    let size = determinant.norm_sqr();
-    if !(size.is_finite() && size > 0.0) {
-        return None;
-    }
-    let reciprocal = determinant.conj() / size;
+    let reciprocal = determinant.reciprocal()?;
     let mut inverse = matrix;
     inverse[0][0] = matrix[1][1] * reciprocal;
     inverse[1][1] = matrix[0][0] * reciprocal;
@@ -150,27 +156,22 @@ pub(super) fn inverse<const N: usize>(matrix: Small<N>) -> Option<Small<N>> {
 }
 
 /// Inverse by Gauss–Jordan elimination with row exchanges.
-fn eliminated<const N: usize>(mut matrix: Small<N>) -> Option<Small<N>> {
-    let mut inverse: Small<N> = std::array::from_fn(|i| {
-        std::array::from_fn(|j| Complex64::from(if i == j { 1.0 } else { 0.0 }))
-    });
+fn eliminated<const N: usize, T: Number>(mut matrix: Small<N, T>) -> Option<Small<N, T>> {
+    let mut inverse: Small<N, T> =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { T::ONE } else { T::ZERO }));
     for column in 0..N {
         let mut pivot = column;
         for row in column + 1..N {
-            if matrix[row][column].norm_sqr() > matrix[pivot][column].norm_sqr() {
+            if matrix[row][column].outweighs(matrix[pivot][column]) {
                 pivot = row;
             }
         }
-        let size = matrix[pivot][column].norm_sqr();
-        if !(size.is_finite() && size > 0.0) {
-            return None;
-        }
+        let reciprocal = matrix[pivot][column].reciprocal()?;
         matrix.swap(column, pivot);
         inverse.swap(column, pivot);
-        let reciprocal = matrix[column][column].inv();
         for j in 0..N {
-            matrix[column][j] *= reciprocal;
-            inverse[column][j] *= reciprocal;
+            matrix[column][j] = matrix[column][j] * reciprocal;
+            inverse[column][j] = inverse[column][j] * reciprocal;
         }
         for row in 0..N {
             if row != column {
@@ -192,7 +193,7 @@ pub(super) fn complex_stiffness<const N: usize>(
     unknowns: &[f64],
     omega: f64,
 ) -> Small<N> {
-    let mut stiffness = [[ZERO; N]; N];
+    let mut stiffness = [[Complex64::ZERO; N]; N];
     for (index, &(i, j)) in entries.iter().enumerate() {
         let value = Complex64::new(unknowns[index], omega * unknowns[entries.len() + index]);
         stiffness[i][j] = value;
@@ -218,7 +219,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(inverse([[ZERO; 2]; 2]), None);
-        assert_eq!(inverse([[ZERO; 1]; 1]), None);
+        assert_eq!(inverse([[Complex64::ZERO; 2]; 2]), None);
+        assert_eq!(inverse([[Complex64::ZERO; 1]; 1]), None);
     }
 }

@@ -3,15 +3,15 @@
 use nalgebra::DVector;
 
 use crate::frf::Dof;
-use crate::structure::{ComplexMatrix, Partition};
+use crate::structure::ComplexMatrix;
 
 use super::assessment::{self, Assessment};
 use super::bands::{self, Bands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
-use super::decoupling;
 use super::error::IdentifyError;
 use super::group::{Group, Side};
+use super::line_by_line::{self, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel, StatedLevel};
@@ -173,13 +173,13 @@ fn identify_with<const N: usize>(
     model: JointModel,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
-    let decoupled: Vec<_> = all.iter().map(decouple).collect();
-    let pooled: (Vec<f64>, Vec<Option<ComplexMatrix>>) = all
-        .iter()
-        .zip(&decoupled)
-        .flat_map(|(lines, decoupled)| lines.frequency_hz.iter().copied().zip(decoupled.clone()))
-        .unzip();
-    let band_average = bands::band_average(model, &pooled.0, &pooled.1, &options.bands);
+    let decoupled: Vec<_> = all.iter().map(line_by_line::decouple::<N>).collect();
+    let band_average = if let ([lines], [decoupled]) = (all, &decoupled[..]) {
+        bands::band_average(model, &lines.frequency_hz, decoupled, &options.bands)
+    } else {
+        let frequency_hz: Vec<f64> = all.iter().flat_map(|l| l.frequency_hz.clone()).collect();
+        bands::band_average(model, &frequency_hz, &decoupled.concat(), &options.bands)
+    };
     let data = data::<N>(all, &options.noise);
     let noise = &options.noise;
     let starts = [options.start.as_ref(), band_average.as_ref()];
@@ -249,29 +249,6 @@ fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
         },
         whole,
     }
-}
-
-/// Whether every pair of points was measured, at least as its transpose.
-fn is_complete(lines: &Lines) -> bool {
-    let count = lines.points.len();
-    let has = |place: (usize, usize)| {
-        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
-    };
-    (0..count).all(|p| (0..count).all(|q| has((p, q))))
-}
-
-/// K* of each line by (3.21); `None` where it cannot be had.
-fn decouple(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
-    let complete = is_complete(lines);
-    let line = |index: usize| {
-        let a_joint = &lines.a_joint[index];
-        // Equation (3.21) needs nothing of A but H_jj.
-        let a = Partition::of(a_joint, a_joint.nrows());
-        decoupling::from_ss(&a, &lines.b[index], &lines.assembly[index])
-    };
-    (0..lines.frequency_hz.len())
-        .map(|index| if complete { line(index) } else { None })
-        .collect()
 }
 
 pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {

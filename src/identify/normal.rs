@@ -30,6 +30,15 @@ impl Normal {
         }
     }
 
+    /// Adds what other lines contribute.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.cost += other.cost;
+        self.linearised_cost += other.linearised_cost;
+        self.signal += other.signal;
+        self.matrix += &other.matrix;
+        self.gradient += &other.gradient;
+    }
+
     /// The same in other unknowns, with the derivative of these by those.
     pub(super) fn in_chart(&self, derivative: &DMatrix<f64>) -> Self {
         Self {

@@ -9,19 +9,29 @@ use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::group::Group;
+use super::independent;
 use super::kernel::{Kernel, complex_stiffness};
+use super::noise::{Levels, NoiseLevel};
 use super::normal::Normal;
+use super::parallel;
+use super::weights::of_one;
 
 /// Entries of K* on and above the diagonal that can be unknown.
-const MAX_ENTRIES: usize = 3;
+pub(super) const MAX_ENTRIES: usize = 3;
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
-const CORRECTION_ROUNDS: usize = 8;
+const CORRECTION_ROUNDS: usize = 40;
 /// … as long as they promise to lower its cost by this fraction …
 const CORRECTION_GAIN: f64 = 1e-3;
-/// … each shortened to a quarter at most so many times.
-const CORRECTION_HALVINGS: usize = 6;
+/// … each shortened to a quarter at most so many times …
+const CORRECTION_QUARTERINGS: usize = 8;
+/// … until it lowers the cost by this part of what the linear model promises of it. At a sharp resonance a step can end beyond
+/// the pole, where the receptance is next to nothing and from where no small step leads back.
+const CORRECTION_KEPT_PROMISE: f64 = 0.1;
+/// Lines with corrections that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on
+/// how many processors there are.
+const PIECE: usize = 64;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.
@@ -33,8 +43,6 @@ pub(super) struct Weights {
     pub(super) sources: Vec<f64>,
     /// Σ|y − mean|²/σ² over repeated measurements: part of the cost that no joint changes.
     pub(super) scatter: f64,
-    /// Σ ln σ² over measurements beyond the first of an entry.
-    pub(super) scatter_log: f64,
 }
 
 /// A point: the unknowns, what the substructures' receptances are corrected by, and the normal equations there.
@@ -44,6 +52,15 @@ pub(super) struct State {
     /// For each group, δ of each source, line by line.
     pub(super) corrections: Vec<Vec<Complex64>>,
     pub(super) normal: Normal,
+}
+
+/// How lines whose entries have errors of their own are divided by σ.
+#[derive(Clone, Copy)]
+enum Whitening<'w> {
+    None,
+    Held(&'w Weights),
+    /// By what the level makes of the computed receptance.
+    Renewed(NoiseLevel),
 }
 
 /// The model with data and weights.
@@ -84,13 +101,13 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         unknowns: DVector<f64>,
         corrections: Option<Vec<Vec<Complex64>>>,
-    ) -> Option<State> {
+    ) -> State {
         let normal = Normal::zero(unknowns.len());
-        Some(State {
+        State {
             unknowns,
             corrections: corrections.unwrap_or_else(|| self.no_corrections()),
             normal,
-        })
+        }
     }
 
     fn no_corrections(&self) -> Vec<Vec<Complex64>> {
@@ -123,20 +140,11 @@ impl<const N: usize> Objective<'_, N> {
         let mut normal = Normal::zero(unknowns.len());
         let groups = self.groups.iter().zip(weights).zip(&mut corrections);
         for ((group, weights), corrections) in groups {
-            let mut line = Line::new(group, self.entries);
-            for index in 0..group.lines() {
-                let variances = line.weights(weights, index);
-                if group.sources.is_empty() {
-                    line.accumulate(index, unknowns.as_slice(), variances.0, &mut normal)?;
-                    continue;
-                }
-                {
-                    let at = index * group.sources.len();
-                    let delta = &mut corrections[at..at + group.sources.len()];
-                    line.settle(index, variances, from, &unknowns, delta)?;
-                    line.whiten(variances, delta)?;
-                }
-                line.add_to(&mut normal);
+            if group.sources.is_empty() {
+                let unknowns = unknowns.as_slice();
+                independent::accumulate(group, self.entries, unknowns, weights, &mut normal)?;
+            } else {
+                self.settle(group, weights, (from, &unknowns), corrections, &mut normal)?;
             }
             normal.cost += weights.scatter;
             normal.linearised_cost += weights.scatter;
@@ -149,7 +157,80 @@ impl<const N: usize> Objective<'_, N> {
         })
     }
 
-    /// Calls `visit` with each line of each group as it is at `state`: linearised and, with `weights`, whitened.
+    /// Adds a group whose lines have corrections, which follow the unknowns, to the normal equations.
+    fn settle(
+        &self,
+        group: &Group<N>,
+        weights: &Weights,
+        (from, to): (Option<&DVector<f64>>, &DVector<f64>),
+        corrections: &mut [Complex64],
+        normal: &mut Normal,
+    ) -> Option<()> {
+        let count = group.sources.len();
+        let pieces: Vec<(usize, &mut [Complex64])> = corrections
+            .chunks_mut(count * PIECE)
+            .enumerate()
+            .map(|(piece, corrections)| (piece * PIECE, corrections))
+            .collect();
+        let sums = parallel::map_each(pieces, |(first, corrections)| {
+            let mut line = Line::new(group, self.entries);
+            let mut normal = Normal::zero(to.len());
+            for (index, delta) in (first..).zip(corrections.chunks_mut(count)) {
+                let variances = line.weights(weights, index);
+                line.settle(index, variances, from, to, delta)?;
+                line.whiten(variances, delta)?;
+                line.add_to(&mut normal);
+            }
+            Some(normal)
+        });
+        for sum in sums {
+            normal.add(&sum?);
+        }
+        Some(())
+    }
+
+    /// Whether all entries have errors of their own: no substructure's error is an unknown.
+    pub(super) fn is_independent(&self) -> bool {
+        self.groups.iter().all(|group| group.sources.is_empty())
+    }
+
+    /// The point `unknowns` with these corrections, and the weights that it gives itself.
+    pub(super) fn renewed(
+        &self,
+        levels: Levels,
+        unknowns: DVector<f64>,
+        corrections: Option<Vec<Vec<Complex64>>>,
+    ) -> Option<(Vec<Weights>, State)> {
+        if !self.is_independent() {
+            let state = self.unweighted(unknowns, corrections);
+            let weights = self.weights(levels, &state)?;
+            let state = self.at(&weights, state.unknowns, Some(state.corrections))?;
+            return Some((weights, state));
+        }
+        let mut normal = Normal::zero(unknowns.len());
+        let all: Option<Vec<Weights>> = self
+            .groups
+            .iter()
+            .map(|group| {
+                let unknowns = unknowns.as_slice();
+                independent::renew(group, self.entries, unknowns, levels.assembly, &mut normal)
+            })
+            .collect();
+        let all = all?;
+        let scatter: f64 = all.iter().map(|weights| weights.scatter).sum();
+        normal.cost += scatter;
+        normal.linearised_cost += scatter;
+        normal.matrix.fill_upper_triangle_with_lower_triangle();
+        let state = State {
+            corrections: self.no_corrections(),
+            unknowns,
+            normal,
+        };
+        state.normal.cost.is_finite().then_some((all, state))
+    }
+
+    /// Calls `visit` with each line of each group as it is at `state`: computed and, with `weights`, whitened. Derivatives by
+    /// the joint are there only where there are sources.
     pub(super) fn visit(
         &self,
         weights: Option<&[Weights]>,
@@ -157,19 +238,97 @@ impl<const N: usize> Objective<'_, N> {
         mut visit: impl FnMut(usize, &Line<'_, N>),
     ) -> Option<()> {
         for (number, group) in self.groups.iter().enumerate() {
-            let mut line = Line::new(group, self.entries);
-            let sources = group.sources.len();
-            for index in 0..group.lines() {
-                let delta = &state.corrections[number][index * sources..(index + 1) * sources];
-                line.linearise(index, state.unknowns.as_slice(), delta)?;
-                if let Some(weights) = weights {
-                    let variances = line.weights(&weights[number], index);
-                    line.whiten(variances, delta)?;
-                } else {
-                    line.add_corrections(delta);
-                }
-                visit(number, &line);
+            let weights = weights.map(|weights| &weights[number]);
+            if group.sources.is_empty() {
+                let held = weights.map_or(Whitening::None, Whitening::Held);
+                self.visit_independent(group, held, state, |line| visit(number, line))?;
+            } else {
+                self.visit_linearised(number, weights, state, |line| visit(number, line))?;
             }
+        }
+        Some(())
+    }
+
+    /// The same, whitened by the variances that `levels` give there.
+    pub(super) fn visit_whitened(
+        &self,
+        levels: Levels,
+        state: &State,
+        mut visit: impl FnMut(usize, &Line<'_, N>),
+    ) -> Option<()> {
+        if !self.is_independent() {
+            let weights = self.weights(levels, state)?;
+            return self.visit(Some(&weights), state, visit);
+        }
+        for (number, group) in self.groups.iter().enumerate() {
+            let own = Whitening::Renewed(levels.assembly);
+            self.visit_independent(group, own, state, |line| visit(number, line))?;
+        }
+        Some(())
+    }
+
+    /// The same, whitened, with the derivatives by the joint.
+    pub(super) fn visit_scores(
+        &self,
+        weights: &[Weights],
+        state: &State,
+        mut visit: impl FnMut(usize, &Line<'_, N>),
+    ) -> Option<()> {
+        for (number, weights) in weights.iter().enumerate() {
+            self.visit_linearised(number, Some(weights), state, |line| visit(number, line))?;
+        }
+        Some(())
+    }
+
+    fn visit_independent(
+        &self,
+        group: &Group<N>,
+        whitening: Whitening<'_>,
+        state: &State,
+        mut visit: impl FnMut(&Line<'_, N>),
+    ) -> Option<()> {
+        let unknowns = state.unknowns.as_slice();
+        let blocks = group.blocks.iter();
+        let computed: Option<Vec<Vec<Complex64>>> = blocks
+            .map(|block| independent::computed(block, self.entries, unknowns))
+            .collect();
+        let computed = computed?;
+        let mut line = Line::new(group, self.entries);
+        for index in 0..group.lines() {
+            line.take(index, &computed);
+            match whitening {
+                Whitening::None => {}
+                Whitening::Held(weights) => {
+                    let (variances, _) = line.weights(weights, index);
+                    line.whiten_independent(variances);
+                }
+                Whitening::Renewed(level) => line.whiten_by(level),
+            }
+            visit(&line);
+        }
+        Some(())
+    }
+
+    fn visit_linearised(
+        &self,
+        number: usize,
+        weights: Option<&Weights>,
+        state: &State,
+        mut visit: impl FnMut(&Line<'_, N>),
+    ) -> Option<()> {
+        let group = &self.groups[number];
+        let mut line = Line::new(group, self.entries);
+        let sources = group.sources.len();
+        for index in 0..group.lines() {
+            let delta = &state.corrections[number][index * sources..(index + 1) * sources];
+            line.linearise(index, state.unknowns.as_slice(), delta)?;
+            if let Some(weights) = weights {
+                let variances = line.weights(weights, index);
+                line.whiten(variances, delta)?;
+            } else {
+                line.add_corrections(delta);
+            }
+            visit(&line);
         }
         Some(())
     }
@@ -193,6 +352,8 @@ pub(super) struct Line<'g, const N: usize> {
     pub(super) by_source: Vec<Complex64>,
     /// Σ, then its Cholesky factor.
     factor: Vec<Complex64>,
+    /// Σ|r̃|²/|H^C|², before whitening.
+    pub(super) relative_power: f64,
     cost: f64,
     /// The cost that is left once the corrections have followed, as linearised.
     residual_cost: f64,
@@ -223,6 +384,7 @@ impl<'g, const N: usize> Line<'g, N> {
                     size * size
                 }
             ],
+            relative_power: 0.0,
             cost: 0.0,
             residual_cost: 0.0,
             signal: 0.0,
@@ -237,6 +399,21 @@ impl<'g, const N: usize> Line<'g, N> {
             &weights.entries[index * size..(index + 1) * size],
             &weights.sources[index * sources..(index + 1) * sources],
         )
+    }
+
+    /// H^C of one line as computed before, and the residual.
+    fn take(&mut self, index: usize, computed: &[Vec<Complex64>]) {
+        self.index = index;
+        let mut at = 0;
+        for (block, computed) in self.group.blocks.iter().zip(computed) {
+            let count = block.entries.len();
+            let place = index * count..(index + 1) * count;
+            self.computed[at..at + count].copy_from_slice(&computed[place.clone()]);
+            for (e, measured) in (at..).zip(&block.measured[place]) {
+                self.residual[e] = measured - self.computed[e];
+            }
+            at += count;
+        }
     }
 
     /// H^C, the residual and the derivatives at this line.
@@ -281,7 +458,8 @@ impl<'g, const N: usize> Line<'g, N> {
                     }
                 }
             }
-            self.kernel.solve(&free, &self.transfer, &stiffness)?;
+            let transfer = self.transfer.iter().copied();
+            self.kernel.solve(&free, transfer, &stiffness)?;
             for (e, &entry) in block.entries.iter().enumerate() {
                 let mut own = own[e];
                 for (source, &delta) in self.group.sources.iter().zip(delta) {
@@ -314,63 +492,39 @@ impl<'g, const N: usize> Line<'g, N> {
         Some(())
     }
 
-    /// Linearises a line whose entries all have errors of their own and adds it to the normal equations, in one go.
-    fn accumulate(
-        &mut self,
-        index: usize,
-        unknowns: &[f64],
-        variances: &[f64],
-        normal: &mut Normal,
-    ) -> Option<()> {
-        let count = self.joint_entries.len();
-        let block = self.group.blocks.first()?;
-        self.omega = block.omega[index];
-        let stiffness = complex_stiffness::<N>(self.joint_entries, unknowns, self.omega);
-        let mut sums = Sums::default();
-        let mut variances = variances.iter();
-        for block in &self.group.blocks {
-            let entries = block.entries.len();
-            let transfer = &block.transfer[index * block.points..(index + 1) * block.points];
-            let own = &block.own[index * entries..(index + 1) * entries];
-            let measured = &block.measured[index * entries..(index + 1) * entries];
-            self.kernel
-                .solve(&block.free[index], transfer, &stiffness)?;
-            let values = block.entries.iter().zip(own).zip(measured);
-            for (((&entry, &own), &measured), variance) in values.zip(&mut variances) {
-                let weight = variance.recip();
-                let residual = measured - self.kernel.receptance(own, entry);
-                let mut row = [ZERO; MAX_ENTRIES];
-                for (value, &place) in row.iter_mut().zip(self.joint_entries) {
-                    *value = self.kernel.by_stiffness(entry, place);
-                }
-                sums.signal += weight * measured.norm_sqr();
-                sums.cost += weight * residual.norm_sqr();
-                sums.add(weight, residual, &row, count);
-            }
-        }
-        normal.signal += sums.signal;
-        normal.cost += sums.cost;
-        normal.linearised_cost += sums.cost;
-        sums.add_to(normal, self.omega, count);
-        Some(())
-    }
-
     /// Divides by σ where every entry has an error of its own.
     fn whiten_independent(&mut self, variances: &[f64]) {
-        let measured = self.group.blocks.iter().flat_map(|block| {
-            let count = block.entries.len();
-            &block.measured[self.index * count..(self.index + 1) * count]
-        });
-        (self.cost, self.signal, self.log_determinant) = (0.0, 0.0, 0.0);
-        for (e, measured) in measured.enumerate() {
-            let weight = variances[e].recip().sqrt();
-            self.signal += weight * weight * measured.norm_sqr();
+        self.measure();
+        for (e, variance) in variances.iter().enumerate() {
+            let weight = variance.recip().sqrt();
             self.residual[e] *= weight;
-            self.cost += self.residual[e].norm_sqr();
             for value in &mut self.by_joint[e][..self.joint_entries.len()] {
                 *value *= weight;
             }
         }
+    }
+
+    /// The same with the variances that `level` gives for the computed receptances.
+    fn whiten_by(&mut self, level: NoiseLevel) {
+        self.measure();
+        let mut at = 0;
+        for block in &self.group.blocks {
+            let count = block.entries.len();
+            let known = block
+                .known
+                .get(self.index * count..(self.index + 1) * count);
+            for (e, entry) in block.entries.iter().enumerate() {
+                let known = known.map(|known| known[e]);
+                let variance = of_one(level, known, self.computed[at + e].norm_sqr());
+                self.residual[at + e] *= (f64::from(entry.count) / variance).sqrt();
+            }
+            at += count;
+        }
+    }
+
+    fn measure(&mut self) {
+        let pairs = self.residual.iter().zip(&self.computed);
+        self.relative_power = pairs.map(|(r, h)| r.norm_sqr() / h.norm_sqr()).sum();
     }
 
     /// y − H^C + Jδ: the residual as if the substructures' receptances were those measured.
@@ -391,7 +545,6 @@ impl<'g, const N: usize> Line<'g, N> {
     ) -> Option<()> {
         if self.group.sources.is_empty() {
             self.whiten_independent(variances);
-            self.log_determinant = variances.iter().map(|variance| variance.ln()).sum();
             return Some(());
         }
         let size = self.residual.len();
@@ -399,6 +552,7 @@ impl<'g, const N: usize> Line<'g, N> {
         self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
         self.cost = self.whole_cost((variances, of_sources), delta);
         self.add_corrections(delta);
+        self.measure();
         self.factorise(variances, of_sources)?;
         forward(&self.factor, size, &mut self.residual);
         for t in 0..self.joint_entries.len() {
@@ -480,15 +634,20 @@ impl<'g, const N: usize> Line<'g, N> {
             trial.clear();
             trial.extend_from_slice(delta);
             self.follow(variances, to, to, &mut trial)?;
-            if before - self.residual_cost <= CORRECTION_GAIN * before {
+            let promised = before - self.residual_cost;
+            if promised <= CORRECTION_GAIN * before {
                 break;
             }
             let mut accepted = false;
-            for _ in 0..CORRECTION_HALVINGS {
-                if self.cost_at(index, variances, to, &trial) <= before {
+            let mut share = 1.0;
+            for _ in 0..CORRECTION_QUARTERINGS {
+                let gained = before - self.cost_at(index, variances, to, &trial);
+                // Along a step S falls by (2α − α²) of what the whole step promises.
+                if gained >= CORRECTION_KEPT_PROMISE * share * (2.0 - share) * promised {
                     accepted = true;
                     break;
                 }
+                share *= 0.25;
                 for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
                     *trial = *delta + (*trial - *delta) * 0.25;
                 }
@@ -574,7 +733,7 @@ impl<'g, const N: usize> Line<'g, N> {
         let mut sums = Sums::default();
         for (residual, row) in self.residual.iter().zip(&self.by_joint) {
             sums.cost += residual.norm_sqr();
-            sums.add(1.0, *residual, row, count);
+            sums.add(*residual, row, count);
         }
         normal.linearised_cost += sums.cost;
         sums.add_to(normal, self.omega, count);
@@ -600,30 +759,23 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 }
 
-/// Sums over the entries of one line.
+/// Sums over the entries of one whitened line.
 #[derive(Default)]
 struct Sums {
     cost: f64,
-    signal: f64,
-    /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
+    /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j for j ≤ i
     products: [[Complex64; MAX_ENTRIES]; MAX_ENTRIES],
-    /// Σ conj(∂H/∂K*_i) r / σ²
+    /// Σ conj(∂H/∂K*_i) r
     right: [Complex64; MAX_ENTRIES],
 }
 
 impl Sums {
     #[inline]
-    fn add(
-        &mut self,
-        weight: f64,
-        residual: Complex64,
-        row: &[Complex64; MAX_ENTRIES],
-        count: usize,
-    ) {
+    fn add(&mut self, residual: Complex64, row: &[Complex64; MAX_ENTRIES], count: usize) {
         // Rows beyond `count` are zero, so that the loops can be unrolled.
         debug_assert!(count <= MAX_ENTRIES);
         for i in 0..MAX_ENTRIES {
-            let conjugate = row[i].conj() * weight;
+            let conjugate = row[i].conj();
             self.right[i] += conjugate * residual;
             for j in 0..=i {
                 self.products[i][j] += conjugate * row[j];

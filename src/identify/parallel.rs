@@ -1,28 +1,57 @@
 //! Independent pieces of work on all processors, in a result that does not depend on how many there are.
 
+use std::cell::Cell;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
+
+thread_local! {
+    /// Whether this thread shares in work already, all processors being busy with it.
+    static SHARES: Cell<bool> = const { Cell::new(false) };
+}
 
 /// `work` of each item, in the order of the items.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    if threads == 1 || items.len() < 2 {
-        return items.iter().map(work).collect();
+    share(items.len(), |index| items.get(index).map(&work))
+}
+
+/// The same with items that are handed over.
+pub(crate) fn map_each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Some(item).into()).collect();
+    share(items.len(), |index| {
+        let mut item = items
+            .get(index)?
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        item.take().map(&work)
+    })
+}
+
+/// What `work` makes of each index below `count`.
+fn share<R: Send>(count: usize, work: impl Fn(usize) -> Option<R> + Sync) -> Vec<R> {
+    // Asking the system takes longer than some of the work.
+    static PROCESSORS: OnceLock<usize> = OnceLock::new();
+    let processors =
+        || *PROCESSORS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get));
+    if count < 2 || SHARES.get() || processors() == 1 {
+        return (0..count).filter_map(work).collect();
     }
     let next = AtomicUsize::new(0);
     let share = || {
+        SHARES.set(true);
         let mut done = Vec::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(index) else {
+            if index >= count {
+                SHARES.set(false);
                 return done;
-            };
-            done.push((index, work(item)));
+            }
+            done.extend(work(index).map(|result| (index, result)));
         }
     };
     let mut results: Vec<(usize, R)> = thread::scope(|scope| {
-        let handles: Vec<_> = (1..threads.min(items.len()))
+        let handles: Vec<_> = (1..processors().min(count))
             .map(|_| scope.spawn(share))
             .collect();
         let mut results = share();
@@ -40,7 +69,7 @@ pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) 
 
 #[cfg(test)]
 mod tests {
-    use super::map;
+    use super::{map, map_each};
 
     #[test]
     fn results_come_in_the_order_of_their_items() {
@@ -48,5 +77,6 @@ mod tests {
         let squares: Vec<u64> = items.iter().map(|item| item * item).collect();
         assert_eq!(map(&items, |item| item * item), squares);
         assert_eq!(map(&items[..0], |item| item * item), Vec::<u64>::new());
+        assert_eq!(map_each(items, |item| item * item), squares);
     }
 }

@@ -1,12 +1,15 @@
 //! Starting values of the estimator: the linearised problem solved as it is, and joints from soft to stiff beside the
 //! substructures.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::block::Block;
 use super::group::Group;
-use super::kernel::{Kernel, complex_stiffness, inverse};
+use super::kernel::{dot, inverse};
+use super::lanes::{Complexes, LANES, Reals};
+use super::normal::Normal;
+use super::strip::{Products, Strip, Sums};
 
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -14,6 +17,9 @@ const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// The same for a start that all but leaves the substructures apart: a loose joint has minima of its own beside zero, in
 /// which a single spring acts where the measured points hardly move.
 const LOOSE: f64 = 1e-6;
+
+/// Stride through the grid; it shares no divisor with 5 or 17, the starts of one and of two DOFs.
+const FAR_APART: usize = 6;
 
 /// Loss of a start's joint at the middle of the frequency range, ωc/k.
 const LOSS: f64 = 1e-2;
@@ -23,7 +29,8 @@ const LINEAR_ROUNDS: usize = 6;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join.
+/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join; neighbours in the list are
+/// far apart in the grid.
 pub(super) fn grid<const N: usize>(
     groups: &[Group<N>],
     entries: &[(usize, usize)],
@@ -54,127 +61,144 @@ pub(super) fn grid<const N: usize>(
         push(&|dof| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()]);
     }
     push(&|_| LOOSE);
-    starts
+    let count = starts.len();
+    let order = (0..count).map(|index| index * FAR_APART % count);
+    order.map(|index| starts[index].clone()).collect()
 }
 
-/// Estimate by linear least squares, refined by weights from the one before; `None` if no column of H^C_ss was measured at
-/// enough points.
+/// Estimate by linear least squares, refined by weights from the one before.
 ///
 /// With D = H_ss − H^C_ss measured, X = H_sk⁺ D is Z⁻¹ H_ks as measured, and X = K* (H_ks − F X) is linear in K*. Its
 /// error times Qᵀ of the joint before is that of H^C, to first order. Exact data give the joint in one round; noise
 /// biases the result, so that it is a start only.
-pub(super) fn linear<const N: usize>(
-    groups: &[Group<N>],
-    entries: &[(usize, usize)],
-    first: Option<&DVector<f64>>,
-) -> Option<DVector<f64>> {
-    let mut unknowns = first
-        .cloned()
-        .unwrap_or_else(|| DVector::zeros(2 * entries.len()));
-    for _ in 0..LINEAR_ROUNDS {
-        let mut normal = LinearNormal::new(entries);
-        for block in groups.iter().flat_map(|group| &group.blocks) {
-            normal.add(block, &unknowns);
-        }
-        unknowns = normal.solution()?;
-    }
-    Some(unknowns)
-}
+pub(super) struct Linear<'b, const N: usize>(Vec<Transmitted<'b, N>>);
 
-struct LinearNormal<'e> {
-    entries: &'e [(usize, usize)],
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
-    rows: usize,
-}
-
-impl<'e> LinearNormal<'e> {
-    fn new(entries: &'e [(usize, usize)]) -> Self {
-        let size = 2 * entries.len();
-        Self {
-            entries,
-            matrix: DMatrix::zeros(size, size),
-            right: DVector::zeros(size),
-            rows: 0,
-        }
+impl<'b, const N: usize> Linear<'b, N> {
+    /// The data in the form that it needs.
+    pub(super) fn of(groups: &'b [Group<N>]) -> Self {
+        let blocks = groups.iter().flat_map(|group| &group.blocks);
+        let usable = blocks
+            .filter(|block| block.points >= N)
+            .map(Transmitted::of)
+            .filter(Transmitted::is_measured);
+        Self(usable.collect())
     }
 
-    fn add<const N: usize>(&mut self, block: &Block<N>, weights_from: &DVector<f64>) {
-        if block.points < N {
-            return;
+    /// The estimate whose first weights are those of `first`, or of no joint; `None` if no column of H^C_ss was measured at
+    /// enough points.
+    pub(super) fn from(
+        &self,
+        entries: &[(usize, usize)],
+        first: Option<&DVector<f64>>,
+    ) -> Option<DVector<f64>> {
+        if self.0.is_empty() {
+            return None;
         }
-        let columns: Vec<(usize, Vec<usize>)> = (0..block.points)
+        let none = || DVector::zeros(2 * entries.len());
+        let mut unknowns = first.cloned().unwrap_or_else(none);
+        for _ in 0..LINEAR_ROUNDS {
+            let mut normal = Normal::zero(unknowns.len());
+            for transmitted in &self.0 {
+                transmitted.add_to(&mut normal, entries, unknowns.as_slice())?;
+            }
+            normal.matrix.fill_upper_triangle_with_lower_triangle();
+            unknowns = normal.step(0.0)?;
+            if unknowns.iter().any(|value| !value.is_finite()) {
+                return None;
+            }
+        }
+        Some(unknowns)
+    }
+}
+
+/// What the joint of one assembly transmits as measured, for each line and each complete column of H^C_ss.
+struct Transmitted<'b, const N: usize> {
+    block: &'b Block<N>,
+    /// Complete columns of H^C_ss.
+    columns: usize,
+    /// X
+    x: Vec<[Complex64; N]>,
+    /// W = H_ks − F X
+    w: Vec<[Complex64; N]>,
+    /// Weight of each point, zero where a value cannot be used.
+    weight: Vec<f64>,
+}
+
+impl<'b, const N: usize> Transmitted<'b, N> {
+    fn of(block: &'b Block<N>) -> Self {
+        let complete: Vec<(usize, Vec<usize>)> = (0..block.points)
             .filter_map(|column| Some((column, whole_column(block, column)?)))
             .collect();
-        let mut kernel = Kernel::new();
+        let mut transmitted = Self {
+            block,
+            columns: complete.len(),
+            x: Vec::new(),
+            w: Vec::new(),
+            weight: Vec::new(),
+        };
         for line in 0..block.lines() {
-            let omega = block.omega[line];
-            let before = complex_stiffness::<N>(self.entries, weights_from.as_slice(), omega);
             let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
             let free = &block.free[line];
-            if kernel.solve(free, transfer, &before).is_none() {
-                continue;
-            }
             let at = line * block.entries.len();
-            for (column, places) in &columns {
+            for (column, places) in &complete {
                 let measured = |row: usize| block.measured[at + places[row]];
                 let difference = |row: usize| block.own[at + places[row]] - measured(row);
-                let Some(x) = transmitted(transfer, measured, difference) else {
-                    continue;
-                };
-                // W = H_ks − F X
-                let w: [Complex64; N] = std::array::from_fn(|i| {
+                let found = self::transmitted(transfer, measured, difference);
+                let x = found.unwrap_or([ZERO; N]);
+                transmitted.x.push(x);
+                transmitted.w.push(std::array::from_fn(|i| {
                     transfer[*column][i] - (0..N).map(|j| free[i][j] * x[j]).sum::<Complex64>()
-                });
-                for row in 0..block.points {
+                }));
+                transmitted.weight.extend((0..block.points).map(|row| {
                     let weight = measured(row).norm_sqr().recip();
-                    if weight.is_finite() {
-                        self.add_row(omega, weight, kernel.q(row), &x, &w);
-                    }
+                    let is_usable = found.is_some() && weight.is_finite();
+                    if is_usable { weight } else { 0.0 }
+                }));
+            }
+        }
+        transmitted
+    }
+
+    fn is_measured(&self) -> bool {
+        self.weight.iter().any(|weight| *weight > 0.0)
+    }
+
+    /// Rows of all lines: Qᵀ_p X = Σ K*_ij (Q_i W_j + Q_j W_i), with Q of the joint before.
+    fn add_to(
+        &self,
+        normal: &mut Normal,
+        entries: &[(usize, usize)],
+        before: &[f64],
+    ) -> Option<()> {
+        let block = self.block;
+        let mut sums = Sums::default();
+        let mut strip = Strip::new(block);
+        for first in (0..block.lines()).step_by(LANES) {
+            strip.solve(first, entries, before)?;
+            let mut products = Products::NONE;
+            for column in 0..self.columns {
+                let at = strip.index.map(|line| line * self.columns + column);
+                let of = |values: &[[Complex64; N]]| -> [Complexes; N] {
+                    std::array::from_fn(|i| Complexes::of(|lane| values[at[lane]][i]))
+                };
+                let (x, w) = (of(&self.x), of(&self.w));
+                for point in 0..block.points {
+                    let weight = Reals::of(|lane| self.weight[at[lane] * block.points + point]);
+                    let q = strip.kernel.q(point);
+                    let row = |i: usize, j: usize| {
+                        if i == j {
+                            q[i] * w[i]
+                        } else {
+                            q[i] * w[j] + q[j] * w[i]
+                        }
+                    };
+                    products.add::<N>(strip.used * weight, row, dot(q, &x));
                 }
             }
+            sums.add_products(strip.omega, &products);
         }
-    }
-
-    /// One row: Qᵀ_p X = Σ K*_ij (Q_i W_j + Q_j W_i).
-    fn add_row<const N: usize>(
-        &mut self,
-        omega: f64,
-        weight: f64,
-        q: &[Complex64; N],
-        x: &[Complex64; N],
-        w: &[Complex64; N],
-    ) {
-        let count = self.entries.len();
-        let target: Complex64 = (0..N).map(|i| q[i] * x[i]).sum();
-        let mut row = vec![ZERO; 2 * count];
-        for (index, &(i, j)) in self.entries.iter().enumerate() {
-            let coefficient = if i == j {
-                q[i] * w[i]
-            } else {
-                q[i] * w[j] + q[j] * w[i]
-            };
-            row[index] = coefficient;
-            row[count + index] = Complex64::new(0.0, omega) * coefficient;
-        }
-        for i in 0..2 * count {
-            self.right[i] += weight * (row[i].conj() * target).re;
-            for j in 0..2 * count {
-                self.matrix[(i, j)] += weight * (row[i].conj() * row[j]).re;
-            }
-        }
-        self.rows += 1;
-    }
-
-    fn solution(&self) -> Option<DVector<f64>> {
-        let scale = self
-            .matrix
-            .diagonal()
-            .map(|entry| entry.max(f64::MIN_POSITIVE).sqrt().recip());
-        let scaled = super::normal::scaled_by(&self.matrix, &scale);
-        let right = self.right.component_mul(&scale);
-        let solution = scaled.cholesky()?.solve(&right).component_mul(&scale);
-        (self.rows > 0 && solution.iter().all(|value| value.is_finite())).then_some(solution)
+        sums.add_to::<N>(normal, entries);
+        Some(())
     }
 }
 

@@ -225,7 +225,7 @@ impl<const N: usize> Problem<N> {
             let stiffness = complex_stiffness::<N>(&self.entries, unknowns, omega);
             let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
             kernel
-                .solve(&block.free[line], transfer, &stiffness)
+                .solve(&block.free[line], transfer.iter().copied(), &stiffness)
                 .ok_or(CouplingError::Singular)?;
             for (index, &entry) in block.entries.iter().enumerate() {
                 let place = line * block.entries.len() + index;

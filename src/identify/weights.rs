@@ -22,7 +22,6 @@ impl<const N: usize> Objective<'_, N> {
                 entries: Vec::with_capacity(group.lines() * group.entries()),
                 sources: Vec::with_capacity(group.lines() * group.sources.len()),
                 scatter: 0.0,
-                scatter_log: 0.0,
             })
             .collect();
         let mut usable = true;
@@ -30,15 +29,10 @@ impl<const N: usize> Objective<'_, N> {
             let group = &self.groups[number];
             let weights = &mut all[number];
             for_each_entry(group, line, |entry| {
-                let variance = entry.known.map_or_else(
-                    || levels.assembly.variance(entry.power),
-                    |known| known * entry.power,
-                );
-                let variance = variance.max(LEAST_RELATIVE * LEAST_RELATIVE * entry.power);
+                let variance = of_one(levels.assembly, entry.known, entry.power);
                 usable &= variance.is_finite() && variance > 0.0;
                 weights.entries.push(variance / f64::from(entry.count));
                 weights.scatter += entry.scatter / variance;
-                weights.scatter_log += f64::from(entry.count - 1) * variance.ln();
             });
             for (s, source) in group.sources.iter().enumerate() {
                 let power = source_power(source, state, number, line.index, s, group);
@@ -63,7 +57,6 @@ impl<const N: usize> Objective<'_, N> {
                 entries: Vec::new(),
                 sources: Vec::new(),
                 scatter: 0.0,
-                scatter_log: 0.0,
             }));
         }
         self.visit(None, state, |number, line| {
@@ -129,6 +122,17 @@ impl<const N: usize> Objective<'_, N> {
         })?;
         Some(most_likely_level(&samples, noise.assembly))
     }
+}
+
+/// Variance of one measurement of the assembly from its computed |H^C|², or from what is `known` of it as a fraction of that.
+#[inline]
+pub(super) fn of_one(level: NoiseLevel, known: Option<f64>, power: f64) -> f64 {
+    let least = LEAST_RELATIVE * LEAST_RELATIVE * power;
+    let variance = match known {
+        Some(known) => known * power,
+        None => level.variance(power),
+    };
+    if variance < least { least } else { variance }
 }
 
 fn add_source<const N: usize>(

@@ -11,13 +11,13 @@ use crate::structure::{
     Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, ModalModel, Partition,
 };
 
-use super::beams::partitions;
-use super::error::ReproduceError;
+use crate::reproduce::error::ReproduceError;
+use crate::reproduce::receptances::partitions;
 
 /// Distance between neighbouring points on A and on B, and of the joint and the middle points from the ends.
 pub(super) const SPACING_M: f64 = 0.015;
 /// Chapter 5's acquisition: 2048 lines, 0.25 Hz apart.
-const LINE_SPACING_HZ: f64 = 0.25;
+pub(super) const LINE_SPACING_HZ: f64 = 0.25;
 const LINE_COUNT: u32 = 2048;
 /// Below, the assembly answers like a support; the first mode is at 18 Hz or more.
 const FIRST_LINE: u32 = 20;
@@ -34,7 +34,7 @@ pub(super) struct PublishedModes {
 }
 
 pub(super) const ALUMINIUM_M10: PublishedModes = PublishedModes {
-    text: include_str!("../../examples/tol-m10x16/a-modes.toml"),
+    text: include_str!("../../../examples/tol-m10x16/a-modes.toml"),
     name: "M10x16",
     towards_tip: [3, 2, 1],
 };
@@ -153,7 +153,7 @@ pub(super) fn assembled(
         .iter()
         .map(|h| &transformation * h * &transposed)
         .collect();
-    let points = points_m(beam).map(super::beams::translation);
+    let points = points_m(beam).map(crate::reproduce::receptances::translation);
     let b = partitions(beam, SPACING_M, &points, &frequency_hz)?;
     lines(frequency_hz, a_joint, b, joint)
 }
@@ -190,7 +190,7 @@ pub(super) fn measured_at(lines: &Lines, places: &[usize]) -> Lines {
         b: lines
             .b
             .iter()
-            .map(|b| super::approaches::at(b, places))
+            .map(|b| crate::reproduce::receptances::at(b, places))
             .collect(),
         assembly: lines
             .assembly

@@ -1,0 +1,148 @@
+//! Lines whose entries all have errors of their own, as where no measured substructure has: they need no corrections and no
+//! covariance matrix, so several of them are computed side by side.
+
+use num_complex::Complex64;
+
+use super::block::Block;
+use super::group::Group;
+use super::lanes::{LANES, Reals};
+use super::noise::NoiseLevel;
+use super::normal::Normal;
+use super::objective::Weights;
+use super::parallel;
+use super::strip::{Strip, Sums};
+use super::weights::of_one;
+
+/// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
+/// processors there are.
+const PIECE: usize = 4096;
+
+/// Adds all lines of `group` to the normal equations, with variances that are held.
+pub(super) fn accumulate<const N: usize>(
+    group: &Group<N>,
+    entries: &[(usize, usize)],
+    unknowns: &[f64],
+    weights: &Weights,
+    normal: &mut Normal,
+) -> Option<()> {
+    let size = group.entries();
+    let mut at = 0;
+    for block in &group.blocks {
+        let pieces: Vec<usize> = (0..block.lines()).step_by(PIECE).collect();
+        let sums = parallel::map(&pieces, |&first| {
+            let mut sums = Sums::default();
+            let mut strip = Strip::new(block);
+            let end = block.lines().min(first + PIECE);
+            for line in (first..end).step_by(LANES) {
+                strip.solve(line, entries, unknowns)?;
+                let index = strip.index;
+                sums.add_strip(&strip, |e, _| {
+                    Reals::of(|lane| weights.entries[index[lane] * size + at + e])
+                });
+            }
+            Some(sums)
+        });
+        for sums in sums {
+            sums?.add_to::<N>(normal, entries);
+        }
+        at += block.entries.len();
+    }
+    Some(())
+}
+
+/// The same with variances from the computed receptances, which it returns; `None` also where one is not a number above zero.
+pub(super) fn renew<const N: usize>(
+    group: &Group<N>,
+    entries: &[(usize, usize)],
+    unknowns: &[f64],
+    level: NoiseLevel,
+    normal: &mut Normal,
+) -> Option<Weights> {
+    let size = group.entries();
+    let mut weights = Weights {
+        entries: vec![0.0; size * group.lines()],
+        sources: Vec::new(),
+        scatter: 0.0,
+    };
+    let mut at = 0;
+    for block in &group.blocks {
+        let pieces: Vec<(usize, &mut [f64])> = weights
+            .entries
+            .chunks_mut(size * PIECE)
+            .enumerate()
+            .map(|(piece, variances)| (piece * PIECE, variances))
+            .collect();
+        let counts: Vec<f64> = block
+            .entries
+            .iter()
+            .map(|entry| f64::from(entry.count))
+            .collect();
+        let sums = parallel::map_each(pieces, |(first, variances)| {
+            let mut sums = Sums::default();
+            let mut strip = Strip::new(block);
+            let mut scatter = Reals::ZERO;
+            for (number, variances) in variances.chunks_mut(size * LANES).enumerate() {
+                strip.solve(first + number * LANES, entries, unknowns)?;
+                let strip = &strip;
+                let scatter = &mut scatter;
+                sums.add_strip(strip, |e, power| {
+                    let variance = variance(strip, e, level, power);
+                    if counts[e] > 1.0 {
+                        *scatter += strip.real(&block.scatter, e) * strip.used / variance;
+                    }
+                    let of_mean = variance * Reals::all(counts[e].recip());
+                    for (lane, place) in variances.iter_mut().skip(at + e).step_by(size).enumerate()
+                    {
+                        *place = of_mean.0[lane];
+                    }
+                    of_mean
+                });
+            }
+            Some((sums, scatter.sum()))
+        });
+        for sums in sums {
+            let (sums, scatter) = sums?;
+            sums.add_to::<N>(normal, entries);
+            weights.scatter += scatter;
+        }
+        at += block.entries.len();
+    }
+    let usable = |variance: &f64| variance.is_finite() && *variance > 0.0;
+    weights.entries.iter().all(usable).then_some(weights)
+}
+
+/// H^C of one assembly, line by line and entry by entry.
+pub(super) fn computed<const N: usize>(
+    block: &Block<N>,
+    entries: &[(usize, usize)],
+    unknowns: &[f64],
+) -> Option<Vec<Complex64>> {
+    let count = block.entries.len();
+    let mut computed = vec![Complex64::ZERO; count * block.lines()];
+    let mut strip = Strip::new(block);
+    for (number, values) in computed.chunks_mut(count * LANES).enumerate() {
+        strip.solve(number * LANES, entries, unknowns)?;
+        for (e, &entry) in block.entries.iter().enumerate() {
+            let value = strip.computed(e, entry);
+            for lane in 0..strip.count {
+                values[lane * count + e] = value.lane(lane);
+            }
+        }
+    }
+    Some(computed)
+}
+
+/// Variance of one measurement of an entry, whose computed |H^C|² is `power`.
+#[inline]
+fn variance<const N: usize>(
+    strip: &Strip<'_, N>,
+    e: usize,
+    level: NoiseLevel,
+    power: Reals,
+) -> Reals {
+    if strip.block.known.is_empty() {
+        return Reals::of(|lane| of_one(level, None, power.0[lane]));
+    }
+    let known = strip.real(&strip.block.known, e);
+    Reals::of(|lane| of_one(level, Some(known.0[lane]), power.0[lane]))
+}

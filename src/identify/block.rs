@@ -49,6 +49,9 @@ pub(super) struct Block<const N: usize> {
     pub(super) known: Vec<f64>,
 }
 
+/// No measurement is taken for better than that: its reciprocal is a number.
+const LEAST_VARIANCE: f64 = 1e-300;
+
 impl<const N: usize> Block<N> {
     /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
     pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
@@ -88,9 +91,10 @@ impl<const N: usize> Block<N> {
             known: Vec::new(),
             entries,
         };
+        let variances = variances(lines, &places);
         for line in chosen() {
             block.push_substructures(lines, line);
-            block.push_assembly(lines, &places, line);
+            block.push_assembly(lines, &places, variances.as_deref(), line);
         }
         block.dynamic_stiffness = std::array::from_fn(|dof| {
             let diagonal = block.free.iter().map(|free| free[dof][dof]);
@@ -120,32 +124,38 @@ impl<const N: usize> Block<N> {
             .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
     }
 
-    fn push_assembly(&mut self, lines: &Lines, places: &[Vec<(usize, usize)>], line: usize) {
+    /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
+    fn push_assembly(
+        &mut self,
+        lines: &Lines,
+        places: &[Vec<(usize, usize)>],
+        variances: Option<&[Vec<&[f64]>]>,
+        line: usize,
+    ) {
         let assembly = &lines.assembly[line];
-        let is_known = lines.relative_variance.is_some();
-        for places in places {
+        for (entry, places) in places.iter().enumerate() {
+            let known = variances.map(|variances| &variances[entry]);
             if let ([place], None) = (&places[..], &lines.repeats) {
                 self.measured.push(assembly[*place]);
                 self.scatter.push(0.0);
-                if is_known {
-                    self.known.push(lines.known_variance(*place, line));
-                }
+                self.known.extend(known.map(|known| known[0][line]));
                 continue;
             }
             // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
-            let weight = |place: (usize, usize)| lines.known_variance(place, line).recip();
-            let total: f64 = places.iter().map(|&place| weight(place)).sum();
-            let weighted = places.iter().map(|&place| assembly[place] * weight(place));
-            let mean = weighted.sum::<Complex64>() / total;
+            let weight =
+                |index: usize| known.map_or(1.0, |k| k[index][line].max(LEAST_VARIANCE).recip());
+            let weighted = || (0..places.len()).map(|index| (weight(index), places[index]));
+            let total: f64 = weighted().map(|(weight, _)| weight).sum();
+            let sum: Complex64 = weighted()
+                .map(|(weight, place)| assembly[place] * weight)
+                .sum();
+            let mean = sum / total;
             self.measured.push(mean);
             let common = places.len() as f64 / total;
-            let difference = |&place: &(usize, usize)| {
-                common * weight(place) * (assembly[place] - mean).norm_sqr()
-            };
-            let between: f64 = places.iter().map(difference).sum();
-            if is_known {
-                self.known.push(common);
-            }
+            self.known.extend(known.map(|_| common));
+            let between: f64 = weighted()
+                .map(|(weight, place)| common * weight * (assembly[place] - mean).norm_sqr())
+                .sum();
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
                     let scatter = &repeats.scatter[line];
@@ -166,4 +176,18 @@ impl<const N: usize> Block<N> {
     pub(super) fn lines(&self) -> usize {
         self.omega.len()
     }
+}
+
+/// σ²/|H|² of each place over the lines, where it is known.
+fn variances<'lines>(
+    lines: &'lines Lines,
+    places: &[Vec<(usize, usize)>],
+) -> Option<Vec<Vec<&'lines [f64]>>> {
+    let known = lines.relative_variance.as_ref()?;
+    let of_place = |place: &(usize, usize)| {
+        let index = lines.measured.iter().position(|other| other == place)?;
+        Some(known.get(index)?.as_slice())
+    };
+    let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
+    places.iter().map(of_entry).collect()
 }

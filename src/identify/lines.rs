@@ -63,15 +63,6 @@ impl Lines {
         independent(&self.measured, &self.assembly)
     }
 
-    /// σ²/|H|² of a measured entry at a line; 1 for all where it is not known.
-    pub(super) fn known_variance(&self, place: (usize, usize), line: usize) -> f64 {
-        let Some(known) = &self.relative_variance else {
-            return 1.0;
-        };
-        let index = self.measured.iter().position(|&other| other == place);
-        index.map_or(1.0, |index| known[index][line].max(f64::MIN_POSITIVE))
-    }
-
     /// H^C_ss at each line, as coupling with this joint gives it.
     ///
     /// # Errors

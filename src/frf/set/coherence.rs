@@ -56,7 +56,7 @@ impl FrfSet {
     /// σ²/|H|² at each line of the measured function behind [`FrfSet::receptance`], from its coherence and the averages.
     ///
     /// σ² is that of the complex error, E|Ĥ − H|²: real and imaginary part have half of it each. See
-    /// [`relative_variance`](super::relative_variance). `None` without coherence or without the number of averages.
+    /// [`relative_variance`](crate::frf::relative_variance()). `None` without coherence or without the number of averages.
     #[must_use]
     pub fn relative_variance(&self, response: Dof, reference: Dof) -> Option<Vec<f64>> {
         let averages = self.averages?;

@@ -1,5 +1,7 @@
 //! Reading of small text files, with one set of messages for what can be wrong with any of them.
 
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -14,6 +16,16 @@ pub enum TextFileError {
         path: PathBuf,
         /// What the operating system says.
         source: std::io::Error,
+    },
+    /// More than any such file holds.
+    #[error("{}: found more than {limit} bytes, expected {expected}; check the path", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+        /// The longest file that is read, bytes.
+        limit: u64,
+        /// What should be in it.
+        expected: &'static str,
     },
     /// Nothing in it.
     #[error("{}: found an empty file, expected {expected}", path.display())]
@@ -35,14 +47,31 @@ pub enum TextFileError {
     },
 }
 
+/// Files that people write or read are shorter than this; what is longer is something else, and need not fill the memory.
+pub(crate) const LONGEST_FILE: u64 = 1 << 24;
+
+/// What is in a file; `None` if that is more than [`LONGEST_FILE`] bytes.
+pub(crate) fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(LONGEST_FILE + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= LONGEST_FILE))
+}
+
 /// The text of `path`, which should hold `expected`.
 ///
 /// # Errors
-/// [`TextFileError`] if it cannot be read, is empty or is not UTF-8 text.
+/// [`TextFileError`] if it cannot be read, is empty, is longer than 16 MiB or is not UTF-8 text.
 pub(crate) fn read(path: &Path, expected: &'static str) -> Result<String, TextFileError> {
-    let bytes = std::fs::read(path).map_err(|source| TextFileError::Unreadable {
+    let bytes = bytes(path).map_err(|source| TextFileError::Unreadable {
         path: path.to_owned(),
         source,
+    })?;
+    let bytes = bytes.ok_or_else(|| TextFileError::TooLong {
+        path: path.to_owned(),
+        limit: LONGEST_FILE,
+        expected,
     })?;
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(TextFileError::Empty {

@@ -19,7 +19,7 @@ const JOINT: &str = include_str!("data/joint/m10-aluminium.joint.json");
 const PRELOAD: &str = include_str!("data/joint/over-preload.joint.json");
 
 /// What a writer by hand, or by accident, puts into such files.
-const TOKENS: [&str; 24] = [
+const TOKENS: [&str; 28] = [
     "-1",
     "1e999",
     "nan",
@@ -44,6 +44,10 @@ const TOKENS: [&str; 24] = [
     "units = { length = \"mm\", force = \"N\" }\n",
     "averages = 0\n",
     "\"11:+Y\"",
+    "bands = \"median\"\n",
+    "bolts = \"different\"\n",
+    "joint = [{ name = \"x\", x = 0.1 }, { name = \"y\", x = 0.2 }]\n",
+    "start = { stiffness = [[1]], damping = [[]] }\n",
 ];
 
 fn damaged(text: &str, damages: &[(usize, usize, Option<usize>)]) -> String {
@@ -105,5 +109,27 @@ fn deep_nesting_is_an_error() {
         let text = open.repeat(100_000);
         assert!(JointFile::from_json(&text, "joint.json").is_err());
         assert!(Study::from_toml(&text, Path::new("study.toml")).is_err());
+    }
+}
+
+/// A path to something else, such as a measurement, does not fill the memory.
+#[test]
+fn files_of_texts_are_not_read_to_an_end_that_is_far() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.toml");
+    std::fs::File::create(&path)
+        .unwrap()
+        .set_len(20_000_000_000)
+        .unwrap();
+    let messages = [
+        Study::read(&path).unwrap_err().to_string(),
+        ModalModel::read(&path).unwrap_err().to_string(),
+        JointFile::read(&path).unwrap_err().to_string(),
+    ];
+    for message in messages {
+        assert!(
+            message.contains("long.toml: found more than 16777216 bytes, expected"),
+            "{message}"
+        );
     }
 }

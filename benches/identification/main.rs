@@ -2,7 +2,8 @@
 //!
 //! `cargo bench --bench identification` times 2,048 lines at three points, with intervals, and 1,000 bootstrap draws.
 //! `-- write FILE` writes the same data for `same_in_numpy.py`, which times the same algorithm in NumPy.
-//! `-- table [DRAWS]` prints the errors of stiff and soft joints with light and heavy damping over many draws of noise.
+//! `-- table [DRAWS [CASE]]` prints the errors of stiff and soft joints with light and heavy damping over many draws of
+//! noise, of the cases whose names hold CASE.
 
 #![expect(
     clippy::unwrap_used,
@@ -18,7 +19,7 @@ use std::time::Instant;
 
 use bolted_joint::identify::{Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines};
 
-use measured::{Noisy, Rig, joint};
+use measured::{Noisy, Rig, joint, stiff_and_soft, thesis};
 
 const ONE_PER_CENT: NoiseLevel = NoiseLevel {
     relative: 0.01,
@@ -40,14 +41,15 @@ fn main() {
     match words.as_slice() {
         ["write", file] => write(file),
         ["repeat", count] => repeat(count.parse().unwrap()),
-        ["table"] => table(100),
-        ["table", draws] => table(draws.parse().unwrap()),
+        ["table"] => table(100, ""),
+        ["table", draws] => table(draws.parse().unwrap(), ""),
+        ["table", draws, chosen] => table(draws.parse().unwrap(), chosen),
         _ => time(),
     }
 }
 
 fn rig() -> Rig {
-    Rig::new("timing", joint(1.0, 1.0), 0.01, axis(LINES, 0.25))
+    Rig::new("timing", joint(1.0, 1.0), thesis(axis(LINES, 0.25)))
 }
 
 fn repeat(count: usize) {
@@ -105,27 +107,23 @@ fn time() {
     println!("1000 bootstrap draws of {LINES} lines: {elapsed:.2} s, {converged} converged");
 }
 
-fn table(draws: u64) {
-    for (name, factor, damping, ratio) in [
-        ("stiff joint, light damping", 10.0, 1.0, 0.002),
-        ("stiff joint, heavy damping", 10.0, 10.0, 0.03),
-        ("soft joint, light damping", 0.1, 0.1, 0.002),
-        ("soft joint, heavy damping", 0.1, 1.0, 0.03),
-    ] {
-        for (noisy, count) in [
-            (Noisy::Assembly, 1000),
-            (Noisy::AssemblyAndA, 500),
-            (Noisy::Everything, 250),
-        ] {
-            let step_hz = 500.0 / count as f64;
-            let rig = Rig::new(name, joint(factor, damping), ratio, axis(count, step_hz));
+fn table(draws: u64, chosen: &str) {
+    for rig in stiff_and_soft() {
+        for noisy in [Noisy::Assembly, Noisy::AssemblyAndA, Noisy::Everything] {
             for relative in [0.01, 0.05] {
+                let case = format!("{}, {} % on {noisy:?}", rig.name, 100.0 * relative);
+                if !case.contains(chosen) {
+                    continue;
+                }
                 let level = NoiseLevel {
                     relative,
                     floor: 0.0,
                 };
+                let begun = Instant::now();
                 let outcomes = monte_carlo::run(&rig, noisy, level, draws, true);
                 monte_carlo::print(&rig, noisy, level, &outcomes);
+                let each = begun.elapsed().as_secs_f64() / draws as f64;
+                println!("  {draws} draws, {each:.2} s each");
             }
         }
     }

@@ -99,10 +99,23 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         format!("degrees of freedom: {}", file.joint.dofs),
     ];
     facts.extend(passivity.matrices.iter().map(ToString::to_string));
-    if file.bodies.is_some() && file.joint.over_preload.is_none() {
-        facts.push(match file.joint.dofs {
-            DofSet::Translation => lap_fact(&file.lap::<1>()),
-            DofSet::TranslationRotation => lap_fact(&file.lap::<2>()),
+    // What a simulation does with the joint is told at the nominal preload, which an export has.
+    let constant = file.at_preload(None).map_err(|source| CliError::Preload {
+        path: path.to_owned(),
+        source,
+    })?;
+    if let Some(table) = &file.joint.over_preload {
+        let preloads: Vec<String> = table.preload.iter().map(f64::to_string).collect();
+        facts.push(format!(
+            "preloads: {} N·m, nominal {} N·m",
+            preloads.join(", "),
+            table.nominal
+        ));
+    }
+    if constant.bodies.is_some() {
+        facts.push(match constant.joint.dofs {
+            DofSet::Translation => lap_fact(&constant.lap::<1>()),
+            DofSet::TranslationRotation => lap_fact(&constant.lap::<2>()),
         });
     }
     let findings = passivity
@@ -111,7 +124,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         .collect();
     let mut details = Map::new();
     let neighbours = &arguments.neighbours;
-    if let Some(step) = communication_step(&file, Interface::Element, neighbours, None, None)? {
+    if let Some(step) = communication_step(&constant, Interface::Element, neighbours, None, None)? {
         facts.extend(step.facts);
         details.insert("communication_step".to_owned(), step.details);
     }

@@ -114,7 +114,7 @@ fn synthesise(files: &mut Files, arguments: &DemoArguments) -> Result<Study, Cli
     let frequency_hz: Vec<f64> = (1..=LINE_COUNT)
         .map(|line| LINE_SPACING_HZ * f64::from(line))
         .collect();
-    let exact = predict_assembly(&study, &published_joint(), &frequency_hz)?;
+    let exact = predict_assembly(&study, &[published_joint()], &frequency_hz)?;
     let measured = polluted(&exact, arguments.noise, arguments.seed)?;
     write_uff58(
         &measured,

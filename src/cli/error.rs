@@ -10,7 +10,7 @@ use crate::cosimulation::CouplingError;
 use crate::export::ExportError;
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
-use crate::joint::JointFileError;
+use crate::joint::{JointFileError, PreloadError};
 use crate::reproduce::ReproduceError;
 use crate::respond::PollutionError;
 
@@ -31,6 +31,8 @@ pub(super) enum CliError {
     Export(#[from] ExportError),
     #[error("{}: {source}", path.display())]
     Unexportable { path: PathBuf, source: ExportError },
+    #[error("{}: {source}", path.display())]
+    Preload { path: PathBuf, source: PreloadError },
     #[error(transparent)]
     Inspect(#[from] InspectError),
     #[error(transparent)]

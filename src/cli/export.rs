@@ -20,6 +20,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         version: arguments.fmi.into(),
         step_size_max_s: arguments.step_size_max,
         platforms: arguments.platforms.clone(),
+        preload_n_m: arguments.preload,
         allow_active: arguments.allow_active,
         ..options(arguments.interface.into())?
     };
@@ -46,6 +47,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
         version: FmiVersion::default(),
         step_size_max_s: None,
         platforms: None,
+        preload_n_m: None,
         allow_active: false,
         date: Timestamp::from_environment()?,
     })
@@ -62,6 +64,7 @@ pub(super) fn export_to(
         ExportError::Invalid { .. }
         | ExportError::Active { .. }
         | ExportError::Law(_)
+        | ExportError::Preload(_)
         | ExportError::NoSpectrum => CliError::Unexportable {
             path: joint_file.to_owned(),
             source,

@@ -1,18 +1,23 @@
 //! `identify`: a study becomes a joint file.
 
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 use serde_json::json;
 
 use crate::export::Timestamp;
 use crate::identify::{
-    Bootstrap, BootstrapResult, Identification, Study, Unknown, identify_and_draw,
+    Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
 };
+use crate::joint::JointFile;
 use crate::report::{FrfFigure, FrfPanel, IdentificationReport};
+use crate::whole_file;
 
 use super::IdentifyArguments;
+use super::bolt_files::of_bolts;
 use super::error::CliError;
+use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::output::{check_output, message, print, write_file};
 use super::progress::Progress;
 use super::table::{Table, number};
@@ -55,6 +60,12 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         None => None,
     };
     let study = Study::read(&arguments.study)?;
+    let outputs = of_bolts(&arguments.output, &study.bolts);
+    if outputs.len() > 1 {
+        for output in &outputs {
+            check_output(output, &taken)?;
+        }
+    }
     let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
         draws: draws as usize,
         seed: arguments.seed.unwrap_or(1),
@@ -63,16 +74,16 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         "identifying",
         bootstrap.map_or(0, |bootstrap| bootstrap.draws),
     );
-    let found = identify_and_draw(&study, bootstrap, &|| progress.advance())?;
+    let found = identify_and_draw(&study, bootstrap, &progress)?;
     drop(progress);
-    let joint_file = found.joint_file();
+    let joint_files = found.joint_files();
     let drawing = arguments
         .figure
         .as_ref()
         .map(|path| (path, figure(&found, "")));
     let warnings = warnings(&found);
     let page = written.map(|written| report(&study, &found, &warnings, written));
-    joint_file.write(&arguments.output)?;
+    write_joint_files(&outputs, &joint_files)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
     }
@@ -83,15 +94,26 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         message(&format!("warning: {warning}"));
     }
     if arguments.json {
+        let bolts: Vec<_> = outputs
+            .iter()
+            .zip(&joint_files)
+            .map(|(output, (bolt, file))| {
+                json!({ "bolt": bolt, "output": output.display().to_string(), "joint_file": file })
+            })
+            .collect();
+        let models = found.estimate.model_choice();
+        let not_compared = study.models_not_compared();
+        let only = |key: &str| (bolts.len() == 1).then(|| &bolts[0][key]);
         let value = json!({
-            "output": arguments.output.display().to_string(),
+            "output": only("output"),
             "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
-            "joint_file": joint_file,
+            "joint_file": only("joint_file"),
+            "bolts": (bolts.len() > 1).then_some(&bolts),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
             "warnings": warnings,
-            "models": found.estimate.model_choice().map(|choice| json!({
+            "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
                 "compared": choice.models.iter().map(|fit| json!({
                     "model": fit.model,
@@ -99,31 +121,94 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
                     "adequate": fit.adequate,
                 })).collect::<Vec<_>>(),
             })),
+            "torques": found.estimate.torque_choice().map(|choice| json!({
+                "used": study.torques,
+                "recommended": choice.recommended,
+                "compared": choice.compared.map(|fit| json!({
+                    "torques": fit.dependence,
+                    "unknowns": fit.unknowns,
+                    "bic_difference": fit.bic_difference,
+                    "adequate": fit.adequate,
+                })),
+            })),
+            "models_not_compared": not_compared,
         });
         return print(&serde_json::to_string_pretty(&value)?);
     }
-    let mut text = summary(&found);
-    let _ = writeln!(text, "\nwrote {}", arguments.output.display());
+    let mut text = summary(&found, &study);
+    text.push('\n');
+    for path in &outputs {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
         let _ = writeln!(text, "wrote {}", path.display());
     }
     print(&text)
 }
 
+/// Writes every joint file or, if one cannot be written, none.
+fn write_joint_files(
+    outputs: &[PathBuf],
+    files: &[(Option<&str>, JointFile)],
+) -> Result<(), CliError> {
+    let texts = files.iter().map(|(_, file)| file.to_json());
+    let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+    let contents = outputs.iter().zip(&texts);
+    let contents: Vec<(&Path, &[u8])> = contents
+        .map(|(output, text)| (output.as_path(), text.as_bytes()))
+        .collect();
+    whole_file::write_all(&contents).map_err(|(path, source)| CliError::Unwritable { path, source })
+}
+
 /// What the identification and the passivity of its result give reason to warn of.
 pub(super) fn warnings(found: &Identification) -> Vec<String> {
-    let passivity = found.joint_file().passivity();
-    let active = passivity.active().map(|matrix| {
-        format!("{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
-    });
-    found.warnings.iter().cloned().chain(active).collect()
+    let mut warnings = found.warnings.clone();
+    for (bolt, file) in found.joint_files() {
+        let bolt = bolt.map(|bolt| format!("{bolt}, ")).unwrap_or_default();
+        let passivity = file.passivity();
+        warnings.extend(passivity.active().map(|matrix| {
+            format!("{bolt}{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
+        }));
+    }
+    warnings
 }
 
 /// The result for people.
-fn summary(found: &Identification) -> String {
-    let mut text = format!("{}\n{}\n\n", found.name, basis(found));
-    let covariance = found.estimate.covariance();
-    let active = found.estimate.free() != &found.joint;
+fn summary(found: &Identification, study: &Study) -> String {
+    let mut text = format!("{}\n{}\n", found.name, basis(found));
+    let joints = found.estimate.joints();
+    let bolts = found.bolts.with_own_joint();
+    for joint in joints {
+        if let Some(torque) = joint.torque_n_m {
+            let _ = write!(text, "\nat {torque} N·m");
+        }
+        text += "\n";
+        text += &parameters(joint, bolts);
+    }
+    let is_active = |joint: &JointEstimate| joint.free != joint.bolts();
+    if joints.iter().any(is_active) {
+        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
+    }
+    for joint in joints {
+        text += &averaged(joint, bolts);
+    }
+    text += &from_modes(found);
+    let _ = writeln!(text, "\n{}", fit(found));
+    text += &models(found, study);
+    text += &torques(found);
+    for joint in joints {
+        if let Some(result) = &joint.bootstrap {
+            text += &bootstrap(result, joint, bolts);
+        }
+    }
+    text
+}
+
+/// The parameters at one torque.
+fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
+    let covariance = &joint.covariance;
+    let active = joint.free != joint.bolts();
+    let deviation = covariance.standard_deviation();
     let mut header = vec!["", "identified", "± std. dev.", "95 % interval"];
     if active {
         header.push("free estimate");
@@ -131,55 +216,44 @@ fn summary(found: &Identification) -> String {
     header.extend(["band average", "unit"]);
     let mut table = Table::new(&header);
     let intervals = covariance.intervals();
-    for (index, unknown) in Unknown::of(found.model).into_iter().enumerate() {
-        let average = found.band_average.as_ref();
+    for (index, unknown) in covariance.unknowns.iter().enumerate() {
         let [low, high] = intervals[index];
-        let mut cells = vec![unknown.name.to_owned()];
+        let mut cells = vec![unknown.label(bolts)];
         if covariance.identified[index] {
             cells.extend([
-                number(unknown.value(&found.joint), 5),
-                number(unknown.value(&found.standard_deviation), 2),
+                number(unknown.value(&joint.bolts()[unknown.joint]), 5),
+                number(deviation[index], 2),
                 format!("{} … {}", number(low, 5), number(high, 5)),
             ]);
         } else {
             cells.extend(["not identified", "", ""].map(str::to_owned));
         }
         if active {
-            cells.push(number(unknown.value(found.estimate.free()), 5));
+            cells.push(number(unknown.value(&joint.free[unknown.joint]), 5));
         }
-        cells.push(average.map_or_else(
+        cells.push(joint.band_averages.as_ref().map_or_else(
             || "none".to_owned(),
-            |average| number(unknown.value(average), 5),
+            |averages| number(unknown.value(&averages[unknown.joint]), 5),
         ));
         cells.push(unknown.unit.to_owned());
         table.row(cells);
     }
-    text += &table.render();
-    if active {
-        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
-    }
-    let _ = writeln!(text, "\n{}", fit(found));
-    text += &models(found);
-    if let Some(result) = found.estimate.bootstrap() {
-        text += &bootstrap(result, &covariance.unknowns);
-    }
-    text
+    table.render()
 }
 
 /// The joint models beside each other.
-fn models(found: &Identification) -> String {
+fn models(found: &Identification, study: &Study) -> String {
     let Some(choice) = found.estimate.model_choice() else {
         return String::new();
     };
+    if let Some(reason) = study.models_not_compared() {
+        return format!("joint models are not compared: {reason}\n");
+    }
     let compared: Vec<String> = choice
         .models
         .iter()
         .map(|fit| {
-            let residual = if fit.adequate {
-                "leaves noise"
-            } else {
-                "leaves more than noise"
-            };
+            let residual = leaves(fit.adequate);
             format!("{} +{:.1} ({residual})", fit.model, fit.bic_difference)
         })
         .collect();
@@ -196,9 +270,46 @@ fn models(found: &Identification) -> String {
     format!("joint models by BIC: {}; {advice}\n", compared.join(", "))
 }
 
-fn bootstrap(result: &BootstrapResult, unknowns: &[Unknown]) -> String {
+/// A common joint beside one for each torque.
+fn torques(found: &Identification) -> String {
+    let Some(choice) = found.estimate.torque_choice() else {
+        return String::new();
+    };
+    let compared: Vec<String> = choice
+        .compared
+        .iter()
+        .map(|fit| {
+            format!(
+                "{} +{:.1} ({})",
+                fit.dependence,
+                fit.bic_difference,
+                leaves(fit.adequate)
+            )
+        })
+        .collect();
+    let advice = match (choice.any_is_adequate, choice.recommended) {
+        (true, recommended) => format!("\"{recommended}\" is the simplest adequate one"),
+        (false, closest) => format!("neither is adequate, \"{closest}\" comes closest"),
+    };
+    format!(
+        "joints over the torque by BIC: {}; {advice}\n",
+        compared.join(", ")
+    )
+}
+
+fn leaves(adequate: bool) -> &'static str {
+    if adequate {
+        "leaves noise"
+    } else {
+        "leaves more than noise"
+    }
+}
+
+fn bootstrap(result: &BootstrapResult, joint: &JointEstimate, bolts: &[String]) -> String {
+    let at = place(joint);
+    let unknowns = &joint.covariance.unknowns;
     let mut text = format!(
-        "\nbootstrap: {} draws, seed {}, {} converged\n",
+        "\nbootstrap{at}: {} draws, seed {}, {} converged\n",
         result.draws, result.seed, result.converged
     );
     if result.converged > 1 {
@@ -206,7 +317,7 @@ fn bootstrap(result: &BootstrapResult, unknowns: &[Unknown]) -> String {
         for (index, unknown) in unknowns.iter().enumerate() {
             let [low, high] = result.intervals[index];
             table.row(vec![
-                unknown.name.to_owned(),
+                unknown.label(bolts),
                 number(result.standard_deviation[index], 2),
                 format!("{} … {}", number(low, 5), number(high, 5)),
                 unknown.unit.to_owned(),
@@ -225,8 +336,9 @@ pub(super) fn basis(found: &Identification) -> String {
         format!("{count} {thing}{ending}")
     };
     format!(
-        "joint model \"{}\" from {} at {}, {} from {} to {} Hz",
+        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz",
         found.model,
+        at_bolts(&found.bolts),
         counted(
             found.fits.len()
                 + found
@@ -249,14 +361,17 @@ pub(super) fn fit(found: &Identification) -> String {
         .reduced_chi_squared
         .map(|value| format!("; χ² per degree of freedom {value:.3}"))
         .unwrap_or_default();
-    let passive = if found.joint_file().passivity().is_passive() {
-        "passive"
-    } else {
-        "ACTIVE"
+    let files = found.joint_files();
+    let is_passive = files.iter().all(|(_, file)| file.passivity().is_passive());
+    let verdict = match (files.len(), is_passive) {
+        (1, true) => "the joint is passive",
+        (1, false) => "the joint is ACTIVE",
+        (_, true) => "all joints are passive",
+        (_, false) => "not all joints are passive: ACTIVE",
     };
     let (tried, agreeing) = found.starts;
     format!(
-        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; the joint is {passive}",
+        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
         100.0 * found.relative_rms
     )
 }

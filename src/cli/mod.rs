@@ -1,10 +1,12 @@
 //! The command line: arguments become a plan, the plan is run, results go to stdout, messages to stderr.
 
+mod bolt_files;
 mod check;
 mod communication_step;
 mod demo;
 mod error;
 mod export;
+mod identified_from;
 mod identify;
 mod output;
 mod progress;
@@ -75,7 +77,7 @@ struct DemoArguments {
 struct IdentifyArguments {
     /// The study: what was measured, on which points, and which joint model to identify (TOML)
     study: PathBuf,
-    /// Joint file to write
+    /// Joint file to write; NAME.BOLT.joint.json for each bolt where bolts have different joints
     #[arg(short, long, value_name = "NAME.joint.json")]
     output: PathBuf,
     /// Also draw measured and regenerated FRFs
@@ -117,6 +119,9 @@ struct ExportArguments {
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
+    /// Preload of a joint over the preload, N·m: K, C and k3 are interpolated in its table [default: its nominal one]
+    #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
+    preload: Option<f64>,
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
     platforms: Option<PathBuf>,
@@ -157,7 +162,7 @@ struct RunLibraryArguments {
 struct RespondArguments {
     /// The study that the test is for (TOML); the file of its assembly need not exist yet
     study: PathBuf,
-    /// The joint that the assembly is to have (joint file)
+    /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
     joint: PathBuf,
     /// File to write: a table or a universal file
@@ -215,21 +220,25 @@ enum NoiseProcedure {
 
 /// `reproduce`
 #[derive(Debug, Args)]
+#[command(after_help = reproduce::names())]
 struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
     tables: Vec<PublishedTable>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
     draws: u32,
-    /// Seed of the first draw
+    /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
     #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
     samples: Vec<u32>,
     /// Print the tables as JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with = "markdown")]
     json: bool,
+    /// Print the tables as a document in Markdown
+    #[arg(long)]
+    markdown: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -6,7 +6,8 @@ use crate::reproduce::{Draws, PublishedTable, Reproduction, Row, reproduce};
 
 use super::ReproduceArguments;
 use super::error::CliError;
-use super::output::{message, print};
+use super::output::print;
+use super::progress::Progress;
 use super::table::{Table, number};
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
@@ -27,50 +28,60 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     } else {
         arguments.tables.clone()
     };
-    let mut found = Vec::new();
-    for (index, &table) in tables.iter().enumerate() {
-        if tables.len() > 1 {
-            message(&format!("{} of {}: {table}", index + 1, tables.len()));
-        }
-        found.push(reproduce(table, &draws)?);
-    }
+    let cases: usize = tables
+        .iter()
+        .map(|table| table.noisy_cases(draws.samples.len()))
+        .sum();
+    let progress = Progress::new("reproducing", cases * draws.count as usize);
+    let found = tables
+        .iter()
+        .map(|&table| reproduce(table, &draws, &|| progress.advance()))
+        .collect::<Result<Vec<_>, _>>()?;
+    drop(progress);
     if arguments.json {
         return print(&serde_json::to_string_pretty(&found)?);
+    }
+    if arguments.markdown {
+        return print(document(&found, &draws).trim_end());
     }
     let texts: Vec<String> = found.iter().map(text).collect();
     print(&texts.join("\n"))
 }
 
+/// What the tables are called, for `--help`.
+pub(super) fn names() -> String {
+    let mut text = "Tables:\n".to_owned();
+    for table in PublishedTable::ALL {
+        let names = [&[table.key()], table.aliases()].concat().join(", ");
+        let _ = writeln!(text, "  {names:<18}{table}");
+    }
+    text.trim_end().to_owned()
+}
+
+/// Columns of every table.
+const COLUMNS: [&str; 10] = [
+    "",
+    "",
+    "true",
+    "published",
+    "error",
+    "obtained",
+    "± std. dev.",
+    "error",
+    "median",
+    "unit",
+];
+
 /// One table for people.
 fn text(found: &Reproduction) -> String {
     let mut text = format!("{}\n\n", found.table);
-    let mut table = Table::new(&[
-        "",
-        "",
-        "true",
-        "published",
-        "error",
-        "obtained",
-        "± std. dev.",
-        "error",
-        "median",
-        "unit",
-    ]);
-    let mut last_case = "";
-    for row in &found.rows {
-        let case = if row.case == last_case { "" } else { &row.case };
-        table.row(cells(case, row));
-        last_case = &row.case;
+    let mut table = Table::new(&COLUMNS);
+    for cells in lines(found) {
+        table.row(cells);
     }
     text += &table.render();
-    for (heading, lines) in [
-        ("Computed with", &found.conditions),
-        ("Not given in the thesis", &found.not_given),
-        ("Differences", &found.differences),
-    ] {
-        if !lines.is_empty() {
-            let _ = writeln!(text, "\n{heading}:");
-        }
+    for (heading, lines) in remarks(found) {
+        let _ = writeln!(text, "\n{heading}:");
         for line in lines {
             let _ = writeln!(text, "  {line}");
         }
@@ -78,14 +89,76 @@ fn text(found: &Reproduction) -> String {
     text
 }
 
+/// The cells of each line; a case is named in its first.
+fn lines(found: &Reproduction) -> Vec<Vec<String>> {
+    let mut last_case = "";
+    let mut all = Vec::new();
+    for row in &found.rows {
+        let shown = if row.case == last_case { "" } else { &row.case };
+        all.push(cells(shown, row));
+        last_case = &row.case;
+    }
+    all
+}
+
+/// What is said about a table, under headings.
+fn remarks(found: &Reproduction) -> impl Iterator<Item = (&'static str, &[String])> {
+    let all = [
+        ("Computed with", found.conditions.as_slice()),
+        ("Not given in the thesis", &found.not_given),
+        ("Differences", &found.differences),
+    ];
+    all.into_iter().filter(|(_, lines)| !lines.is_empty())
+}
+
+/// All tables as one document.
+fn document(found: &[Reproduction], draws: &Draws) -> String {
+    let samples: Vec<String> = draws.samples.iter().map(u32::to_string).collect();
+    let mut text = format!(
+        "# The published tables, computed anew\n\n\
+         Ş. Tol, *Dynamic Modeling of Structural Joints*, MSc thesis, Middle East Technical University, 2012: published values \
+         beside those that come out here. Written by\n\n    bolted-joint reproduce --markdown --draws {} --seed {}{}\n\n\
+         Obtained values are means over {} draws of the noise, with the standard deviation of one draw, where there is noise; \
+         errors are those against the true joint, which is known where the assembly is synthesised.\n",
+        draws.count,
+        draws.seed,
+        samples
+            .iter()
+            .map(|number| format!(" --samples {number}"))
+            .collect::<String>(),
+        draws.count,
+    );
+    for found in found {
+        let _ = writeln!(text, "\n## {}\n", found.table);
+        let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
+        let _ = writeln!(text, "|---|---|{}---|", "---:|".repeat(COLUMNS.len() - 3));
+        for cells in lines(found) {
+            let _ = writeln!(text, "| {} |", cells.join(" | ").replace("|H|", "\\|H\\|"));
+        }
+        for (heading, lines) in remarks(found) {
+            let _ = writeln!(text, "\n{heading}:\n");
+            for line in lines {
+                let _ = writeln!(text, "* {line}");
+            }
+        }
+    }
+    text
+}
+
+/// Significant digits of a computed number, and most of a given one.
+const DIGITS: usize = 4;
+const MOST_DIGITS: usize = 8;
+
 fn cells(case: &str, row: &Row) -> Vec<String> {
+    let digits = row
+        .published
+        .or(row.truth)
+        .map_or(DIGITS, |value| digits_of(value).max(DIGITS));
     let optional = |value: Option<f64>, digits| {
         value.map_or_else(|| "-".to_owned(), |value| number(value, digits))
     };
     let error = |value: Option<f64>| match (value, row.truth) {
-        (Some(value), Some(truth)) if truth != 0.0 => {
-            format!("{:+.1} %", 100.0 * (value / truth - 1.0))
-        }
+        (Some(value), Some(truth)) if truth != 0.0 => percent(100.0 * (value / truth - 1.0)),
         _ => "-".to_owned(),
     };
     let obtained = row.obtained;
@@ -93,13 +166,30 @@ fn cells(case: &str, row: &Row) -> Vec<String> {
     vec![
         case.to_owned(),
         row.quantity.clone(),
-        optional(row.truth, 4),
-        optional(row.published, 4),
+        optional(row.truth, digits),
+        optional(row.published, digits),
         error(row.published),
-        optional(obtained.map(|spread| spread.mean), 4),
+        optional(obtained.map(|spread| spread.mean), digits),
         optional(noisy.map(|spread| spread.standard_deviation), 2),
         error(obtained.map(|spread| spread.mean)),
-        optional(noisy.map(|spread| spread.median), 4),
+        optional(noisy.map(|spread| spread.median), digits),
         row.unit.to_owned(),
     ]
+}
+
+/// Digits that a given number needs, and no more than it may well have been printed with.
+fn digits_of(value: f64) -> usize {
+    let is_all = |digits: &usize| number(value, *digits).parse() == Ok(value);
+    (1..MOST_DIGITS).find(is_all).unwrap_or(MOST_DIGITS)
+}
+
+/// An error in per cent; far-off ones by their size alone.
+fn percent(value: f64) -> String {
+    if value.abs() < 0.05 {
+        "0.0 %".to_owned()
+    } else if value.abs() < 1e3 {
+        format!("{value:+.1} %")
+    } else {
+        format!("{value:+.0e} %")
+    }
 }

@@ -7,12 +7,11 @@ use nalgebra::DMatrix;
 use serde_json::json;
 
 use crate::frf::write_uff58;
-use crate::identify::{
-    Bands, IdentifyError, JointMatrices, Study, choose_bands, predict_assembly, predict_lines,
-};
+use crate::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
 use crate::joint::JointFile;
 use crate::respond::{Pollution, to_csv, with_noise};
 
+use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::output::{check_output, print, write_file};
 use super::{NoiseArguments, NoiseProcedure, RespondArguments, RespondNoise};
@@ -35,8 +34,8 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     };
     let study = Study::read(&arguments.study)?;
     let frequency_hz = lines(&study, arguments.step)?;
-    let joint = joint(&arguments.joint, &study)?;
-    let exact = predict_assembly(&study, &joint, &frequency_hz)?;
+    let joints = joints(&arguments.joint, &study)?;
+    let exact = predict_assembly(&study, &joints, &frequency_hz)?;
     let measured = match noise {
         Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,
         None => exact,
@@ -59,17 +58,25 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         }
     }
     let functions = measured.functions().count();
-    let lines = predict_lines(&study, &joint, &frequency_hz)?;
-    let bands =
-        choose_bands(&lines, study.model, &joint, &study.bands).map_err(IdentifyError::from)?;
+    let lines = predict_lines(&study, &joints, &frequency_hz)?;
+    let bands = study.choose_bands(&lines, &joints)?;
     if arguments.json {
-        let value = json!({
+        let of_bands = |bands: &Bands| json!({ "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta });
+        let mut value = json!({
             "output": arguments.output.display().to_string(),
             "functions": functions,
             "lines": frequency_hz.len(),
             "noise": what,
-            "bands": { "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta },
+            "bands": of_bands(&bands[0]),
         });
+        if let (Some(object), [_, _, ..]) = (value.as_object_mut(), bands.as_slice()) {
+            let all = study.bolts.with_own_joint().iter().zip(&bands);
+            let all = all.map(|(bolt, bands)| (bolt.clone(), of_bands(bands)));
+            object.insert(
+                "bands".to_owned(),
+                all.collect::<serde_json::Map<_, _>>().into(),
+            );
+        }
         return print(&serde_json::to_string_pretty(&value)?);
     }
     print(&format!(
@@ -78,14 +85,26 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         frequency_hz.len(),
         frequency_hz[0],
         frequency_hz[frequency_hz.len() - 1],
-        band_table(&bands, &study.bands),
+        band_tables(&bands, &study),
         arguments.output.display()
     ))
 }
 
-/// The bands as the study's own table, to be copied there.
-fn band_table(bands: &Bands, given: &Bands) -> String {
-    let mut text = "[bands]  # most sensitive lines, 10 % or more away from the substructures' own resonances\n".to_owned();
+/// The bands of each joint as the study's own table, to be copied there.
+fn band_tables(bands: &[Bands], study: &Study) -> String {
+    let given = study.bands.given();
+    let bolts = study.bolts.with_own_joint();
+    let table = |(joint, bands)| {
+        let bolt = bolts.get(joint).map(|bolt| format!(" of {bolt}:"));
+        band_table(bands, &given, &bolt.unwrap_or_default())
+    };
+    bands.iter().enumerate().map(table).collect()
+}
+
+fn band_table(bands: &Bands, given: &Bands, bolt: &str) -> String {
+    let mut text = format!(
+        "[bands]  #{bolt} most sensitive lines, 10 % or more away from the substructures' own resonances\n"
+    );
     for (name, bands, given) in [
         ("yy", &bands.yy, &given.yy),
         ("ytheta", &bands.ytheta, &given.ytheta),
@@ -156,15 +175,29 @@ fn lines(study: &Study, step_hz: f64) -> Result<Vec<f64>, CliError> {
         .collect())
 }
 
+/// The joint of each bolt that has one of its own, or the one for all.
+fn joints(path: &Path, study: &Study) -> Result<Vec<JointMatrices>, CliError> {
+    let paths = of_bolts(path, &study.bolts);
+    paths.iter().map(|path| joint(path, study)).collect()
+}
+
+/// The joint that the assembly is to have; of one over the preload, that at the first assembly's torque.
 fn joint(path: &Path, study: &Study) -> Result<JointMatrices, CliError> {
     let file = JointFile::read(path)?;
+    let torque_n_m = file.joint.over_preload.as_ref().and(study.torque_n_m);
+    let file = file
+        .at_preload(torque_n_m)
+        .map_err(|source| CliError::Preload {
+            path: path.to_owned(),
+            source,
+        })?;
     let size = study.model.dofs();
     let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, CliError> {
         if rows.len() != size {
             return Err(CliError::Option {
                 option: "--joint",
                 found: format!("{} with {} degrees of freedom", path.display(), rows.len()),
-                expected: "one with constant matrices and as many as the study's joint model has",
+                expected: "as many as the study's joint model has",
             });
         }
         Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j]))

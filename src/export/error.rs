@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::joint::{LawError, MatrixPassivity, Problem};
+use crate::joint::{LawError, MatrixPassivity, PreloadError, Problem};
 
 /// Why a joint file cannot be exported.
 #[derive(Debug, Error)]
@@ -29,6 +29,9 @@ pub enum ExportError {
     /// The joint file does not give the equations of this FMU.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// The joint has no such preload.
+    #[error(transparent)]
+    Preload(#[from] PreloadError),
     /// A step size was given for the FMU that takes no steps.
     #[error(
         "step size: found {found_s:?} s for the element, expected none: the element has no states and takes no steps; \

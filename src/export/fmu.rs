@@ -16,7 +16,7 @@ use super::step::{Experiment, StepSize};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
-use crate::joint::{DofSet, JointFile, LawError, Passivity};
+use crate::joint::{DofSet, JointFile, Passivity};
 use crate::whole_file;
 
 /// What to export, and how.
@@ -30,6 +30,8 @@ pub struct ExportOptions {
     pub step_size_max_s: Option<f64>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
     pub platforms: Option<PathBuf>,
+    /// Preload at which a joint over the preload is exported, N·m; its nominal one where it is not given.
+    pub preload_n_m: Option<f64>,
     /// Whether a joint that can feed energy into a simulation is exported all the same.
     pub allow_active: bool,
     /// Date in the FMU.
@@ -107,14 +109,15 @@ pub(super) struct Mode {
     pub(super) damping_ratio: f64,
 }
 
-/// The FMU of the joint in `file`, whose very text is `source_json`.
+/// The FMU of the joint in `file`, whose very text is `source_json`. A joint over the preload is taken at one preload, and
+/// the FMU keeps its whole table beside it.
 ///
 /// The same file, options and program give the same bytes.
 ///
 /// # Errors
 ///
-/// [`ExportError`]: an invalid or active joint, a joint over preload, a lap without bodies, an unstable step size,
-/// libraries that cannot be read.
+/// [`ExportError`]: an invalid or active joint, a preload that the joint does not have, a lap without bodies, an unstable
+/// step size, libraries that cannot be read.
 pub fn fmu_bytes(
     file: &JointFile,
     source_json: &str,
@@ -124,9 +127,31 @@ pub fn fmu_bytes(
     if !problems.is_empty() {
         return Err(ExportError::Invalid { problems });
     }
-    if file.joint.over_preload.is_some() {
-        return Err(LawError::OverPreload.into());
+    if file.joint.over_preload.is_none() && options.preload_n_m.is_none() {
+        return constant_joint(file, vec![File::text(JOINT_FILE, source_json)], options);
     }
+    let constant = file.at_preload(options.preload_n_m)?;
+    let text = constant.to_json().map_err(|_| ExportError::Invalid {
+        problems: constant.validate(),
+    })?;
+    let sources = vec![
+        File::text(JOINT_FILE, text),
+        File::text(TABLE_FILE, source_json),
+    ];
+    constant_joint(&constant, sources, options)
+}
+
+/// The joint that the FMU has.
+const JOINT_FILE: &str = "resources/joint.json";
+/// The joint over the preload that it was taken from.
+const TABLE_FILE: &str = "resources/joint-over-preload.json";
+
+/// The FMU of a joint that does not depend on the preload, with the files that it comes from.
+fn constant_joint(
+    file: &JointFile,
+    sources: Vec<File>,
+    options: &ExportOptions,
+) -> Result<Exported, ExportError> {
     let passivity = file.passivity();
     if !passivity.is_passive() && !options.allow_active {
         return Err(ExportError::Active {
@@ -163,6 +188,7 @@ pub fn fmu_bytes(
         lap: lap.as_ref(),
         passivity: &passivity,
         reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
+        has_table: sources.len() > 1,
         token: &token,
         date: options.date,
     });
@@ -172,9 +198,9 @@ pub fn fmu_bytes(
             "resources/start.txt",
             start_file(options.interface, dofs, &token, &parameters),
         ),
-        File::text("resources/joint.json", source_json),
-        File::text("documentation/index.html", page),
     ];
+    files.extend(sources);
+    files.push(File::text("documentation/index.html", page));
     files.extend(documentation::licences());
     files.push(File::text(
         terminals::FILE,

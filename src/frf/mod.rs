@@ -1,6 +1,7 @@
 //! Frequency response functions: what was measured, between which degrees of freedom, in which units.
 
 mod coherence;
+mod counted;
 mod csv;
 mod dof;
 mod error;
@@ -17,6 +18,7 @@ mod selection;
 mod set;
 mod shown;
 mod statement;
+mod summary;
 mod uff;
 mod unit_label;
 
@@ -29,13 +31,14 @@ pub use noise::polluted;
 pub use npz::{NpzProblem, read_npz, read_npz_from};
 pub use options::ReadOptions;
 pub use quantity::Quantity;
-pub use read::read_frfs;
+pub use read::{read_frfs, read_frfs_watched};
 pub use reading::{FrfReading, SkippedFunction};
 pub use resonance::{Resonance, resonances};
 pub use selection::Selection;
 pub use set::{FrfSet, Receptance};
 use shown::shown;
 pub use statement::StatementProblem;
+pub use summary::{FileFormat, FileSummary, StatedBy, UnitStatement};
 pub use uff::{
     ByteOrder, UffProblem, UnitFactorError, UnitSystem, read_uff58, read_uff58_from, write_uff58,
     write_uff58_to, write_uff58b, write_uff58b_to,

@@ -1,14 +1,17 @@
 //! Functions from a file of any format that is known: universal file, table or NumPy archive.
 
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::{BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
+use super::counted::Counted;
 use super::csv::read_csv_from;
 use super::npz::read_npz_from;
-use super::uff::read_uff58;
+use super::uff::read_uff58_of;
 use super::{FrfError, FrfReading, NpzProblem, ReadOptions};
 
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 16;
 /// How much of a file is looked at to tell what it is.
 const LOOKED_AT: u64 = 4096;
 
@@ -55,36 +58,50 @@ impl Format {
 /// Reads the frequency response functions of a universal file (58 or 58b), a table (CSV) or a NumPy archive (npz).
 ///
 /// What the file is, is told by how it begins, and by its extension where that leaves it open. Values become receptances in SI
-/// units; see [`read_uff58`], [`read_csv`](super::read_csv) and [`read_npz`](super::read_npz).
+/// units; see [`read_uff58`](super::read_uff58), [`read_csv`](super::read_csv) and [`read_npz`](super::read_npz).
 ///
 /// # Errors
 /// [`FrfError::Read`], [`FrfError::Uff`], [`FrfError::Csv`] or [`FrfError::Npz`].
 pub fn read_frfs(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+    read_frfs_watched(path, options, &|_, _| ())
+}
+
+/// As [`read_frfs`]; `watch` is told again and again how many bytes have been read, and how many there are.
+///
+/// # Errors
+/// As [`read_frfs`].
+pub fn read_frfs_watched(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+    watch: &dyn Fn(u64, u64),
+) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
     let failed = |source| FrfError::Read {
         path: path.to_owned(),
         source,
     };
-    let mut reader = BufReader::new(File::open(path).map_err(failed)?);
+    let file = File::open(path).map_err(failed)?;
+    let metadata = file.metadata().ok().filter(Metadata::is_file);
+    let length = metadata.map(|metadata| metadata.len());
+    let of = length.unwrap_or(0);
+    // A member of an archive may be met twice, and no reader asks for the end of a file that it has understood before.
+    let counted = |bytes: u64| watch(bytes.min(of), of);
+    let mut reader = BufReader::with_capacity(PIECE, Counted::new(file, &counted));
     let mut beginning = Vec::new();
     (&mut reader)
         .take(LOOKED_AT)
         .read_to_end(&mut beginning)
         .map_err(failed)?;
-    match Format::of(path, &beginning) {
-        Format::Universal => read_uff58(path, options),
-        Format::Table => {
-            reader.rewind().map_err(failed)?;
-            let lines: &mut dyn BufRead = &mut reader;
-            read_csv_from(lines, path, options)
-        }
-        Format::Archive => {
-            reader.rewind().map_err(failed)?;
-            read_npz_from(reader, path, options)
-        }
+    reader.rewind().map_err(failed)?;
+    let reading = match Format::of(path, &beginning) {
+        Format::Universal => read_uff58_of(&mut reader as &mut dyn BufRead, path, length, options),
+        Format::Table => read_csv_from(&mut reader as &mut dyn BufRead, path, options),
+        Format::Archive => read_npz_from(reader, path, options),
         Format::SingleArray => Err(FrfError::Npz {
             path: path.to_owned(),
             problem: Box::new(NpzProblem::SingleArray),
         }),
-    }
+    };
+    watch(of, of);
+    reading
 }

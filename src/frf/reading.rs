@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
 use super::{Coherence, Dof, Frf, FrfError, FrfSet};
 
 /// A function of a file that is no frequency response function and was passed over.
@@ -32,12 +33,12 @@ pub struct FrfReading {
     pub(super) path: PathBuf,
     pub(super) functions: Vec<Frf>,
     pub(super) coherences: Vec<Coherence>,
-    /// Averages as the caller or the file state them.
-    pub(super) averages: Option<f64>,
+    /// Averages, and who states them.
+    pub(super) averages: Option<(f64, StatedBy)>,
     pub(super) not_selected: BTreeSet<(Dof, Dof)>,
     pub(super) skipped_functions: Vec<SkippedFunction>,
     pub(super) skipped_datasets: usize,
-    pub(super) units_stated: bool,
+    pub(super) statements: Statements,
 }
 
 impl FrfReading {
@@ -56,7 +57,7 @@ impl FrfReading {
     /// The number of averages behind the functions, where the caller or the file states it.
     #[must_use]
     pub fn averages(&self) -> Option<f64> {
-        self.averages
+        self.averages.map(|(averages, _)| averages)
     }
 
     /// Response and reference of the functions that are in the file but were not asked for.
@@ -80,7 +81,31 @@ impl FrfReading {
     /// Whether the file (or the caller) states the units of every function; where it does not, SI was assumed.
     #[must_use]
     pub fn units_are_stated(&self) -> bool {
-        self.units_stated
+        self.statements.have_units()
+    }
+
+    /// What was read, and by whose word the values are what they were taken for.
+    #[must_use]
+    pub fn summary(&self) -> FileSummary {
+        let Statements {
+            formats,
+            quantities,
+            units,
+            ..
+        } = self.statements.clone();
+        FileSummary {
+            path: self.path.clone(),
+            functions: self.functions.len(),
+            left_out: self.not_selected.len(),
+            formats,
+            quantities,
+            units,
+            coherences: self.coherences.len(),
+            averages: self.averages,
+            coherence_noise: self
+                .averages()
+                .and_then(|averages| coherence_noise(&self.coherences, averages)),
+        }
     }
 
     /// The functions as one set, with the coherences that belong to them.
@@ -88,13 +113,14 @@ impl FrfReading {
     /// # Errors
     /// [`FrfError::InFile`] around what [`FrfSet::new`] and [`FrfSet::with_coherences`] refuse.
     pub fn into_set(self) -> Result<FrfSet, FrfError> {
+        let averages = self.averages();
         let set = match self.functions.is_empty() && !self.not_selected.is_empty() {
             true => Err(FrfError::NoneSelected {
                 present: self.not_selected.iter().copied().collect(),
             }),
             false => FrfSet::new(self.functions),
         };
-        set.and_then(|set| set.with_coherences(self.coherences, self.averages))
+        set.and_then(|set| set.with_coherences(self.coherences, averages))
             .map(|set| set.knowing_of(self.not_selected))
             .map_err(|source| FrfError::InFile {
                 path: self.path,

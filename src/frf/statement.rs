@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::unit_label::Unit;
-use super::{Dof, Quantity, ReadOptions};
+use super::{Dof, Quantity, ReadOptions, StatedBy, UnitStatement};
 
 /// What is stated of one function.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,11 +16,11 @@ pub(super) struct Statement<'a> {
 }
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stated {
-    pub(super) quantity: Quantity,
+    pub(super) quantity: (Quantity, StatedBy),
     pub(super) to_si: f64,
-    pub(super) units_stated: bool,
+    pub(super) units: UnitStatement,
 }
 
 /// Why a statement does not say what a function is.
@@ -109,7 +109,7 @@ impl Statement<'_> {
         let by_unit =
             unit.and_then(|(label, u)| Some((label, Quantity::from_time_derivatives(-u.time)?)));
         let quantity = match (options.quantity, self.quantity, by_unit) {
-            (Some(quantity), ..) => quantity,
+            (Some(quantity), ..) => (quantity, StatedBy::Caller),
             (None, Some(stated), Some((label, by_unit))) if stated != by_unit => {
                 return Err(StatementProblem::ContradictingQuantities {
                     response,
@@ -119,7 +119,9 @@ impl Statement<'_> {
                     by_unit,
                 });
             }
-            (None, Some(quantity), _) | (None, None, Some((_, quantity))) => quantity,
+            (None, Some(quantity), _) | (None, None, Some((_, quantity))) => {
+                (quantity, StatedBy::File)
+            }
             (None, None, None) => {
                 return Err(StatementProblem::UnknownQuantity {
                     response,
@@ -133,7 +135,7 @@ impl Statement<'_> {
             return Ok(Stated {
                 quantity,
                 to_si,
-                units_stated: true,
+                units: UnitStatement::Caller(units),
             });
         }
         match unit {
@@ -147,7 +149,9 @@ impl Statement<'_> {
             _ => Ok(Stated {
                 quantity,
                 to_si: unit.map_or(1.0, |(_, unit)| unit.to_si),
-                units_stated: unit.is_some(),
+                units: unit.map_or(UnitStatement::Assumed, |(label, _)| {
+                    UnitStatement::Label(owned(label))
+                }),
             }),
         }
     }

@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::estimator::Estimate;
-use super::noise::Noise;
+use super::group::{Side, Source};
+use super::noise::{Noise, StatedLevel};
 use super::objective::{Objective, Weights};
 
 /// Standard deviations beyond which a statistic is not chance.
@@ -23,6 +24,9 @@ pub struct Assessment {
     pub reduced_chi_squared: Option<f64>,
     /// Whether the noise was stated, so that χ² is a test.
     pub noise_is_stated: bool,
+    /// Whether coherence tells the variance of all of the assembly, and of the substructures where it is not stated. It is an estimate itself, so that
+    /// χ² does not reject: with n averages its mean is n/(n − 2).
+    pub noise_is_known: bool,
     /// χ² too high, in its standard deviations.
     pub chi_squared_excess: f64,
     /// Correlation of the residuals of neighbouring lines: 0 for noise.
@@ -102,14 +106,32 @@ pub(super) fn assess<const N: usize>(
     let reduced = estimate.reduced_chi_squared();
     let freedom = estimate.degrees_of_freedom as f64;
     let lines: usize = objective.groups.iter().map(|group| group.lines()).sum();
+    let noise_is_known = is_known(objective, noise);
     Some(Assessment {
         reduced_chi_squared: reduced,
-        noise_is_stated: noise.is_stated(),
+        noise_is_stated: noise.is_stated() && !noise_is_known,
+        noise_is_known,
         chi_squared_excess: reduced.map_or(0.0, |chi| (chi - 1.0) / (2.0 / freedom).sqrt()),
         line_correlation,
         line_correlation_excess: line_correlation / deviation,
         has_power: lines >= FEWEST_LINES,
         is_exact: relative_power / (count.max(1) as f64) < ROUNDING_POWER,
+    })
+}
+
+/// Whether no variance depends on a level that is estimated.
+fn is_known<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> bool {
+    let is_stated = |level: StatedLevel| level.relative.is_some() && level.floor.is_some();
+    let of_source = |source: &Source<N>| {
+        !source.known.is_empty()
+            || is_stated(match source.side {
+                Side::A => noise.a,
+                Side::B => noise.b,
+            })
+    };
+    objective.groups.iter().all(|group| {
+        let mut blocks = group.blocks.iter();
+        blocks.all(|block| !block.known.is_empty()) && group.sources.iter().all(of_source)
     })
 }
 

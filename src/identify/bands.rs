@@ -2,43 +2,153 @@
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
-use serde::Deserialize;
 
-use crate::frf::resonances;
-use crate::structure::{ComplexMatrix, CouplingError};
+use crate::structure::ComplexMatrix;
 
-use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::sensitivity::sensitivities;
 
 /// Frequency bands, from and to in Hz, over which each entry of the joint's matrices is averaged.
 ///
 /// An entry without bands is the median over all lines: without a choice of bands some lines are far off, because the
 /// receptances do not depend on the joint there, and a mean would follow them.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bands {
     /// Bands for k_Fy and c_Fy.
-    #[serde(default)]
     pub yy: Vec<[f64; 2]>,
     /// Bands for k_Fθ and c_Fθ.
-    #[serde(default)]
     pub ytheta: Vec<[f64; 2]>,
     /// Bands for k_Mθ and c_Mθ.
-    #[serde(default)]
     pub thetatheta: Vec<[f64; 2]>,
 }
 
-impl Bands {
-    pub(super) fn named(&self) -> [(&'static str, &[[f64; 2]]); 3] {
-        [
-            ("yy", &self.yy),
-            ("ytheta", &self.ytheta),
-            ("thetatheta", &self.thetatheta),
-        ]
+/// How the lines are found over which an entry is averaged.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum BandChoice {
+    /// Bands by sensitivity and distance to the substructures' resonances, at a preliminary estimate.
+    #[default]
+    Automatic,
+    /// The median over all lines.
+    Median,
+    /// These bands, Hz.
+    Given(Vec<[f64; 2]>),
+}
+
+/// The choice for each entry.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BandChoices {
+    /// For k_Fy and c_Fy.
+    pub yy: BandChoice,
+    /// For k_Fθ and c_Fθ.
+    pub ytheta: BandChoice,
+    /// For k_Mθ and c_Mθ.
+    pub thetatheta: BandChoice,
+}
+
+/// The bands that are given; medians elsewhere.
+impl From<Bands> for BandChoices {
+    fn from(bands: Bands) -> Self {
+        let choice = |bands: Vec<[f64; 2]>| match bands.as_slice() {
+            [] => BandChoice::Median,
+            _ => BandChoice::Given(bands),
+        };
+        Self {
+            yy: choice(bands.yy),
+            ytheta: choice(bands.ytheta),
+            thetatheta: choice(bands.thetatheta),
+        }
+    }
+}
+
+impl BandChoices {
+    /// The same choice for every entry.
+    #[must_use]
+    pub fn all(choice: BandChoice) -> Self {
+        Self {
+            yy: choice.clone(),
+            ytheta: choice.clone(),
+            thetatheta: choice,
+        }
     }
 
-    fn of_entry(&self, entry: (usize, usize)) -> &[[f64; 2]] {
+    /// The choice for the entry at this row and column of the joint's matrices.
+    #[must_use]
+    pub fn of_entry(&self, entry: (usize, usize)) -> &BandChoice {
+        match entry {
+            (0, 0) => &self.yy,
+            (1, 1) => &self.thetatheta,
+            _ => &self.ytheta,
+        }
+    }
+
+    pub(super) fn any_is_automatic(&self) -> bool {
+        let all = [&self.yy, &self.ytheta, &self.thetatheta];
+        all.contains(&&BandChoice::Automatic)
+    }
+
+    /// The bands that are given.
+    #[must_use]
+    pub fn given(&self) -> Bands {
+        let given = |choice: &BandChoice| match choice {
+            BandChoice::Given(bands) => bands.clone(),
+            BandChoice::Automatic | BandChoice::Median => Vec::new(),
+        };
+        Bands {
+            yy: given(&self.yy),
+            ytheta: given(&self.ytheta),
+            thetatheta: given(&self.thetatheta),
+        }
+    }
+}
+
+/// Where the lines of an average come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BandOrigin {
+    /// The study gives the bands.
+    Given,
+    /// The bands are chosen.
+    Automatic,
+    /// All lines, because no band qualifies.
+    NoneQualifies,
+    /// All lines, as asked for.
+    Median,
+}
+
+/// The bands that one entry was averaged over; empty for the median over all lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UsedBands {
+    /// Name of the entry in a study: `yy`, `ytheta` or `thetatheta`.
+    pub name: &'static str,
+    /// From and to, Hz.
+    pub bands: Vec<[f64; 2]>,
+    /// Where they come from.
+    pub origin: BandOrigin,
+}
+
+impl Bands {
+    /// The bands of the entry at this row and column of the joint's matrices.
+    pub(super) fn of_entry_mut(&mut self, entry: (usize, usize)) -> &mut Vec<[f64; 2]> {
+        match entry {
+            (0, 0) => &mut self.yy,
+            (1, 1) => &mut self.thetatheta,
+            _ => &mut self.ytheta,
+        }
+    }
+
+    /// Those of one joint.
+    pub(super) fn of_used(used: &[UsedBands]) -> Self {
+        let of = |name: &str| {
+            let found = used.iter().find(|used| used.name == name);
+            found.map_or_else(Vec::new, |used| used.bands.clone())
+        };
+        Self {
+            yy: of("yy"),
+            ytheta: of("ytheta"),
+            thetatheta: of("thetatheta"),
+        }
+    }
+
+    /// The bands of the entry at this row and column of the joint's matrices.
+    pub(super) fn of_entry(&self, entry: (usize, usize)) -> &[[f64; 2]] {
         match entry {
             (0, 0) => &self.yy,
             (1, 1) => &self.thetatheta,
@@ -89,97 +199,20 @@ pub fn band_average(
     Some(average)
 }
 
-/// Lines closer than this part of the frequency to a resonance of a substructure are avoided; the thesis stays off its
-/// resonance at 336 Hz by 11 %.
-const DISTANCE: f64 = 0.1;
-/// The part of the other lines, those most sensitive to an entry, that its bands hold.
-const MOST_SENSITIVE: f64 = 0.25;
-/// A band has so many lines at least.
-const SHORTEST_BAND: usize = 3;
-
-/// Bands from sensitivity and distance (Tol 4.2.2): for each entry of `model` the quarter of the lines on which the
-/// assembly's receptances depend on it most, among those 10 % or more away from the substructures' own resonances.
-///
-/// An entry for which `given` has bands keeps them. The measure of a line is the largest |∂H^C/∂k| √(k_ii k_jj)/|H^C| of
-/// the measured receptances; at an antiresonance the median of |H^C| over the lines takes its place.
-///
-/// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance.
-pub fn choose_bands(
-    lines: &Lines,
-    model: JointModel,
-    joint: &JointMatrices,
-    given: &Bands,
-) -> Result<Bands, CouplingError> {
-    let hz = &lines.frequency_hz;
-    let mut own: Vec<f64> = Vec::new();
-    for dof in 0..model.dofs() {
-        let a: Vec<Complex64> = lines.a_joint.iter().map(|h| h[(dof, dof)]).collect();
-        let b: Vec<Complex64> = lines.b.iter().map(|b| b.joint[(dof, dof)]).collect();
-        let found = [resonances(hz, &a), resonances(hz, &b)].concat();
-        own.extend(found.iter().map(|resonance| resonance.frequency_hz));
+/// What a study calls the entry at this row and column.
+pub(super) fn name(entry: (usize, usize)) -> &'static str {
+    match entry {
+        (0, 0) => "yy",
+        (1, 1) => "thetatheta",
+        _ => "ytheta",
     }
-    let is_far = |hz: f64| own.iter().all(|own| (hz - own).abs() >= DISTANCE * own);
-    let sensitivities = sensitivities(lines, model, joint)?;
-    let mut chosen = given.clone();
-    for &(i, j) in model.entries() {
-        let bands = match (i, j) {
-            (0, 0) => &mut chosen.yy,
-            (1, 1) => &mut chosen.thetatheta,
-            _ => &mut chosen.ytheta,
-        };
-        if !bands.is_empty() {
-            continue;
-        }
-        let scale = (joint.stiffness[(i, i)] * joint.stiffness[(j, j)])
-            .abs()
-            .sqrt();
-        let mut measure = vec![0.0; hz.len()];
-        for sensitivity in sensitivities.iter().filter(|found| found.entry == (i, j)) {
-            let sizes = sensitivity
-                .assembly
-                .iter()
-                .map(|value| value.norm())
-                .collect();
-            let usual = median(sizes).unwrap_or(0.0);
-            let lines = sensitivity.by_stiffness.iter().zip(&sensitivity.assembly);
-            for (measure, (derivative, value)) in measure.iter_mut().zip(lines) {
-                let relative = derivative.norm() * scale / value.norm().max(usual);
-                *measure = f64::max(*measure, relative);
-            }
-        }
-        let mut far: Vec<f64> = (0..hz.len())
-            .filter(|&line| is_far(hz[line]))
-            .map(|line| measure[line])
-            .collect();
-        far.sort_by(|a, b| b.total_cmp(a));
-        let Some(&threshold) = far.get((MOST_SENSITIVE * far.len() as f64) as usize) else {
-            continue;
-        };
-        let holds = |line: usize| is_far(hz[line]) && measure[line] > threshold;
-        let mut start = None;
-        for line in 0..=hz.len() {
-            let inside = line < hz.len() && holds(line);
-            match (start, inside) {
-                (None, true) => start = Some(line),
-                (Some(first), false) => {
-                    if line - first >= SHORTEST_BAND {
-                        bands.push([hz[first], hz[line - 1]]);
-                    }
-                    start = None;
-                }
-                _ => {}
-            }
-        }
-    }
-    Ok(chosen)
 }
 
 fn mean(values: Vec<f64>) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
+pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
     let (middle, is_odd) = (values.len() / 2, values.len() % 2 == 1);
     if values.is_empty() {
         return None;

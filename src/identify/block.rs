@@ -3,10 +3,13 @@
 //! With symmetric substructures and a symmetric joint H^C_pq and H^C_qp are one number. Two measurements of it enter as
 //! their mean; their difference tells noise alone.
 
+use std::ops::Range;
+
 use num_complex::Complex64;
 
 use crate::structure::ComplexMatrix;
 
+use super::layout::Place;
 use super::lines::Lines;
 
 /// A matrix of the joint's DOFs at one line, or at several side by side.
@@ -24,6 +27,8 @@ pub(super) struct Entry {
 /// Receptances of one assembly and of what it was made from, over its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Block<const N: usize> {
+    /// Which of the joints that are sought is in this assembly.
+    pub(super) joint: usize,
     pub(super) points: usize,
     pub(super) entries: Vec<Entry>,
     /// ω of each line.
@@ -44,9 +49,12 @@ pub(super) struct Block<const N: usize> {
     pub(super) known: Vec<f64>,
 }
 
+/// No measurement is taken for better than that: its reciprocal is a number.
+const LEAST_VARIANCE: f64 = 1e-300;
+
 impl<const N: usize> Block<N> {
-    /// Every `stride`th line of `lines`, whose joint has N DOFs.
-    pub(super) fn new(lines: &Lines, stride: usize) -> Self {
+    /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
+    pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let measured = lines.independent();
         let mut entries: Vec<Entry> = Vec::new();
@@ -69,6 +77,7 @@ impl<const N: usize> Block<N> {
         let chosen = || (0..lines.frequency_hz.len()).step_by(stride);
         let count = chosen().count();
         let mut block = Self {
+            joint,
             points,
             omega: chosen()
                 .map(|line| std::f64::consts::TAU * lines.frequency_hz[line])
@@ -82,12 +91,10 @@ impl<const N: usize> Block<N> {
             known: Vec::new(),
             entries,
         };
+        let variances = variances(lines, &places);
         for line in chosen() {
             block.push_substructures(lines, line);
-            block.push_assembly(lines, &places, line);
-        }
-        if let Some(known) = &lines.relative_variance {
-            block.add_known(lines, known, stride);
+            block.push_assembly(lines, &places, variances.as_deref(), line);
         }
         block.dynamic_stiffness = std::array::from_fn(|dof| {
             let diagonal = block.free.iter().map(|free| free[dof][dof]);
@@ -117,19 +124,38 @@ impl<const N: usize> Block<N> {
             .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
     }
 
-    fn push_assembly(&mut self, lines: &Lines, places: &[Vec<(usize, usize)>], line: usize) {
+    /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
+    fn push_assembly(
+        &mut self,
+        lines: &Lines,
+        places: &[Vec<(usize, usize)>],
+        variances: Option<&[Vec<&[f64]>]>,
+        line: usize,
+    ) {
         let assembly = &lines.assembly[line];
-        for places in places {
+        for (entry, places) in places.iter().enumerate() {
+            let known = variances.map(|variances| &variances[entry]);
             if let ([place], None) = (&places[..], &lines.repeats) {
                 self.measured.push(assembly[*place]);
                 self.scatter.push(0.0);
+                self.known.extend(known.map(|known| known[0][line]));
                 continue;
             }
-            let sum: Complex64 = places.iter().map(|&place| assembly[place]).sum();
-            let mean = sum / places.len() as f64;
+            // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
+            let weight =
+                |index: usize| known.map_or(1.0, |k| k[index][line].max(LEAST_VARIANCE).recip());
+            let weighted = || (0..places.len()).map(|index| (weight(index), places[index]));
+            let total: f64 = weighted().map(|(weight, _)| weight).sum();
+            let sum: Complex64 = weighted()
+                .map(|(weight, place)| assembly[place] * weight)
+                .sum();
+            let mean = sum / total;
             self.measured.push(mean);
-            let difference = |&place: &(usize, usize)| (assembly[place] - mean).norm_sqr();
-            let between: f64 = places.iter().map(difference).sum();
+            let common = places.len() as f64 / total;
+            self.known.extend(known.map(|_| common));
+            let between: f64 = weighted()
+                .map(|(weight, place)| common * weight * (assembly[place] - mean).norm_sqr())
+                .sum();
             self.scatter.push(match &lines.repeats {
                 Some(repeats) => {
                     let scatter = &repeats.scatter[line];
@@ -141,26 +167,27 @@ impl<const N: usize> Block<N> {
         }
     }
 
-    fn add_known(&mut self, lines: &Lines, known: &[Vec<f64>], stride: usize) {
-        let of_entry: Vec<Vec<&Vec<f64>>> = self
-            .entries
-            .iter()
-            .map(|entry| {
-                let pairs = lines.measured.iter().zip(known);
-                let own =
-                    pairs.filter(|&(&(p, q), _)| (p.min(q), p.max(q)) == (entry.row, entry.column));
-                own.map(|(_, variances)| variances).collect()
-            })
-            .collect();
-        for line in (0..lines.frequency_hz.len()).step_by(stride) {
-            for variances in &of_entry {
-                let sum: f64 = variances.iter().map(|variances| variances[line]).sum();
-                self.known.push(sum / variances.len().max(1) as f64);
-            }
-        }
+    /// Where the unknowns of its joint are among those of all, each joint having these entries.
+    pub(super) fn unknowns(&self, entries: &[Place]) -> Range<usize> {
+        let size = 2 * entries.len();
+        self.joint * size..(self.joint + 1) * size
     }
 
     pub(super) fn lines(&self) -> usize {
         self.omega.len()
     }
+}
+
+/// σ²/|H|² of each place over the lines, where it is known.
+fn variances<'lines>(
+    lines: &'lines Lines,
+    places: &[Vec<(usize, usize)>],
+) -> Option<Vec<Vec<&'lines [f64]>>> {
+    let known = lines.relative_variance.as_ref()?;
+    let of_place = |place: &(usize, usize)| {
+        let index = lines.measured.iter().position(|other| other == place)?;
+        Some(known.get(index)?.as_slice())
+    };
+    let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
+    places.iter().map(of_entry).collect()
 }

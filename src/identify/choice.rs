@@ -2,9 +2,11 @@
 
 use nalgebra::DVector;
 
+use super::estimator::Estimate;
+use super::layout::Layout;
 use super::model::JointModel;
-use super::noise::Noise;
-use super::search::{self, Data, Effort, Found};
+use super::search::{Effort, Found};
+use super::torque::{Problem, tested_chi_squared};
 
 /// The joint models that the data allow, compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +24,8 @@ pub struct ModelChoice {
 pub struct ModelFit {
     /// The model.
     pub model: JointModel,
+    /// How many unknowns it has: those of every bolt with a joint of its own, at every torque.
+    pub unknowns: usize,
     /// −2 ln L + p ln n, less that of the best model: Schwarz's criterion with p unknowns and n real numbers.
     pub bic_difference: f64,
     /// χ² over degrees of freedom where the noise is stated, else the residual's mean square beside that of the best model.
@@ -30,11 +34,16 @@ pub struct ModelFit {
     pub adequate: bool,
 }
 
-/// Compares the models; `found` is the estimate of `model`.
+/// Schwarz's criterion of an estimate, −2 ln L + p ln n with p unknowns and n real numbers.
+pub(super) fn bayesian_criterion(estimate: &Estimate) -> f64 {
+    let numbers = 2.0 * estimate.measurements as f64;
+    estimate.misfit + estimate.unknowns.len() as f64 * numbers.ln()
+}
+
+/// Compares the models; `found` is the estimate of `layout`. All bolts have the same model, at every torque.
 pub(super) fn compare<const N: usize>(
-    data: &Data<N>,
-    model: JointModel,
-    noise: &Noise,
+    problem: &Problem<'_, N>,
+    layout: &Layout,
     found: &Found,
 ) -> ModelChoice {
     let all = [
@@ -42,33 +51,31 @@ pub(super) fn compare<const N: usize>(
         JointModel::Diagonal,
         JointModel::Full,
     ];
-    let fits: Vec<(JointModel, Found)> = all
+    let fits: Vec<(Layout, Found)> = all
         .into_iter()
-        .filter(|other| other.dofs() <= N)
+        .filter_map(|other| layout.with_model(other))
         .filter_map(|other| {
-            if other == model {
+            if other == *layout {
                 return Some((other, found.clone()));
             }
-            let start = embedded(model, &found.estimate.unknowns, other);
-            let effort = Effort::Related;
-            let found = search::best(data, other.entries(), noise, vec![start], effort).ok()?;
+            let torques = found.estimate.unknowns.as_slice();
+            let starts: Vec<_> = torques
+                .chunks_exact(layout.unknowns())
+                .map(|unknowns| vec![embedded(layout, unknowns, &other)])
+                .collect();
+            let found = problem.best(&other, &starts, Effort::Related).ok()?;
             Some((other, found))
         })
         .collect();
-    let bic = |(model, found): &(JointModel, Found)| {
-        let numbers = 2.0 * found.estimate.measurements as f64;
-        found.estimate.misfit + model.unknowns() as f64 * numbers.ln()
-    };
+    let bic = |(_, found): &(Layout, Found)| bayesian_criterion(&found.estimate);
     let lowest = fits.iter().map(bic).fold(f64::INFINITY, f64::min);
     let models: Vec<ModelFit> = fits
         .iter()
         .map(|fit| ModelFit {
-            model: fit.0,
+            model: fit.0.model(),
+            unknowns: fit.1.estimate.unknowns.len(),
             bic_difference: bic(fit) - lowest,
-            reduced_chi_squared: noise
-                .is_stated()
-                .then(|| fit.1.estimate.reduced_chi_squared())
-                .flatten(),
+            reduced_chi_squared: tested_chi_squared(&fit.1),
             adequate: fit.1.assessment.fits(),
         })
         .collect();
@@ -77,7 +84,7 @@ pub(super) fn compare<const N: usize>(
         .iter()
         .filter(|fit| fit.adequate || !any_is_adequate)
         .min_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference))
-        .map_or(model, |fit| fit.model);
+        .map_or(layout.model(), |fit| fit.model);
     ModelChoice {
         models,
         recommended,
@@ -86,13 +93,13 @@ pub(super) fn compare<const N: usize>(
 }
 
 /// The unknowns of one model as those of another: what it has not is zero.
-fn embedded(from: JointModel, unknowns: &DVector<f64>, to: JointModel) -> DVector<f64> {
-    let count = from.entries().len();
+fn embedded(from: &Layout, unknowns: &[f64], to: &Layout) -> DVector<f64> {
+    let (own, others) = (from.places(), to.places());
     let mut values = Vec::with_capacity(to.unknowns());
     for matrix in 0..2 {
-        for entry in to.entries() {
-            let place = from.entries().iter().position(|other| other == entry);
-            values.push(place.map_or(0.0, |place| unknowns[matrix * count + place]));
+        for place in &others {
+            let index = own.iter().position(|other| other == place);
+            values.push(index.map_or(0.0, |index| unknowns[matrix * own.len() + index]));
         }
     }
     DVector::from_vec(values)

@@ -42,6 +42,14 @@ pub enum IdentifyError {
     /// Modal data cannot be used.
     #[error(transparent)]
     Modal(#[from] ModalError),
+    /// A function is not in the file of functions, and its modes do not have it either.
+    #[error("{frf}; nor do the modes have it: {modal}")]
+    NeitherMeasuredNorModal {
+        /// What the file of functions lacks.
+        frf: Box<IdentifyError>,
+        /// What the modes lack.
+        modal: Box<ModalError>,
+    },
     /// The beam cannot be computed.
     #[error("{}: `{key}`: {source}", path.display())]
     Beam {
@@ -96,6 +104,17 @@ pub enum IdentifyError {
         model: JointModel,
         /// Measured functions.
         functions: usize,
+    },
+    /// Each torque is to have its joint, but there are not several.
+    #[error(
+        "found torques {found_n_m:?} N·m of {assemblies} assemblies, expected one of each assembly and at least two different ones, for \
+         each torque to have a joint of its own"
+    )]
+    Torques {
+        /// Assemblies.
+        assemblies: usize,
+        /// Torques given, N·m.
+        found_n_m: Vec<f64>,
     },
     /// The computed receptances have no finite value at some line.
     #[error("{source}")]

@@ -75,10 +75,13 @@ const HIDDEN_GAIN: f64 = 1e-12;
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
+/// Gain that is enough while the variances are not yet those of the errors.
+const GAIN_WHILE_EASING: f64 = 1e-3;
 
 /// Estimates the unknowns from `start` coordinates; `None` if the start cannot be evaluated.
 ///
-/// With `levels` the weights follow from them and no level is estimated.
+/// With `levels`, as for the trial of a start, the weights follow from them and no level is estimated, and an iteration that
+/// wanders is given up.
 pub(super) fn estimate<const N: usize>(
     objective: &Objective<'_, N>,
     noise: &Noise,
@@ -87,6 +90,7 @@ pub(super) fn estimate<const N: usize>(
     start: &DVector<f64>,
     corrections: Option<Vec<Vec<Complex64>>>,
 ) -> Option<Estimate> {
+    let is_trial = levels.is_some();
     let estimates_level = levels.is_none() && !noise.is_stated();
     let mut levels = levels.unwrap_or_else(|| first_levels(objective, noise));
     let mut coordinates = start.clone();
@@ -121,6 +125,10 @@ pub(super) fn estimate<const N: usize>(
             ..
         } = rest.state;
         (weights, state) = objective.renewed(levels, unknowns, Some(corrections))?;
+        if is_trial && !settled {
+            // It wanders, and renewed weights would not lead it back.
+            break;
+        }
         if round > 0 && (moved < 100.0 * TOLERANCE || shift < NEGLIGIBLE_SHIFT) {
             converged = settled;
             break;
@@ -250,6 +258,30 @@ pub(super) fn minimum<const N: usize>(
     let state = objective.at(weights, start.clone(), Some(none))?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
     Some(levenberg_marquardt(objective, weights, &Free, start, state, control).coordinates)
+}
+
+/// Parts of what the errors of the substructures add to the variance of the assembly's receptances, by which these are taken
+/// for worse than they are, step by step less.
+const EASING: [f64; 5] = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
+
+/// Unknowns and corrections near the minimum that `start` belongs to, where the errors of the substructures act too far from
+/// linearly to be let free at once: near a resonance a correction that has to explain several assemblies exactly ends far off.
+/// First the assemblies count for no better than they can be computed from the substructures as measured.
+pub(super) fn eased_minimum<const N: usize>(
+    objective: &Objective<'_, N>,
+    noise: &Noise,
+    start: DVector<f64>,
+) -> Option<(DVector<f64>, Vec<Vec<Complex64>>)> {
+    let levels = first_levels(objective, noise);
+    let mut state = objective.unweighted(start, None);
+    for part in EASING {
+        let weights = objective.eased_weights(levels, &state, part)?;
+        let control = (GAIN_WHILE_EASING, FIRST_DAMPING);
+        let unknowns = state.unknowns.clone();
+        state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
+        state = levenberg_marquardt(objective, &weights, &Free, &unknowns, state, control).state;
+    }
+    Some((state.unknowns, state.corrections))
 }
 
 /// Where an iteration with held weights came to rest.

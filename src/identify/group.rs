@@ -50,33 +50,35 @@ pub(super) struct Source<const N: usize> {
 }
 
 /// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Group<const N: usize> {
     pub(super) blocks: Vec<Block<N>>,
     pub(super) sources: Vec<Source<N>>,
 }
 
 impl<const N: usize> Group<N> {
-    /// Groups of the assemblies `all`, of which every `stride`th line is taken; the measured receptances of substructures
-    /// that are `noisy` become sources.
-    pub(super) fn all(all: &[Lines], stride: usize, noisy: impl Fn(Side) -> bool) -> Vec<Self> {
+    /// Groups of the assemblies `all`, each with the number of its joint, of which every `stride`th line is taken; the
+    /// measured receptances of substructures that are `noisy` become sources.
+    pub(super) fn all(
+        all: &[(&Lines, usize)],
+        stride: usize,
+        noisy: impl Fn(Side) -> bool,
+    ) -> Vec<Self> {
         let mut groups: Vec<(Vec<&Lines>, Self)> = Vec::new();
-        for lines in all {
-            let joins = |(members, _): &(Vec<&Lines>, Self)| {
-                members.iter().any(|member| share(member, lines, &noisy))
-            };
-            let position = groups.iter().position(joins);
-            let position = position.unwrap_or_else(|| {
-                let empty = Self {
-                    blocks: Vec::new(),
-                    sources: Vec::new(),
-                };
-                groups.push((Vec::new(), empty));
-                groups.len() - 1
+        for &(lines, joint) in all {
+            let mut joined: (Vec<&Lines>, Self) = Default::default();
+            // An assembly may share A with one group and B with another, and so make one of them.
+            groups.retain_mut(|(members, group)| {
+                let shares = members.iter().any(|member| share(member, lines, &noisy));
+                if shares {
+                    joined.0.append(members);
+                    joined.1.blocks.append(&mut group.blocks);
+                }
+                !shares
             });
-            let (members, group) = &mut groups[position];
-            members.push(lines);
-            group.blocks.push(Block::new(lines, stride));
+            joined.0.push(lines);
+            joined.1.blocks.push(Block::new(lines, joint, stride));
+            groups.push(joined);
         }
         groups
             .into_iter()
@@ -85,6 +87,14 @@ impl<const N: usize> Group<N> {
                 group
             })
             .collect()
+    }
+
+    /// Its assemblies one by one, the substructures taken as measured.
+    pub(super) fn with_exact_sources(&self) -> impl Iterator<Item = Self> {
+        self.blocks.iter().map(|block| Self {
+            blocks: vec![block.clone()],
+            sources: Vec::new(),
+        })
     }
 
     fn add_sources(&mut self, members: &[&Lines], stride: usize, noisy: &impl Fn(Side) -> bool) {
@@ -155,6 +165,14 @@ impl<const N: usize> Group<N> {
 
     pub(super) fn lines(&self) -> usize {
         self.blocks.first().map_or(0, Block::lines)
+    }
+
+    /// The joints of its assemblies, ascending.
+    pub(super) fn joints(&self) -> Vec<usize> {
+        let mut joints: Vec<usize> = self.blocks.iter().map(|block| block.joint).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
     }
 
     /// Complex entries of all blocks at one line.

@@ -1,16 +1,21 @@
 //! The identification itself, from lines to a joint with its uncertainty.
 
-use crate::frf::Dof;
+use crate::frf::{Dof, FileSummary};
 use crate::joint::Provenance;
 use crate::structure::ComplexMatrix;
 
+use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
 use super::error::IdentifyError;
+use super::from_modes::FromModes;
+use super::layout::Bolts;
+use super::level;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
+use super::provenance;
 use super::study::Study;
-use super::{assemble, provenance};
+use super::watch::Watch;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -21,13 +26,16 @@ pub struct Identification {
     pub model: JointModel,
     /// The data of the first assembly.
     pub lines: Lines,
-    /// K* of each line by (3.21); `None` where a matrix was singular.
+    /// The bolts.
+    pub bolts: Bolts,
+    /// K* of each line by (3.21), over the DOFs of all bolts; `None` where a matrix was singular.
     pub decoupled: Vec<Option<ComplexMatrix>>,
-    /// Average of the decoupled values over bands, where every entry had lines.
+    /// Average of the decoupled values over bands, where every entry had lines; at the first bolt where every bolt has its own.
     pub band_average: Option<JointMatrices>,
-    /// The passive estimate, which is the free one where that is passive.
+    /// The passive estimate, which is the free one where that is passive: of the first assembly's joint, where each torque has
+    /// its own, and at the first bolt where every bolt has. `estimate` has all of them.
     pub joint: JointMatrices,
-    /// One standard deviation of each entry; infinite where the data do not determine the joint.
+    /// One standard deviation of each entry of `joint`; infinite where the data do not determine the joint.
     pub standard_deviation: JointMatrices,
     /// The assembly's receptances H^C_ss with the estimated joint, line by line.
     pub regenerated: Vec<ComplexMatrix>,
@@ -37,16 +45,22 @@ pub struct Identification {
     pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
-    /// χ² over degrees of freedom, where the study states the noise: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
     pub reduced_chi_squared: Option<f64>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
     /// What the user should know before using the result.
     pub warnings: Vec<String>,
+    /// What modes supplied beside measured functions of a substructure.
+    pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
-    pub(super) provenance: Provenance,
+    /// What each file of functions states.
+    pub files: Vec<FileSummary>,
+    /// Of each bolt's joint.
+    pub(super) provenance: Vec<Provenance>,
     pub(super) torque_n_m: Option<[f64; 2]>,
+    pub(super) level: Option<String>,
     pub(super) noise_is_stated: bool,
     pub(super) bodies: Option<crate::joint::Bodies>,
 }
@@ -83,29 +97,37 @@ pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
     identify_and_draw(study, None, &|| ())
 }
 
-/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `progress` is called
-/// after each draw.
+/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `watch` is told how far it
+/// has come.
 ///
 /// # Errors
 /// As [`identify`].
 pub fn identify_and_draw(
     study: &Study,
     bootstrap: Option<Bootstrap>,
-    progress: &(dyn Fn() + Sync),
+    watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
-    let (all, mut warnings) = assemble::lines(study)?;
+    let Assembled {
+        lines: all,
+        files,
+        mut warnings,
+        from_modes,
+    } = assemble::lines(study, watch)?;
     let options = Options {
+        bolts: study.bolts.clone(),
         noise: study.noise,
         bands: study.bands.clone(),
-        start: None,
+        start: study.start.clone(),
         compare_models: true,
+        torques_n_m: torques(study).unwrap_or_default(),
+        dependence: study.torques,
         bootstrap,
-        progress: Some(progress),
+        progress: Some(&|| watch.drawn()),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
-    for lines in all {
-        let regenerated = lines.regenerated(estimate.joint())?;
+    for (number, lines) in all.into_iter().enumerate() {
+        let regenerated = lines.regenerated(estimate.joint_of(number).whole())?;
         let fits: Vec<FunctionFit> = lines
             .measured
             .iter()
@@ -125,14 +147,15 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let provenance = provenance::of(study)?;
-    warnings.extend(estimate.warnings.iter().cloned());
+    let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
+    warnings.extend(estimate.warnings().iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
         model: study.model,
-        decoupled: estimate.decoupled.first().cloned().unwrap_or_default(),
-        band_average: estimate.band_average.clone(),
+        bolts: study.bolts.clone(),
+        decoupled: estimate.decoupled().first().cloned().unwrap_or_default(),
+        band_average: estimate.band_average().cloned(),
         joint: estimate.joint().clone(),
         standard_deviation: estimate.standard_deviation(study.model),
         lines: first.lines,
@@ -140,30 +163,33 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
-        reduced_chi_squared: study
-            .noise
-            .is_stated()
-            .then_some(estimate.assessment.reduced_chi_squared)
+        reduced_chi_squared: (estimate.assessment().noise_is_stated
+            || estimate.assessment().noise_is_known)
+            .then_some(estimate.assessment().reduced_chi_squared)
             .flatten(),
-        starts: estimate.starts,
+        starts: estimate.starts(),
         warnings,
+        from_modes,
+        files,
         provenance,
-        torque_n_m: torques(study),
+        torque_n_m: torques(study).and_then(range),
+        level: level::in_words(study),
         noise_is_stated: study.noise.is_stated(),
         bodies: study.bodies.clone(),
         estimate,
     })
 }
 
-/// Lowest and highest torque of a study's assemblies, where all state theirs.
-fn torques(study: &Study) -> Option<[f64; 2]> {
+/// The torque of each of a study's assemblies, N·m, where all state theirs.
+fn torques(study: &Study) -> Option<Vec<f64>> {
     let further = study.further.iter().map(|assembly| assembly.torque_n_m);
-    let all: Option<Vec<f64>> = std::iter::once(study.torque_n_m).chain(further).collect();
-    let all = all?;
-    Some([
-        all.iter().copied().fold(f64::INFINITY, f64::min),
-        all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-    ])
+    std::iter::once(study.torque_n_m).chain(further).collect()
+}
+
+/// Lowest and highest.
+fn range(values: Vec<f64>) -> Option<[f64; 2]> {
+    let lowest = values.iter().copied().reduce(f64::min)?;
+    Some([lowest, values.into_iter().fold(lowest, f64::max)])
 }
 
 fn relative_rms(

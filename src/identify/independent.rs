@@ -6,11 +6,12 @@ use num_complex::Complex64;
 use super::block::Block;
 use super::group::Group;
 use super::lanes::{LANES, Reals};
+use super::layout::Place;
 use super::noise::NoiseLevel;
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
-use super::strip::{InCommon, Strip, Sums, Vector};
+use super::strip::{ENTRIES_OF_ONE, InCommon, MOST_ENTRIES, Strip, Sums, Vector, are_of_one};
 use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
@@ -20,7 +21,21 @@ const PIECE: usize = 1024;
 /// Adds all lines of `group` to the normal equations, with variances that are held.
 pub(super) fn accumulate<const N: usize>(
     group: &Group<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
+    unknowns: &[f64],
+    weights: &Weights,
+    normal: &mut Normal,
+) -> Option<()> {
+    if are_of_one::<N>(entries) {
+        accumulate_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, weights, normal)
+    } else {
+        accumulate_rows::<N, MOST_ENTRIES>(group, entries, unknowns, weights, normal)
+    }
+}
+
+fn accumulate_rows<const N: usize, const E: usize>(
+    group: &Group<N>,
+    entries: &[Place],
     unknowns: &[f64],
     weights: &Weights,
     normal: &mut Normal,
@@ -28,16 +43,18 @@ pub(super) fn accumulate<const N: usize>(
     let size = group.entries();
     let mut at = 0;
     for block in &group.blocks {
+        let own = block.unknowns(entries);
+        let unknowns = &unknowns[own.clone()];
         let pieces: Vec<usize> = (0..block.lines()).step_by(PIECE).collect();
         let sums = parallel::map(&pieces, |&first| {
-            let mut sums = Sums::default();
+            let mut sums = Sums::<E>::new();
             let mut strip = Strip::new(block);
             let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let end = block.lines().min(first + PIECE);
             for line in (first..end).step_by(LANES) {
                 strip.solve(line, entries, unknowns)?;
                 let strip = &strip;
-                sums.add_strip(strip, &mut rows, |e, _| {
+                sums.add_strip(strip, entries, &mut rows, |e, _| {
                     let place = |lane: usize| strip.index[lane] * size + at + e;
                     Reals::of(|lane| weights.entries[place(lane)]).reciprocal()
                 });
@@ -45,7 +62,7 @@ pub(super) fn accumulate<const N: usize>(
             Some(sums)
         });
         for sums in sums {
-            sums?.add_to::<N>(normal, entries);
+            sums?.add_to::<N>(normal, entries, own.start);
         }
         at += block.entries.len();
     }
@@ -55,7 +72,21 @@ pub(super) fn accumulate<const N: usize>(
 /// The same with variances from the computed receptances, which it returns; `None` also where one is not a number above zero.
 pub(super) fn renew<const N: usize>(
     group: &Group<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
+    unknowns: &[f64],
+    level: NoiseLevel,
+    normal: &mut Normal,
+) -> Option<Weights> {
+    if are_of_one::<N>(entries) {
+        renew_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, level, normal)
+    } else {
+        renew_rows::<N, MOST_ENTRIES>(group, entries, unknowns, level, normal)
+    }
+}
+
+fn renew_rows<const N: usize, const E: usize>(
+    group: &Group<N>,
+    entries: &[Place],
     unknowns: &[f64],
     level: NoiseLevel,
     normal: &mut Normal,
@@ -68,6 +99,8 @@ pub(super) fn renew<const N: usize>(
     };
     let mut at = 0;
     for block in &group.blocks {
+        let own = block.unknowns(entries);
+        let unknowns = &unknowns[own.clone()];
         let pieces: Vec<(usize, &mut [f64])> = weights
             .entries
             .chunks_mut(size * PIECE)
@@ -80,7 +113,7 @@ pub(super) fn renew<const N: usize>(
             .map(|entry| f64::from(entry.count))
             .collect();
         let sums = parallel::map_each(pieces, |(first, variances)| {
-            let mut sums = Sums::default();
+            let mut sums = Sums::<E>::new();
             let mut strip = Strip::new(block);
             let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let mut scatter = Reals::ZERO;
@@ -88,7 +121,7 @@ pub(super) fn renew<const N: usize>(
             for (number, variances) in variances.chunks_mut(size * LANES).enumerate() {
                 strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
-                sums.add_strip(strip, &mut rows, |e, power| {
+                sums.add_strip(strip, entries, &mut rows, |e, power| {
                     let variance = variance(strip, e, level, power);
                     sum += variance;
                     let one = variance.reciprocal();
@@ -108,7 +141,7 @@ pub(super) fn renew<const N: usize>(
         });
         for sums in sums {
             let (sums, scatter) = sums?;
-            sums.add_to::<N>(normal, entries);
+            sums.add_to::<N>(normal, entries, own.start);
             weights.scatter += scatter;
         }
         at += block.entries.len();
@@ -119,10 +152,11 @@ pub(super) fn renew<const N: usize>(
 /// H^C of one assembly, line by line and entry by entry.
 pub(super) fn computed<const N: usize>(
     block: &Block<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     unknowns: &[f64],
 ) -> Option<Vec<Complex64>> {
     let count = block.entries.len();
+    let unknowns = unknowns.get(block.unknowns(entries))?;
     let mut computed = vec![Complex64::ZERO; count * block.lines()];
     let mut strip = Strip::new(block);
     for (number, values) in computed.chunks_mut(count * LANES).enumerate() {

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use super::block::{Entry, Small};
 use super::lanes::Number;
+use super::layout::Place;
 
 /// Q and X of one line, a column for each point.
 #[derive(Clone, Debug, Default)]
@@ -65,19 +66,28 @@ impl<const N: usize, T: Number> Kernel<N, T> {
         own - dot(&self.transfer[entry.row], &self.x[entry.column])
     }
 
-    /// Derivative of H^C at `entry` by the symmetric entry (i, j) of K*.
-    #[inline]
-    pub(super) fn by_stiffness(&self, entry: Entry, (i, j): (usize, usize)) -> T {
+    /// Qᵀ E Q at `entry`, E having ones at (i, j) and (j, i).
+    #[inline(always)]
+    pub(super) fn through(&self, entry: Entry, (i, j): (usize, usize)) -> T {
         let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
         if i == j {
-            -(p[i] * q[i])
+            p[i] * q[i]
         } else {
-            -(p[i] * q[j] + p[j] * q[i])
+            p[i] * q[j] + p[j] * q[i]
         }
     }
 }
 
 impl<const N: usize> Kernel<N> {
+    /// Derivative of H^C at `entry` by an unknown entry of K*, in every block that has it.
+    #[inline]
+    pub(super) fn by_stiffness(&self, entry: Entry, place: Place) -> Complex64 {
+        -place
+            .all()
+            .map(|at| self.through(entry, at))
+            .sum::<Complex64>()
+    }
+
     /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss in the given proportions.
     pub(super) fn by_source(
         &self,
@@ -183,15 +193,17 @@ fn eliminated<const N: usize, T: Number>(mut matrix: Small<N, T>) -> Option<Smal
 
 /// K* = K + jωC from the unknowns: the stiffness of each entry, then the damping of each.
 pub(super) fn complex_stiffness<const N: usize>(
-    entries: &[(usize, usize)],
+    entries: &[Place],
     unknowns: &[f64],
     omega: f64,
 ) -> Small<N> {
     let mut stiffness = [[Complex64::ZERO; N]; N];
-    for (index, &(i, j)) in entries.iter().enumerate() {
+    for (index, place) in entries.iter().enumerate() {
         let value = Complex64::new(unknowns[index], omega * unknowns[entries.len() + index]);
-        stiffness[i][j] = value;
-        stiffness[j][i] = value;
+        for (i, j) in place.all() {
+            stiffness[i][j] = value;
+            stiffness[j][i] = value;
+        }
     }
     stiffness
 }

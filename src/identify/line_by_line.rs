@@ -6,6 +6,7 @@ use super::block::Small;
 use super::decoupling;
 use super::kernel::{dot, inverse};
 use super::lanes::{Complexes, LANES, Number, Reals};
+use super::layout::Layout;
 use super::lines::Lines;
 
 /// A column of unit length of which less than this is left beside those before it depends on them.
@@ -20,23 +21,28 @@ pub(super) fn is_complete(lines: &Lines) -> bool {
     (0..count).all(|p| (0..count).all(|q| has((p, q))))
 }
 
-/// K* of each line by (3.21); `None` where it cannot be had.
-pub(super) fn decouple<const N: usize>(lines: &Lines) -> Vec<Option<ComplexMatrix>> {
+/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
+pub(super) fn decouple<const N: usize>(
+    lines: &Lines,
+    layout: &Layout,
+) -> Vec<Option<ComplexMatrix>> {
     let count = lines.frequency_hz.len();
     if !is_complete(lines) {
         return vec![None; count];
     }
-    let is_fixed = lines.points.len() > N && lines.a_joint.iter().all(|a| a.nrows() == N);
+    let used = layout.used_dofs();
+    let is_fixed =
+        lines.points.len() > N && used.len() == N && lines.a_joint.iter().all(|a| a.nrows() == N);
     let mut least_squares = LeastSquares::<N>::default();
     let mut decoupled = Vec::with_capacity(count);
     for first in (0..count).step_by(LANES) {
         let last = LANES.min(count - first) - 1;
         let index: [usize; LANES] = std::array::from_fn(|lane| first + lane.min(last));
-        let found = is_fixed.then(|| least_squares.from_ss(lines, index));
+        let found = is_fixed.then(|| least_squares.solve(lines, index));
         let found = found.flatten();
         decoupled.extend(index[..=last].iter().enumerate().map(|(lane, &line)| {
             let Some(found) = found else {
-                return alone(lines, line);
+                return alone(lines, &used, line);
             };
             let stiffness = ComplexMatrix::from_fn(N, N, |i, j| found[i][j].lane(lane));
             is_finite(&stiffness).then_some(stiffness)
@@ -45,12 +51,19 @@ pub(super) fn decouple<const N: usize>(lines: &Lines) -> Vec<Option<ComplexMatri
     decoupled
 }
 
-/// One line, whatever its matrices are.
-fn alone(lines: &Lines, line: usize) -> Option<ComplexMatrix> {
-    let a_joint = &lines.a_joint[line];
+/// One line, whatever its matrices are, at the joint's DOFs that are `used`.
+fn alone(lines: &Lines, used: &[usize], line: usize) -> Option<ComplexMatrix> {
+    let a_joint = lines.a_joint[line].select_rows(used).select_columns(used);
     // Equation (3.21) needs nothing of A but H_jj.
-    let a = Partition::of(a_joint, a_joint.nrows());
-    decoupling::from_ss(&a, &lines.b[line], &lines.assembly[line])
+    let a = Partition::of(&a_joint, used.len());
+    let b = &lines.b[line];
+    let b = Partition {
+        joint: b.joint.select_rows(used).select_columns(used),
+        joint_points: b.joint_points.select_rows(used),
+        points_joint: b.points_joint.select_columns(used),
+        points: b.points.clone(),
+    };
+    decoupling::from_ss(&a, &b, &lines.assembly[line])
 }
 
 fn is_finite(matrix: &ComplexMatrix) -> bool {
@@ -67,7 +80,7 @@ struct LeastSquares<const N: usize> {
 
 impl<const N: usize> LeastSquares<N> {
     /// `None` where columns depend on each other, or a matrix is singular, at any of the lines.
-    fn from_ss(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
+    fn solve(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
         let (a, assembly) = (
             index.map(|i| &lines.a_joint[i]),
             index.map(|i| &lines.assembly[i]),
@@ -136,7 +149,8 @@ impl<const N: usize> PseudoInverse<N> {
                         part += row[before].conj() * row[i];
                     }
                     for row in self.rows.iter_mut().chain(&mut factor) {
-                        row[i] = row[i] - row[before] * part;
+                        let taken = row[before] * part;
+                        row[i] -= taken;
                     }
                 }
             }

@@ -1,41 +1,48 @@
 //! From lines to a joint: decoupling, averages, the search, the passive estimate, and how sure all of it is.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use crate::frf::Dof;
-use crate::structure::ComplexMatrix;
+use crate::structure::{ComplexMatrix, CouplingError};
 
-use super::assessment::{self, Assessment};
-use super::bands::{self, Bands};
+use super::assessment::Assessment;
+use super::averages::{Decoupled, band_averages, used_bands};
+use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
+use super::decoupling;
 use super::error::IdentifyError;
 use super::group::{Group, Side};
-use super::line_by_line::{self, is_complete};
+use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
+use super::layout::{Bolts, Layout};
+use super::line_by_line::{decouple, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::noise::{Noise, NoiseLevel, StatedLevel};
-use super::objective::Objective;
+use super::noise::{Noise, NoiseLevel};
 use super::parallel;
 use super::passive;
 use super::search::{self, Data, Effort, Found};
-use super::uncertainty::{self, Covariance};
-use super::unknown::Unknown;
-
-/// A standard deviation beyond this fraction of the value makes the value unreliable.
-const UNRELIABLE: f64 = 0.5;
+use super::sensitivity::{self, Sensitivity};
+use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
+use super::uncertainty::Covariance;
 
 /// What an identification from lines is to do beyond the estimate itself.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
+    /// The bolts, whose DOFs follow one another in the lines.
+    pub bolts: Bolts,
     /// Noise of everything measured.
     pub noise: Noise,
     /// Bands of the averages.
-    pub bands: Bands,
-    /// A joint to start from, beside the starts that the data give.
+    pub bands: BandChoices,
+    /// A joint to start from at every bolt, beside the starts that the data give.
     pub start: Option<JointMatrices>,
-    /// Whether to compare the joint models.
+    /// Whether to compare the joint models and, where there are several torques, a common joint with separate ones.
     pub compare_models: bool,
+    /// Tightening torque of each assembly, N·m; empty where not all are known.
+    pub torques_n_m: Vec<f64>,
+    /// Whether each torque has a joint of its own.
+    pub dependence: TorqueDependence,
     /// Bootstrap to run, if any.
     pub bootstrap: Option<Bootstrap>,
     /// Called after each draw of the bootstrap.
@@ -45,63 +52,123 @@ pub struct Options<'a> {
 /// The estimate from lines alone, with what led to it.
 #[derive(Clone, Debug)]
 pub struct LinesEstimate {
-    pub(super) decoupled: Vec<Vec<Option<ComplexMatrix>>>,
-    pub(super) band_average: Option<JointMatrices>,
-    pub(super) free: JointMatrices,
-    pub(super) passive: Option<JointMatrices>,
-    pub(super) covariance: Covariance,
-    pub(super) assessment: Assessment,
-    pub(super) noise_level: Option<NoiseLevel>,
-    pub(super) starts: (usize, usize),
-    pub(super) choice: Option<ModelChoice>,
-    pub(super) bootstrap: Option<BootstrapResult>,
-    pub(super) warnings: Vec<String>,
+    decoupled: Vec<Vec<Option<ComplexMatrix>>>,
+    /// That of the first assembly first, at least one.
+    joints: Vec<JointEstimate>,
+    joint_of_assembly: Vec<usize>,
+    layout: Layout,
+    covariance_of_all: DMatrix<f64>,
+    assessment: Assessment,
+    noise_level: Option<NoiseLevel>,
+    starts: (usize, usize),
+    choice: Option<ModelChoice>,
+    torque_choice: Option<TorqueChoice>,
+    warnings: Vec<String>,
 }
 
-/// Scatter of the estimates over bootstrap draws.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BootstrapResult {
-    /// Draws asked for.
-    pub draws: usize,
-    /// Seed.
-    pub seed: u64,
-    /// Draws whose estimate converged.
-    pub converged: usize,
-    /// Standard deviation of each unknown over them.
-    pub standard_deviation: Vec<f64>,
-    /// From the 2.5th to the 97.5th percentile of each unknown.
-    pub intervals: Vec<[f64; 2]>,
-}
-
+/// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own, and
+/// at the first bolt where every bolt has its own.
 impl LinesEstimate {
-    /// K* of each line of each assembly by (3.21); `None` where it cannot be had.
+    /// K* of each line of each assembly by (3.21), over the DOFs of all bolts; `None` where it cannot be had.
     #[must_use]
     pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
         &self.decoupled
     }
 
+    /// K* of each line of each assembly at the bolts that have joint number `bolt`, a list for each of them.
+    #[must_use]
+    pub fn decoupled_of(&self, bolt: usize) -> Vec<Vec<Vec<Option<ComplexMatrix>>>> {
+        let dofs = self.layout.model().dofs();
+        let at = |bolt| {
+            let lists = self.decoupled.iter();
+            lists
+                .map(|list| decoupling::of_bolt(list, bolt, dofs))
+                .collect()
+        };
+        self.layout.bolts_with(bolt).map(at).collect()
+    }
+
+    /// All joints: the common one, or one for each torque in the order of their first assemblies.
+    #[must_use]
+    pub fn joints(&self) -> &[JointEstimate] {
+        &self.joints
+    }
+
+    /// The joint in one of the assemblies; the first one's if there are not so many.
+    #[must_use]
+    pub fn joint_of(&self, assembly: usize) -> &JointEstimate {
+        let joint = self.joint_of_assembly.get(assembly).copied().unwrap_or(0);
+        &self.joints[joint]
+    }
+
+    /// Whether an assembly has the joint of the first one.
+    #[must_use]
+    pub fn has_first_joint(&self, assembly: usize) -> bool {
+        self.joint_of_assembly.get(assembly) == Some(&0)
+    }
+
+    /// The joints by torque.
+    #[must_use]
+    pub fn by_torque(&self) -> Vec<&JointEstimate> {
+        let mut joints: Vec<&JointEstimate> = self.joints.iter().collect();
+        let torque = |joint: &JointEstimate| joint.torque_n_m.unwrap_or(0.0);
+        joints.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
+        joints
+    }
+
+    /// Covariance of the unknowns of one torque after the other, in the order of [`Self::joints`]: common errors of the
+    /// substructures correlate them.
+    #[must_use]
+    pub fn covariance_of_all(&self) -> &DMatrix<f64> {
+        &self.covariance_of_all
+    }
+
     /// The joint: the passive estimate where there is one.
     #[must_use]
     pub fn joint(&self) -> &JointMatrices {
-        self.passive.as_ref().unwrap_or(&self.free)
+        self.joints[0].joint()
+    }
+
+    /// The joint of each bolt that has one of its own, or the one for all.
+    #[must_use]
+    pub fn bolts(&self) -> &[JointMatrices] {
+        self.joints[0].bolts()
+    }
+
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`] takes them.
+    #[must_use]
+    pub fn whole(&self) -> &JointMatrices {
+        &self.joints[0].whole
     }
 
     /// The estimate that is free to be active.
     #[must_use]
     pub fn free(&self) -> &JointMatrices {
-        &self.free
+        &self.joints[0].free[0]
     }
 
     /// Covariance of the unknowns, and which of them are identified.
     #[must_use]
     pub fn covariance(&self) -> &Covariance {
-        &self.covariance
+        &self.joints[0].covariance
     }
 
     /// One standard deviation of each entry.
     #[must_use]
     pub fn standard_deviation(&self, model: JointModel) -> JointMatrices {
-        JointMatrices::from_unknowns(model, &self.covariance.standard_deviation())
+        self.joints[0].standard_deviation(model)
+    }
+
+    /// How much each measured receptance of `lines`, those of an assembly, depends on each unknown entry, at this estimate.
+    ///
+    /// # Errors
+    /// [`CouplingError::Singular`] at an undamped resonance.
+    pub fn sensitivities(
+        &self,
+        assembly: usize,
+        lines: &Lines,
+    ) -> Result<Vec<Sensitivity>, CouplingError> {
+        sensitivity::to_unknowns(lines, &self.layout, self.joint_of(assembly).whole())
     }
 
     /// Whether the residual is noise.
@@ -110,7 +177,8 @@ impl LinesEstimate {
         &self.assessment
     }
 
-    /// Noise of the assembly's functions, stated or estimated; `None` without degrees of freedom to estimate it.
+    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
+    /// degrees of freedom to estimate it.
     #[must_use]
     pub fn noise_level(&self) -> Option<NoiseLevel> {
         self.noise_level
@@ -119,7 +187,13 @@ impl LinesEstimate {
     /// Average of the decoupled values, one of the starts.
     #[must_use]
     pub fn band_average(&self) -> Option<&JointMatrices> {
-        self.band_average.as_ref()
+        self.joints[0].band_average()
+    }
+
+    /// The bands that each entry of each bolt's joint is averaged over.
+    #[must_use]
+    pub fn bands(&self) -> &[Vec<UsedBands>] {
+        &self.joints[0].bands
     }
 
     /// How many starts were tried, and how many of them led to this estimate.
@@ -134,10 +208,16 @@ impl LinesEstimate {
         self.choice.as_ref()
     }
 
+    /// A common joint beside one for each torque, where there are several torques and they were compared.
+    #[must_use]
+    pub fn torque_choice(&self) -> Option<&TorqueChoice> {
+        self.torque_choice.as_ref()
+    }
+
     /// The bootstrap, where one was asked for.
     #[must_use]
     pub fn bootstrap(&self) -> Option<&BootstrapResult> {
-        self.bootstrap.as_ref()
+        self.joints[0].bootstrap.as_ref()
     }
 
     /// What the user should know before using the estimate.
@@ -147,10 +227,12 @@ impl LinesEstimate {
     }
 }
 
-/// Identifies a joint from the lines of one or more assemblies that have it in common.
+/// Identifies a joint from the lines of one or more assemblies that have it in common, or one joint for each torque to
+/// which they are tightened.
 ///
 /// # Errors
-/// [`IdentifyError::NoEstimate`] if no start leads to an estimate.
+/// [`IdentifyError::NoEstimate`] if no start leads to an estimate, [`IdentifyError::Torques`] if each torque is to have its
+/// joint and there are not several of them.
 pub fn identify_lines(
     all: &[Lines],
     model: JointModel,
@@ -158,101 +240,179 @@ pub fn identify_lines(
 ) -> Result<LinesEstimate, IdentifyError> {
     let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
     let dofs = first.map_or(0, |lines| lines.a_joint[0].nrows());
-    if all.iter().any(|lines| lines.measured.is_empty()) || dofs < model.dofs() {
+    let layout = Layout::new(model, &options.bolts, dofs);
+    let is_empty = all.iter().any(|lines| lines.measured.is_empty());
+    let Some(layout) = layout.filter(|_| !is_empty) else {
         return Err(no_estimate(all, 0));
-    }
+    };
     match dofs {
-        1 => identify_with::<1>(all, model, options),
-        2 => identify_with::<2>(all, model, options),
+        1 => identify_with::<1>(all, layout, options),
+        2 => identify_with::<2>(all, layout, options),
+        3 => identify_with::<3>(all, layout, options),
+        4 => identify_with::<4>(all, layout, options),
+        6 => identify_with::<6>(all, layout, options),
+        8 => identify_with::<8>(all, layout, options),
         _ => Err(no_estimate(all, 0)),
     }
 }
 
 fn identify_with<const N: usize>(
     all: &[Lines],
-    model: JointModel,
+    layout: Layout,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
-    let (data, decoupled) = parallel::both(
-        || data::<N>(all, &options.noise),
+    let torques = Torques::of(&options.torques_n_m, all.len());
+    let dependence = options.dependence;
+    let separate = match (dependence, &torques) {
+        (TorqueDependence::Common, _) => None,
+        (TorqueDependence::Separate, Some(torques)) => Some(torques),
+        (TorqueDependence::Separate, None) => {
+            return Err(IdentifyError::Torques {
+                assemblies: all.len(),
+                found_n_m: options.torques_n_m.clone(),
+            });
+        }
+    };
+    let assignment = match separate {
+        None => Assignment::common(all),
+        Some(torques) => Assignment::separate(all, torques),
+    };
+    let (joint_of_assembly, count): (Vec<usize>, usize) = (
+        assignment.all.iter().map(|&(_, joint)| joint).collect(),
+        assignment.joints,
+    );
+    let noise = &options.noise;
+    let (problem, decoupled) = parallel::both(
+        || Problem::<N>::new(assignment, noise),
         || {
-            all.iter()
-                .map(line_by_line::decouple::<N>)
+            let lines = all.iter();
+            lines
+                .map(|lines| decouple::<N>(lines, &layout))
                 .collect::<Vec<_>>()
         },
     );
-    let band_average = if let ([lines], [decoupled]) = (all, &decoupled[..]) {
-        bands::band_average(model, &lines.frequency_hz, decoupled, &options.bands)
-    } else {
-        let frequency_hz: Vec<f64> = all.iter().flat_map(|l| l.frequency_hz.clone()).collect();
-        bands::band_average(model, &frequency_hz, &decoupled.concat(), &options.bands)
-    };
-    let noise = &options.noise;
-    let starts = [options.start.as_ref(), band_average.as_ref()];
-    let starts: Vec<DVector<f64>> = starts
-        .into_iter()
-        .flatten()
-        .map(|joint| DVector::from_vec(joint.unknowns(model)))
-        .filter(|start| start.iter().all(|value| value.is_finite()))
+    let averaged: Vec<Averaged> = (0..count)
+        .map(|joint| {
+            let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
+            let own: Vec<Decoupled<'_>> = own
+                .filter(|(_, own)| **own == joint)
+                .map(|((lines, values), _)| Decoupled { lines, values })
+                .collect();
+            let bands = used_bands::<N>(&own, &layout, &options.bands, noise);
+            let averages = band_averages(&own, &layout, &bands);
+            Averaged { bands, averages }
+        })
         .collect();
-    let found = search::best(&data, model.entries(), noise, starts, Effort::Whole)
+    let starts: Vec<Vec<DVector<f64>>> = averaged
+        .iter()
+        .map(|averaged| averaged.starts(&layout, options.start.as_ref()))
+        .collect();
+    let found = problem
+        .best(&layout, &starts, Effort::Whole)
         .map_err(|starts| no_estimate(all, starts))?;
-    let objective = Objective {
-        groups: &data.whole,
-        entries: model.entries(),
-    };
+    let places = layout.places();
+    let objective = problem.objective(&places);
     let estimate = &found.estimate;
-    let covariance = covariance(&objective, model, noise, &found);
-    let free = JointMatrices::from_unknowns(model, estimate.unknowns.as_slice());
-    let passive = passive::passive(&objective, model, noise, estimate)
-        .map(|passive| JointMatrices::from_unknowns(model, passive.unknowns.as_slice()));
-    let bootstrap = options.bootstrap.and_then(|bootstrap| {
+    let names = options.bolts.with_own_joint();
+    let covariance = CovarianceOfAll::of(&objective, noise, &found);
+    let passive = passive::passive(&objective, &layout, noise, estimate);
+    let draws = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
         let draws = bootstrap::draws(&objective, noise, estimate, bootstrap, progress)?;
-        Some(BootstrapResult::of(bootstrap, &draws))
+        Some((bootstrap, draws))
     });
+    let size = layout.unknowns();
+    let of_torque = |(joint, averaged): (usize, Averaged)| {
+        let own = joint * size..(joint + 1) * size;
+        let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
+        let free = matrices(&estimate.unknowns);
+        let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
+        JointEstimate {
+            torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
+            bands: averaged.bands,
+            band_averages: averaged.averages,
+            covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
+            bootstrap: draws
+                .as_ref()
+                .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
+            whole: layout.whole(passive.as_ref().unwrap_or(&free)),
+            layout: layout.clone(),
+            free,
+            passive,
+        }
+    };
+    let joints: Vec<JointEstimate> = averaged.into_iter().enumerate().map(of_torque).collect();
     let choice = options
         .compare_models
-        .then(|| choice::compare(&data, model, noise, &found));
-    let mut warnings = warnings(all, model, &found, &covariance);
-    warnings.extend(undetermined(model, &free, &covariance));
+        .then(|| choice::compare(&problem, &layout, &found));
+    let torque_choice = torques
+        .filter(|_| options.compare_models)
+        .and_then(|torques| {
+            torque::compare::<N>(all, &torques, noise, &layout, dependence, &found)
+        });
+    let mut warnings = warnings(all, &layout, &found, &joints);
+    warnings.extend(joints.iter().flat_map(|joint| joint.warnings(names)));
+    warnings.extend(
+        torque_choice
+            .as_ref()
+            .and_then(|choice| choice.complaint(dependence)),
+    );
     Ok(LinesEstimate {
         decoupled,
-        band_average,
-        free,
-        passive,
         noise_level: (noise.is_stated() || estimate.degrees_of_freedom > 0)
-            .then_some(estimate.levels.assembly),
-        covariance,
+            .then_some(estimate.levels.assembly)
+            .filter(|_| !found.assessment.noise_is_known),
+        joints,
+        joint_of_assembly,
+        layout,
+        covariance_of_all: covariance.matrix,
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
         choice,
-        bootstrap,
+        torque_choice,
         warnings,
     })
 }
 
-fn data<const N: usize>(all: &[Lines], noise: &Noise) -> Data<N> {
-    let longest = all.iter().map(|lines| lines.frequency_hz.len()).max();
-    let stride = (longest.unwrap_or(0) / search::LINES_FOR_STARTS).max(1);
-    let exact = StatedLevel {
-        relative: Some(0.0),
-        floor: Some(0.0),
-    };
-    let noisy = |side: Side| match side {
-        Side::A => noise.a != exact,
-        Side::B => noise.b != exact,
-    };
-    let whole = Group::all(all, 1, noisy);
-    let has_sources = whole.iter().any(|group| !group.sources.is_empty());
-    Data {
-        thinned: Group::all(all, stride, |_| false),
-        thinned_whole: if has_sources {
-            Group::all(all, stride, noisy)
-        } else {
-            Vec::new()
-        },
-        whole,
+/// What the decoupled values at one torque give.
+struct Averaged {
+    bands: Vec<Vec<UsedBands>>,
+    averages: Option<Vec<JointMatrices>>,
+}
+
+impl Averaged {
+    /// Starts from a `given` joint and from the averages.
+    fn starts(&self, layout: &Layout, given: Option<&JointMatrices>) -> Vec<DVector<f64>> {
+        let given = given.map(std::slice::from_ref);
+        [given, self.averages.as_deref()]
+            .into_iter()
+            .flatten()
+            .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
+            .filter(|start| start.iter().all(|value| value.is_finite()))
+            .collect()
+    }
+}
+
+impl<const N: usize> Data<N> {
+    /// Assemblies, each with the number of its joint, in the forms that a search goes through.
+    pub(super) fn of(all: &[(&Lines, usize)], noise: &Noise) -> Self {
+        let stride = search::stride(all);
+        let noisy = |side: Side| noise.acts_on(side);
+        let whole = Group::all(all, 1, noisy);
+        let has_sources = whole.iter().any(|group| !group.sources.is_empty());
+        let thinned = Group::all(all, stride, noisy);
+        if !has_sources {
+            return Self {
+                thinned,
+                thinned_whole: Vec::new(),
+                whole,
+            };
+        }
+        Self {
+            thinned: thinned.iter().flat_map(Group::with_exact_sources).collect(),
+            thinned_whole: thinned,
+            whole,
+        }
     }
 }
 
@@ -264,107 +424,55 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
     }
 }
 
-/// Covariance with what the residual says about the noise and about the model.
-fn covariance<const N: usize>(
-    objective: &Objective<'_, N>,
-    model: JointModel,
-    noise: &Noise,
-    found: &Found,
-) -> Covariance {
-    let estimate = &found.estimate;
-    let unit = uncertainty::unit_covariance(&estimate.information);
-    let reduced = estimate.reduced_chi_squared();
-    // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level.
-    let (scale, freedom) = match reduced {
-        Some(chi) if !noise.is_stated() => (chi, estimate.degrees_of_freedom),
-        Some(chi) if found.assessment.chi_squared_excess > assessment::SIGNIFICANT => {
-            (chi, usize::MAX)
-        }
-        None if !noise.is_stated() => (f64::INFINITY, usize::MAX),
-        _ => (1.0, usize::MAX),
-    };
-    let mut matrix = &unit * scale;
-    let mut inflation = vec![scale.max(1.0).sqrt(); unit.nrows()];
-    if !noise.is_stated() {
-        inflation.fill(1.0);
-    }
-    if found.assessment.line_correlation_excess > assessment::SIGNIFICANT
-        && !found.assessment.is_exact
-        && scale.is_finite()
-        && let Some(more) = assessment::inflation(objective, estimate, &unit, scale)
-    {
-        matrix = super::normal::scaled_by(&matrix, &more);
-        for (total, more) in inflation.iter_mut().zip(more.iter()) {
-            *total *= more;
-        }
-    }
-    let values: Vec<f64> = estimate.unknowns.iter().copied().collect();
-    let deviation: Vec<f64> = matrix.diagonal().iter().map(|v| v.sqrt()).collect();
-    let blocks: Vec<_> = objective.groups.iter().flat_map(|g| &g.blocks).collect();
-    let dynamic = blocks
-        .first()
-        .map_or([1.0; N], |block| block.dynamic_stiffness);
-    let omega = blocks
-        .first()
-        .map_or(1.0, |block| block.omega[block.lines() / 2]);
-    let unknowns = Unknown::of(model);
-    let (identified, sizes) = uncertainty::identified(model, &values, &deviation, &dynamic, omega);
-    Covariance {
-        determined_together: uncertainty::determined_together(
-            &unknowns,
-            &identified,
-            &sizes,
-            &matrix,
-        ),
-        unknowns,
-        values,
-        coverage_factor: uncertainty::student_975(freedom),
-        inflation,
-        identified,
-        matrix,
-    }
-}
-
 fn warnings(
     all: &[Lines],
-    model: JointModel,
+    layout: &Layout,
     found: &Found,
-    covariance: &Covariance,
+    joints: &[JointEstimate],
 ) -> Vec<String> {
+    let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
         warnings.push(format!(
             "{} measured values for {} unknowns: the residual does not show how well they fit; use more lines",
             2 * found.estimate.measurements,
-            model.unknowns()
+            found.estimate.unknowns.len()
         ));
     }
+    let once = |warnings: &mut Vec<String>, warning: String| {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    };
     for lines in all {
-        if lines.points.len() < model.dofs() {
-            warnings.push(format!(
-                "{} response point for a joint with {} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
+        if lines.points.len() < dofs {
+            let warning = format!(
+                "{} response point{} for a joint with {dofs} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
                  determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
                 lines.points.len(),
-                model.dofs(),
+                if lines.points.len() == 1 { "" } else { "s" },
                 lines.points.len()
-            ));
+            );
+            once(&mut warnings, warning);
         }
     }
     for lines in all {
         if !is_complete(lines) {
-            warnings.push(format!(
+            let warning = format!(
                 "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
                  refined estimate does not need them",
                 lines.independent().len(),
                 lines.points.len() * lines.points.len()
-            ));
+            );
+            once(&mut warnings, warning);
         }
     }
     if !found.estimate.converged {
         warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
     }
     if let Some(complaint) = found.assessment.complaint() {
-        let most = covariance.inflation.iter().copied().fold(1.0, f64::max);
+        let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
+        let most = inflation.copied().fold(1.0, f64::max);
         warnings.push(format!(
             "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
              fit, or every one of {} starts ended in a local minimum; the intervals are wider for it, by up to a factor of {most:.1}",
@@ -372,73 +480,4 @@ fn warnings(
         ));
     }
     warnings
-}
-
-fn undetermined(model: JointModel, joint: &JointMatrices, covariance: &Covariance) -> Vec<String> {
-    let deviations = covariance.standard_deviation();
-    let mut warnings = Vec::new();
-    let open: Vec<&str> = Unknown::of(model)
-        .iter()
-        .zip(&covariance.identified)
-        .filter(|(_, identified)| !**identified)
-        .map(|(unknown, _)| unknown.name)
-        .collect();
-    if !open.is_empty() {
-        let mut text = format!(
-            "not identified: {}; the data do not determine {}, so do not use the value{}",
-            open.join(", "),
-            if open.len() == 1 { "it" } else { "them" },
-            if open.len() == 1 { "" } else { "s" },
-        );
-        for combination in &covariance.determined_together {
-            text += &format!("; determined together: {combination}");
-        }
-        warnings.push(text);
-    }
-    for (index, unknown) in Unknown::of(model).into_iter().enumerate() {
-        let (value, deviation) = (unknown.value(joint), deviations[index]);
-        // A coupling may be zero: it counts beside the largest that a passive joint has.
-        let size = value.abs().max(unknown.passive_bound(joint));
-        if covariance.identified[index] && deviation > UNRELIABLE * size {
-            warnings.push(format!(
-                "{} = {value:.3e} {unit} has a standard deviation of {deviation:.1e} {unit}: the data hardly determine it",
-                unknown.name,
-                unit = unknown.unit
-            ));
-        }
-    }
-    warnings
-}
-
-impl BootstrapResult {
-    fn of(bootstrap: Bootstrap, draws: &[DVector<f64>]) -> Self {
-        let size = draws.first().map_or(0, DVector::len);
-        let sorted = |unknown: usize| {
-            let mut values: Vec<f64> = draws.iter().map(|draw| draw[unknown]).collect();
-            values.sort_by(f64::total_cmp);
-            values
-        };
-        let deviation = |values: &[f64]| {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-            (squares / (values.len() as f64 - 1.0)).sqrt()
-        };
-        let quantile = |values: &[f64], level: f64| {
-            let place = level * (values.len() as f64 - 1.0);
-            let below = place.floor() as usize;
-            let above = (below + 1).min(values.len() - 1);
-            values[below] + (place - below as f64) * (values[above] - values[below])
-        };
-        let unknowns: Vec<Vec<f64>> = (0..size).map(sorted).collect();
-        Self {
-            draws: bootstrap.draws,
-            seed: bootstrap.seed,
-            converged: draws.len(),
-            standard_deviation: unknowns.iter().map(|values| deviation(values)).collect(),
-            intervals: unknowns
-                .iter()
-                .map(|values| [quantile(values, 0.025), quantile(values, 0.975)])
-                .collect(),
-        }
-    }
 }

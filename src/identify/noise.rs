@@ -1,5 +1,7 @@
 //! Noise of measured functions: what a study states of it, and its level from residuals where a study does not.
 
+use super::group::Side;
+
 /// Standard deviation of a measured receptance: σ² = (relative·|H|)² + floor².
 ///
 /// σ is that of the complex error: the variances of its real and imaginary part add up to σ².
@@ -76,6 +78,19 @@ impl Noise {
     #[must_use]
     pub fn is_stated(&self) -> bool {
         self.assembly.relative.is_some() && self.assembly.floor.is_some()
+    }
+
+    /// Whether measured functions of that substructure have errors.
+    pub(super) fn acts_on(&self, side: Side) -> bool {
+        let stated = match side {
+            Side::A => self.a,
+            Side::B => self.b,
+        };
+        let exact = StatedLevel {
+            relative: Some(0.0),
+            floor: Some(0.0),
+        };
+        stated != exact
     }
 
     pub(super) fn levels(&self, estimated: NoiseLevel) -> Levels {

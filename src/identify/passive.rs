@@ -7,9 +7,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::estimator::{Chart, Estimate, estimate};
-use super::model::{JointMatrices, JointModel};
+use super::layout::Layout;
+use super::model::JointModel;
 use super::noise::Noise;
 use super::objective::Objective;
+
+/// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
+const MOST_COMBINATIONS: usize = 256;
 
 /// Part of the boundary of the cone of one matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,112 +87,183 @@ impl Face {
     }
 }
 
-/// A face for the stiffness and one for the damping.
+/// A face for each matrix of the unknowns, which follow one after the other: the stiffnesses and dampings of the bolts with a
+/// joint of their own, then the same of the next torque.
+#[derive(Clone)]
 struct Faces {
+    /// Entries of one matrix.
     entries: usize,
-    stiffness: Face,
-    damping: Face,
+    faces: Vec<Face>,
 }
 
 impl Faces {
-    fn split<'x>(&self, x: &'x DVector<f64>) -> (&'x [f64], &'x [f64]) {
-        x.as_slice()
-            .split_at(self.stiffness.dimension(self.entries))
+    /// The coordinates of each face.
+    fn split<'x>(&self, x: &'x DVector<f64>) -> Vec<&'x [f64]> {
+        let mut rest = x.as_slice();
+        let next = |face: &Face| {
+            let (own, others) = rest.split_at(face.dimension(self.entries));
+            rest = others;
+            own
+        };
+        self.faces.iter().map(next).collect()
+    }
+
+    /// Coordinates near unknowns that may lie off the faces.
+    fn near(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        let matrices = unknowns.as_slice().chunks(self.entries);
+        let own = self.faces.iter().zip(matrices);
+        let own = own.flat_map(|(face, values)| face.near(values));
+        DVector::from_vec(own.collect())
     }
 }
 
 impl Chart for Faces {
     fn unknowns(&self, coordinates: &DVector<f64>) -> DVector<f64> {
-        let (k, c) = self.split(coordinates);
-        let mut values = self.stiffness.values(k, self.entries);
-        values.extend(self.damping.values(c, self.entries));
-        DVector::from_vec(values)
+        let own = self.faces.iter().zip(self.split(coordinates));
+        let values = own.flat_map(|(face, x)| face.values(x, self.entries));
+        DVector::from_vec(values.collect())
     }
 
     fn derivative(&self, coordinates: &DVector<f64>) -> Option<DMatrix<f64>> {
-        let (k, c) = self.split(coordinates);
-        Some(DMatrix::from_fn(
-            2 * self.entries,
-            coordinates.len(),
-            |entry, coordinate| match (
-                entry.checked_sub(self.entries),
-                coordinate.checked_sub(k.len()),
-            ) {
-                (None, None) => self.stiffness.derivative(k, entry, coordinate),
-                (Some(entry), Some(coordinate)) => self.damping.derivative(c, entry, coordinate),
-                _ => 0.0,
-            },
-        ))
+        let rows = self.entries * self.faces.len();
+        let mut derivative = DMatrix::zeros(rows, coordinates.len());
+        let mut first = 0;
+        for (matrix, (face, x)) in self.faces.iter().zip(self.split(coordinates)).enumerate() {
+            for entry in 0..self.entries {
+                for coordinate in 0..x.len() {
+                    derivative[(matrix * self.entries + entry, first + coordinate)] =
+                        face.derivative(x, entry, coordinate);
+                }
+            }
+            first += x.len();
+        }
+        Some(derivative)
     }
 }
 
-/// Whether K and C of these unknowns are passive.
-pub(super) fn is_passive(model: JointModel, unknowns: &DVector<f64>) -> [bool; 2] {
-    let joint = JointMatrices::from_unknowns(model, unknowns.as_slice());
-    [&joint.stiffness, &joint.damping].map(super::model::is_positive_semidefinite)
+/// Whether each matrix of the unknowns of one torque is passive: each K, bolt by bolt, and then each C.
+fn is_passive(layout: &Layout, unknowns: &[f64]) -> Vec<bool> {
+    let joints = layout.matrices(unknowns);
+    let stiffness = joints.iter().map(|joint| &joint.stiffness);
+    let damping = joints.iter().map(|joint| &joint.damping);
+    stiffness
+        .chain(damping)
+        .map(super::model::is_positive_semidefinite)
+        .collect()
+}
+
+/// The first torque at which a joint is not passive.
+fn first_active(layout: &Layout, unknowns: &DVector<f64>) -> Option<usize> {
+    let mut torques = unknowns.as_slice().chunks_exact(layout.unknowns());
+    torques.position(|own| is_passive(layout, own).contains(&false))
 }
 
 /// The passive estimate beside the `free` one; `None` if no face has a minimum, which only a joint without any effect has.
+///
+/// Of several torques one after the other gets its faces, those before it keeping theirs: only the common errors of the
+/// substructures couple them.
 pub(super) fn passive<const N: usize>(
     objective: &Objective<'_, N>,
-    model: JointModel,
+    layout: &Layout,
     noise: &Noise,
     free: &Estimate,
 ) -> Option<Estimate> {
-    let inside = is_passive(model, &free.unknowns);
-    if inside == [true, true] {
-        return Some(free.clone());
-    }
-    let few = |inside: bool| {
-        if inside {
-            vec![Face::Free]
-        } else {
-            Face::of(model)
-        }
+    let torques = free.unknowns.len() / layout.unknowns();
+    let matrices = 2 * layout.joints() * torques;
+    let mut faces = Faces {
+        entries: layout.model().entries().len(),
+        faces: vec![Face::Free; matrices],
     };
-    let lowest = lowest(objective, model, noise, free, inside.map(few));
-    lowest.or_else(|| {
-        let all = || {
-            let mut faces = vec![Face::Free];
-            faces.extend(Face::of(model));
-            faces
+    let mut estimate = free.clone();
+    // A face moves the other joints a little, perhaps one of them across its boundary: then its turn comes.
+    for _ in 0..2 * torques {
+        let Some(active) = first_active(layout, &estimate.unknowns) else {
+            return Some(estimate);
         };
-        self::lowest(objective, model, noise, free, [all(), all()])
+        (faces, estimate) = on_a_face(objective, layout, noise, &estimate, &faces, active)?;
+    }
+    first_active(layout, &estimate.unknowns)
+        .is_none()
+        .then_some(estimate)
+}
+
+/// The lowest minimum that has the joints of torque number `active` on faces of the cone.
+fn on_a_face<const N: usize>(
+    objective: &Objective<'_, N>,
+    layout: &Layout,
+    noise: &Noise,
+    from: &Estimate,
+    faces: &Faces,
+    active: usize,
+) -> Option<(Faces, Estimate)> {
+    let own = active * layout.unknowns()..(active + 1) * layout.unknowns();
+    let inside = is_passive(layout, &from.unknowns.as_slice()[own]);
+    let of_model = || Face::of(layout.model());
+    let few = inside.iter().map(|&inside| match inside {
+        true => vec![Face::Free],
+        false => of_model(),
+    });
+    let lowest = |candidates: &[Vec<Face>]| {
+        lowest(objective, layout, noise, from, (faces, active), candidates)
+    };
+    lowest(&few.collect::<Vec<_>>()).or_else(|| {
+        // Another matrix that was passive may have left the cone: any face of any.
+        let all = inside
+            .iter()
+            .map(|_| [vec![Face::Free], of_model()].concat());
+        lowest(&all.collect::<Vec<_>>())
     })
 }
 
+/// The lowest minimum that is passive at torque number `active`, over all combinations of the faces that each of its matrices
+/// may lie on.
 fn lowest<const N: usize>(
     objective: &Objective<'_, N>,
-    model: JointModel,
+    layout: &Layout,
     noise: &Noise,
-    free: &Estimate,
-    [stiffness, damping]: [Vec<Face>; 2],
-) -> Option<Estimate> {
-    let entries = model.entries().len();
-    let (k, c) = free.unknowns.as_slice().split_at(entries);
-    let pairs = stiffness
-        .iter()
-        .flat_map(|stiffness| damping.iter().map(move |damping| (stiffness, damping)));
-    pairs
-        .filter_map(|(stiffness, damping)| {
-            let chart = Faces {
-                entries,
-                stiffness: stiffness.clone(),
-                damping: damping.clone(),
-            };
-            let mut start = stiffness.near(k);
-            start.extend(damping.near(c));
-            let start = DVector::from_vec(start);
-            let corrections = Some(free.corrections.clone());
-            estimate(
+    from: &Estimate,
+    (faces, active): (&Faces, usize),
+    candidates: &[Vec<Face>],
+) -> Option<(Faces, Estimate)> {
+    let (size, matrices) = (layout.unknowns(), 2 * layout.joints());
+    combinations(candidates)
+        .into_iter()
+        .filter_map(|own| {
+            let mut chart = faces.clone();
+            chart.faces[active * matrices..(active + 1) * matrices].clone_from_slice(&own);
+            let estimate = estimate(
                 objective,
                 noise,
-                Some(free.levels),
+                Some(from.levels),
                 &chart,
-                &start,
-                corrections,
-            )
+                &chart.near(&from.unknowns),
+                Some(from.corrections.clone()),
+            )?;
+            Some((chart, estimate))
         })
-        .filter(|estimate| is_passive(model, &estimate.unknowns) == [true, true])
-        .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+        .filter(|(_, estimate)| {
+            let own = &estimate.unknowns.as_slice()[active * size..(active + 1) * size];
+            !is_passive(layout, own).contains(&false)
+        })
+        .min_by(|(_, a), (_, b)| a.misfit.total_cmp(&b.misfit))
+}
+
+/// One face for each matrix, in every combination; those of the first matrices only, where they would be too many.
+fn combinations(faces: &[Vec<Face>]) -> Vec<Vec<Face>> {
+    let mut all = vec![Vec::new()];
+    for own in faces {
+        let own = if all.len() * own.len() > MOST_COMBINATIONS {
+            &own[..1]
+        } else {
+            own.as_slice()
+        };
+        all = all
+            .iter()
+            .flat_map(|before: &Vec<Face>| {
+                own.iter()
+                    .map(move |face| [before.as_slice(), std::slice::from_ref(face)].concat())
+            })
+            .collect();
+    }
+    all
 }

@@ -5,13 +5,22 @@ use nalgebra::DVector;
 use super::assessment::{Assessment, assess};
 use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
 use super::group::Group;
+use super::layout::Place;
+use super::lines::Lines;
 use super::noise::Noise;
+use super::normal::relative_change;
 use super::objective::Objective;
 use super::parallel;
 use super::starts;
 
 /// Lines that are enough to tell which start leads to the best estimate.
-pub(super) const LINES_FOR_STARTS: usize = 200;
+const LINES_FOR_STARTS: usize = 200;
+
+/// Which part of the lines is enough: every one, or every second …
+pub(super) fn stride(all: &[(&Lines, usize)]) -> usize {
+    let longest = all.iter().map(|(lines, _)| lines.frequency_hz.len()).max();
+    (longest.unwrap_or(0) / LINES_FOR_STARTS).max(1)
+}
 
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;
@@ -23,6 +32,9 @@ const NEAR_UNKNOWN: f64 = 0.05;
 /// deviation: data without noise leave a misfit of rounding alone.
 const SAME_UNKNOWN: f64 = 1e-6;
 
+/// Two robust starts have met if their unknowns agree to this.
+const MET: f64 = 1e-4;
+
 /// By how much the −2 log-likelihood of an estimate that has not converged must be lower to rank before one that has.
 const DECISIVE_MISFIT: f64 = 20.0;
 
@@ -32,6 +44,9 @@ const FINALISTS: usize = 4;
 /// A minimum whose weighted mean square residual is so many times that of the best is not refined: no resonance between
 /// the thinned lines makes up for it.
 const COMPARABLE: f64 = 10.0;
+
+/// Starts of the grid between two looks at whether the fit is beyond doubt.
+const STARTS_AT_A_TIME: usize = 4;
 
 /// The data in the three forms that the search goes through.
 pub(super) struct Data<const N: usize> {
@@ -66,7 +81,7 @@ pub(super) struct Found {
 /// The best estimate from `first` and from the search's own starts; `Err` with the number of starts if there is none.
 pub(super) fn best<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
     first: Vec<DVector<f64>>,
     effort: Effort,
@@ -76,22 +91,19 @@ pub(super) fn best<const N: usize>(
     let guesses = [None, candidates.last().cloned()];
     let from_guess = |guess: &Option<DVector<f64>>| linear.from(entries, guess.as_ref());
     candidates.extend(parallel::map(&guesses, from_guess).into_iter().flatten());
-    let trial = |start: &DVector<f64>| try_start(data, entries, noise, start);
-    let mut trials: Vec<Estimate> = parallel::map(&candidates, trial)
-        .into_iter()
-        .flatten()
-        .collect();
+    let mut ways = Vec::new();
+    let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials);
-    // With errors in the substructures a wrong minimum can pass for noise: then two starts have to agree.
-    let certain = finals.first().is_some_and(|best| {
-        best.assessment.is_certain() && agreeing(&trials, &finals, &best.estimate) > 1
-    });
-    if effort == Effort::Whole && !certain {
-        let grid = starts::grid(&data.thinned, entries);
-        tried += grid.len();
-        trials.extend(parallel::map(&grid, trial).into_iter().flatten());
-        finals = finalists(data, entries, noise, &trials);
+    if effort == Effort::Whole {
+        for part in starts::grid(&data.thinned, entries).chunks(STARTS_AT_A_TIME) {
+            if is_certain(&trials, &finals) {
+                break;
+            }
+            tried += part.len();
+            trials.extend(try_starts(data, entries, noise, part, &mut ways));
+            finals = finalists(data, entries, noise, &trials);
+        }
     }
     let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
     Ok(Found {
@@ -107,19 +119,30 @@ pub(super) fn best<const N: usize>(
 fn softest_of_the_best<'f, const N: usize>(
     finals: &'f [Final],
     groups: &[Group<N>],
-    entries: &[(usize, usize)],
+    entries: &[Place],
 ) -> Option<&'f Final> {
     let lowest = rank(&finals.first()?.estimate);
     let own = groups.first()?.blocks.first()?.dynamic_stiffness;
     let size = |end: &&Final| -> f64 {
         let places = entries.iter().enumerate();
-        let parts = places.map(|(t, &(i, j))| end.estimate.unknowns[t].powi(2) / (own[i] * own[j]));
+        let parts = places.map(|(t, place)| {
+            let (i, j) = place.first();
+            end.estimate.unknowns[t].powi(2) / (own[i] * own[j])
+        });
         parts.sum()
     };
     finals
         .iter()
         .filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
         .min_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// Whether no other minimum can be better. With errors in the substructures a wrong one can pass for noise: two starts have
+/// to agree.
+fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
+    finals.first().is_some_and(|best| {
+        best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
+    })
 }
 
 /// How many of the trials led to `best`.
@@ -138,13 +161,20 @@ struct Final {
     assessment: Assessment,
 }
 
-/// Where one start leads on few lines.
-fn try_start<const N: usize>(
+/// A robust start and the estimate to which it led.
+struct Way {
+    start: DVector<f64>,
+    estimate: Option<Estimate>,
+}
+
+/// Where each of the starts leads on few lines. `ways` are those gone so far: two starts that meet go on as one.
+fn try_starts<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
-    start: &DVector<f64>,
-) -> Option<Estimate> {
+    starts: &[DVector<f64>],
+    ways: &mut Vec<Way>,
+) -> Vec<Estimate> {
     let thinned = Objective {
         groups: &data.thinned,
         entries,
@@ -152,20 +182,43 @@ fn try_start<const N: usize>(
     // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
     let levels = Some(first_levels(&thinned, noise));
     if data.thinned_whole.is_empty() {
-        return estimate(&thinned, noise, levels, &Free, start, None);
+        let trial = |start: &DVector<f64>| estimate(&thinned, noise, levels, &Free, start, None);
+        return parallel::map(starts, trial).into_iter().flatten().collect();
     }
     let whole = Objective {
         groups: &data.thinned_whole,
         entries,
     };
-    let start = robust_start(&thinned, &whole, noise, start.clone())?;
-    estimate(&whole, noise, levels, &Free, &start, None)
+    let robust = |start: &DVector<f64>| robust_start(&thinned, &whole, noise, start.clone());
+    let starts: Vec<DVector<f64>> = parallel::map(starts, robust)
+        .into_iter()
+        .flatten()
+        .collect();
+    let meets = |one: &DVector<f64>, other: &DVector<f64>| {
+        relative_change(one, other, &DVector::zeros(one.len())) < MET
+    };
+    let mut new: Vec<DVector<f64>> = Vec::new();
+    for start in &starts {
+        let known = ways.iter().map(|way| &way.start).chain(&new);
+        if !known.into_iter().any(|known| meets(known, start)) {
+            new.push(start.clone());
+        }
+    }
+    let trial = |start: &DVector<f64>| estimate(&whole, noise, levels, &Free, start, None);
+    let estimates = parallel::map(&new, trial);
+    let led = new.into_iter().zip(estimates);
+    ways.extend(led.map(|(start, estimate)| Way { start, estimate }));
+    let end = |start: &DVector<f64>| {
+        let way = ways.iter().find(|way| meets(&way.start, start))?;
+        way.estimate.clone()
+    };
+    starts.iter().filter_map(end).collect()
 }
 
 /// The best few different `trials`, on all lines, best first.
 fn finalists<const N: usize>(
     data: &Data<N>,
-    entries: &[(usize, usize)],
+    entries: &[Place],
     noise: &Noise,
     trials: &[Estimate],
 ) -> Vec<Final> {
@@ -210,7 +263,7 @@ const ROBUST_ROUNDS: usize = 8;
 
 /// An estimate that takes the substructures as measured, but each value of the assembly only for as good as the errors of
 /// the substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
-fn robust_start<const N: usize>(
+pub(super) fn robust_start<const N: usize>(
     exact: &Objective<'_, N>,
     whole: &Objective<'_, N>,
     noise: &Noise,
@@ -219,7 +272,12 @@ fn robust_start<const N: usize>(
     for _ in 0..ROBUST_ROUNDS {
         let state = whole.unweighted(start.clone(), None);
         let weights = whole.marginal_weights(first_levels(whole, noise), &state)?;
-        start = minimum(exact, &weights, &start)?;
+        let next = minimum(exact, &weights, &start)?;
+        let moved = relative_change(&start, &next, &DVector::zeros(next.len()));
+        start = next;
+        if moved < SAME_UNKNOWN {
+            break;
+        }
     }
     Some(start)
 }

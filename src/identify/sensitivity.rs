@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use crate::structure::{ComplexMatrix, CouplingError};
 
+use super::layout::Layout;
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 
@@ -59,7 +60,7 @@ impl Linearised {
 /// Derivatives of one receptance of the assembly by one entry of the joint's matrices, at every line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Which bolt, from 0.
+    /// Which bolt, from 0; 0 for all bolts that are alike.
     pub bolt: usize,
     /// Row and column in the bolt's matrices.
     pub entry: (usize, usize),
@@ -103,40 +104,41 @@ pub fn sensitivities(
     model: JointModel,
     joint: &JointMatrices,
 ) -> Result<Vec<Sensitivity>, CouplingError> {
+    let layout = Layout::of_different(model, joint.stiffness.nrows() / model.dofs());
+    to_unknowns(lines, &layout, joint)
+}
+
+/// The same to each unknown entry of a layout; that of bolts that are alike acts at all of them.
+pub(super) fn to_unknowns(
+    lines: &Lines,
+    layout: &Layout,
+    whole: &JointMatrices,
+) -> Result<Vec<Sensitivity>, CouplingError> {
     let linearised = (0..lines.frequency_hz.len())
-        .map(|line| Linearised::new(lines, line, joint))
+        .map(|line| Linearised::new(lines, line, whole))
         .collect::<Result<Vec<_>, _>>()?;
+    let entries = layout.model().entries();
     let mut found = Vec::new();
-    for bolt in 0..joint.stiffness.nrows() / model.dofs() {
-        for &entry in model.entries() {
-            let place = bolt_place(model, bolt, entry);
-            for receptance in lines.independent() {
-                found.push(Sensitivity {
-                    bolt,
-                    entry,
-                    receptance,
-                    by_stiffness: linearised
-                        .iter()
-                        .map(|line| line.by_stiffness(receptance, place))
-                        .collect(),
-                    assembly: linearised
-                        .iter()
-                        .map(|line| line.assembly[receptance])
-                        .collect(),
-                    frequency_hz: lines.frequency_hz.clone(),
-                });
-            }
+    for (index, place) in layout.places().into_iter().enumerate() {
+        for receptance in lines.independent() {
+            let derivative = |line: &Linearised| -> Complex64 {
+                let blocks = place.all();
+                blocks
+                    .map(|block| line.by_stiffness(receptance, block))
+                    .sum()
+            };
+            found.push(Sensitivity {
+                bolt: index / entries.len(),
+                entry: entries[index % entries.len()],
+                receptance,
+                by_stiffness: linearised.iter().map(derivative).collect(),
+                assembly: linearised
+                    .iter()
+                    .map(|line| line.assembly[receptance])
+                    .collect(),
+                frequency_hz: lines.frequency_hz.clone(),
+            });
         }
     }
     Ok(found)
-}
-
-/// Where an entry of a bolt's matrices stands in those of all bolts.
-pub(super) fn bolt_place(
-    model: JointModel,
-    bolt: usize,
-    (row, column): (usize, usize),
-) -> (usize, usize) {
-    let start = bolt * model.dofs();
-    (start + row, start + column)
 }

@@ -8,8 +8,11 @@ use super::block::Block;
 use super::group::Group;
 use super::kernel::{dot, inverse};
 use super::lanes::{Complexes, LANES, Reals};
+use super::layout::Place;
 use super::normal::Normal;
-use super::strip::{InCommon, Products, Strip, Sums, Vector};
+use super::strip::{
+    ENTRIES_OF_ONE, InCommon, MOST_ENTRIES, Products, Strip, Sums, Vector, are_of_one,
+};
 
 /// Stiffness of a start as a multiple of the substructures' own dynamic stiffness at the joint.
 const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -17,6 +20,9 @@ const MULTIPLES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// The same for a start that all but leaves the substructures apart: a loose joint has minima of its own beside zero, in
 /// which a single spring acts where the measured points hardly move.
 const LOOSE: f64 = 1e-6;
+
+/// Stride through the grid; it shares no divisor with 5 or 17, the starts of one and of two DOFs.
+const FAR_APART: usize = 6;
 
 /// Loss of a start's joint at the middle of the frequency range, ωc/k.
 const LOSS: f64 = 1e-2;
@@ -26,11 +32,9 @@ const LINEAR_ROUNDS: usize = 6;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// A grid of diagonal joints, each DOF from soft to stiff, and one that all but does not join.
-pub(super) fn grid<const N: usize>(
-    groups: &[Group<N>],
-    entries: &[(usize, usize)],
-) -> Vec<DVector<f64>> {
+/// A grid of diagonal joints, each DOF from soft to stiff and the same at every bolt, and one that all but does not join;
+/// neighbours in the list are far apart in the grid.
+pub(super) fn grid<const N: usize>(groups: &[Group<N>], entries: &[Place]) -> Vec<DVector<f64>> {
     let blocks: Vec<&Block<N>> = groups.iter().flat_map(|group| &group.blocks).collect();
     let typical = blocks
         .first()
@@ -38,26 +42,29 @@ pub(super) fn grid<const N: usize>(
     let omega = blocks
         .first()
         .map_or(1.0, |block| block.omega[block.lines() / 2]);
-    let diagonal: Vec<usize> = (0..N)
-        .filter(|&dof| entries.contains(&(dof, dof)))
-        .collect();
+    let diagonal = (0..N).filter(|&dof| {
+        let mut places = entries.iter();
+        places.any(|place| place.diagonal_dof() == Some(dof))
+    });
     let mut starts = Vec::new();
     let mut push = |multiple: &dyn Fn(usize) -> f64| {
         let mut start = DVector::zeros(2 * entries.len());
-        for (index, &(i, j)) in entries.iter().enumerate() {
-            if i == j {
-                let stiffness = typical[i] * multiple(i);
+        for (index, place) in entries.iter().enumerate() {
+            if let Some(dof) = place.diagonal_dof() {
+                let stiffness = typical[place.first().0] * multiple(dof);
                 start[index] = stiffness;
                 start[entries.len() + index] = stiffness * LOSS / omega;
             }
         }
         starts.push(start);
     };
-    for combination in 0..MULTIPLES.len().pow(diagonal.len() as u32) {
+    for combination in 0..MULTIPLES.len().pow(diagonal.count() as u32) {
         push(&|dof| MULTIPLES[combination / MULTIPLES.len().pow(dof as u32) % MULTIPLES.len()]);
     }
     push(&|_| LOOSE);
-    starts
+    let count = starts.len();
+    let order = (0..count).map(|index| index * FAR_APART % count);
+    order.map(|index| starts[index].clone()).collect()
 }
 
 /// Estimate by linear least squares, refined by weights from the one before.
@@ -82,7 +89,7 @@ impl<'b, const N: usize> Linear<'b, N> {
     /// enough points.
     pub(super) fn from(
         &self,
-        entries: &[(usize, usize)],
+        entries: &[Place],
         first: Option<&DVector<f64>>,
     ) -> Option<DVector<f64>> {
         if self.0.is_empty() {
@@ -93,7 +100,19 @@ impl<'b, const N: usize> Linear<'b, N> {
         for _ in 0..LINEAR_ROUNDS {
             let mut normal = Normal::zero(unknowns.len());
             for transmitted in &self.0 {
-                transmitted.add_to(&mut normal, entries, unknowns.as_slice())?;
+                if are_of_one::<N>(entries) {
+                    transmitted.add_to::<ENTRIES_OF_ONE>(
+                        &mut normal,
+                        entries,
+                        unknowns.as_slice(),
+                    )?;
+                } else {
+                    transmitted.add_to::<MOST_ENTRIES>(
+                        &mut normal,
+                        entries,
+                        unknowns.as_slice(),
+                    )?;
+                }
             }
             normal.matrix.fill_upper_triangle_with_lower_triangle();
             unknowns = normal.step(0.0)?;
@@ -158,19 +177,19 @@ impl<'b, const N: usize> Transmitted<'b, N> {
     }
 
     /// Rows of all lines: Qᵀ_p X = Σ K*_ij (Q_i W_j + Q_j W_i), with Q of the joint before.
-    fn add_to(
+    fn add_to<const E: usize>(
         &self,
         normal: &mut Normal,
-        entries: &[(usize, usize)],
+        entries: &[Place],
         before: &[f64],
     ) -> Option<()> {
         let block = self.block;
-        let mut sums = Sums::default();
+        let mut sums = Sums::<E>::new();
         let mut strip = Strip::new(block);
         let mut points = vec![Vector::NONE; block.points];
         for first in (0..block.lines()).step_by(LANES) {
             strip.solve(first, entries, before)?;
-            let mut products = Products::NONE;
+            let mut products = Products::<E>::NONE;
             for (point, vector) in points.iter_mut().enumerate() {
                 *vector = Vector::new(strip.kernel.q(point));
             }
@@ -184,13 +203,28 @@ impl<'b, const N: usize> Transmitted<'b, N> {
                 for (point, q) in points.iter().enumerate() {
                     let weight = Reals::of(|lane| self.weight[at[lane] * block.points + point]);
                     let weight = strip.used * weight;
-                    rows.add(weight, q, dot(&q.value, &x).scaled(weight));
+                    let target = dot(&q.value, &x);
+                    if E == ENTRIES_OF_ONE {
+                        rows.add(weight, q, target.scaled(weight));
+                        continue;
+                    }
+                    let q = &q.value;
+                    let row = |i: usize, j: usize| {
+                        if i == j {
+                            q[i] * w[i]
+                        } else {
+                            q[i] * w[j] + q[j] * w[i]
+                        }
+                    };
+                    products.add(entries, weight, row, target);
                 }
-                products.add(&Vector::new(&w), &rows);
+                if E == ENTRIES_OF_ONE {
+                    products.add_common(&Vector::new(&w), &rows);
+                }
             }
             sums.add_products(strip.omega, &products);
         }
-        sums.add_to::<N>(normal, entries);
+        sums.add_to::<N>(normal, entries, 0);
         Some(())
     }
 }

@@ -5,8 +5,13 @@ use num_complex::Complex64;
 use super::block::{Block, Entry};
 use super::kernel::Kernel;
 use super::lanes::{Complexes, LANES, Number, Reals};
+use super::layout::Place;
 use super::normal::Normal;
-use super::objective::MAX_ENTRIES;
+
+/// Most unknown entries of K*: those of four bolts with a joint of their own …
+pub(super) const MOST_ENTRIES: usize = 12;
+/// … and those of one joint.
+pub(super) const ENTRIES_OF_ONE: usize = 3;
 
 /// A few lines of one assembly, computed with one joint.
 pub(super) struct Strip<'b, const N: usize> {
@@ -38,7 +43,7 @@ impl<'b, const N: usize> Strip<'b, N> {
     pub(super) fn solve(
         &mut self,
         first: usize,
-        entries: &[(usize, usize)],
+        entries: &[Place],
         unknowns: &[f64],
     ) -> Option<()> {
         let block = self.block;
@@ -49,14 +54,16 @@ impl<'b, const N: usize> Strip<'b, N> {
         self.used = Reals::of(|lane| if lane < count { 1.0 } else { 0.0 });
         self.omega = Reals::of(|lane| block.omega[index[lane]]);
         let mut stiffness = [[Complexes::ZERO; N]; N];
-        for (t, &(i, j)) in entries.iter().enumerate() {
+        for (t, place) in entries.iter().enumerate() {
             // K* = K + jωC
             let value = Complexes {
                 re: Reals::all(unknowns[t]),
                 im: self.omega * Reals::all(unknowns[entries.len() + t]),
             };
-            stiffness[i][j] = value;
-            stiffness[j][i] = value;
+            for (i, j) in place.all() {
+                stiffness[i][j] = value;
+                stiffness[j][i] = value;
+            }
         }
         let free = std::array::from_fn(|i| {
             std::array::from_fn(|j| Complexes::of(|lane| block.free[index[lane]][i][j]))
@@ -93,7 +100,13 @@ const fn place<const N: usize>(i: usize, j: usize) -> usize {
     i * N + j - i * (i + 1) / 2
 }
 
-/// A vector v of the joint's DOFs, of which there are one or two, with the products of its entries.
+/// Whether the unknown entries are those of one joint, so that a row of the Jacobian may hold all places of K*, in loops of
+/// fixed length; else it holds the unknown entries.
+pub(super) fn are_of_one<const N: usize>(entries: &[Place]) -> bool {
+    N <= 2 && entries.iter().all(|place| place.is_single())
+}
+
+/// A vector v of one joint's DOFs, of which there are one or two, with the products of its entries.
 #[derive(Clone, Copy)]
 pub(super) struct Vector<const N: usize> {
     pub(super) value: [Complexes; N],
@@ -104,6 +117,13 @@ pub(super) struct Vector<const N: usize> {
 }
 
 impl<const N: usize> Vector<N> {
+    /// No vector yet.
+    pub(super) const NONE: Self = Self {
+        value: [Complexes::ZERO; N],
+        power: [Reals::ZERO; N],
+        cross: Complexes::ZERO,
+    };
+
     #[inline(always)]
     pub(super) fn new(value: &[Complexes; N]) -> Self {
         Self {
@@ -132,15 +152,6 @@ pub(super) struct InCommon<const N: usize> {
     right: [Complexes; N],
 }
 
-impl<const N: usize> Vector<N> {
-    /// No vector yet.
-    pub(super) const NONE: Self = Self {
-        value: [Complexes::ZERO; N],
-        power: [Reals::ZERO; N],
-        cross: Complexes::ZERO,
-    };
-}
-
 impl<const N: usize> InCommon<N> {
     /// The sums of no row.
     pub(super) const NONE: Self = Self {
@@ -162,25 +173,51 @@ impl<const N: usize> InCommon<N> {
     }
 }
 
-/// Products of one strip's rows of the Jacobian, by the places (0, 0), (0, 1) and (1, 1) of K*.
-pub(super) struct Products {
+/// Products of one strip's rows of the Jacobian: by the places (0, 0), (0, 1) and (1, 1) of one joint's K*, or by the unknown
+/// entries of several bolts, up to E = 12.
+pub(super) struct Products<const E: usize> {
     /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
-    rows: [[Complexes; MAX_ENTRIES]; MAX_ENTRIES],
+    rows: [[Complexes; E]; E],
     /// Σ conj(∂H/∂K*_i) r / σ²
-    right: [Complexes; MAX_ENTRIES],
+    right: [Complexes; E],
 }
 
-impl Products {
+impl<const E: usize> Products<E> {
     /// The sums of no row.
     pub(super) const NONE: Self = Self {
-        rows: [[Complexes::ZERO; MAX_ENTRIES]; MAX_ENTRIES],
-        right: [Complexes::ZERO; MAX_ENTRIES],
+        rows: [[Complexes::ZERO; E]; E],
+        right: [Complexes::ZERO; E],
     };
 
-    /// Adds all rows that have `u` in common.
+    /// Adds one row, given for each place of K*, with its right-hand side.
     #[inline(always)]
-    pub(super) fn add<const N: usize>(&mut self, u: &Vector<N>, v: &InCommon<N>) {
-        const { assert!(N == 1 || N == 2) };
+    pub(super) fn add(
+        &mut self,
+        entries: &[Place],
+        weight: Reals,
+        row: impl Fn(usize, usize) -> Complexes,
+        right: Complexes,
+    ) {
+        let mut values = [Complexes::ZERO; E];
+        for (value, place) in values.iter_mut().zip(entries) {
+            for (i, j) in place.all() {
+                *value += row(i, j);
+            }
+        }
+        for i in 0..entries.len().min(E) {
+            let conjugate = values[i].conj().scaled(weight);
+            self.right[i] += conjugate * right;
+            for j in 0..i {
+                self.rows[i][j] += conjugate * values[j];
+            }
+            self.rows[i][i].re += weight * values[i].norm_sqr();
+        }
+    }
+
+    /// Adds all rows of one joint that have `u` in common.
+    #[inline(always)]
+    pub(super) fn add_common<const N: usize>(&mut self, u: &Vector<N>, v: &InCommon<N>) {
+        const { assert!(E >= ENTRIES_OF_ONE) };
         self.right[0] += u.value[0].conj_times(v.right[0]);
         self.rows[0][0].re += u.power[0] * v.power[0];
         if N == 1 {
@@ -198,33 +235,48 @@ impl Products {
     }
 }
 
-/// Sums over lines, lane by lane, for all places of K*: what the normal equations are made of.
-#[derive(Default)]
-pub(super) struct Sums {
+/// Sums over lines, lane by lane: what the normal equations are made of.
+pub(super) struct Sums<const E: usize> {
     cost: Reals,
     signal: Reals,
     /// Re Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i, the same times ω², and ω Im.
-    stiffness: [[Reals; MAX_ENTRIES]; MAX_ENTRIES],
-    damping: [[Reals; MAX_ENTRIES]; MAX_ENTRIES],
-    mixed: [[Reals; MAX_ENTRIES]; MAX_ENTRIES],
+    stiffness: [[Reals; E]; E],
+    damping: [[Reals; E]; E],
+    mixed: [[Reals; E]; E],
     /// Re Σ conj(∂H/∂K*_i) r / σ², and ω Im.
-    by_stiffness: [Reals; MAX_ENTRIES],
-    by_damping: [Reals; MAX_ENTRIES],
+    by_stiffness: [Reals; E],
+    by_damping: [Reals; E],
 }
 
-impl Sums {
+impl<const E: usize> Sums<E> {
+    pub(super) fn new() -> Self {
+        Self {
+            cost: Reals::ZERO,
+            signal: Reals::ZERO,
+            stiffness: [[Reals::ZERO; E]; E],
+            damping: [[Reals::ZERO; E]; E],
+            mixed: [[Reals::ZERO; E]; E],
+            by_stiffness: [Reals::ZERO; E],
+            by_damping: [Reals::ZERO; E],
+        }
+    }
+
     /// Adds the entries of a strip, as measured and as computed; `weight` is asked for 1/σ² of each, given |H^C|². Of each
     /// point `rows` are overwritten.
     #[inline(always)]
     pub(super) fn add_strip<const N: usize>(
         &mut self,
         strip: &Strip<'_, N>,
+        entries: &[Place],
         rows: &mut [(Vector<N>, InCommon<N>)],
         mut weight: impl FnMut(usize, Reals) -> Reals,
     ) {
-        for (point, (vector, row)) in rows.iter_mut().enumerate() {
-            *vector = Vector::new(strip.kernel.q(point));
-            *row = InCommon::NONE;
+        let mut products = Products::<E>::NONE;
+        if E == ENTRIES_OF_ONE {
+            for (point, (vector, row)) in rows.iter_mut().enumerate() {
+                *vector = Vector::new(strip.kernel.q(point));
+                *row = InCommon::NONE;
+            }
         }
         for (e, &entry) in strip.block.entries.iter().enumerate() {
             let computed = strip.computed(e, entry);
@@ -234,20 +286,26 @@ impl Sums {
             let residual = computed - measured;
             self.signal += weight * measured.norm_sqr();
             self.cost += weight * residual.norm_sqr();
-            let (v, weighted) = (rows[entry.column].0, residual.scaled(weight));
-            rows[entry.row].1.add(weight, &v, weighted);
+            if E == ENTRIES_OF_ONE {
+                let (v, weighted) = (rows[entry.column].0, residual.scaled(weight));
+                rows[entry.row].1.add(weight, &v, weighted);
+            } else {
+                let row = |i, j| strip.kernel.through(entry, (i, j));
+                products.add(entries, weight, row, residual);
+            }
         }
-        let mut products = Products::NONE;
-        for (u, sums) in rows.iter() {
-            products.add(u, sums);
+        if E == ENTRIES_OF_ONE {
+            for (u, sums) in rows.iter() {
+                products.add_common(u, sums);
+            }
         }
         self.add_products(strip.omega, &products);
     }
 
     /// Adds rows by K*: ∂K*/∂k = E, ∂K*/∂c = jωE.
     #[inline(always)]
-    pub(super) fn add_products(&mut self, omega: Reals, products: &Products) {
-        for i in 0..MAX_ENTRIES {
+    pub(super) fn add_products(&mut self, omega: Reals, products: &Products<E>) {
+        for i in 0..E {
             self.by_stiffness[i] += products.right[i].re;
             self.by_damping[i] += omega * products.right[i].im;
             for j in 0..=i {
@@ -258,24 +316,34 @@ impl Sums {
         }
     }
 
-    /// Adds the sums of those places that are `entries` to the lower triangle of the normal equations.
-    pub(super) fn add_to<const N: usize>(&self, normal: &mut Normal, entries: &[(usize, usize)]) {
-        let count = entries.len();
+    /// Adds the sums of the unknown `entries` to the lower triangle of the normal equations, in which the unknowns of this
+    /// joint begin at `first`.
+    pub(super) fn add_to<const N: usize>(
+        &self,
+        normal: &mut Normal,
+        entries: &[Place],
+        first: usize,
+    ) {
+        let (k, c) = (first, first + entries.len());
         let cost = self.cost.sum();
         normal.cost += cost;
         normal.linearised_cost += cost;
         normal.signal += self.signal.sum();
-        for (t, &(i, j)) in entries.iter().enumerate() {
-            let p = place::<N>(i, j);
-            normal.gradient[t] += self.by_stiffness[p].sum();
-            normal.gradient[count + t] += self.by_damping[p].sum();
-            for (u, &(i, j)) in entries.iter().enumerate().take(t + 1) {
-                let q = place::<N>(i, j);
-                normal.matrix[(t, u)] += self.stiffness[p][q].sum();
-                normal.matrix[(count + t, count + u)] += self.damping[p][q].sum();
-                normal.matrix[(count + t, u)] += self.mixed[p][q].sum();
+        let row = |t: usize| match entries[t].first() {
+            (i, j) if E == ENTRIES_OF_ONE => place::<N>(i, j),
+            _ => t,
+        };
+        for t in 0..entries.len() {
+            let p = row(t);
+            normal.gradient[k + t] += self.by_stiffness[p].sum();
+            normal.gradient[c + t] += self.by_damping[p].sum();
+            for u in 0..=t {
+                let q = row(u);
+                normal.matrix[(k + t, k + u)] += self.stiffness[p][q].sum();
+                normal.matrix[(c + t, c + u)] += self.damping[p][q].sum();
+                normal.matrix[(c + t, k + u)] += self.mixed[p][q].sum();
                 if t != u {
-                    normal.matrix[(count + u, t)] -= self.mixed[p][q].sum();
+                    normal.matrix[(c + u, k + t)] -= self.mixed[p][q].sum();
                 }
             }
         }

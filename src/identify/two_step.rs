@@ -6,9 +6,9 @@ use crate::structure::CouplingError;
 
 use super::block::Block;
 use super::kernel::{Kernel, complex_stiffness};
+use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::sensitivity::bolt_place;
 
 /// A step that would move no unknown by more than this part of itself ends an iteration.
 const CONVERGED: f64 = 1e-9;
@@ -74,12 +74,12 @@ fn updated<const N: usize>(
     let stiffness: Vec<f64> = problem
         .entries
         .iter()
-        .map(|&place| start.stiffness[place])
+        .map(|place| start.stiffness[place.first()])
         .collect();
     let damping: Vec<f64> = problem
         .entries
         .iter()
-        .map(|&place| start.damping[place])
+        .map(|place| start.damping[place.first()])
         .collect();
     let mut unknowns = [stiffness, damping].concat();
     let first = problem.minimise(&mut unknowns, 0..count)?;
@@ -96,7 +96,7 @@ fn updated<const N: usize>(
 struct Problem<const N: usize> {
     block: Block<N>,
     /// Unknown entries of the whole joint.
-    entries: Vec<(usize, usize)>,
+    entries: Vec<Place>,
     amplitudes: Amplitudes,
     /// What the sum is reported as a part of.
     scale: f64,
@@ -117,13 +117,8 @@ struct Minimum {
 
 impl<const N: usize> Problem<N> {
     fn new(lines: &Lines, model: JointModel, amplitudes: Amplitudes) -> Self {
-        let block = Block::new(lines, 1);
-        let entries = (0..N / model.dofs())
-            .flat_map(|bolt| {
-                let place = move |&entry| bolt_place(model, bolt, entry);
-                model.entries().iter().map(place)
-            })
-            .collect();
+        let block = Block::new(lines, 0, 1);
+        let entries = Layout::of_different(model, N / model.dofs()).places();
         let scale = match amplitudes {
             Amplitudes::Squared => block.measured.iter().map(|h| h.norm_sqr().powi(2)).sum(),
             Amplitudes::Logarithmic => block.measured.len() as f64,
@@ -140,7 +135,8 @@ impl<const N: usize> Problem<N> {
         let (stiffness, damping) = unknowns.split_at(self.entries.len());
         let matrix = |values: &[f64]| {
             let mut matrix = DMatrix::zeros(N, N);
-            for (&(i, j), &value) in self.entries.iter().zip(values) {
+            for (place, &value) in self.entries.iter().zip(values) {
+                let (i, j) = place.first();
                 matrix[(i, j)] = value;
                 matrix[(j, i)] = value;
             }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::model::JointModel;
+use super::layout::Layout;
 use super::normal::scaled_by;
 use super::unknown::Unknown;
 
@@ -50,14 +50,7 @@ impl Covariance {
     /// Correlation of the unknowns.
     #[must_use]
     pub fn correlation(&self) -> DMatrix<f64> {
-        let deviation = self.standard_deviation();
-        DMatrix::from_fn(deviation.len(), deviation.len(), |i, j| {
-            if i == j {
-                1.0
-            } else {
-                (self.matrix[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0)
-            }
-        })
+        correlation(&self.matrix)
     }
 
     /// The interval of 95 % of each unknown.
@@ -72,6 +65,18 @@ impl Covariance {
             })
             .collect()
     }
+}
+
+/// Correlation of a covariance.
+pub(super) fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let deviation = covariance.diagonal().map(f64::sqrt);
+    DMatrix::from_fn(deviation.len(), deviation.len(), |i, j| {
+        if i == j {
+            1.0
+        } else {
+            (covariance[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0)
+        }
+    })
 }
 
 /// ½ (JᵀΣ⁻¹J)⁻¹: the covariance if the noise is as assumed. Directions without information get a variance that is huge but
@@ -91,13 +96,13 @@ pub(super) fn unit_covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
 ///
 /// `dynamic` is the substructures' dynamic stiffness at each of the joint's DOFs, `omega` the middle of the range.
 pub(super) fn identified(
-    model: JointModel,
+    layout: &Layout,
     values: &[f64],
     deviation: &[f64],
     dynamic: &[f64],
     omega: f64,
 ) -> (Vec<bool>, Vec<f64>) {
-    let entries = model.entries();
+    let entries: Vec<(usize, usize)> = layout.places().iter().map(|place| place.first()).collect();
     let size = |index: usize| {
         let matrix = index / entries.len() * entries.len();
         let (i, j) = entries[index % entries.len()];
@@ -122,7 +127,7 @@ pub(super) fn identified(
 
 /// Combinations of the unknowns that are not `identified` which the data do determine, in words.
 pub(super) fn determined_together(
-    unknowns: &[Unknown],
+    names: &[String],
     identified: &[bool],
     sizes: &[f64],
     covariance: &DMatrix<f64>,
@@ -148,7 +153,7 @@ pub(super) fn determined_together(
             .filter(|&(i, _)| vector[i].abs() > 0.1 * vector[largest].abs())
             .map(|(i, &unknown)| {
                 let share = vector[i] / vector[largest] * sizes[open[largest]] / sizes[unknown];
-                format!("{share:+.3e} {}", unknowns[unknown].name)
+                format!("{share:+.3e} {}", names[unknown])
             })
             .collect();
         if parts.len() > 1 {
@@ -207,8 +212,7 @@ mod tests {
         // k_yy + 100 k_thetatheta is known, each of them is not.
         let information = dmatrix![1.0, 100.0; 100.0, 10_000.0 + 1e-9];
         let covariance = unit_covariance(&information);
-        let unknowns = Unknown::of(JointModel::Full);
-        let unknowns = [unknowns[0], unknowns[2]];
+        let unknowns = ["k_yy", "k_thetatheta"].map(str::to_owned);
         let names = determined_together(&unknowns, &[false, false], &[100.0, 1.0], &covariance);
         assert_eq!(names.len(), 1);
         assert!(

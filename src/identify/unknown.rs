@@ -9,6 +9,8 @@ pub struct Unknown {
     pub name: &'static str,
     /// Its SI unit.
     pub unit: &'static str,
+    /// Number of the joint that it belongs to: 0 unless every bolt has one of its own.
+    pub joint: usize,
     matrix: Matrix,
     place: (usize, usize),
 }
@@ -23,18 +25,34 @@ impl Unknown {
     /// The unknowns of a joint model: stiffnesses, then dampings.
     #[must_use]
     pub fn of(model: JointModel) -> Vec<Self> {
+        Self::of_joints(model, 1)
+    }
+
+    /// The unknowns of several joints of one model: stiffnesses, joint by joint, then dampings.
+    #[must_use]
+    pub fn of_joints(model: JointModel, joints: usize) -> Vec<Self> {
+        let of = |matrix| {
+            (0..joints).flat_map(move |joint| {
+                let entries = model.entries().iter();
+                entries.map(move |&place| Self::named(matrix, place, joint))
+            })
+        };
         [Matrix::Stiffness, Matrix::Damping]
             .into_iter()
-            .flat_map(|matrix| {
-                model
-                    .entries()
-                    .iter()
-                    .map(move |&place| Self::named(matrix, place))
-            })
+            .flat_map(of)
             .collect()
     }
 
-    fn named(matrix: Matrix, place: (usize, usize)) -> Self {
+    /// Its name, after that of its bolt where `bolts` have joints of their own: `left k_yy`.
+    #[must_use]
+    pub fn label(&self, bolts: &[String]) -> String {
+        match bolts.get(self.joint) {
+            Some(bolt) => format!("{bolt} {}", self.name),
+            None => self.name.to_owned(),
+        }
+    }
+
+    fn named(matrix: Matrix, place: (usize, usize), joint: usize) -> Self {
         let (name, unit) = match (matrix, place) {
             (Matrix::Stiffness, (0, 0)) => ("k_yy", "N/m"),
             (Matrix::Stiffness, (1, 1)) => ("k_thetatheta", "N·m/rad"),
@@ -46,12 +64,13 @@ impl Unknown {
         Self {
             name,
             unit,
+            joint,
             matrix,
             place,
         }
     }
 
-    /// Its value in these matrices.
+    /// Its value in the matrices of its joint.
     #[must_use]
     pub fn value(&self, joint: &JointMatrices) -> f64 {
         self.entry(joint, self.place)

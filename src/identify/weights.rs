@@ -6,8 +6,9 @@
 use num_complex::Complex64;
 
 use super::group::{Group, Side, Source};
+use super::line::Line;
 use super::noise::{Levels, Noise, NoiseLevel, Sample, StatedLevel, most_likely_level};
-use super::objective::{Line, Objective, State, Weights};
+use super::objective::{Objective, State, Weights};
 
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
 const LEAST_RELATIVE: f64 = 1e-14;
@@ -74,6 +75,30 @@ impl<const N: usize> Objective<'_, N> {
                     all[first_of_group[number] + b].entries.push(variance);
                 }
                 at += block.entries.len();
+            }
+        })?;
+        Some(all)
+    }
+
+    /// Variances at `state` that let the assemblies count for worse than they are, by a part of what the errors of the
+    /// substructures as measured would add.
+    pub(super) fn eased_weights(
+        &self,
+        levels: Levels,
+        state: &State,
+        part: f64,
+    ) -> Option<Vec<Weights>> {
+        let mut all = self.weights(levels, state)?;
+        self.visit(None, state, |number, line| {
+            let weights = &mut all[number];
+            let (size, sources) = (line.computed.len(), self.groups[number].sources.len());
+            for e in 0..size {
+                let of_sources = (0..sources).map(|s| {
+                    let variance = weights.sources[line.index * sources + s];
+                    line.by_source[s * size + e].norm_sqr() * variance
+                });
+                let added: f64 = of_sources.sum();
+                weights.entries[line.index * size + e] += part * added;
             }
         })?;
         Some(all)

@@ -37,6 +37,17 @@ pub enum JointFileError {
         /// Origin.
         origin: String,
     },
+    /// There is more in the file than a joint file holds.
+    #[error(
+        "{origin}: found more than {limit} bytes, expected a joint file (format \"{}\"); check the path",
+        Format::NAME
+    )]
+    TooLong {
+        /// Origin.
+        origin: String,
+        /// The longest file that is read, bytes.
+        limit: u64,
+    },
     /// The file is not text.
     #[error(
         "{origin}: found {found}, expected a joint file: JSON text in UTF-8 (format \"{}\")",

@@ -16,10 +16,10 @@ pub enum LawError {
         /// Number asked for.
         expected: usize,
     },
-    /// The joint depends on the preload.
+    /// The joint depends on the preload: [`JointFile::at_preload`] takes it at one.
     #[error(
         "joint.over_preload: found a joint that depends on the preload, expected constant stiffness and damping; \
-         give joint.stiffness and joint.damping at one preload instead"
+         take it at one preload"
     )]
     OverPreload,
     /// The two bodies of the lap model are not there.

@@ -3,6 +3,7 @@
 //! All quantities are in SI units. [`JointFile::read`] refuses what it does not understand and says where;
 //! [`Passivity`] tells whether the joint can feed energy into a simulation, which reading does not judge.
 
+mod at_preload;
 mod dofs;
 mod error;
 mod law;
@@ -14,13 +15,15 @@ mod record;
 mod validate;
 mod write;
 
+pub use at_preload::PreloadError;
 pub use dofs::DofSet;
 pub use error::JointFileError;
 pub use law::LawError;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
-    Bodies, Body, BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, InputFile,
-    Intervals, Joint, JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation,
-    Uncertainty, Validity,
+    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
+    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
+    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };

@@ -118,6 +118,18 @@ pub enum Problem {
         /// Last preload of the table, N·m.
         last: f64,
     },
+    /// A preload that is not the one at the same place of the joint's table.
+    #[error(
+        "{path}: found {found:?} N·m, expected {expected:?} N·m as in joint.over_preload.preload"
+    )]
+    OtherPreload {
+        /// Path of the preload.
+        path: String,
+        /// The preload, N·m.
+        found: f64,
+        /// The joint's, N·m.
+        expected: f64,
+    },
     /// A frequency band that is empty.
     #[error(
         "validity.frequency_hz: found {from_hz:?} to {to_hz:?} Hz, expected the lower frequency first"

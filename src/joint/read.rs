@@ -1,6 +1,5 @@
 //! Reads a joint file, and says by key, line and column what is wrong with one.
 
-use std::fs;
 use std::path::Path;
 
 use serde::de::Error as _;
@@ -9,6 +8,7 @@ use serde_json::{Value, error::Category};
 
 use super::nearest::nearest;
 use super::{Format, JointFile, JointFileError};
+use crate::text_file;
 
 impl JointFile {
     /// Reads and checks the joint file at `path`.
@@ -26,11 +26,15 @@ impl JointFile {
     ///
     /// As [`JointFile::read`].
     pub fn read_with_source(path: &Path) -> Result<(Self, String), JointFileError> {
-        let bytes = fs::read(path).map_err(|source| JointFileError::Unreadable {
+        let bytes = text_file::bytes(path).map_err(|source| JointFileError::Unreadable {
             path: path.to_path_buf(),
             source,
         })?;
         let origin = path.display().to_string();
+        let bytes = bytes.ok_or_else(|| JointFileError::TooLong {
+            origin: origin.clone(),
+            limit: text_file::LONGEST_FILE,
+        })?;
         let source = String::from_utf8(bytes).map_err(|refused| {
             let is_zip = refused.as_bytes().starts_with(b"PK\x03\x04");
             JointFileError::Binary {

@@ -147,6 +147,45 @@ pub struct Uncertainty {
     /// Scatter of the estimate over data drawn from the fitted model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bootstrap: Option<BootstrapRecord>,
+    /// The same at every preload of `joint.over_preload`; what stands beside it holds at the nominal one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_preload: Option<UncertaintyOverPreload>,
+}
+
+/// How well the joint's parameters are known over the bolt's preload.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyOverPreload {
+    /// One entry for each of `joint.over_preload.preload`, in its order.
+    #[schemars(length(min = 2))]
+    pub at: Vec<UncertaintyAtPreload>,
+    /// Correlation of the unknowns of all preloads, which measured substructures in common bring about. Their names have the
+    /// preload behind them, such as `k_yy@10`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<Correlation>,
+}
+
+/// How well the joint's parameters are known at one preload.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyAtPreload {
+    /// The preload as in `joint.over_preload.preload`, N·m.
+    #[schemars(range(min = 0))]
+    pub preload: f64,
+    /// One standard deviation of each entry of the joint's matrices.
+    pub standard_deviation: StandardDeviation,
+    /// Interval of 95 % of each entry of the joint's matrices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval_95: Option<Intervals>,
+    /// Unknowns that the data do not determine: their values are not to be believed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_identified: Vec<String>,
+    /// The estimate without the constraint that the joint be passive, where that is another one. The intervals are about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_estimate: Option<FreeEstimate>,
+    /// Scatter of the estimate over data drawn from the fitted model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bootstrap: Option<BootstrapRecord>,
 }
 
 /// Correlation of the unknowns of a joint.
@@ -242,14 +281,14 @@ pub struct Residual {
     /// The same for each function compared.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub functions: Vec<FunctionResidual>,
-    /// χ² over degrees of freedom, where the noise was stated: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the noise was stated or coherence told it: about 1 if the model fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub reduced_chi_squared: Option<f64>,
     /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line_correlation: Option<f64>,
-    /// Noise of the assembly's functions.
+    /// Noise of the assembly's functions, unless coherence told it line by line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
 }
@@ -296,9 +335,68 @@ pub struct Provenance {
     /// Files that the parameters were determined from.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<InputFile>,
+    /// Names of the bolts at each of which the joint is, where the structure has several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bolts: Vec<String>,
+    /// Bands of the averages that the search started from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bands: Option<BandsRecord>,
+    /// Receptances of substructures that come from modes because they were not measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub from_modes: Vec<FromModesRecord>,
     /// What a reader should know before using the joint.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+/// Bands over which the decoupled values of each entry were averaged.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BandsRecord {
+    /// For k_yy and c_yy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yy: Option<BandRecord>,
+    /// For k_ytheta and c_ytheta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ytheta: Option<BandRecord>,
+    /// For k_thetatheta and c_thetatheta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thetatheta: Option<BandRecord>,
+}
+
+/// Bands of one entry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BandRecord {
+    /// Where they come from.
+    pub origin: BandOriginRecord,
+    /// Lowest and highest frequency of each, Hz; none for the median over all lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frequency_hz: Vec<[f64; 2]>,
+}
+
+/// Where the bands of an average come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BandOriginRecord {
+    /// The study gives them.
+    Study,
+    /// Chosen by sensitivity and distance to the substructures' own resonances.
+    Automatic,
+    /// The median over all lines.
+    Median,
+}
+
+/// Receptances of a substructure that its modes supplied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FromModesRecord {
+    /// `a` or `b`.
+    pub substructure: String,
+    /// Name of the file with the modes, as the study gives it.
+    pub file: String,
+    /// Response and reference of each, such as `["1:+Y", "3:+Y"]`; its transpose is the same.
+    pub functions: Vec<[String; 2]>,
 }
 
 /// A file that the parameters were determined from.

@@ -1,6 +1,9 @@
 //! Checks that the records of a joint file agree with each other: sizes, symmetry, signs.
 
-use super::{Body, DofSet, Joint, JointFile, OverPreload, Problem};
+use super::{
+    Body, Correlation, DofSet, Joint, JointFile, OverPreload, Problem, StandardDeviation,
+    UncertaintyOverPreload,
+};
 
 impl JointFile {
     /// Everything that is wrong with the file's contents, in the order of the file; empty where all is well.
@@ -26,28 +29,16 @@ impl JointFile {
         }
         if let Some(uncertainty) = &self.uncertainty {
             let deviation = &uncertainty.standard_deviation;
-            for (key, matrix) in [
-                ("stiffness", &deviation.stiffness),
-                ("damping", &deviation.damping),
-            ] {
-                let path = format!("uncertainty.standard_deviation.{key}");
-                check.matrix(&path, matrix);
-                for (i, row) in matrix.iter().enumerate() {
-                    check.not_negative(&format!("{path}[{i}]"), row, "a standard deviation");
-                }
+            check.deviation("uncertainty.standard_deviation", deviation);
+            if let Some(over_preload) = &uncertainty.over_preload {
+                let table = self.joint.over_preload.as_ref();
+                check.uncertainty_over_preload(over_preload, table);
             }
         }
         if let Some(uncertainty) = &self.uncertainty {
             if let Some(correlation) = &uncertainty.correlation {
                 const OF: &str = "uncertainty.correlation.unknowns";
-                let path = "uncertainty.correlation.matrix";
-                let size = correlation.unknowns.len();
-                check.table_length(path, correlation.matrix.len(), size, OF);
-                for (i, row) in correlation.matrix.iter().enumerate() {
-                    let path = format!("{path}[{i}]");
-                    check.table_length(&path, row.len(), size, OF);
-                    check.finite_list(&path, row);
-                }
+                check.correlation("uncertainty.correlation.matrix", correlation, OF);
             }
             if let Some(free) = &uncertainty.free_estimate {
                 check.matrix("uncertainty.free_estimate.stiffness", &free.stiffness);
@@ -147,6 +138,66 @@ impl Check {
             for (i, cubic) in table.cubic.iter().enumerate() {
                 self.list(&format!("{path}[{i}]"), cubic);
             }
+        }
+    }
+
+    fn uncertainty_over_preload(
+        &mut self,
+        uncertainty: &UncertaintyOverPreload,
+        table: Option<&OverPreload>,
+    ) {
+        const PATH: &str = "uncertainty.over_preload";
+        const PRELOADS: &str = "joint.over_preload.preload";
+        let preloads = table.map_or(&[][..], |table| &table.preload);
+        let path = format!("{PATH}.at");
+        self.table_length(&path, uncertainty.at.len(), preloads.len(), PRELOADS);
+        for (i, at) in uncertainty.at.iter().enumerate() {
+            let path = format!("{path}[{i}]");
+            if let Some(&expected) = preloads.get(i)
+                && at.preload != expected
+            {
+                self.problems.push(Problem::OtherPreload {
+                    path: format!("{path}.preload"),
+                    found: at.preload,
+                    expected,
+                });
+            }
+            self.deviation(
+                &format!("{path}.standard_deviation"),
+                &at.standard_deviation,
+            );
+            if let Some(free) = &at.free_estimate {
+                let path = format!("{path}.free_estimate");
+                self.matrix(&format!("{path}.stiffness"), &free.stiffness);
+                self.matrix(&format!("{path}.damping"), &free.damping);
+            }
+        }
+        if let Some(correlation) = &uncertainty.correlation {
+            const OF: &str = "uncertainty.over_preload.correlation.unknowns";
+            self.correlation(&format!("{PATH}.correlation.matrix"), correlation, OF);
+        }
+    }
+
+    fn deviation(&mut self, path: &str, deviation: &StandardDeviation) {
+        for (key, matrix) in [
+            ("stiffness", &deviation.stiffness),
+            ("damping", &deviation.damping),
+        ] {
+            let path = format!("{path}.{key}");
+            self.matrix(&path, matrix);
+            for (i, row) in matrix.iter().enumerate() {
+                self.not_negative(&format!("{path}[{i}]"), row, "a standard deviation");
+            }
+        }
+    }
+
+    fn correlation(&mut self, path: &str, correlation: &Correlation, of: &'static str) {
+        let size = correlation.unknowns.len();
+        self.table_length(path, correlation.matrix.len(), size, of);
+        for (i, row) in correlation.matrix.iter().enumerate() {
+            let path = format!("{path}[{i}]");
+            self.table_length(&path, row.len(), size, of);
+            self.finite_list(&path, row);
         }
     }
 

@@ -6,6 +6,7 @@ mod chart_data;
 mod curve;
 mod frf_column;
 mod frf_figure;
+mod interval_figure;
 mod legend;
 mod line_figure;
 mod look;

@@ -14,25 +14,39 @@ use super::outcome::{Row, Spread};
 pub struct Draws {
     /// Number of draws.
     pub count: u32,
-    /// Seed of the first one.
+    /// Seed of the noise: the same seed gives the same draws.
     pub seed: u64,
     /// Samples of each harmonic test in response pollution: one set of rows for each number.
     pub samples: Vec<u32>,
 }
 
-impl Draws {
+/// Draws under way.
+#[derive(Clone, Copy)]
+pub(super) struct Repetition<'a> {
+    /// How many, and from which seed.
+    pub(super) draws: &'a Draws,
+    /// Called after each draw.
+    pub(super) progress: &'a (dyn Fn() + Sync),
+}
+
+impl<'a> Repetition<'a> {
+    /// Samples of each harmonic test in response pollution.
+    pub(super) fn samples(self) -> &'a [u32] {
+        &self.draws.samples
+    }
+
     /// Response pollution of `level`, once for each number of samples, with what a row's case says about it.
     pub(super) fn responses(&self, level: f64) -> Vec<(String, Pollution)> {
         let noise = |&samples: &u32| {
             let named = format!(", N = {samples}");
             (named, Pollution::Response { level, samples })
         };
-        self.samples.iter().map(noise).collect()
+        self.draws.samples.iter().map(noise).collect()
     }
 
     /// What was taken for the samples that the thesis does not give.
     pub(super) fn samples_taken(&self) -> String {
-        let numbers: Vec<String> = self.samples.iter().map(u32::to_string).collect();
+        let numbers: Vec<String> = self.draws.samples.iter().map(u32::to_string).collect();
         format!(
             "samples N of each harmonic test: {} taken (--samples); the noise of a line falls with √N",
             numbers.join(", ")
@@ -44,10 +58,12 @@ impl Draws {
         &self,
         identify: impl Fn(&mut Generator) -> Option<JointMatrices> + Sync,
     ) -> Vec<JointMatrices> {
-        let seeds: Vec<u64> = (0..u64::from(self.count))
-            .map(|draw| self.seed.wrapping_add(draw))
-            .collect();
-        let joints = parallel::map(&seeds, |&seed| identify(&mut Generator::new(seed)));
+        let numbers: Vec<u64> = (0..u64::from(self.draws.count)).collect();
+        let joints = parallel::map(&numbers, |&draw| {
+            let joint = identify(&mut Generator::of_draw(self.draws.seed, draw));
+            (self.progress)();
+            joint
+        });
         joints.into_iter().flatten().collect()
     }
 }

@@ -5,21 +5,29 @@ mod beams;
 mod bolted;
 mod draws;
 mod error;
-mod experiments;
 mod lumped;
 mod outcome;
 mod published;
+mod receptances;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
 pub use outcome::{Reproduction, Row, Spread};
 pub use published::{PublishedTable, UnknownTable};
 
-/// Computes a published table anew.
+use draws::Repetition;
+
+/// Computes a published table anew. `progress` is called after each draw of the noise, of which there are `draws.count` for each of
+/// [`PublishedTable::noisy_cases`].
 ///
 /// # Errors
 /// [`ReproduceError`] if the numbers of `draws` make no sense.
-pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, ReproduceError> {
+pub fn reproduce(
+    table: PublishedTable,
+    draws: &Draws,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Reproduction, ReproduceError> {
+    let draws = Repetition { draws, progress };
     match table {
         PublishedTable::Table4_2 => lumped::table_4_2(draws),
         PublishedTable::Table4_3 => Ok(beams::table_4_3()),
@@ -29,14 +37,17 @@ pub fn reproduce(table: PublishedTable, draws: &Draws) -> Result<Reproduction, R
         PublishedTable::Table4_7 => approaches::table_4_7(draws),
         PublishedTable::Table4_8 => approaches::table_4_8(draws),
         PublishedTable::Table4_9 => approaches::table_4_9(draws),
-        PublishedTable::Table5_2 => experiments::table_5_2(draws),
-        PublishedTable::M10x16 => experiments::m10x16_chain(draws),
-        PublishedTable::M8x16 => experiments::m8x16_chain(draws),
-        PublishedTable::M10x35 => experiments::m10x35_chain(draws),
-        PublishedTable::M8x35 => experiments::m8x35_chain(draws),
-        PublishedTable::LongM8x35 => experiments::long_m8x35(draws),
-        PublishedTable::Torques => experiments::torques(),
-        PublishedTable::M6x30 => experiments::m6x30_chain(draws),
-        PublishedTable::TwoM6x30 => experiments::two_m6x30(),
+        PublishedTable::Table5_2 => bolted::table_5_2(draws),
+        PublishedTable::M10x16 => bolted::m10x16_chain(draws),
+        PublishedTable::M8x16 => bolted::m8x16_chain(draws),
+        PublishedTable::M10x35 => bolted::m10x35_chain(draws),
+        PublishedTable::M8x35 => bolted::m8x35_chain(draws),
+        PublishedTable::LongM8x35 => bolted::long_m8x35(draws),
+        PublishedTable::Torques => bolted::torques(draws),
+        PublishedTable::M6x30 => bolted::m6x30_chain(draws),
+        PublishedTable::TwoM6x30 => bolted::two_m6x30(),
+        PublishedTable::Table5_10 => bolted::table_5_10(draws),
+        PublishedTable::Table5_11 => bolted::table_5_11(draws),
+        PublishedTable::Table5_12 => bolted::table_5_12(draws),
     }
 }

@@ -36,6 +36,42 @@ pub struct Row {
     pub obtained: Option<Spread>,
 }
 
+impl Row {
+    /// A quantity that the source does not print.
+    pub(super) fn computed(
+        case: &str,
+        quantity: &str,
+        unit: &'static str,
+        obtained: Option<Spread>,
+    ) -> Self {
+        Self {
+            case: case.to_owned(),
+            quantity: quantity.to_owned(),
+            unit,
+            truth: None,
+            published: None,
+            obtained,
+        }
+    }
+
+    /// The resonances of an assembly, Hz, beside those that the source prints by their number from 1.
+    pub(super) fn resonances(
+        case: &str,
+        published: &[(usize, f64)],
+        found_hz: &[f64],
+    ) -> Vec<Self> {
+        let row = |(index, &hz): (usize, &f64)| {
+            let number = index + 1;
+            let published = published.iter().find(|(of, _)| *of == number);
+            Self {
+                published: published.map(|(_, hz)| *hz),
+                ..Self::computed(case, &format!("f_{number}"), "Hz", Some(Spread::exact(hz)))
+            }
+        };
+        found_hz.iter().enumerate().map(row).collect()
+    }
+}
+
 /// Mean and spread over draws of the noise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {

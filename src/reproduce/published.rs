@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use thiserror::Error;
 
 macro_rules! tables {
-    ($($(#[doc = $doc:literal])* $name:ident = $key:literal, $title:literal;)*) => {
+    ($($(#[doc = $doc:literal])* $name:ident = $key:literal $(| $alias:literal)*, $title:literal;)*) => {
         /// A table of the thesis, or a step of the chain of its chapter 5.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum PublishedTable {
@@ -23,6 +23,14 @@ macro_rules! tables {
             pub fn key(self) -> &'static str {
                 match self {
                     $(Self::$name => $key,)*
+                }
+            }
+
+            /// Other names that the command line takes: the numbers of the tables that a step of chapter 5 holds.
+            #[must_use]
+            pub fn aliases(self) -> &'static [&'static str] {
+                match self {
+                    $(Self::$name => &[$($alias,)*],)*
                 }
             }
 
@@ -57,21 +65,27 @@ tables! {
     /// The joint at two lines of the M10x16 assembly.
     Table5_2 = "5.2", "Table 5.2: M10x16, decoupled at 112.5 and 344 Hz";
     /// Aluminium beams, Table 5.3.
-    M10x16 = "m10x16", "Table 5.3: M10x16, aluminium beams";
+    M10x16 = "m10x16" | "5.3", "Table 5.3: M10x16, aluminium beams";
     /// Aluminium beams, Table 5.4.
-    M8x16 = "m8x16", "Table 5.4: M8x16, aluminium beams";
+    M8x16 = "m8x16" | "5.4", "Table 5.4: M8x16, aluminium beams";
     /// Steel beams, Table 5.5.
-    M10x35 = "m10x35", "Table 5.5: M10x35, steel beams";
+    M10x35 = "m10x35" | "5.5", "Table 5.5: M10x35, steel beams";
     /// Steel beams, Table 5.6.
-    M8x35 = "m8x35", "Table 5.6: M8x35, steel beams";
+    M8x35 = "m8x35" | "5.6", "Table 5.6: M8x35, steel beams";
     /// The bolt of Table 5.6 with a longer A.
     LongM8x35 = "long-m8x35", "Section 5.3.2.3: M8x35 in an assembly with a longer substructure A";
     /// Tables 5.7 and 5.8.
-    Torques = "torques", "Tables 5.7 and 5.8: M8x35 at four torques";
+    Torques = "torques" | "5.7" | "5.8", "Tables 5.7 and 5.8: M8x35 at four torques";
     /// Steel beams, Table 5.9.
-    M6x30 = "m6x30", "Table 5.9: M6x30, steel beams";
+    M6x30 = "m6x30" | "5.9", "Table 5.9: M6x30, steel beams";
     /// Two bolts of Table 5.9.
     TwoM6x30 = "two-m6x30", "Section 5.3.3.3: two M6x30 bolts";
+    /// One bolt of two qualities.
+    Table5_10 = "5.10", "Table 5.10: M6x30 of two qualities";
+    /// Joints of the steel beams, summarised.
+    Table5_11 = "5.11", "Table 5.11: bolts of three sizes on steel beams";
+    /// Joints of the aluminium beams, summarised.
+    Table5_12 = "5.12", "Table 5.12: bolts of two sizes on aluminium beams";
 }
 
 /// A name that is no table.
@@ -97,10 +111,37 @@ impl FromStr for PublishedTable {
         Self::ALL
             .iter()
             .copied()
-            .find(|table| table.key().eq_ignore_ascii_case(text))
+            .find(|table| {
+                let mut names = std::iter::once(table.key()).chain(table.aliases().iter().copied());
+                names.any(|name| name.eq_ignore_ascii_case(text))
+            })
             .ok_or_else(|| UnknownTable {
                 found: text.to_owned(),
             })
+    }
+}
+
+impl PublishedTable {
+    /// How many sets of draws the table takes with so many numbers of samples.
+    #[must_use]
+    pub fn noisy_cases(self, samples: usize) -> usize {
+        match self {
+            Self::Table4_3 | Self::TwoM6x30 => 0,
+            Self::Table4_2 | Self::Table4_6 | Self::Table4_8 => 4 * samples,
+            Self::Table4_4 => 3 * samples,
+            Self::Table4_5 => 2 * samples,
+            Self::Table4_9 => samples + 1,
+            Self::Table4_7 | Self::Torques => 4,
+            Self::LongM8x35 => 1,
+            Self::Table5_10 | Self::Table5_11 => 3,
+            Self::Table5_2
+            | Self::M10x16
+            | Self::M8x16
+            | Self::M10x35
+            | Self::M8x35
+            | Self::M6x30
+            | Self::Table5_12 => 2,
+        }
     }
 }
 

@@ -51,6 +51,14 @@ impl Generator {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
+    /// One of many generators that start from `seed`: draws of different numbers share nothing.
+    #[must_use]
+    pub fn of_draw(seed: u64, draw: u64) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(draw);
+        Self(generator)
+    }
+
     fn normal(&mut self) -> f64 {
         StandardNormal.sample(&mut self.0)
     }

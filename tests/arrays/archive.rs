@@ -1,6 +1,10 @@
 //! NumPy archives.
 
-use bolted_joint::frf::{ReadOptions, Selection, UnitSystem, read_frfs};
+use std::io::{Cursor, Write as _};
+
+use bolted_joint::frf::{ReadOptions, Selection, UnitSystem, read_frfs, read_npz_from};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 use super::{FACTORS, dof, has_variance, is_oscillator, message, own_file, set};
 
@@ -67,4 +71,41 @@ fn only_what_is_asked_for_is_kept_and_units_can_be_stated() {
         let expected = 0.25e-3 * super::oscillator(7.5);
         assert!((function.receptance()[0] - expected).norm() <= 1e-6 * expected.norm());
     }
+}
+
+/// A small file in which a deflated matrix of zeros stands for more functions than there is memory for.
+#[test]
+fn a_swollen_matrix_is_refused_before_its_functions_are_made() {
+    const NAMES: usize = 1100;
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut array = |name: &str, descr: &str, shape: String, bytes: &[u8]| {
+        let options = SimpleFileOptions::default();
+        zip.start_file(format!("{name}.npy"), options).unwrap();
+        let header =
+            format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}\n");
+        zip.write_all(b"\x93NUMPY\x01\x00").unwrap();
+        zip.write_all(&(header.len() as u16).to_le_bytes()).unwrap();
+        zip.write_all(header.as_bytes()).unwrap();
+        zip.write_all(bytes).unwrap();
+    };
+    let names: String = (1..=NAMES).map(|node| format!("{node:04}:Y")).collect();
+    array("f", "<f8", "(1,)".to_owned(), &1.0_f64.to_le_bytes());
+    array("response", "|S6", format!("({NAMES},)"), names.as_bytes());
+    array("reference", "|S6", format!("({NAMES},)"), names.as_bytes());
+    let zeros = vec![0; NAMES * NAMES];
+    array("mobility", "|u1", format!("(1, {NAMES}, {NAMES})"), &zeros);
+    array(
+        "axes",
+        "|S28",
+        "()".to_owned(),
+        b"frequency,response,reference",
+    );
+    let bytes = zip.finish().unwrap().into_inner();
+    assert!(bytes.len() < 20_000, "{}", bytes.len());
+    let refused = read_npz_from(Cursor::new(bytes), "swollen.npz", &ReadOptions::default());
+    assert_eq!(
+        refused.unwrap_err().to_string(),
+        "swollen.npz: found the names of 1100 responses and 1100 references, expected at most 1048576 functions between them; \
+         save only those that are needed"
+    );
 }

@@ -39,17 +39,23 @@ fn an_active_joint_needs_to_be_insisted_on() {
 }
 
 #[test]
-fn a_joint_over_preload_is_refused() {
+fn a_joint_over_preload_needs_a_preload_of_its_table() {
     let preload = r#""over_preload": { "preload": [10, 25], "nominal": 10,
       "stiffness": [[[6e5]], [[9e5]]], "damping": [[[12]], [[8]]] }"#;
     let bench = bench(&format!(
         r#"{{ "format": "bolted-joint/1", "name": "M8", "joint": {{ "dofs": ["y"], {preload} }} }}"#
     ));
+    let outcome = bench.done(&export(&[]));
+    assert!(
+        outcome.stdout.contains("model: M8, at 10 N·m"),
+        "{}",
+        outcome.stdout
+    );
     bench.refused(
-        &export(&[]),
+        &export(&["--preload", "30"]),
         &[
-            "j.joint.json: joint.over_preload: found",
-            "at one preload instead",
+            "j.joint.json: preload: found 30.0 N·m",
+            "expected 10.0 to 25.0 N·m",
         ],
     );
 }

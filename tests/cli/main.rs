@@ -6,8 +6,10 @@
 )]
 
 mod bench;
+mod bolted;
 mod check;
 mod check_run;
+mod coherence;
 mod communication_step;
 mod demo;
 mod estimator;
@@ -15,9 +17,12 @@ mod export;
 mod identified;
 mod joint_file;
 mod modal_file;
+mod model_choice;
+mod modes_beside;
 mod output;
 mod report;
 mod rig;
 mod study;
+mod torque;
 mod universal_file;
 mod usage;

@@ -105,10 +105,12 @@ fn json_has_its_keys() {
             "figure",
             "report",
             "joint_file",
+            "bolts",
             "starts",
             "reduced_chi_squared",
             "warnings",
-            "models"
+            "models",
+            "models_not_compared"
         ]
     );
     assert_eq!(identified["joint_file"], bench.json("o.joint.json"));

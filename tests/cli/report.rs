@@ -117,6 +117,13 @@ fn several_assemblies_and_missing_pairs_are_told_apart() {
         assert_eq!(functions.matches(&id).count(), drawn);
     }
     assert_eq!(functions.matches("<td>2</td>").count(), 9);
+    // Sensitivities are drawn for each.
+    let sensitivities = section(&page, "Sensitivity of the receptances to the parameters");
+    for assembly in [1, 2] {
+        assert!(sensitivities.contains(&format!("<h3>Assembly {assembly}</h3>")));
+        let id = format!("id=\"sensitivity-{assembly}-");
+        assert_eq!(sensitivities.matches(&id).count(), 3);
+    }
 }
 
 #[test]

@@ -14,9 +14,9 @@ use crate::bench::Bench;
 /// Distance between the points of A, m.
 const SPACING: f64 = 0.03;
 /// Lines at 2, 5, … 200 Hz.
-const FIRST_HZ: f64 = 2.0;
-const STEP_HZ: f64 = 3.0;
-const LINES: usize = 67;
+pub(crate) const FIRST_HZ: f64 = 2.0;
+pub(crate) const STEP_HZ: f64 = 3.0;
+pub(crate) const LINES: usize = 67;
 
 /// The even axis of these lines as record 7 states it.
 pub(crate) const AXIS: &str = "    2.00000e0    3.00000e0";
@@ -104,8 +104,8 @@ impl Quantity {
 
 /// A measured degree of freedom: its node, and its motion by those of the body's centre.
 #[derive(Clone, Copy)]
-struct Point {
-    node: u32,
+pub(crate) struct Point {
+    pub(crate) node: u32,
     rotation: bool,
     row: RowVector2<f64>,
 }
@@ -119,27 +119,56 @@ fn translation(node: u32, x_m: f64) -> Point {
     }
 }
 
-fn points_of_a() -> Vec<Point> {
-    vec![
-        translation(1, SPACING),
-        translation(2, 0.0),
-        translation(3, -SPACING),
-    ]
+/// Points one spacing apart, three for one bolt and five for two: the first is at point 2, the second at 4.
+pub(crate) fn points_of_a() -> Vec<Point> {
+    (0..5)
+        .map(|step| translation(step + 1, SPACING * (1.0 - f64::from(step))))
+        .collect()
+}
+
+/// A bolt: its joint, and where it holds A and B, m from their centres.
+#[derive(Clone, Copy)]
+pub(crate) struct Bolt {
+    pub(crate) joint: Joint,
+    on_a_m: f64,
+    on_b_m: f64,
+}
+
+/// The bolt at point 2 of A and 20 of B.
+pub(crate) fn first_bolt(joint: Joint) -> Bolt {
+    Bolt {
+        joint,
+        on_a_m: 0.0,
+        on_b_m: JOINT_ON_B_M,
+    }
+}
+
+/// The bolt at point 4 of A and 30 of B.
+pub(crate) fn second_bolt(joint: Joint) -> Bolt {
+    Bolt {
+        joint,
+        on_a_m: -2.0 * SPACING,
+        on_b_m: JOINT_ON_B_M - 2.0 * SPACING,
+    }
 }
 
 /// Where the joint holds B.
 const JOINT_ON_B_M: f64 = -0.1;
 
-fn joint_of_b() -> Vec<Point> {
-    let theta = Point {
-        node: 20,
-        rotation: true,
-        row: RowVector2::new(0.0, 1.0),
+/// Translation and rotation where the bolts hold B.
+fn joints_of_b() -> Vec<Point> {
+    let at = |node, x_m| {
+        let theta = Point {
+            node,
+            rotation: true,
+            row: RowVector2::new(0.0, 1.0),
+        };
+        [translation(node, x_m), theta]
     };
-    vec![translation(20, JOINT_ON_B_M), theta]
+    [at(20, JOINT_ON_B_M), at(30, JOINT_ON_B_M - 2.0 * SPACING)].concat()
 }
 
-fn points_of_b() -> Vec<Point> {
+pub(crate) fn points_of_b() -> Vec<Point> {
     vec![
         translation(21, 0.02),
         translation(22, 0.06),
@@ -148,7 +177,7 @@ fn points_of_b() -> Vec<Point> {
 }
 
 /// Receptances between `points` of a body that moves by H (2×2) about its centre.
-fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Complex64 {
+pub(crate) fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Complex64 {
     let (left, right) = (
         response.row.map(Complex64::from),
         reference.row.map(Complex64::from),
@@ -156,29 +185,23 @@ fn receptance(h: &Matrix2<Complex64>, response: Point, reference: Point) -> Comp
     (left * h * right.transpose())[(0, 0)]
 }
 
-/// H of B's centre in the assembly: the joint's load acts on both bodies.
-fn assembled(joint: &Joint, omega: f64) -> Matrix2<Complex64> {
+/// H of B's centre in the assembly: each joint's load acts on both bodies.
+pub(crate) fn assembled(bolts: &[Bolt], omega: f64) -> Matrix2<Complex64> {
     let mut z = Matrix4::zeros();
     z.fixed_view_mut::<2, 2>(0, 0)
         .copy_from(&A.dynamic_stiffness(omega));
     z.fixed_view_mut::<2, 2>(2, 2)
         .copy_from(&B.dynamic_stiffness(omega));
-    let k = joint
-        .stiffness
-        .zip_map(&joint.damping, |k, c| Complex64::new(k, omega * c));
-    // Relative motion of the joint: x_a − x_b = G (y_A, θ_A, y_B, θ_B)
-    let g = nalgebra::Matrix2x4::new(
-        1.0,
-        0.0,
-        -1.0,
-        -JOINT_ON_B_M, //
-        0.0,
-        1.0,
-        0.0,
-        -1.0,
-    )
-    .map(Complex64::from);
-    z += g.transpose() * k * g;
+    for bolt in bolts {
+        let joint = &bolt.joint;
+        let k = joint
+            .stiffness
+            .zip_map(&joint.damping, |k, c| Complex64::new(k, omega * c));
+        // Relative motion of the joint: x_a − x_b = G (y_A, θ_A, y_B, θ_B)
+        let g =
+            matrix![1.0, bolt.on_a_m, -1.0, -bolt.on_b_m; 0.0, 1.0, 0.0, -1.0].map(Complex64::from);
+        z += g.transpose() * k * g;
+    }
     let h = z.try_inverse().unwrap();
     h.fixed_view::<2, 2>(2, 2).into_owned()
 }
@@ -210,7 +233,12 @@ fn universal_file(
 }
 
 /// One data set 58: complex values in double precision, even abscissa.
-fn function(response: Point, reference: Point, quantity: Quantity, values: &[Complex64]) -> String {
+pub(crate) fn function(
+    response: Point,
+    reference: Point,
+    quantity: Quantity,
+    values: &[Complex64],
+) -> String {
     let direction = |point: Point| if point.rotation { 6 } else { 2 };
     let mut text = "    -1\n    58\nNONE\nNONE\nNONE\nNONE\nNONE\n".to_owned();
     let _ = write!(text, "{:>5}{:>10}{:>5}{:>10}", 4, 0, 0, 0);
@@ -247,16 +275,31 @@ fn function(response: Point, reference: Point, quantity: Quantity, values: &[Com
     text + "    -1\n"
 }
 
-/// Writes `a.uff`, `b.uff` and `c.uff`: what is measured on A, on B and on the assembly.
+/// H of A's centre.
+pub(crate) fn motion_of_a(omega: f64) -> Matrix2<Complex64> {
+    A.dynamic_stiffness(omega).try_inverse().unwrap()
+}
+
+/// Writes `a.uff`, `b.uff` and `c.uff`: what is measured on A, on B and on the assembly with one bolt.
 pub(crate) fn measure(bench: &Bench, joint: &Joint, quantities: [Quantity; 3]) {
+    measure_bolted(bench, &[first_bolt(*joint)], quantities);
+}
+
+/// The same with these bolts.
+pub(crate) fn measure_bolted(bench: &Bench, bolts: &[Bolt], quantities: [Quantity; 3]) {
     let [a, b, c] = quantities;
     let of_body = |body: &'static Body| {
         move |omega: f64| body.dynamic_stiffness(omega).try_inverse().unwrap()
     };
-    bench.write("a.uff", universal_file(&points_of_a(), a, of_body(&A)));
-    let on_b = [joint_of_b(), points_of_b()].concat();
+    let (mut on_a, mut joints_of_b) = (points_of_a(), joints_of_b());
+    if bolts.len() == 1 {
+        on_a.truncate(3);
+        joints_of_b.truncate(2);
+    }
+    bench.write("a.uff", universal_file(&on_a, a, of_body(&A)));
+    let on_b = [joints_of_b, points_of_b()].concat();
     bench.write("b.uff", universal_file(&on_b, b, of_body(&B)));
-    let assembly = |omega: f64| assembled(joint, omega);
+    let assembly = |omega: f64| assembled(bolts, omega);
     bench.write("c.uff", universal_file(&points_of_b(), c, assembly));
 }
 
@@ -296,6 +339,28 @@ pub(crate) fn ready() -> Bench {
     measure(&bench, &FULL, [Quantity::Receptance; 3]);
     bench.write("study.toml", study("full", &[21, 22, 23]));
     bench
+}
+
+/// Modes of A at points 1, 2 and 3: it moves in y and turns, each on its own. The shapes are multiplied.
+pub(crate) fn modes_of_a(factor: f64) -> String {
+    let mut text = "points = [\"1:+Y\", \"2:+Y\", \"3:+Y\"]\n".to_owned();
+    for motion in 0..2 {
+        let (inertia, stiffness) = (A.inertia[motion], A.stiffness[motion]);
+        let natural = (stiffness / inertia).sqrt();
+        let ratio = A.damping[motion] / (2.0 * (stiffness * inertia).sqrt());
+        let shape = points_of_a()
+            .iter()
+            .take(3)
+            .map(|point| format!("[{}, 0.0]", factor * point.row[motion] / inertia.sqrt()))
+            .collect::<Vec<_>>()
+            .join(", ");
+        let _ = write!(
+            text,
+            "[[mode]]\nfrequency_hz = {}\ndamping_ratio = {ratio}\nshape = [{shape}]\n",
+            natural / TAU
+        );
+    }
+    text
 }
 
 /// The matrix at `key` of a joint file.

@@ -3,7 +3,7 @@
 use bolted_joint::identify::{JointModel, NoiseLevel, Options, identify_lines};
 
 use crate::cases::axis;
-use crate::measured::{Noisy, Rig, joint, matrices, unknowns};
+use crate::measured::{Noisy, Rig, joint, matrices, thesis, unknowns};
 
 const EXACT: NoiseLevel = NoiseLevel {
     relative: 0.0,
@@ -13,7 +13,7 @@ const EXACT: NoiseLevel = NoiseLevel {
 #[test]
 fn exact_data_give_the_truth_from_any_start_within_a_factor_of_30() {
     for (factor, damping) in [(1.0, 1.0), (0.03, 0.3), (30.0, 3.0)] {
-        let rig = Rig::new("exact", joint(factor, damping), 0.01, axis(500.0, 1.0));
+        let rig = Rig::new("exact", joint(factor, damping), thesis(axis(500.0, 1.0)));
         let truth = rig.truth();
         for noisy in [Noisy::Assembly, Noisy::Everything] {
             let lines = rig.lines(noisy, EXACT, 1);

@@ -5,6 +5,8 @@
     reason = "a test whose preparation fails has nothing better to do than panic"
 )]
 
+mod bands;
+mod bolts;
 mod bound;
 mod cases;
 mod decoupling;
@@ -13,3 +15,4 @@ mod measured;
 mod monte_carlo;
 mod published;
 mod refined;
+mod torque;

@@ -38,7 +38,8 @@ pub(crate) fn run(
             yy: vec![[200.0, 300.0]],
             ytheta: vec![[60.0, 300.0]],
             thetatheta: vec![[60.0, 180.0]],
-        },
+        }
+        .into(),
         ..Options::default()
     };
     let size = truth.len();

@@ -23,7 +23,7 @@ fn the_m10x16_assembly_resonates_where_the_thesis_measured_it() {
         damping: dmatrix![10.83, -0.83; -0.83, 0.083],
     };
     let frequency_hz: Vec<f64> = (100..10_240).map(|i| 0.05 * f64::from(i)).collect();
-    let assembly = predict_assembly(&study, &joint, &frequency_hz).unwrap();
+    let assembly = predict_assembly(&study, std::slice::from_ref(&joint), &frequency_hz).unwrap();
     let point = "12:+Y".parse().unwrap();
     let receptance = assembly.receptance(point, point).unwrap();
     let magnitude: Vec<f64> = receptance.iter().map(|value| value.norm()).collect();

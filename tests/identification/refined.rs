@@ -99,7 +99,7 @@ fn trial(seeds: u64) -> Trial {
             relative: 0.01,
             floor: 0.0,
         }),
-        bands,
+        bands: bands.into(),
         ..Options::default()
     };
     let relative = |found: [f64; 4]| std::array::from_fn(|i| found[i] / truth[i] - 1.0);

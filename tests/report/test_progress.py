@@ -1,7 +1,10 @@
 """Work that takes long shows its progress, and only to a reader at a terminal."""
 
+import json
 import os
+import re
 import subprocess
+import sys
 
 import pytest
 
@@ -16,7 +19,8 @@ def command(program, demo, tmp_path_factory):
     return [program, "identify", demo / "study.toml", "-o", output, "--bootstrap", str(DRAWS)]
 
 
-def test_a_terminal_sees_a_bar_that_goes_away(command):
+def seen_by_a_terminal(command):
+    """What a command writes to a terminal's stderr, and the lines of it."""
     ours, theirs = pty.openpty()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=theirs)
     os.close(theirs)
@@ -29,8 +33,13 @@ def test_a_terminal_sees_a_bar_that_goes_away(command):
         if not part:
             break
         seen += part
+    os.close(ours)
     assert process.wait() == 0
-    lines = [line for line in seen.decode().split("\r") if line.strip()]
+    return seen, [line for line in seen.decode().split("\r") if line.strip()]
+
+
+def test_a_terminal_sees_a_bar_that_goes_away(command):
+    seen, lines = seen_by_a_terminal(command)
     counts = [int(line.split("] ")[1].split(" of ")[0]) for line in lines if line.startswith("[")]
     assert len(counts) > 3 and counts == sorted(counts)
     assert 0 < counts[0] < counts[-1] <= DRAWS
@@ -42,3 +51,43 @@ def test_a_file_sees_nothing(command):
     done = subprocess.run(command, capture_output=True, check=True)
     assert done.stderr == b""
     assert b"#" not in done.stdout
+
+
+@pytest.fixture(scope="module")
+def large(program, demo, tmp_path_factory):
+    """The demo's study, its assembly after 2 GB of another binary data set, which take no room on the disk."""
+    folder = tmp_path_factory.mktemp("large")
+    for name in ["study.toml", "a-modes.toml"]:
+        (folder / name).write_bytes((demo / name).read_bytes())
+    with open(folder / "assembly.uff", "wb") as file:
+        file.write(b"    -1\n  2414b     1     2\n")
+        file.seek(2_000_000_000, os.SEEK_CUR)
+        file.write(b"    -1\n" + (demo / "assembly.uff").read_bytes())
+    return [program, "identify", folder / "study.toml", "-o", folder / "o.joint.json"]
+
+
+def test_a_terminal_sees_how_much_of_a_large_file_is_read(large, demo):
+    seen, lines = seen_by_a_terminal(large)
+    shown = [line for line in lines if line.startswith("[")]
+    parts = [re.fullmatch(r"\[(#*)(-*)\] (\d+) of 2000 MB of assembly.uff, (\d+) s *", line) for line in shown]
+    assert len(parts) > 3 and all(parts)
+    sizes = [int(part[3]) for part in parts]
+    # The file is read for its functions, then for its hash.
+    passes = 1 + sum(after < before for before, after in zip(sizes, sizes[1:]))
+    assert passes <= 2
+    for part in parts:
+        assert abs(len(part[1]) / 30 - int(part[3]) / 2000) <= 1 / 30 + 1e-3
+    assert all(int(part[4]) >= 1 for part in parts)
+    assert seen.endswith(b" \r")
+
+
+def test_a_large_file_is_not_held(large, demo):
+    """Its functions are those of the demo's file, and the memory is that of the demo, not of 2 GB."""
+    child = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n"
+    child += "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
+    done = subprocess.run([sys.executable, "-c", child, *large], capture_output=True, check=True, text=True)
+    assert done.stderr == ""
+    peak = int(done.stdout) / (1 if sys.platform == "darwin" else 1 / 1024)
+    assert peak < 200e6
+    mine, theirs = (json.loads(path.read_text())["joint"] for path in [large[-1], demo / "m10x16.joint.json"])
+    assert mine == theirs

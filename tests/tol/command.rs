@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use bolted_joint::reproduce::PublishedTable;
 use serde_json::Value;
 
 fn bolted_joint(folder: &Path, arguments: &[&str]) -> Output {
@@ -39,8 +40,24 @@ fn reproduce_prints_published_and_obtained_values_for_people_and_machines() {
         (Some("k_yy"), Some(2008.0))
     );
     assert_eq!(row["obtained"]["draws"], 3);
-    let refused = bolted_joint(here, &["reproduce", "4.1"]);
-    assert_eq!(refused.status.code(), Some(2));
+    for refused in [
+        ["reproduce", "4.1"].as_slice(),
+        &["reproduce", "4.3", "--json", "--markdown"],
+    ] {
+        assert_eq!(bolted_joint(here, refused).status.code(), Some(2));
+    }
+}
+
+#[test]
+fn help_names_every_table() {
+    let output = bolted_joint(Path::new("."), &["reproduce", "--help"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    for table in PublishedTable::ALL {
+        assert!(text.contains(table.title()), "{table} in {text}");
+        for name in [&[table.key()], table.aliases()].concat() {
+            assert!(text.contains(name), "{name} in {text}");
+        }
+    }
 }
 
 #[test]

@@ -6,5 +6,8 @@
 )]
 
 mod bolts;
+mod chapter_5;
 mod command;
+mod document;
+mod reproduced;
 mod tables;

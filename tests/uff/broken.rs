@@ -266,6 +266,23 @@ fn units_hold_for_the_whole_file_and_may_stand_after_the_functions() {
 }
 
 #[test]
+fn units_that_do_not_end_are_not_held() {
+    let line = |numbers: &str| format!("{numbers:>25}\n");
+    let endless = format!(
+        "    -1\n   164\n{:>10}units{:>25}\n{:>25}{:>25}{:>25}\n{}    -1\n",
+        9,
+        2,
+        "1.0D+03",
+        "1.0D+00",
+        "1.0D+00",
+        line("0.0D+00").repeat(1000) + "what stands here is not read\n"
+    );
+    let found = read_text(format!("{endless}{}", small(VALUES))).unwrap();
+    let first = found.functions()[0].receptance()[0];
+    assert!((first - Complex64::new(1e-3, 2e-3)).norm() < 1e-18);
+}
+
+#[test]
 fn a_set_names_the_file_that_its_functions_come_from() {
     let twice = small(VALUES).repeat(2);
     let error = read_text(twice).unwrap().into_set().unwrap_err();

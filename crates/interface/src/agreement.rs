@@ -1,15 +1,15 @@
 //! What the two model descriptions must have in common: one library stands behind both.
 
 use crate::{
-    error::Problem,
+    error::AgreementProblem,
     interface::{Interface, float64_types},
     units::units,
 };
 
 /// Checks that `this` agrees with `other` in value references, types, units, log categories and library name.
-pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), Problem> {
+pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), AgreementProblem> {
     check_references(this, other)?;
-    let differs = |what, name: &str| Problem::DefinitionDiffers {
+    let differs = |what, name: &str| AgreementProblem::DefinitionDiffers {
         what,
         name: name.to_owned(),
         other: other.file.clone(),
@@ -49,12 +49,12 @@ pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), Problem> 
     Ok(())
 }
 
-fn check_references(this: &Interface, other: &Interface) -> Result<(), Problem> {
+fn check_references(this: &Interface, other: &Interface) -> Result<(), AgreementProblem> {
     for variable in &this.variables {
         if let Some(counterpart) = other.variable(&variable.name)
             && counterpart.reference != variable.reference
         {
-            return Err(Problem::ReferenceDiffers {
+            return Err(AgreementProblem::ReferenceDiffers {
                 variable: variable.name.clone(),
                 reference: variable.reference,
                 other: other.file.clone(),
@@ -64,7 +64,7 @@ fn check_references(this: &Interface, other: &Interface) -> Result<(), Problem> 
         if let Some(counterpart) = other.variables.iter().find(|counterpart| {
             counterpart.reference == variable.reference && counterpart.name != variable.name
         }) {
-            return Err(Problem::ReferenceReused {
+            return Err(AgreementProblem::ReferenceReused {
                 reference: variable.reference,
                 variable: variable.name.clone(),
                 other: other.file.clone(),
@@ -85,7 +85,7 @@ fn check_references(this: &Interface, other: &Interface) -> Result<(), Problem> 
         .max()
         .unwrap_or(0);
     match (0..=largest).find(|&reference| !used(reference)) {
-        Some(reference) => Err(Problem::Gap { reference }),
+        Some(reference) => Err(AgreementProblem::Gap { reference }),
         None => Ok(()),
     }
 }

@@ -9,7 +9,7 @@ use fmi_schema::{
 
 use crate::{
     agreement,
-    error::{InterfaceError, Problem},
+    error::{InterfaceError, Problem, VariableProblem},
     structure, units,
     variable::{Role, Variable},
 };
@@ -67,7 +67,7 @@ impl Interface {
             .iter()
             .map(|declared| match declared {
                 Declared::Float64(declared) => Variable::new(declared, &types),
-                other => Err(Problem::NotFloat64 {
+                other => Err(VariableProblem::NotFloat64 {
                     variable: name_of(other),
                 }),
             })
@@ -139,7 +139,7 @@ impl Interfaces {
     pub fn new(element: Interface, lap: Interface) -> Result<Self, InterfaceError> {
         agreement::check(&lap, &element).map_err(|problem| InterfaceError::Inconsistent {
             file: lap.file.clone(),
-            problem,
+            problem: problem.into(),
         })?;
         Ok(Self { element, lap })
     }
@@ -256,16 +256,16 @@ fn check_uniqueness(variables: &[Variable]) -> Result<(), Problem> {
     for (index, second) in variables.iter().enumerate() {
         for first in &variables[..index] {
             if first.name == second.name {
-                return Err(Problem::DuplicateName {
+                return Err(Problem::Variable(VariableProblem::DuplicateName {
                     variable: second.name.clone(),
-                });
+                }));
             }
             if first.reference == second.reference {
-                return Err(Problem::DuplicateReference {
+                return Err(Problem::Variable(VariableProblem::DuplicateReference {
                     reference: second.reference,
                     first: first.name.clone(),
                     second: second.name.clone(),
-                });
+                }));
             }
         }
     }
@@ -280,6 +280,6 @@ fn check_independent(variables: &[Variable]) -> Result<(), Problem> {
         .collect();
     match found.as_slice() {
         [(name, 0)] if name == "time" => Ok(()),
-        _ => Err(Problem::Independent { found }),
+        _ => Err(Problem::Variable(VariableProblem::Independent { found })),
     }
 }

@@ -14,7 +14,9 @@ mod structure;
 mod units;
 mod variable;
 
-pub use error::{InterfaceError, Problem};
+pub use error::{
+    AgreementProblem, InterfaceError, Problem, StructureProblem, UnitProblem, VariableProblem,
+};
 pub use interface::{ContinuousState, Interface, Interfaces};
 pub use rotation::requires_rotation;
 pub use variable::{Role, Variable};

@@ -3,13 +3,16 @@
 use fmi_schema::fmi3::{DependenciesKind, Fmi3Unknown, ModelStructure};
 
 use crate::{
-    error::Problem,
+    error::StructureProblem,
     interface::ContinuousState,
     variable::{Role, Variable},
 };
 
 /// Checks that outputs and initial unknowns are complete and that their dependencies are knowns.
-pub(crate) fn check(structure: &ModelStructure, variables: &[Variable]) -> Result<(), Problem> {
+pub(crate) fn check(
+    structure: &ModelStructure,
+    variables: &[Variable],
+) -> Result<(), StructureProblem> {
     // Outputs: every output, each once
     let outputs = List {
         element: "Output",
@@ -41,7 +44,7 @@ pub(crate) fn check(structure: &ModelStructure, variables: &[Variable]) -> Resul
 pub(crate) fn continuous_states(
     structure: &ModelStructure,
     variables: &[Variable],
-) -> Result<Vec<ContinuousState>, Problem> {
+) -> Result<Vec<ContinuousState>, StructureProblem> {
     let mut states = Vec::new();
     for entry in structure.continuous_state_derivatives() {
         let derivative = variables
@@ -64,7 +67,7 @@ pub(crate) fn continuous_states(
         .iter()
         .find(|variable| variable.role == Role::State && !is_listed(variable))
     {
-        Some(state) => Err(Problem::NoDerivative {
+        Some(state) => Err(StructureProblem::NoDerivative {
             variable: state.name.clone(),
         }),
         None => Ok(states),
@@ -95,17 +98,17 @@ struct List<'a> {
 }
 
 impl List<'_> {
-    fn variable(&self, reference: u32) -> Result<&Variable, Problem> {
+    fn variable(&self, reference: u32) -> Result<&Variable, StructureProblem> {
         self.variables
             .iter()
             .find(|variable| variable.reference == reference)
-            .ok_or(Problem::UndefinedReference {
+            .ok_or(StructureProblem::UndefinedReference {
                 element: self.element,
                 reference,
             })
     }
 
-    fn check_entries(&self, belongs: impl Fn(&Variable) -> bool) -> Result<(), Problem> {
+    fn check_entries(&self, belongs: impl Fn(&Variable) -> bool) -> Result<(), StructureProblem> {
         for (index, entry) in self.entries.iter().enumerate() {
             let variable = self.variable(entry.value_reference)?;
             let problem_here = || (self.element, variable.name.clone());
@@ -114,11 +117,11 @@ impl List<'_> {
                 .any(|earlier| earlier.value_reference == entry.value_reference)
             {
                 let (element, variable) = problem_here();
-                return Err(Problem::DuplicateUnknown { element, variable });
+                return Err(StructureProblem::DuplicateUnknown { element, variable });
             }
             if !belongs(variable) {
                 let (element, variable) = problem_here();
-                return Err(Problem::UnexpectedUnknown { element, variable });
+                return Err(StructureProblem::UnexpectedUnknown { element, variable });
             }
         }
         let missing = self.variables.iter().find(|variable| {
@@ -129,7 +132,7 @@ impl List<'_> {
                     .any(|entry| entry.value_reference == variable.reference)
         });
         match missing {
-            Some(variable) => Err(Problem::MissingUnknown {
+            Some(variable) => Err(StructureProblem::MissingUnknown {
                 element: self.element,
                 variable: variable.name.clone(),
             }),
@@ -137,25 +140,28 @@ impl List<'_> {
         }
     }
 
-    fn check_dependencies(&self, is_known: impl Fn(&Variable) -> bool) -> Result<(), Problem> {
+    fn check_dependencies(
+        &self,
+        is_known: impl Fn(&Variable) -> bool,
+    ) -> Result<(), StructureProblem> {
         for entry in &self.entries {
             let variable = self.variable(entry.value_reference)?.name.clone();
             let element = self.element;
             let Some(dependencies) = entry.dependencies.as_deref() else {
-                return Err(Problem::NoDependencies { element, variable });
+                return Err(StructureProblem::NoDependencies { element, variable });
             };
             for (index, &reference) in dependencies.iter().enumerate() {
                 let known = self.variable(reference)?;
                 let dependency = known.name.clone();
                 if !is_known(known) {
-                    return Err(Problem::NotKnown {
+                    return Err(StructureProblem::NotKnown {
                         element,
                         variable,
                         dependency,
                     });
                 }
                 if dependencies[..index].contains(&reference) {
-                    return Err(Problem::DuplicateDependency {
+                    return Err(StructureProblem::DuplicateDependency {
                         element,
                         variable,
                         dependency,
@@ -167,7 +173,7 @@ impl List<'_> {
                 .as_deref()
                 .map_or(dependencies.len(), <[_]>::len);
             if kinds != dependencies.len() {
-                return Err(Problem::KindCount {
+                return Err(StructureProblem::KindCount {
                     element,
                     variable,
                     dependencies: dependencies.len(),
@@ -178,7 +184,7 @@ impl List<'_> {
         Ok(())
     }
 
-    fn check_initial_kinds(&self) -> Result<(), Problem> {
+    fn check_initial_kinds(&self) -> Result<(), StructureProblem> {
         for entry in &self.entries {
             let kinds = entry.dependencies_kind.as_deref().unwrap_or_default();
             if kinds.iter().any(|kind| {
@@ -188,7 +194,7 @@ impl List<'_> {
                 )
             }) {
                 let variable = self.variable(entry.value_reference)?.name.clone();
-                return Err(Problem::InitialKind { variable });
+                return Err(StructureProblem::InitialKind { variable });
             }
         }
         Ok(())

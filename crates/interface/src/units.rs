@@ -2,7 +2,10 @@
 
 use fmi_schema::fmi3::{BaseUnit, Float64Type, Fmi3ModelDescription, Fmi3Unit};
 
-use crate::{error::Problem, variable::Variable};
+use crate::{
+    error::{Problem, UnitProblem, VariableProblem},
+    variable::Variable,
+};
 
 /// Checks that units are defined once, by SI exponents alone, and that their display units are of use.
 pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), Problem> {
@@ -17,15 +20,17 @@ pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), Prob
                 name: unit.name.clone(),
             });
         }
-        let base = unit.base_unit.as_ref().ok_or_else(|| Problem::NoBaseUnit {
-            unit: unit.name.clone(),
+        let base = unit.base_unit.as_ref().ok_or_else(|| {
+            Problem::Unit(UnitProblem::NoBaseUnit {
+                unit: unit.name.clone(),
+            })
         })?;
         if base.factor.is_some_and(|factor| factor != 1.0)
             || base.offset.is_some_and(|offset| offset != 0.0)
         {
-            return Err(Problem::NotCoherent {
+            return Err(Problem::Unit(UnitProblem::NotCoherent {
                 unit: unit.name.clone(),
-            });
+            }));
         }
         for (index, display) in unit.display_unit.iter().enumerate() {
             if unit.display_unit[..index]
@@ -39,11 +44,11 @@ pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), Prob
             }
             let factor = display.factor.unwrap_or(1.0);
             if !(factor.is_finite() && factor > 0.0) {
-                return Err(Problem::DisplayFactor {
+                return Err(Problem::Unit(UnitProblem::DisplayFactor {
                     unit: unit.name.clone(),
                     display_unit: display.name.clone(),
                     factor,
-                });
+                }));
             }
         }
     }
@@ -67,15 +72,19 @@ pub(crate) fn check_types(
                 name: name(),
             });
         }
-        let unit_name = declared_type.unit.clone().ok_or_else(|| Problem::NoUnit {
-            declared_type: name(),
+        let unit_name = declared_type.unit.clone().ok_or_else(|| {
+            Problem::Unit(UnitProblem::NoUnit {
+                declared_type: name(),
+            })
         })?;
         let unit = units
             .iter()
             .find(|unit| unit.name == unit_name)
-            .ok_or_else(|| Problem::UndefinedUnit {
-                declared_type: name(),
-                unit: unit_name.clone(),
+            .ok_or_else(|| {
+                Problem::Unit(UnitProblem::UndefinedUnit {
+                    declared_type: name(),
+                    unit: unit_name.clone(),
+                })
             })?;
         if let Some(display_unit) = &declared_type.display_unit
             && !unit
@@ -83,28 +92,28 @@ pub(crate) fn check_types(
                 .iter()
                 .any(|defined| defined.name == *display_unit)
         {
-            return Err(Problem::UndefinedDisplayUnit {
+            return Err(Problem::Unit(UnitProblem::UndefinedDisplayUnit {
                 declared_type: name(),
                 unit: unit_name,
                 display_unit: display_unit.clone(),
-            });
+            }));
         }
         if let Some(nominal) = declared_type.nominal
             && !(nominal.is_finite() && nominal > 0.0)
         {
-            return Err(Problem::Nominal {
+            return Err(Problem::Unit(UnitProblem::Nominal {
                 declared_type: name(),
                 nominal,
-            });
+            }));
         }
         if let (Some(min), Some(max)) = (declared_type.min, declared_type.max)
             && (min.is_nan() || max.is_nan() || min > max)
         {
-            return Err(Problem::Range {
+            return Err(Problem::Unit(UnitProblem::Range {
                 declared_type: name(),
                 min,
                 max,
-            });
+            }));
         }
     }
     Ok(())
@@ -135,21 +144,23 @@ pub(crate) fn check_derivatives(
                     && candidate.name != variable.name
                     && !matches!(candidate.role, Role::Independent | Role::Parameter)
             })
-            .ok_or_else(|| Problem::UndefinedDerivative {
-                variable: variable.name.clone(),
-                reference,
+            .ok_or_else(|| {
+                Problem::Variable(VariableProblem::UndefinedDerivative {
+                    variable: variable.name.clone(),
+                    reference,
+                })
             })?;
         let expected = exponents(&of.unit).map(|mut exponents| {
             exponents[SECOND] -= 1;
             exponents
         });
         if exponents(&variable.unit) != expected {
-            return Err(Problem::DerivativeUnit {
+            return Err(Problem::Unit(UnitProblem::DerivativeUnit {
                 variable: variable.name.clone(),
                 unit: variable.unit.clone(),
                 of: of.name.clone(),
                 of_unit: of.unit.clone(),
-            });
+            }));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use fmi_schema::fmi3::{Causality, Float64Type, FmiFloat64, Initial, Variability}
 
 use crate::{
     combination::{effective_initial, is_allowed},
-    error::Problem,
+    error::VariableProblem,
     rotation::requires_rotation,
 };
 
@@ -56,15 +56,18 @@ impl Variable {
     }
 
     /// Checks one `<Float64>` on its own, against its type.
-    pub(crate) fn new(declared: &FmiFloat64, types: &[&Float64Type]) -> Result<Self, Problem> {
+    pub(crate) fn new(
+        declared: &FmiFloat64,
+        types: &[&Float64Type],
+    ) -> Result<Self, VariableProblem> {
         let variable = || declared.name.clone();
         if !is_structured(&declared.name) {
-            return Err(Problem::IllegalName {
+            return Err(VariableProblem::IllegalName {
                 variable: variable(),
             });
         }
         if !declared.dimensions.is_empty() {
-            return Err(Problem::NotScalar {
+            return Err(VariableProblem::NotScalar {
                 variable: variable(),
             });
         }
@@ -72,19 +75,20 @@ impl Variable {
             .description
             .clone()
             .filter(|text| !text.trim().is_empty())
-            .ok_or_else(|| Problem::NoDescription {
+            .ok_or_else(|| VariableProblem::NoDescription {
                 variable: variable(),
             })?;
-        let type_name = declared
-            .declared_type
-            .as_deref()
-            .ok_or_else(|| Problem::NoType {
-                variable: variable(),
-            })?;
+        let type_name =
+            declared
+                .declared_type
+                .as_deref()
+                .ok_or_else(|| VariableProblem::NoType {
+                    variable: variable(),
+                })?;
         let declared_type = types
             .iter()
             .find(|candidate| candidate.name == type_name)
-            .ok_or_else(|| Problem::UndefinedType {
+            .ok_or_else(|| VariableProblem::UndefinedType {
                 variable: variable(),
                 declared_type: type_name.to_owned(),
             })?;
@@ -112,13 +116,13 @@ fn is_structured(name: &str) -> bool {
     })
 }
 
-fn role(declared: &FmiFloat64) -> Result<Role, Problem> {
+fn role(declared: &FmiFloat64) -> Result<Role, VariableProblem> {
     let causality = declared.causality.unwrap_or_default();
     let variability = declared
         .variability
         .unwrap_or(default_variability(causality));
     if !is_allowed(causality, variability) {
-        return Err(Problem::Combination {
+        return Err(VariableProblem::Combination {
             variable: declared.name.clone(),
             causality,
             variability,
@@ -126,7 +130,7 @@ fn role(declared: &FmiFloat64) -> Result<Role, Problem> {
     }
     let initial =
         effective_initial(causality, variability, declared.initial).map_err(|initial| {
-            Problem::ForbiddenInitial {
+            VariableProblem::ForbiddenInitial {
                 variable: declared.name.clone(),
                 initial,
                 causality,
@@ -145,7 +149,7 @@ fn role(declared: &FmiFloat64) -> Result<Role, Problem> {
             Ok(Role::Derivative)
         }
         // legal in FMI, but nothing that the library implements
-        _ => Err(Problem::NoRole {
+        _ => Err(VariableProblem::NoRole {
             variable: declared.name.clone(),
             causality,
             variability,
@@ -166,10 +170,10 @@ fn default_variability(causality: Causality) -> Variability {
 
 /// FMI 3.0, 2.4.7: only continuous-time variables can have `intermediateUpdate`. Parameters are tunable here, and the
 /// time is told by the callback itself.
-fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, Problem> {
+fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, VariableProblem> {
     let found = declared.intermediate_update.unwrap_or(false);
     match role {
-        Role::Independent | Role::Parameter if found => Err(Problem::IntermediateUpdate {
+        Role::Independent | Role::Parameter if found => Err(VariableProblem::IntermediateUpdate {
             variable: declared.name.clone(),
         }),
         _ => Ok(found),
@@ -180,12 +184,12 @@ fn start(
     declared: &FmiFloat64,
     declared_type: &Float64Type,
     role: Role,
-) -> Result<Option<f64>, Problem> {
+) -> Result<Option<f64>, VariableProblem> {
     let variable = || declared.name.clone();
     let needed = matches!(role, Role::Input | Role::Parameter | Role::State);
     let Some(found) = declared.start.as_deref() else {
         return if needed {
-            Err(Problem::NoStart {
+            Err(VariableProblem::NoStart {
                 variable: variable(),
             })
         } else {
@@ -193,18 +197,18 @@ fn start(
         };
     };
     if !needed {
-        return Err(Problem::UnwantedStart {
+        return Err(VariableProblem::UnwantedStart {
             variable: variable(),
         });
     }
     let &[start] = found else {
-        return Err(Problem::IllegalStart {
+        return Err(VariableProblem::IllegalStart {
             variable: variable(),
             found: found.to_vec(),
         });
     };
     if !start.is_finite() {
-        return Err(Problem::IllegalStart {
+        return Err(VariableProblem::IllegalStart {
             variable: variable(),
             found: found.to_vec(),
         });
@@ -216,7 +220,7 @@ fn start(
         .unwrap_or(f64::NEG_INFINITY);
     let max = declared.max.or(declared_type.max).unwrap_or(f64::INFINITY);
     if !(min..=max).contains(&start) {
-        return Err(Problem::StartOutOfRange {
+        return Err(VariableProblem::StartOutOfRange {
             variable: variable(),
             start,
             min,

@@ -29,6 +29,8 @@ pub(super) struct Page<'a> {
     pub(super) passivity: &'a Passivity,
     /// How closely the reference run is to be met; `None` if there is none.
     pub(super) reference_tolerance: Option<f64>,
+    /// Whether the FMU also has the joint over the preload that it was taken from.
+    pub(super) has_table: bool,
     pub(super) token: &'a str,
     pub(super) date: Timestamp,
 }

@@ -12,7 +12,8 @@ use super::header::{Columns, Form, Header, Keys, unquoted};
 use super::number::Decimal;
 use crate::frf::gathered::Gathered;
 use crate::frf::statement::{Stated, Statement};
-use crate::frf::{Coherence, FrfError, FrfReading, ReadOptions};
+use crate::frf::summary::Statements;
+use crate::frf::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions};
 
 /// The longest line that is still taken for a table, bytes.
 const LONGEST_LINE: usize = 1 << 20;
@@ -105,7 +106,8 @@ pub fn read_csv_from(
         },
         source => at_header(CsvProblem::Function(Box::new(source))),
     };
-    let (mut functions, mut coherences, mut units_stated) = (Vec::new(), Vec::new(), true);
+    let (mut functions, mut coherences) = (Vec::new(), Vec::new());
+    let mut statements = Statements::default();
     for Wanted {
         columns,
         stated,
@@ -113,13 +115,13 @@ pub fn read_csv_from(
         coherence,
     } in wanted
     {
-        units_stated &= stated.units_stated;
         let pair = (columns.response, columns.reference);
         functions.push(
             lines
-                .into_frf(pair, stated.quantity, stated.to_si, &options.selection)
+                .into_frf(pair, stated.quantity.0, stated.to_si, &options.selection)
                 .map_err(function)?,
         );
+        statements.add(FileFormat::Table, stated.quantity, stated.units);
         if columns.coherence.is_some() {
             let gamma_squared = coherence.values.iter().map(|value| value.re).collect();
             coherences.push(
@@ -132,11 +134,11 @@ pub fn read_csv_from(
         path: path.to_owned(),
         functions,
         coherences,
-        averages: options.averages.or(keys.averages),
+        averages: options.averages_or(keys.averages),
         not_selected,
         skipped_functions: Vec::new(),
         skipped_datasets: 0,
-        units_stated,
+        statements,
     })
 }
 

@@ -2,6 +2,8 @@
 
 mod array;
 mod axes;
+mod matrix;
+mod members;
 mod problem;
 mod read;
 

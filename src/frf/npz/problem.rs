@@ -42,6 +42,19 @@ pub enum NpzProblem {
         /// The other.
         second: String,
     },
+    /// More functions than a measurement has.
+    #[error(
+        "found the names of {responses} responses and {references} references, expected at most {limit} functions between them; \
+         save only those that are needed"
+    )]
+    TooMany {
+        /// Responses.
+        responses: usize,
+        /// References.
+        references: usize,
+        /// The most functions that are read.
+        limit: usize,
+    },
     /// An array whose header cannot be read.
     #[error("array {array}: found {found}, expected {expected}; save it again with numpy.savez")]
     Header {

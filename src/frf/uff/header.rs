@@ -1,6 +1,9 @@
 //! The eleven header records of data set 58: which function this is, between what, and how its values are stored.
 
+use std::ops::RangeInclusive;
+
 use super::UffProblem;
+use super::degree_of_freedom::dof;
 use super::fields::{columns, split_blanks, split_columns};
 use super::numbers::parse_number;
 use crate::frf::Dof;
@@ -8,52 +11,8 @@ use crate::frf::Dof;
 /// Header records before the values.
 pub(super) const RECORDS: usize = 11;
 
-/// Function type of a frequency response function.
-pub(super) const FREQUENCY_RESPONSE: i64 = 4;
-
-/// Function type of an ordinary coherence.
-pub(super) const COHERENCE: i64 = 6;
-
-/// The standard's names of the function types, by their code.
-const FUNCTION_TYPES: [&str; 28] = [
-    "general function",
-    "time response",
-    "auto spectrum",
-    "cross spectrum",
-    "frequency response function",
-    "transmissibility",
-    "coherence",
-    "auto correlation",
-    "cross correlation",
-    "power spectral density",
-    "energy spectral density",
-    "probability density function",
-    "spectrum",
-    "cumulative frequency distribution",
-    "peaks valley",
-    "stress/cycles",
-    "strain/cycles",
-    "orbit",
-    "mode indicator function",
-    "force pattern",
-    "partial power",
-    "partial coherence",
-    "eigenvalue",
-    "eigenvector",
-    "shock response spectrum",
-    "finite impulse response filter",
-    "multiple coherence",
-    "order function",
-];
-
-/// The standard's name of a function type, or that it is unknown.
-pub(super) fn function_type_name(code: i64) -> &'static str {
-    usize::try_from(code)
-        .ok()
-        .and_then(|code| FUNCTION_TYPES.get(code))
-        .copied()
-        .unwrap_or("function of unknown type")
-}
+/// No quantity has a length or a force to a higher power.
+const UNIT_EXPONENTS: RangeInclusive<i32> = -9..=9;
 
 /// A problem and the record (1 to 11) in which it is.
 pub(super) type InRecord = (usize, UffProblem);
@@ -167,54 +126,6 @@ fn record_6(line: &str) -> [String; 10] {
         .unwrap_or_else(|| split_columns(line, [5, 10, 5, 10, 11, 10, 4, 11, 10, 4]))
 }
 
-fn dof(role: &'static str, name: &str, node: &str, direction: &str) -> Result<Dof, InRecord> {
-    let node: u32 = integer(
-        node,
-        6,
-        node_field(role),
-        "a whole number that is not negative",
-    )?;
-    let direction = integer(
-        direction,
-        6,
-        direction_field(role),
-        "a whole number from -6 to 6",
-    )?;
-    let by_number =
-        Dof::from_uff(node, direction).map_err(|source| (6, UffProblem::Dof { role, source }))?;
-    // Some writers leave both numbers at zero and put the degree of freedom into the entity's name, as in ".56.Z".
-    Ok(match (node, direction) {
-        (0, 0) => dof_from_name(name).unwrap_or(by_number),
-        _ => by_number,
-    })
-}
-
-fn node_field(role: &str) -> &'static str {
-    match role {
-        "response" => "the response node",
-        _ => "the reference node",
-    }
-}
-
-fn direction_field(role: &str) -> &'static str {
-    match role {
-        "response" => "the response direction",
-        _ => "the reference direction",
-    }
-}
-
-/// `[COMPONENT].NODE.DIRECTION[SIGN]`, or with colons.
-fn dof_from_name(name: &str) -> Option<Dof> {
-    let separator = ['.', ':'];
-    let mut parts = name.trim().rsplitn(3, separator);
-    let (direction, node) = (parts.next()?, parts.next()?);
-    let (sign, axis) = match direction.strip_suffix('-') {
-        Some(axis) => ("-", axis),
-        None => ("", direction.strip_suffix('+').unwrap_or(direction)),
-    };
-    format!("{node}:{sign}{axis}").parse().ok()
-}
-
 fn layout(line: &str) -> Result<Layout, InRecord> {
     // 3I10,3E13.5
     let [ordinate, lines, spacing, minimum, increment, _] =
@@ -277,16 +188,23 @@ fn axis(line: &str, record: usize) -> Result<Axis, InRecord> {
         false => String::new(),
     };
     let expected = "a whole number";
+    let exponent = |text: &str, name| -> Result<i32, InRecord> {
+        let exponent = integer(text, record, name, expected)?;
+        match UNIT_EXPONENTS.contains(&exponent) {
+            true => Ok(exponent),
+            false => Err(field(record, name, text, "a whole number from -9 to 9")),
+        }
+    };
     Ok(Axis {
         data_type: integer(&data_type, record, "the specific data type", expected)?,
-        length_exponent: integer(&length, record, "the length units exponent", expected)?,
-        force_exponent: integer(&force, record, "the force units exponent", expected)?,
+        length_exponent: exponent(&length, "the length units exponent")?,
+        force_exponent: exponent(&force, "the force units exponent")?,
         label: label(25, 46),
         units_label: label(46, 80),
     })
 }
 
-fn integer<T: std::str::FromStr>(
+pub(super) fn integer<T: std::str::FromStr>(
     text: &str,
     record: usize,
     name: &'static str,
@@ -318,6 +236,7 @@ fn field(record: usize, name: &'static str, found: &str, expected: &'static str)
 
 #[cfg(test)]
 mod tests {
+    use super::super::function_type::FREQUENCY_RESPONSE;
     use super::*;
 
     fn records() -> [String; RECORDS] {
@@ -373,28 +292,6 @@ mod tests {
                 header.denominator.label.as_str()
             ),
             (13, "")
-        );
-    }
-
-    #[test]
-    fn names_stand_in_where_nodes_and_directions_are_all_zero() {
-        for (name, expected) in [
-            (".56.Z", "56:+Z"),
-            (".1.Z-", "1:-Z"),
-            ("beam:12:+Y", "12:+Y"),
-            ("NONE", "0:0"),
-            ("", "0:0"),
-            (".a.Z", "0:0"),
-        ] {
-            assert_eq!(
-                dof("response", name, "0", "0").unwrap().to_string(),
-                expected,
-                "{name}"
-            );
-        }
-        assert_eq!(
-            dof("response", ".56.Z", "3", "2").unwrap().to_string(),
-            "3:+Y"
         );
     }
 
@@ -465,6 +362,11 @@ mod tests {
             ),
             (6, "", "ordinate data type"),
             (8, "acceleration", "specific data type"),
+            (
+                8,
+                "8 -2147483648 0 0 NONE NONE",
+                "as the length units exponent, expected a whole number from -9 to 9",
+            ),
         ] {
             let mut records = records();
             records[index] = line.to_owned();
@@ -472,13 +374,5 @@ mod tests {
             assert_eq!(record, index + 1);
             assert!(problem.to_string().contains(named), "{problem}");
         }
-    }
-
-    #[test]
-    fn function_types_have_the_names_of_the_standard() {
-        assert_eq!(function_type_name(4), "frequency response function");
-        assert_eq!(function_type_name(6), "coherence");
-        assert_eq!(function_type_name(27), "order function");
-        assert_eq!(function_type_name(-1), "function of unknown type");
     }
 }

@@ -137,8 +137,25 @@ impl<R: BufRead> Lines<R> {
             if self.delimiter_follows()? {
                 return Ok(true);
             }
-            if self.take_bytes(1, None)? == 0 {
-                return Ok(false);
+            let mut passed = 0;
+            loop {
+                let ahead = match self.reader.fill_buf() {
+                    Ok(ahead) => ahead,
+                    Err(source) if source.kind() == ErrorKind::Interrupted => continue,
+                    Err(source) => return Err(self.failed(source)),
+                };
+                if ahead.is_empty() {
+                    return Ok(false);
+                }
+                // At least one byte, and all up to one that a closing `-1` may begin with.
+                let least = usize::from(passed == 0).min(ahead.len());
+                let begins = |byte: &u8| matches!(byte, b' ' | b'\r' | b'\n');
+                let next = ahead[least..].iter().position(begins);
+                let count = next.map_or(ahead.len(), |next| least + next);
+                passed += self.take_bytes(count as u64, None)?;
+                if next.is_some() {
+                    break;
+                }
             }
         }
     }
@@ -224,6 +241,37 @@ mod tests {
             let mut lines = lines(line.as_bytes());
             lines.advance().unwrap();
             assert_eq!(lines.is_delimiter(), expected, "{line:?}");
+        }
+    }
+
+    #[test]
+    fn a_closing_delimiter_is_found_among_any_bytes() {
+        let filling: [&[u8]; 6] = [
+            b"",
+            b"\0\0",
+            b"     ",
+            b"\n\r    -\r\n   -1\n     -2\n",
+            b"x    -1x\n    -12\n",
+            &[7; 300],
+        ];
+        for before in filling {
+            for first in filling {
+                for end in ["    -1", "    -1\n", "\n    -1   \r\n", "\r\n    -1\nmore"] {
+                    let bytes = [before, first, end.as_bytes()].concat();
+                    let mut lines = lines(&bytes);
+                    assert!(lines.skip_to_delimiter().unwrap(), "{bytes:?}");
+                    while lines.advance().unwrap() && !lines.is_delimiter() {}
+                    assert!(lines.is_delimiter());
+                    let newlines = bytes
+                        .iter()
+                        .rev()
+                        .skip_while(|b| **b != b'1')
+                        .filter(|b| **b == b'\n');
+                    assert_eq!(lines.number(), 1 + newlines.count());
+                }
+            }
+            let mut without = lines(before);
+            assert!(!without.skip_to_delimiter().unwrap());
         }
     }
 

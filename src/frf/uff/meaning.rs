@@ -1,76 +1,18 @@
 //! What the numbers of a function mean: data types, labels and units put together, and refused where they disagree.
 
 use super::UffProblem;
+use super::data_type::{Kind, data_type_name, inverse_name, kind};
 use super::header::{Axis, Header, InRecord};
 use super::scale::{UnitLabels, decide_scale};
 use super::units::UnitSystem;
-use crate::frf::{Quantity, ReadOptions};
+use crate::frf::{Quantity, ReadOptions, StatedBy, UnitStatement};
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Meaning {
-    pub(super) quantity: Quantity,
+    pub(super) quantity: (Quantity, StatedBy),
     pub(super) to_si: f64,
-    /// Whether the units are stated (or given by the caller) rather than taken for SI.
-    pub(super) units_stated: bool,
-}
-
-/// A specific data type, as far as it matters here.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    /// Displacement, velocity or acceleration: 0, 1 or 2 time derivatives.
-    Motion(i32),
-    Load,
-    Unstated,
-    Other,
-}
-
-fn kind(data_type: i64) -> Kind {
-    match data_type {
-        8 => Kind::Motion(0),
-        11 => Kind::Motion(1),
-        12 => Kind::Motion(2),
-        9 | 13 => Kind::Load,
-        0 | 1 => Kind::Unstated,
-        _ => Kind::Other,
-    }
-}
-
-/// Whether a specific data type is a force or a moment.
-pub(super) fn is_load(data_type: i64) -> bool {
-    kind(data_type) == Kind::Load
-}
-
-fn data_type_name(data_type: i64) -> String {
-    let name = match data_type {
-        0 => "unknown",
-        1 => "general",
-        2 => "stress",
-        3 => "strain",
-        5 => "temperature",
-        6 => "heat flux",
-        8 => "displacement",
-        9 => "reaction force",
-        11 => "velocity",
-        12 => "acceleration",
-        13 => "excitation force",
-        15 => "pressure",
-        16 => "mass",
-        17 => "time",
-        18 => "frequency",
-        19 => "rotational speed",
-        20 => "order",
-        _ => "no known quantity",
-    };
-    format!("{name} (data type {data_type})")
-}
-
-pub(super) fn inverse_name(derivatives: i32) -> &'static str {
-    match derivatives {
-        0 => "dynamic stiffness",
-        1 => "impedance",
-        _ => "apparent mass",
-    }
+    pub(super) units: UnitStatement,
 }
 
 /// A statement of the file, for messages.
@@ -92,11 +34,11 @@ pub(super) fn decide(
     check_abscissa(&header.abscissa)?;
     let labels = UnitLabels::read(header)?;
     let quantity = decide_quantity(header, &labels, options)?;
-    let (to_si, units_stated) = decide_scale(header, &labels, dataset_164, options)?;
+    let (to_si, units) = decide_scale(header, &labels, dataset_164, options)?;
     Ok(Meaning {
         quantity,
         to_si,
-        units_stated,
+        units,
     })
 }
 
@@ -117,7 +59,7 @@ fn decide_quantity(
     header: &Header,
     labels: &UnitLabels,
     options: &ReadOptions,
-) -> Result<Quantity, InRecord> {
+) -> Result<(Quantity, StatedBy), InRecord> {
     let (numerator, denominator) = (header.numerator.data_type, header.denominator.data_type);
     let by_type = match (kind(numerator), kind(denominator)) {
         // An unstated denominator of a frequency response function is its load.
@@ -161,12 +103,12 @@ fn decide_quantity(
         });
     let by_label = quantity_of_axis_label(&header.numerator.label)?;
     if let Some(quantity) = options.quantity {
-        return Ok(quantity);
+        return Ok((quantity, StatedBy::Caller));
     }
     let mut statements = [by_type, by_unit, by_label].into_iter().flatten();
     let first = statements.next().ok_or((9, UffProblem::UnknownQuantity))?;
     match statements.find(|statement| statement.quantity != first.quantity) {
-        None => Ok(first.quantity),
+        None => Ok((first.quantity, StatedBy::File)),
         Some(second) => Err((
             second.record,
             UffProblem::ContradictingQuantities {
@@ -293,9 +235,9 @@ mod tests {
                 assert_eq!(
                     meaning,
                     Meaning {
-                        quantity,
+                        quantity: (quantity, StatedBy::File),
                         to_si: 1.0,
-                        units_stated: false
+                        units: UnitStatement::Assumed
                     }
                 );
             }
@@ -312,7 +254,7 @@ mod tests {
             ("", "g", Quantity::Accelerance),
         ] {
             let meaning = decided(axis(0, label, unit), axis(0, "", ""), None).unwrap();
-            assert_eq!(meaning.quantity, quantity, "{label} {unit}");
+            assert_eq!(meaning.quantity.0, quantity, "{label} {unit}");
         }
         for (label, unit) in [
             ("", ""),
@@ -367,7 +309,7 @@ mod tests {
             };
             assert_eq!(
                 decide(&header, None, &stated).unwrap().quantity,
-                Quantity::Mobility
+                (Quantity::Mobility, StatedBy::Caller)
             );
         }
     }

@@ -5,7 +5,10 @@
 
 mod ahead;
 mod binary;
+mod data_type;
+mod degree_of_freedom;
 mod fields;
+mod function_type;
 mod header;
 mod lines;
 mod meaning;
@@ -19,6 +22,7 @@ mod write;
 
 pub use binary::ByteOrder;
 pub use problem::UffProblem;
+pub(in crate::frf) use read::read_uff58_of;
 pub use read::{read_uff58, read_uff58_from};
 pub(in crate::frf) use units::{KGF, LBF};
 pub use units::{UnitFactorError, UnitSystem};

@@ -6,16 +6,16 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::binary::Form;
-use super::header::{
-    COHERENCE, FREQUENCY_RESPONSE, Header, InRecord, RECORDS, function_type, function_type_name,
-};
+use super::function_type::{COHERENCE, FREQUENCY_RESPONSE, function_type_name};
+use super::header::{Header, InRecord, RECORDS, function_type};
 use super::lines::Lines;
 use super::meaning::{check_abscissa, decide};
 use super::{UffProblem, UnitSystem, binary, values};
 use crate::frf::gathered::Gathered;
 use crate::frf::shown;
+use crate::frf::summary::Statements;
 use crate::frf::{
-    Coherence, Dof, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
+    Coherence, Dof, FileFormat, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
 };
 
 /// Reads the frequency response functions of a universal file.
@@ -39,7 +39,7 @@ pub fn read_uff58(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfRe
         .ok()
         .filter(|m| m.is_file())
         .map(|m| m.len());
-    read(BufReader::new(file), path, length, options)
+    read_uff58_of(BufReader::new(file), path, length, options)
 }
 
 /// As [`read_uff58`], from any reader; `name` stands for the path in messages.
@@ -51,10 +51,11 @@ pub fn read_uff58_from(
     name: impl AsRef<Path>,
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
-    read(reader, name.as_ref(), None, options)
+    read_uff58_of(reader, name.as_ref(), None, options)
 }
 
-fn read(
+/// As [`read_uff58_from`], where the file's length (bytes) is known.
+pub(in crate::frf) fn read_uff58_of(
     reader: impl BufRead,
     name: &Path,
     length: Option<u64>,
@@ -74,9 +75,13 @@ fn read(
     scan.finish(options)
 }
 
+/// Records of data set 164 that are looked at.
+const MOST_UNIT_RECORDS: usize = 8;
+
 /// A function whose units may still be stated further down the file.
 struct Pending {
     begun_at: usize,
+    format: FileFormat,
     header: Header,
     lines: Gathered,
 }
@@ -213,6 +218,9 @@ impl<R: BufRead> Scan<'_, R> {
         match (kind, selection) {
             (FREQUENCY_RESPONSE, Some(_)) => self.pending.push(Pending {
                 begun_at,
+                format: form.map_or(FileFormat::UniversalText, |form| {
+                    FileFormat::UniversalBinary(form.order)
+                }),
                 header,
                 lines: gathered,
             }),
@@ -276,7 +284,10 @@ impl<R: BufRead> Scan<'_, R> {
             if self.lines.is_delimiter() {
                 break;
             }
-            records.push(self.lines.text().into_owned());
+            // Two records are what the standard has; more than a few are not looked at, however long the data set is.
+            if records.len() < MOST_UNIT_RECORDS {
+                records.push(self.lines.text().into_owned());
+            }
         }
         if records.len() < 2 {
             return Err(self.lines.problem(UffProblem::HeaderEnds {
@@ -306,18 +317,18 @@ impl<R: BufRead> Scan<'_, R> {
             return Err(self.lines.problem_at(1, UffProblem::Empty));
         }
         let units = self.units.map(|(_, units)| units);
-        let mut units_stated = true;
+        let mut statements = Statements::default();
         let mut functions = Vec::with_capacity(self.pending.len());
         for function in self.pending {
             let begun_at = function.begun_at;
             let meaning = decide(&function.header, units, options)
                 .map_err(|problem| in_header(&self.lines, begun_at, problem))?;
-            units_stated &= meaning.units_stated;
+            statements.add(function.format, meaning.quantity, meaning.units);
             let pair = (function.header.response, function.header.reference);
             let frf: Result<Frf, FrfError> =
                 function
                     .lines
-                    .into_frf(pair, meaning.quantity, meaning.to_si, self.selection);
+                    .into_frf(pair, meaning.quantity.0, meaning.to_si, self.selection);
             functions.push(frf.map_err(|source| {
                 match source {
                     // No fault of the function: the file has other lines than those that are asked for.
@@ -335,11 +346,11 @@ impl<R: BufRead> Scan<'_, R> {
             path: self.lines.path().to_owned(),
             functions,
             coherences: self.coherences,
-            averages: options.averages,
+            averages: options.averages_or(None),
             not_selected: self.not_selected,
             skipped_functions: self.skipped_functions,
             skipped_datasets: self.skipped_datasets,
-            units_stated,
+            statements,
         })
     }
 }

@@ -1,11 +1,11 @@
 //! From the units of a file to SI: data set 164, unit labels and the caller's word, refused where they disagree.
 
 use super::UffProblem;
+use super::data_type::{inverse_name, is_load};
 use super::header::{Axis, Header, InRecord};
-use super::meaning::{inverse_name, is_load};
 use super::units::{UnitSystem, agree};
 use crate::frf::unit_label::Unit;
-use crate::frf::{Direction, ReadOptions};
+use crate::frf::{Direction, ReadOptions, UnitStatement};
 
 /// The unit labels of records 9 and 10, as far as they can be read.
 pub(super) struct UnitLabels {
@@ -54,13 +54,13 @@ fn exponents(
     }
 }
 
-/// The factor to SI, and whether it was stated at all.
+/// The factor to SI, and who states the units.
 pub(super) fn decide_scale(
     header: &Header,
     labels: &UnitLabels,
     dataset_164: Option<UnitSystem>,
     options: &ReadOptions,
-) -> Result<(f64, bool), InRecord> {
+) -> Result<(f64, UnitStatement), InRecord> {
     // Motion is a length or an angle; the load is a force or a moment (Addendum A of the standard).
     let motion = exponents(
         &header.numerator,
@@ -78,7 +78,7 @@ pub(super) fn decide_scale(
         |units: UnitSystem| (units.to_si(motion.0, motion.1), units.to_si(load.0, load.1));
     if let Some(units) = options.units {
         let (numerator, denominator) = factors(units);
-        return Ok((numerator / denominator, true));
+        return Ok((numerator / denominator, UnitStatement::Caller(units)));
     }
     check_dimensions(header, labels, motion, load)?;
     let numerator_name = format!("the unit \"{}\" in record 9", header.numerator.units_label);
@@ -111,14 +111,22 @@ pub(super) fn decide_scale(
                 ));
             }
         }
-        return Ok((numerator / denominator, true));
+        return Ok((numerator / denominator, UnitStatement::Dataset164(units)));
     }
+    let (above, below) = (
+        &header.numerator.units_label,
+        &header.denominator.units_label,
+    );
     Ok(match (labels.ratio, labels.numerator, labels.denominator) {
-        (Some(ratio), ..) => (ratio.to_si, true),
-        (None, None, None) => (1.0, false),
-        (None, numerator, denominator) => {
-            let factor = |unit: Option<Unit>| unit.map_or(1.0, |unit| unit.to_si);
-            (factor(numerator) / factor(denominator), true)
+        (Some(ratio), ..) => (ratio.to_si, UnitStatement::Label(above.clone())),
+        (None, None, None) => (1.0, UnitStatement::Assumed),
+        (None, Some(above_unit), None) => (above_unit.to_si, UnitStatement::Label(above.clone())),
+        (None, numerator, Some(below_unit)) => {
+            let (to_si, label) = match numerator {
+                Some(above_unit) => (above_unit.to_si, format!("{above} per {below}")),
+                None => (1.0, format!("per {below}")),
+            };
+            (to_si / below_unit.to_si, UnitStatement::Label(label))
         }
     })
 }
@@ -162,21 +170,22 @@ mod tests {
         let millimetres = UnitSystem::new(1e3, 1.0).unwrap();
         let scale = |unit: &str, load: &str, units| {
             decided(axis(12, "", unit), axis(13, "", load), units)
-                .map(|meaning| (meaning.to_si, meaning.units_stated))
+                .map(|meaning| (meaning.to_si, meaning.units))
         };
-        assert_eq!(scale("", "", Some(millimetres)).unwrap(), (1e-3, true));
-        assert_eq!(
-            scale("mm/s^2", "N", Some(millimetres)).unwrap(),
-            (1e-3, true)
-        );
-        assert_eq!(
-            scale("mm/s^2/N", "", Some(millimetres)).unwrap(),
-            (1e-3, true)
-        );
-        assert_eq!(scale("g", "", None).unwrap(), (9.806_65, true));
-        assert_eq!(scale("g/kN", "", None).unwrap(), (9.806_65e-3, true));
-        assert_eq!(scale("", "kN", None).unwrap(), (1e-3, true));
-        assert_eq!(scale("V", "", None).unwrap(), (1.0, false));
+        for (unit, load) in [("", ""), ("mm/s^2", "N"), ("mm/s^2/N", "")] {
+            let found = scale(unit, load, Some(millimetres)).unwrap();
+            assert_eq!(found, (1e-3, UnitStatement::Dataset164(millimetres)));
+        }
+        for (unit, load, to_si, label) in [
+            ("g", "", 9.806_65, "g"),
+            ("g/kN", "", 9.806_65e-3, "g/kN"),
+            ("g", "kN", 9.806_65e-3, "g per kN"),
+            ("", "kN", 1e-3, "per kN"),
+        ] {
+            let found = scale(unit, load, None).unwrap();
+            assert_eq!(found, (to_si, UnitStatement::Label(label.to_owned())));
+        }
+        assert_eq!(scale("V", "", None).unwrap(), (1.0, UnitStatement::Assumed));
         for (unit, load) in [("g", ""), ("m/s^2/N", ""), ("", "kN")] {
             let problem = scale(unit, load, Some(millimetres)).unwrap_err();
             assert!(
@@ -195,7 +204,8 @@ mod tests {
             &stated,
         )
         .unwrap();
-        assert_eq!((meaning.to_si, meaning.units_stated), (1.0, true));
+        let caller = UnitStatement::Caller(UnitSystem::SI);
+        assert_eq!((meaning.to_si, meaning.units), (1.0, caller));
     }
 
     #[test]

@@ -11,10 +11,15 @@ use crate::joint::Bodies;
 use crate::structure::{Beam, FiniteDifference};
 use crate::text_file;
 
-use super::bands::Bands;
+use super::band_choice;
+use super::bands::{BandChoices, Bands};
 use super::error::IdentifyError;
-use super::model::JointModel;
+use super::layout::{Bolts, Layout};
+use super::level::Level;
+use super::lines::Lines;
+use super::model::{JointMatrices, JointModel};
 use super::noise::Noise;
+use super::torque::TorqueDependence;
 use check::Checker;
 use tables::StudyFile;
 
@@ -37,16 +42,24 @@ pub struct Study {
     pub repeats: Vec<FrfFile>,
     /// Tightening torque of the first assembly, N·m.
     pub torque_n_m: Option<f64>,
+    /// Level at which the first assembly was measured.
+    pub level: Option<Level>,
     /// Further assemblies with the same joint.
     pub further: Vec<FurtherAssembly>,
     /// Joint model to identify.
     pub model: JointModel,
+    /// Whether assemblies with different torques have one joint.
+    pub torques: TorqueDependence,
+    /// The bolts that the substructures' joints belong to, in their order.
+    pub bolts: Bolts,
     /// Lowest and highest frequency to use, Hz.
     pub frequency_range_hz: [f64; 2],
     /// Bands of the averages.
-    pub bands: Bands,
+    pub bands: BandChoices,
     /// Noise of the measured receptances, as far as the study states it.
     pub noise: Noise,
+    /// A presumed joint, one of the starts of the search at every bolt.
+    pub start: Option<JointMatrices>,
     /// Bodies of a lap model, which go into the joint file.
     pub bodies: Option<Bodies>,
     /// Remarks that go into the joint file.
@@ -64,6 +77,8 @@ pub struct FurtherAssembly {
     pub repeats: Vec<FrfFile>,
     /// Tightening torque, N·m.
     pub torque_n_m: Option<f64>,
+    /// Level at which it was measured.
+    pub level: Option<Level>,
     /// Its substructure A.
     pub a: Substructure,
     /// Its substructure B.
@@ -77,27 +92,50 @@ pub enum Substructure {
     Measured {
         /// The data.
         source: Source,
-        /// The joint's translation.
-        y: Dof,
-        /// The joint's rotation, where the joint model has one.
-        theta: Option<Rotation>,
+        /// The joint's DOFs at each bolt.
+        joints: Vec<MeasuredJoint>,
     },
     /// A computed beam.
     Beam {
         /// The beam.
         beam: Beam,
-        /// Distance of the joint from the beam's first end, m.
-        joint_m: f64,
+        /// Distance of the joint at each bolt from the beam's first end, m.
+        joints_m: Vec<f64>,
         /// Distance of labelled points from the beam's first end, m.
         positions_m: BTreeMap<Dof, f64>,
     },
 }
 
+/// The joint's DOFs at one bolt of a measured substructure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredJoint {
+    /// Its translation.
+    pub y: Dof,
+    /// Its rotation, where the study names one.
+    pub theta: Option<Rotation>,
+}
+
+impl MeasuredJoint {
+    /// The DOFs that can be those of this bolt alone: points of a difference may serve a neighbour, too.
+    pub(super) fn own_dofs(&self) -> Vec<Dof> {
+        let measured = match self.theta {
+            Some(Rotation::Measured(theta)) => Some(theta),
+            _ => None,
+        };
+        std::iter::once(self.y).chain(measured).collect()
+    }
+}
+
 /// Where a measured substructure's receptances come from.
 #[derive(Clone, Debug)]
 pub enum Source {
-    /// FRFs.
-    Frf(FrfFile),
+    /// FRFs, and a file with modes that supplies those that were not measured.
+    Frf {
+        /// The FRFs.
+        file: FrfFile,
+        /// The modes.
+        modes: Option<PathBuf>,
+    },
     /// File with modes.
     Modal(PathBuf),
 }
@@ -133,17 +171,96 @@ impl Substructure {
     /// Whether both are the same functions of the same file at the same joint.
     pub(super) fn is_same_measurement(&self, other: &Self) -> bool {
         let key = |substructure: &Self| match substructure {
-            Self::Measured { source, y, theta } => match source {
-                Source::Frf(file) => Some((file.path.clone(), *y, theta.clone())),
+            Self::Measured { source, joints } => match source {
+                Source::Frf { file, modes } => {
+                    Some((file.path.clone(), modes.clone(), joints.clone()))
+                }
                 Source::Modal(_) => None,
             },
             Self::Beam { .. } => None,
         };
         key(self).is_some() && key(self) == key(other)
     }
+
+    /// Whether the joint's rotation is known at every bolt: measured or computed.
+    fn has_rotation(&self) -> bool {
+        match self {
+            Self::Measured { joints, .. } => joints.iter().all(|joint| joint.theta.is_some()),
+            Self::Beam { .. } => true,
+        }
+    }
 }
 
 impl Study {
+    /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
+    /// can neither be identified nor compared.
+    #[must_use]
+    pub fn without_rotation(&self) -> Vec<&'static str> {
+        let further = || self.further.iter();
+        [
+            (
+                "a",
+                self.a.has_rotation() && further().all(|further| further.a.has_rotation()),
+            ),
+            (
+                "b",
+                self.b.has_rotation() && further().all(|further| further.b.has_rotation()),
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(key, has_rotation)| (!has_rotation).then_some(key))
+        .collect()
+    }
+
+    /// Bands for the averages by sensitivity and distance, for a test whose assembly has these joints: those of each joint.
+    /// Bands that the study gives stay.
+    ///
+    /// # Errors
+    /// [`IdentifyError::Coupling`] at an undamped resonance.
+    pub fn choose_bands(
+        &self,
+        lines: &Lines,
+        joints: &[JointMatrices],
+    ) -> Result<Vec<Bands>, IdentifyError> {
+        let given = self.bands.given();
+        Ok(band_choice::for_joints(
+            lines,
+            &self.layout(),
+            joints,
+            &given,
+        )?)
+    }
+
+    /// Why the joint models cannot be compared, if they cannot.
+    #[must_use]
+    pub fn models_not_compared(&self) -> Option<String> {
+        let keys: Vec<String> = self
+            .without_rotation()
+            .iter()
+            .map(|key| format!("{key}.joint.theta"))
+            .collect();
+        (!keys.is_empty()).then(|| {
+            format!(
+                "{} {} not given, and without the rotation only \"translation\" can be identified",
+                keys.join(" and "),
+                if keys.len() == 1 { "is" } else { "are" }
+            )
+        })
+    }
+
+    /// Where the unknowns stand in the matrices of all bolts.
+    pub(super) fn layout(&self) -> Layout {
+        Layout::of_bolts(self.model, &self.bolts, self.dofs_of_a_bolt())
+    }
+
+    /// DOFs of each bolt in the data: the joint model's, and the rotation wherever it is given.
+    pub(super) fn dofs_of_a_bolt(&self) -> usize {
+        if self.without_rotation().is_empty() {
+            2
+        } else {
+            self.model.dofs()
+        }
+    }
     /// Reads and checks a study. Paths in it are relative to its own folder.
     ///
     /// # Errors
@@ -165,14 +282,15 @@ impl Study {
         let check = Checker { path };
         let folder = path.parent().unwrap_or(Path::new(""));
         let model = file.joint.model;
-        let a = check.substructure("a", file.a, folder, model)?;
-        let b = check.substructure("b", file.b, folder, model)?;
+        let bolts = check.bolts(&file.a.joint.0, file.joint.bolts)?;
+        let a = check.substructure("a", file.a, folder, model, &bolts)?;
+        let b = check.substructure("b", file.b, folder, model, &bolts)?;
         check.name(&file.name)?;
         check.at_least_one(&file.assembly.0)?;
         let mut assemblies = Vec::new();
         for table in file.assembly.0 {
             let own = |key, table: Option<_>, otherwise: &Substructure| match table {
-                Some(table) => check.substructure(key, table, folder, model),
+                Some(table) => check.substructure(key, table, folder, model, &bolts),
                 None => Ok(otherwise.clone()),
             };
             let measured_in = |path: PathBuf| {
@@ -194,6 +312,7 @@ impl Study {
                     .map(measured_in)
                     .collect::<Result<_, _>>()?,
                 torque_n_m: check.torque(table.torque)?,
+                level: check.level(table.level.as_ref())?,
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
             };
@@ -202,16 +321,21 @@ impl Study {
             }
             assemblies.push(assembly);
         }
+        check.torques(file.joint.torques, &assemblies)?;
         let first = assemblies.remove(0);
         let frequency_range_hz = check.frequency_range(&file.frequency)?;
-        check.bands(&file.bands)?;
+        check.bands(&file.bands.0)?;
         let noise = file
             .noise
             .map(|table| check.noise(&table))
             .transpose()?
             .unwrap_or_default();
+        let start = file
+            .start
+            .map(|table| check.start(&table, model))
+            .transpose()?;
         if let Some(bodies) = &file.bodies {
-            check.bodies(bodies, model.dofs())?;
+            check.bodies(bodies, model.dofs(), &bolts)?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -222,11 +346,15 @@ impl Study {
             points: first.points,
             repeats: first.repeats,
             torque_n_m: first.torque_n_m,
+            level: first.level,
             further: assemblies,
             model,
+            torques: file.joint.torques,
+            bolts,
             frequency_range_hz,
-            bands: file.bands,
+            bands: file.bands.0,
             noise,
+            start,
             bodies: file.bodies,
             notes: file.notes,
         })

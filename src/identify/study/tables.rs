@@ -12,8 +12,10 @@ use crate::frf::{Dof, Quantity};
 use crate::joint::Bodies;
 use crate::structure::{Boundary, Difference};
 
-use super::super::bands::Bands;
+use super::super::bands::{BandChoice, BandChoices};
+use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
+use super::super::torque::TorqueDependence;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,8 +33,9 @@ pub(super) struct StudyFile {
     #[serde(default)]
     pub(super) frequency: FrequencyTable,
     #[serde(default)]
-    pub(super) bands: Bands,
+    pub(super) bands: BandsTable,
     pub(super) noise: Option<NoiseTable>,
+    pub(super) start: Option<StartTable>,
     pub(super) bodies: Option<Bodies>,
     #[serde(default)]
     pub(super) notes: Vec<String>,
@@ -53,7 +56,7 @@ pub(super) struct SubstructureTable {
     pub(super) averages: Option<f64>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
-    pub(super) joint: JointPlaceTable,
+    pub(super) joint: JointPlaces,
     #[serde(default)]
     pub(super) points: BTreeMap<Dof, f64>,
 }
@@ -86,9 +89,39 @@ pub(super) enum OneOrMore {
     More(Vec<f64>),
 }
 
+/// One place of a bolt, or several.
+pub(super) struct JointPlaces(pub(super) Vec<JointPlaceTable>);
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for JointPlaces {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PlacesVisitor;
+        impl<'de> Visitor<'de> for PlacesVisitor {
+            type Value = JointPlaces;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the joint's place as a table, or a list of such tables for several bolts",
+                )
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<JointPlaces, A::Error> {
+                JointPlaceTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(|place| JointPlaces(vec![place]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<JointPlaces, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(JointPlaces)
+            }
+        }
+        deserializer.deserialize_any(PlacesVisitor)
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct JointPlaceTable {
+    pub(super) name: Option<String>,
     pub(super) y: Option<Dof>,
     pub(super) theta: Option<ThetaTable>,
     pub(super) x: Option<f64>,
@@ -172,6 +205,7 @@ pub(super) struct AssemblyTable {
     #[serde(default)]
     pub(super) repeats: Vec<PathBuf>,
     pub(super) torque: Option<f64>,
+    pub(super) level: Option<ExcitationTable>,
     pub(super) a: Option<SubstructureTable>,
     pub(super) b: Option<SubstructureTable>,
 }
@@ -180,6 +214,122 @@ pub(super) struct AssemblyTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct JointTable {
     pub(super) model: JointModel,
+    #[serde(default)]
+    pub(super) torques: TorqueDependence,
+    pub(super) bolts: Option<BoltsKey>,
+}
+
+/// Level at which an assembly was measured.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExcitationTable {
+    pub(super) force: Option<f64>,
+    pub(super) displacement: Option<f64>,
+    pub(super) velocity: Option<f64>,
+    pub(super) acceleration: Option<f64>,
+    #[serde(default)]
+    pub(super) measure: LevelMeasure,
+}
+
+/// `[bands]`: one word for every entry, or a choice for each.
+#[derive(Default)]
+pub(super) struct BandsTable(pub(super) BandChoices);
+
+/// What an entry is averaged over.
+#[derive(Default)]
+pub(super) struct BandKey(BandChoice);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BandsOfEntries {
+    #[serde(default)]
+    yy: BandKey,
+    #[serde(default)]
+    ytheta: BandKey,
+    #[serde(default)]
+    thetatheta: BandKey,
+}
+
+fn band_word<E: de::Error>(word: &str) -> Result<BandChoice, E> {
+    match word {
+        "automatic" => Ok(BandChoice::Automatic),
+        "median" => Ok(BandChoice::Median),
+        _ => Err(E::invalid_value(
+            de::Unexpected::Str(word),
+            &"\"automatic\" or \"median\"",
+        )),
+    }
+}
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for BandsTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct BandsVisitor;
+        impl<'de> Visitor<'de> for BandsVisitor {
+            type Value = BandsTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"automatic\", \"median\", or a table with yy, ytheta and thetatheta")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<BandsTable, E> {
+                band_word(word).map(|choice| BandsTable(BandChoices::all(choice)))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BandsTable, A::Error> {
+                let BandsOfEntries {
+                    yy: BandKey(yy),
+                    ytheta: BandKey(ytheta),
+                    thetatheta: BandKey(thetatheta),
+                } = BandsOfEntries::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(BandsTable(BandChoices {
+                    yy,
+                    ytheta,
+                    thetatheta,
+                }))
+            }
+        }
+        deserializer.deserialize_any(BandsVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for BandKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ChoiceVisitor;
+        impl<'de> Visitor<'de> for ChoiceVisitor {
+            type Value = BandKey;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of bands [from, to], \"automatic\" or \"median\"")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<BandKey, E> {
+                band_word(word).map(BandKey)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<BandKey, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence))
+                    .map(|bands| BandKey(BandChoice::Given(bands)))
+            }
+        }
+        deserializer.deserialize_any(ChoiceVisitor)
+    }
+}
+
+/// What several bolts have to do with each other.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum BoltsKey {
+    Alike,
+    Different,
+}
+
+/// A joint to start the search from.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StartTable {
+    pub(super) stiffness: Vec<Vec<f64>>,
+    pub(super) damping: Vec<Vec<f64>>,
 }
 
 #[derive(Default, Deserialize)]

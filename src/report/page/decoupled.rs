@@ -8,9 +8,9 @@ use super::super::chart_data::scaled_unit;
 use super::super::look::Look;
 use super::IdentificationReport;
 use super::figure::figure;
-use super::parameters::{interval, symbol};
-use crate::html::{beside, percent};
-use crate::identify::{JointMatrices, JointModel, Unknown};
+use super::parameters::interval;
+use crate::html::{beside, percent, quantity};
+use crate::identify::{JointMatrices, Unknown};
 use crate::structure::ComplexMatrix;
 
 const HEIGHT: f64 = 170.0;
@@ -24,8 +24,7 @@ const MARGIN: f64 = 0.25;
 pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let found = report.found;
     let mut html = "<h2>Stiffness and damping line by line</h2>\n".to_owned();
-    let (frequency_hz, joints) = decoupled(report);
-    if joints.is_empty() {
+    if decoupled(report, 0).1.is_empty() {
         return html
             + "<p>There is no decoupling: it needs every pair of points measured and as many points as the joint has DOFs. The \
                estimate does not need it.</p>\n";
@@ -34,24 +33,31 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
              line across is the estimate, with its 95 % interval. Where the receptances say little about the joint the dots \
              scatter, and because noise is inverted with them they are drawn away from the joint's values, not only \
              spread about them.</p>\n";
-    let unknowns = Unknown::of(found.model);
-    let entries = found.model.entries().len();
+    if let Some(torque) = found.estimate.joints()[0].torque_n_m {
+        html += &format!(
+            "<p>At {}, the torque of the first assembly.</p>\n",
+            quantity(torque, "N·m")
+        );
+    }
+    let unknowns = &found.estimate.covariance().unknowns;
+    let entries = unknowns.len() / 2;
     for entry in 0..entries {
+        let (frequency_hz, joints) = decoupled(report, unknowns[entry].joint);
         let strips = [(entry, STIFFNESS), (entries + entry, DAMPING)];
         let strips =
             strips.map(|(index, look)| strip(report, index, &unknowns[index], look, &joints));
         let caption = format!(
             "<b>{} and {}</b> {}",
-            symbol(unknowns[entry].name),
-            symbol(unknowns[entries + entry].name),
-            caption(report, entry, &unknowns, &strips, joints.len())
+            report.symbol(&unknowns[entry]),
+            report.symbol(&unknowns[entries + entry]),
+            caption(report, entry, unknowns, &strips, joints.len())
         );
         let chart = Chart {
             id: format!("decoupled-{}", entry + 1),
             title: format!(
                 "{} and {} of each line",
-                unknowns[entry].name,
-                unknowns[entries + entry].name
+                unknowns[entry].label(found.bolts.with_own_joint()),
+                unknowns[entries + entry].label(found.bolts.with_own_joint())
             ),
             frequency_hz: &frequency_hz,
             strips: strips.into(),
@@ -62,16 +68,23 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     html
 }
 
-/// Frequency and joint of each line of every assembly that can be decoupled, in ascending order.
-fn decoupled(report: &IdentificationReport<'_>) -> (Vec<f64>, Vec<JointMatrices>) {
+/// Frequency and matrices of one bolt's joint at each line that can be decoupled of every assembly with the first one's joint, in
+/// ascending order; bolt after bolt where several have the joint.
+fn decoupled(report: &IdentificationReport<'_>, joint: usize) -> (Vec<f64>, Vec<JointMatrices>) {
     let assemblies = report.assemblies();
-    let decoupled = report.found.estimate.decoupled();
-    let mut lines: Vec<(f64, JointMatrices)> = assemblies
-        .iter()
-        .zip(decoupled)
-        .flat_map(|(assembly, decoupled)| assembly.lines.frequency_hz.iter().zip(decoupled))
-        .filter_map(|(&hz, stiffness)| Some((hz, matrices(hz, stiffness.as_ref()?))))
-        .collect();
+    let estimate = &report.found.estimate;
+    let mut lines: Vec<(f64, JointMatrices)> = Vec::new();
+    for bolt in estimate.decoupled_of(joint) {
+        let own = assemblies.iter().zip(&bolt).enumerate();
+        for (_, (assembly, decoupled)) in
+            own.filter(|&(number, _)| estimate.has_first_joint(number))
+        {
+            let pairs = assembly.lines.frequency_hz.iter().zip(decoupled);
+            lines.extend(
+                pairs.filter_map(|(&hz, stiffness)| Some((hz, matrices(hz, stiffness.as_ref()?)))),
+            );
+        }
+    }
     lines.sort_by(|a, b| a.0.total_cmp(&b.0));
     lines.into_iter().unzip()
 }
@@ -96,7 +109,7 @@ fn strip(
 ) -> ChartStrip {
     let found = report.found;
     let covariance = found.estimate.covariance();
-    let estimate = unknown.value(&found.joint);
+    let estimate = report.value(unknown);
     let interval = covariance.intervals()[index];
     let values: Vec<f64> = joints.iter().map(|joint| unknown.value(joint)).collect();
     let identified = covariance.identified[index];
@@ -119,7 +132,7 @@ fn strip(
         _ => (0.05 * high.abs()).max(f64::MIN_POSITIVE.sqrt()),
     };
     ChartStrip {
-        name: unknown.name.replace("theta", "θ"),
+        name: report.label(unknown),
         unit,
         height: HEIGHT,
         axis: (high >= low).then_some(Axis::Linear {
@@ -127,7 +140,7 @@ fn strip(
             high: (high + margin) / factor,
         }),
         curves: vec![Curve {
-            name: unknown.name.replace("theta", "θ"),
+            name: report.label(unknown),
             look,
             values: values.iter().map(|value| value / factor).collect(),
         }],
@@ -140,12 +153,10 @@ fn strip(
 }
 
 fn bands<'a>(report: &'a IdentificationReport<'_>, index: usize) -> &'a [[f64; 2]] {
-    let (bands, model) = (&report.study.bands, report.found.model);
-    match (model, model.entries()[index % model.entries().len()]) {
-        (JointModel::Translation, _) | (_, (0, 0)) => &bands.yy,
-        (_, (1, 1)) => &bands.thetatheta,
-        _ => &bands.ytheta,
-    }
+    let found = report.found;
+    let unknown = &found.estimate.covariance().unknowns[index];
+    let entries = found.model.entries().len();
+    &found.estimate.bands()[unknown.joint][index % entries].bands
 }
 
 /// Estimate and interval of stiffness and damping in words, and how much lies off the axes.
@@ -164,13 +175,13 @@ fn caption(
     let sentences = [entry, entries + entry].map(|index| {
         let unknown = &unknowns[index];
         if !covariance.identified[index] {
-            return format!("{} is not identified.", symbol(unknown.name));
+            return format!("{} is not identified.", report.symbol(unknown));
         }
         let deviation = deviations[index];
         format!(
             "{} = {} {unit} ({}).",
-            symbol(unknown.name),
-            beside(unknown.value(&found.joint), deviation),
+            report.symbol(unknown),
+            beside(report.value(unknown), deviation),
             interval(intervals[index], deviation),
             unit = unknown.unit
         )
@@ -180,7 +191,7 @@ fn caption(
         .map(|strip| percent(strip.off_axis() as f64 / lines as f64));
     let off: Vec<String> = off.collect();
     let bands = if bands(report, entry).is_empty() {
-        " No bands are given: the average is the median over all lines."
+        " The average is the median over all lines."
     } else {
         ""
     };

@@ -48,7 +48,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
 }
 
 /// How many functions of each assembly are drawn: as equal as can be.
-fn shares(assemblies: &[Assembly<'_>], most: usize) -> Vec<usize> {
+pub(super) fn shares(assemblies: &[Assembly<'_>], most: usize) -> Vec<usize> {
     let mut shares = vec![0; assemblies.len()];
     let mut left = most;
     while left > 0 {

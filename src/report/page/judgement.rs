@@ -1,13 +1,12 @@
 //! How well the joint fits, which joint model the data call for, and whether the joint is passive.
 
-use super::parameters::symbol;
-use super::{IdentificationReport, counted};
-use crate::html::{capitalised, cell, escaped, number_cell, percent, shown, table};
-use crate::identify::Unknown;
+use super::{IdentificationReport, counted, over_torque};
+use crate::html::{capitalised, cell, escaped, number_cell, percent, quantity, shown, table};
+use crate::identify::{JointEstimate, JointMatrices};
 use crate::joint::JointFile;
 
 /// The result in a few sentences, and what to beware of.
-pub(super) fn summary(report: &IdentificationReport<'_>, file: &JointFile) -> String {
+pub(super) fn summary(report: &IdentificationReport<'_>, files: &[JointFile]) -> String {
     let found = report.found;
     let functions: usize = report
         .assemblies()
@@ -19,28 +18,25 @@ pub(super) fn summary(report: &IdentificationReport<'_>, file: &JointFile) -> St
         .iter()
         .map(|assembly| assembly.lines.frequency_hz.len())
         .sum();
-    let passive = if file.passivity().is_passive() {
-        "passive"
-    } else {
-        "active"
+    let is_passive = files.iter().all(|file| file.passivity().is_passive());
+    let verdict = match (files.len(), is_passive) {
+        (1, true) => "the joint is passive",
+        (1, false) => "the joint is active",
+        (_, true) => "all joints are passive",
+        (_, false) => "not all joints are passive",
     };
-    let covariance = found.estimate.covariance();
-    let open = covariance
-        .identified
-        .iter()
-        .filter(|identified| !**identified)
-        .count();
-    let determined = match open {
+    let joints = found.estimate.joints();
+    let identified = || joints.iter().flat_map(|joint| &joint.covariance.identified);
+    let determined = match identified().filter(|identified| !**identified).count() {
         0 => "the data determine every parameter".to_owned(),
         open => format!(
-            "{} of {} parameters are not identified",
-            open,
-            covariance.identified.len()
+            "{open} of {} parameters are not identified",
+            identified().count()
         ),
     };
     let mut html = format!(
-        "<p>From {} and {}: the regenerated functions are within {} r.m.s. of the measured ones; {determined}; the joint is \
-         {passive}.</p>\n",
+        "<p>From {} and {}: the regenerated functions are within {} r.m.s. of the measured ones; {determined}; \
+         {verdict}.</p>\n",
         counted(functions, "function"),
         counted(lines, "line"),
         percent(found.relative_rms)
@@ -58,12 +54,13 @@ pub(super) fn summary(report: &IdentificationReport<'_>, file: &JointFile) -> St
     html
 }
 
-pub(super) fn section(report: &IdentificationReport<'_>, file: &JointFile) -> String {
+pub(super) fn section(report: &IdentificationReport<'_>, files: &[JointFile]) -> String {
     format!(
-        "<h2>How well it fits</h2>\n{}{}{}",
+        "<h2>How well it fits</h2>\n{}{}{}{}",
         fit(report),
         choice(report),
-        passivity(report, file)
+        over_torque::choice(report),
+        passivity(report, files)
     )
 }
 
@@ -92,7 +89,15 @@ fn fit(report: &IdentificationReport<'_>) -> String {
                 ),
             ));
         }
-        _ => rows.push(row(
+        (Some(chi_squared), false) => rows.push(row(
+            "χ² per degree of freedom",
+            &format!(
+                "{}, with the noise that coherence tells; no test, because coherence is an estimate itself: with <i>n</i> averages \
+                 <i>n</i>/(<i>n</i> − 2) is to be expected",
+                shown(chi_squared, 4)
+            ),
+        )),
+        (None, _) => rows.push(row(
             "χ² per degree of freedom",
             "no test: the study does not state the noise, its level follows from the residual",
         )),
@@ -141,6 +146,12 @@ fn choice(report: &IdentificationReport<'_>) -> String {
     let Some(choice) = report.found.estimate.model_choice() else {
         return String::new();
     };
+    if let Some(reason) = report.study.models_not_compared() {
+        return format!(
+            "<h3>Choice of the joint model</h3>\n<p>The joint models are not compared: {}.</p>\n",
+            escaped(&reason)
+        );
+    }
     let used = report.found.model;
     let rows: Vec<String> = choice
         .models
@@ -159,7 +170,7 @@ fn choice(report: &IdentificationReport<'_>) -> String {
             }
             [
                 cell(&fit.model.to_string()),
-                number_cell(&fit.model.unknowns().to_string()),
+                number_cell(&fit.unknowns.to_string()),
                 number_cell(&format!("{:.1}", fit.bic_difference)),
                 number_cell(
                     &fit.reduced_chi_squared
@@ -192,42 +203,62 @@ fn choice(report: &IdentificationReport<'_>) -> String {
     )
 }
 
-fn passivity(report: &IdentificationReport<'_>, file: &JointFile) -> String {
+fn passivity(report: &IdentificationReport<'_>, files: &[JointFile]) -> String {
     let found = report.found;
-    let verdicts: String = file
-        .passivity()
-        .matrices
-        .iter()
-        .map(|matrix| format!("<li>{}</li>\n", escaped(&matrix.to_string())))
-        .collect();
+    let bolts = found.bolts.with_own_joint();
+    let mut verdicts = String::new();
+    for (joint, file) in files.iter().enumerate() {
+        let bolt = bolts.get(joint).map(|bolt| format!("{}: ", escaped(bolt)));
+        let bolt = bolt.unwrap_or_default();
+        for matrix in &file.passivity().matrices {
+            verdicts += &format!("<li>{bolt}{}</li>\n", escaped(&matrix.to_string()));
+        }
+    }
     let mut html = format!(
         "<h3>Passivity</h3>\n<p>A passive joint stores energy or takes it: its matrices are positive semidefinite.</p>\n\
          <ul>\n{verdicts}</ul>\n"
     );
-    let free = found.estimate.free();
-    if free == &found.joint {
+    let joints = found.estimate.by_torque();
+    let active = joints.iter().filter(|joint| joint.free != joint.bolts());
+    let tables: String = active
+        .map(|joint| free_and_passive(report, joint))
+        .collect();
+    if tables.is_empty() {
         html += "<p>The free estimate is passive already: free and passive estimate are the same.</p>\n";
         return html;
     }
-    let identified = &found.estimate.covariance().identified;
-    let rows: Vec<String> = Unknown::of(found.model)
-        .into_iter()
-        .zip(identified)
+    html += &tables;
+    html + "<p>The free estimate is active. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
+            holds.</p>\n"
+}
+
+/// Both estimates of a joint whose free one is active.
+fn free_and_passive(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String {
+    let covariance = &joint.covariance;
+    let rows: Vec<String> = covariance
+        .unknowns
+        .iter()
+        .zip(&covariance.identified)
         .map(|(unknown, identified)| {
-            let value = |joint| match identified {
-                true => number_cell(&shown(unknown.value(joint), 5)),
+            let value = |joints: &[JointMatrices]| match identified {
+                true => number_cell(&shown(unknown.value(&joints[unknown.joint]), 5)),
                 false => "<td class=\"open\">not identified</td>".to_owned(),
             };
             format!(
                 "<th scope=\"row\">{}</th>{}{}{}",
-                symbol(unknown.name),
-                value(free),
-                value(&found.joint),
+                report.symbol(unknown),
+                value(&joint.free),
+                value(joint.bolts()),
                 cell(unknown.unit)
             )
         })
         .collect();
-    html += &table(&["", "Free estimate", "Passive estimate", "Unit"], &rows);
-    html + "<p>The free estimate is active. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
-            holds.</p>\n"
+    let heading = joint
+        .torque_n_m
+        .map(|torque| format!("<p>At {}:</p>\n", quantity(torque, "N·m")))
+        .unwrap_or_default();
+    format!(
+        "{heading}{}",
+        table(&["", "Free estimate", "Passive estimate", "Unit"], &rows)
+    )
 }

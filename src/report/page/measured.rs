@@ -1,12 +1,14 @@
 //! What was measured, what was computed, and what the identification takes for granted.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use super::{Assembly, IdentificationReport, counted};
+use super::{Assembly, IdentificationReport, beside, counted, files};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    FrfFile, JointModel, NoiseLevel, Rotation, Source, StatedLevel, Substructure,
+    Bolts, FrfFile, JointModel, Level, Lines, MeasuredSubstructure, NoiseLevel, Rotation, Source,
+    StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
 
@@ -14,16 +16,22 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut rows = vec![
         row("Study", &format!("<code>{}</code>", file_name(&study.path))),
-        row("Joint model", model(study.model)),
-        row("Substructure A", &substructure(&study.a)),
-        row("Substructure B", &substructure(&study.b)),
+        row("Joint model", &joint(study.model, &study.bolts)),
+        row("Substructure A", &substructure(&study.a, &study.bolts)),
+        row("Substructure B", &substructure(&study.b, &study.bolts)),
     ];
     let assemblies = report.assemblies();
     let further = study
         .further
         .iter()
-        .map(|assembly| (&assembly.file, assembly.repeats.len(), assembly.torque_n_m));
-    let sources = std::iter::once((&study.assembly, study.repeats.len(), study.torque_n_m));
+        .map(|own| (&own.file, own.repeats.len(), own.torque_n_m, own.level));
+    let first = (
+        &study.assembly,
+        study.repeats.len(),
+        study.torque_n_m,
+        study.level,
+    );
+    let sources = std::iter::once(first);
     for (number, (source, measured)) in sources.chain(further).zip(&assemblies).enumerate() {
         let name = match assemblies.len() {
             1 => "Assembly".to_owned(),
@@ -33,7 +41,10 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
     for (number, further) in study.further.iter().enumerate() {
         for (name, own, common) in [("A", &further.a, &study.a), ("B", &further.b, &study.b)] {
-            let (own, common) = (substructure(own), substructure(common));
+            let (own, common) = (
+                substructure(own, &study.bolts),
+                substructure(common, &study.bolts),
+            );
             if own != common {
                 rows.push(row(
                     &format!("Substructure {name} of assembly {}", number + 2),
@@ -42,19 +53,35 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             }
         }
     }
+    for found in &report.found.from_modes {
+        rows.push(row(
+            &format!(
+                "From modes, substructure {}",
+                found.substructure.to_uppercase()
+            ),
+            &beside::from_modes(found),
+        ));
+    }
+    if let Some(start) = &study.start {
+        rows.push(row(
+            "Presumed joint, a start of the search",
+            &beside::start(start),
+        ));
+    }
     let [from, to] = study.frequency_range_hz;
     rows.push(row(
         "Frequency range",
         &format!("{} to {} Hz", number(from), number(to)),
     ));
-    rows.push(row("Bands of the average", &bands(report)));
+    rows.push(row("Bands of the average", &beside::bands(report)));
     rows.push(row("Noise", &noise(report)));
     for note in &study.notes {
         rows.push(row("Note", &escaped(note)));
     }
     format!(
-        "<h2>What was measured and assumed</h2>\n{}{}",
+        "<h2>What was measured and assumed</h2>\n{}{}{}",
         table(&[], &rows).replace("<thead><tr></tr></thead>\n", ""),
+        files::section(report),
         assumptions(report)
     )
 }
@@ -78,35 +105,66 @@ fn model(model: JointModel) -> &'static str {
     }
 }
 
+fn joint(joint_model: JointModel, bolts: &Bolts) -> String {
+    let names: Vec<String> = bolts.names().iter().map(|name| escaped(name)).collect();
+    let names = names.join(", ");
+    let model = model(joint_model);
+    match bolts {
+        Bolts::One => model.to_owned(),
+        Bolts::Alike(_) => format!("{model}; the same joint at the bolts {names}"),
+        Bolts::Different(_) => format!("{model}; a joint of its own at each of the bolts {names}"),
+    }
+}
+
 fn dofs(dofs: &[Dof]) -> String {
     let names: Vec<String> = dofs.iter().map(|dof| escaped(&dof.to_string())).collect();
     names.join(", ")
 }
 
-fn substructure(substructure: &Substructure) -> String {
+/// The places of the joint, with the names of the bolts where there are several.
+fn at_bolts(places: Vec<String>, bolts: &Bolts) -> String {
+    let mut named = bolts.names().iter();
+    let places = places.into_iter().map(|place| match named.next() {
+        Some(name) => format!("{} {place}", escaped(name)),
+        None => place,
+    });
+    format!("joint {}", places.collect::<Vec<_>>().join("; "))
+}
+
+fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     match substructure {
-        Substructure::Measured { source, y, theta } => {
+        Substructure::Measured { source, joints } => {
             let origin = match source {
-                Source::Frf(file) => format!("FRFs in <code>{}</code>", file_name(&file.path)),
+                Source::Frf { file, modes } => {
+                    let modes = modes.as_deref().map(|path| {
+                        format!(
+                            ", those not measured from the modes in <code>{}</code>",
+                            file_name(path)
+                        )
+                    });
+                    let file = file_name(&file.path);
+                    format!("FRFs in <code>{file}</code>{}", modes.unwrap_or_default())
+                }
                 Source::Modal(path) => {
                     format!("FRFs from the modes in <code>{}</code>", file_name(path))
                 }
             };
-            let rotation = match theta {
+            let rotation = |theta: &Option<Rotation>| match theta {
                 None => String::new(),
                 Some(Rotation::Measured(theta)) => {
                     format!(", <i>θ</i> measured as {}", escaped(&theta.to_string()))
                 }
                 Some(rotation) => format!(", <i>θ</i> by {}", difference(rotation)),
             };
-            format!(
-                "measured: {origin}; joint <i>y</i> at {}{rotation}",
-                escaped(&y.to_string())
-            )
+            let places = joints.iter().map(|joint| {
+                let y = escaped(&joint.y.to_string());
+                format!("<i>y</i> at {y}{}", rotation(&joint.theta))
+            });
+            format!("measured: {origin}; {}", at_bolts(places.collect(), bolts))
         }
         Substructure::Beam {
             beam,
-            joint_m,
+            joints_m,
             positions_m,
         } => {
             let points: Vec<String> = positions_m
@@ -115,10 +173,11 @@ fn substructure(substructure: &Substructure) -> String {
                     format!("{} at {} m", escaped(&dof.to_string()), number(*position_m))
                 })
                 .collect();
+            let places = joints_m.iter().map(|x_m| format!("at {} m", number(*x_m)));
             format!(
-                "computed: {}; joint at {} m, points {}",
+                "computed: {}; {}, points {}",
                 self::beam(beam),
-                number(*joint_m),
+                at_bolts(places.collect(), bolts),
                 points.join(", ")
             )
         }
@@ -161,7 +220,7 @@ fn beam(beam: &Beam) -> String {
 }
 
 fn assembly(
-    (file, repeats, torque_n_m): (&FrfFile, usize, Option<f64>),
+    (file, repeats, torque_n_m, level): (&FrfFile, usize, Option<f64>, Option<Level>),
     measured: &Assembly<'_>,
 ) -> String {
     let frequency_hz = &measured.lines.frequency_hz;
@@ -197,34 +256,10 @@ fn assembly(
     if let Some(torque) = torque_n_m {
         html += &format!("; tightened to {} N·m", number(torque));
     }
+    if let Some(level) = level {
+        html += &format!("; {}", escaped(&level.to_string()));
+    }
     html
-}
-
-fn bands(report: &IdentificationReport<'_>) -> String {
-    let bands = &report.study.bands;
-    let entries: &[(&str, &[[f64; 2]])] = match report.study.model {
-        JointModel::Translation => &[("yy", &bands.yy)],
-        JointModel::Diagonal => &[("yy", &bands.yy), ("θθ", &bands.thetatheta)],
-        JointModel::Full => &[
-            ("yy", &bands.yy),
-            ("yθ", &bands.ytheta),
-            ("θθ", &bands.thetatheta),
-        ],
-    };
-    let entries: Vec<String> = entries
-        .iter()
-        .map(|(name, bands)| {
-            let ranges: Vec<String> = bands
-                .iter()
-                .map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)))
-                .collect();
-            match ranges.as_slice() {
-                [] => format!("{name}: none, median over all lines"),
-                ranges => format!("{name}: {}", ranges.join(", ")),
-            }
-        })
-        .collect();
-    entries.join("; ")
 }
 
 fn noise(report: &IdentificationReport<'_>) -> String {
@@ -240,51 +275,63 @@ fn noise(report: &IdentificationReport<'_>) -> String {
         }
         parts.join(" and ")
     };
-    let lines = report.assemblies();
-    let mut sentences = Vec::new();
-    if lines
-        .iter()
-        .all(|assembly| assembly.lines.relative_variance.is_some())
-    {
-        sentences.push("of the assembly: from coherence and averages, line by line".to_owned());
-    } else if lines
-        .iter()
-        .all(|assembly| assembly.lines.repeats.is_some())
-        && !noise.is_stated()
-    {
-        sentences
-            .push("of the assembly: from the scatter of the repeats and the residual".to_owned());
-    }
+    let assemblies = report.assemblies();
+    let all = |has: fn(&Lines) -> bool| assemblies.iter().all(|assembly| has(assembly.lines));
     let origin = if noise.is_stated() {
         "stated"
+    } else if all(|lines| lines.repeats.is_some()) {
+        "from the scatter of the repeats and the residual"
     } else {
         "estimated from the residual"
     };
-    match found.estimate.noise_level() {
-        Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
-        None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
+    let mut sentences = Vec::new();
+    if all(|lines| lines.relative_variance.is_some()) {
+        sentences.push(
+            "of the assembly: from coherence, line by line, <i>σ</i>²/|<i>H</i>|² = (1 − <i>γ</i>²)/(<i>n</i> <i>γ</i>²)".to_owned(),
+        );
+    } else {
+        match found.estimate.noise_level() {
+            Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
+            None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
+        }
+        let coherent: Vec<String> = (1..)
+            .zip(&assemblies)
+            .filter(|(_, assembly)| assembly.lines.relative_variance.is_some())
+            .map(|(number, _)| number.to_string())
+            .collect();
+        if !coherent.is_empty() {
+            let numbers = coherent.join(", ");
+            sentences.push(format!(
+                "but of assembly {numbers} from coherence, line by line"
+            ));
+        }
     }
+    let measured = |of: &Option<Arc<MeasuredSubstructure>>| {
+        let variance = of.as_ref().map(|measured| &measured.relative_variance);
+        variance.map(Option::is_some)
+    };
     for (name, measured, stated) in [
-        ("A", found.lines.a_measured.is_some(), noise.a),
-        ("B", found.lines.b_measured.is_some(), noise.b),
+        ("A", measured(&found.lines.a_measured), noise.a),
+        ("B", measured(&found.lines.b_measured), noise.b),
     ] {
         let words = match (measured, stated) {
-            (false, _) => "taken as exact".to_owned(),
+            (None, _) => "taken as exact".to_owned(),
             (
-                true,
+                Some(_),
                 StatedLevel {
                     relative: Some(0.0),
                     floor: Some(0.0),
                 },
             ) => "stated to be exact".to_owned(),
+            (Some(true), _) => "from coherence, line by line".to_owned(),
             (
-                true,
+                Some(false),
                 StatedLevel {
                     relative: None,
                     floor: None,
                 },
             ) => "as the assembly's".to_owned(),
-            (true, stated) => {
+            (Some(false), stated) => {
                 let part = |value: Option<f64>, unit: &str| match value {
                     Some(value) => format!("{}{unit}", shown(value, 3)),
                     None => "as the assembly's".to_owned(),
@@ -304,7 +351,7 @@ fn noise(report: &IdentificationReport<'_>) -> String {
 fn assumptions(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut list = vec![
-        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency.".to_owned(),
+        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency or amplitude.".to_owned(),
         "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
         "Errors of measured functions are independent from line to line and from function to function, and circular in the \
          complex plane. Standard deviations are those of the complex error."
@@ -322,15 +369,21 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
                 "Substructure {name} comes from modes: their errors are not in the intervals."
             )),
             Substructure::Measured {
-                source: Source::Frf(_),
+                source: Source::Frf { modes: Some(_), .. },
+                ..
+            } => list.push(format!(
+                "Functions of substructure {name} that come from modes are taken as exact: their errors are not in the intervals."
+            )),
+            Substructure::Measured {
+                source: Source::Frf { modes: None, .. },
                 ..
             } => {}
         }
-        if let Substructure::Measured {
-            theta: Some(rotation @ Rotation::Difference { .. }),
-            ..
-        } = substructure
-        {
+        let Substructure::Measured { joints, .. } = substructure else {
+            continue;
+        };
+        let rotations = joints.iter().filter_map(|joint| joint.theta.as_ref());
+        for rotation in rotations.filter(|r| matches!(r, Rotation::Difference { .. })) {
             list.push(format!(
                 "Rotations of {name} follow from translations by {}; the error of that difference is not in the intervals.",
                 difference(rotation)

@@ -1,17 +1,21 @@
 //! The report of an identification: one page without any reference to the network, for a screen and for paper.
 
+mod beside;
 mod decoupled;
 mod figure;
+mod files;
 mod functions;
 mod judgement;
 mod measured;
 mod origin;
+mod over_torque;
 mod parameters;
 mod sensitivity;
 
 use crate::export::Timestamp;
 use crate::html::{self, escaped};
 use crate::identify::{Identification, Study};
+use crate::joint::JointFile;
 
 /// The report of an identification.
 #[derive(Debug, Clone, Copy)]
@@ -32,16 +36,21 @@ impl IdentificationReport<'_> {
     #[must_use]
     pub fn to_html(&self) -> String {
         let name = escaped(&self.found.name);
-        let file = self.found.joint_file();
+        let files: Vec<JointFile> = self
+            .found
+            .joint_files()
+            .into_iter()
+            .map(|(_, file)| file)
+            .collect();
         let sections = [
-            judgement::summary(self, &file),
+            judgement::summary(self, &files),
             measured::section(self),
             parameters::section(self),
-            judgement::section(self, &file),
+            judgement::section(self, &files),
             functions::section(self),
             decoupled::section(self),
             sensitivity::section(self),
-            origin::section(&file),
+            files.first().map(origin::section).unwrap_or_default(),
         ]
         .concat();
         format!(

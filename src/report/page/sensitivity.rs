@@ -6,13 +6,14 @@ use super::super::axis::Axis;
 use super::super::chart::{Chart, ChartStrip, Curve};
 use super::super::look::Look;
 use super::figure::figure;
-use super::parameters::symbol;
+use super::functions::shares;
 use super::{Assembly, IdentificationReport};
 use crate::html::{cell, escaped, number_cell, shown, table};
-use crate::identify::{Sensitivity, Unknown, sensitivities};
+use crate::identify::{JointMatrices, Sensitivity, Unknown};
 
-/// Functions whose sensitivities are drawn at most.
+/// Functions of one assembly whose sensitivities are drawn at most, and of all; but one of each.
 const MOST_FIGURES: usize = 3;
+const MOST_OF_ALL: usize = 6;
 const HEIGHT: f64 = 240.0;
 const DECADES: i32 = 5;
 
@@ -26,12 +27,15 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                     small the measurement says little about the parameter.</p>\n"
         .to_owned();
     let assemblies = report.assemblies();
-    let unknowns = Unknown::of(report.found.model);
+    let unknowns = &report.found.estimate.covariance().unknowns;
     let mut rows = Vec::new();
     let mut figures = String::new();
-    for (number, assembly) in assemblies.iter().enumerate() {
-        let found = sensitivities(assembly.lines, report.found.model, &report.found.joint);
-        let found = match found {
+    let count = assemblies.len();
+    let most = (MOST_FIGURES * count).min(MOST_OF_ALL).max(count);
+    for (number, (assembly, share)) in assemblies.iter().zip(shares(&assemblies, most)).enumerate()
+    {
+        let joints = report.found.estimate.joint_of(number).bolts();
+        let found = match report.found.estimate.sensitivities(number, assembly.lines) {
             Ok(found) => found,
             Err(error) => {
                 html += &format!("<p class=\"warning\">{}</p>\n", escaped(&error.to_string()));
@@ -48,7 +52,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
             if own.is_empty() {
                 continue;
             }
-            let curves = curves(report, &unknowns, &own);
+            let curves = curves(report, joints, unknowns, &own);
             let name = format!("{} / {}", fit.response, fit.reference);
             let assembly_cell = match assemblies.len() {
                 1 => String::new(),
@@ -59,15 +63,19 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
                 .map(|curve| number_cell(&shown(rms(&curve.values), 2)))
                 .collect();
             rows.push(format!("{assembly_cell}{}{cells}", cell(&escaped(&name))));
-            if number == 0 && drawn < MOST_FIGURES {
+            if drawn < share.min(MOST_FIGURES) {
+                if drawn == 0 && count > 1 {
+                    figures += &format!("<h3>Assembly {}</h3>\n", number + 1);
+                }
                 drawn += 1;
-                figures += &chart(assembly, &name, drawn, curves);
+                let id = format!("sensitivity-{}-{drawn}", number + 1);
+                figures += &chart(assembly, &name, id, curves);
             }
         }
     }
     let names: Vec<String> = unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| report.symbol(unknown))
         .collect();
     let mut headings = match assemblies.len() {
         1 => Vec::new(),
@@ -82,6 +90,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
 
 fn curves(
     report: &IdentificationReport<'_>,
+    joints: &[JointMatrices],
     unknowns: &[Unknown],
     own: &[&Sensitivity],
 ) -> Vec<Curve> {
@@ -97,7 +106,7 @@ fn curves(
         .enumerate()
         .filter_map(|(index, unknown)| {
             let sensitivity = own.get(index % entries)?;
-            let scale = unknown.value(&report.found.joint).abs();
+            let scale = unknown.value(&joints[unknown.joint]).abs();
             let colour = COLOURS[index % entries % COLOURS.len()];
             let (look, values) = if index < entries {
                 (
@@ -111,7 +120,7 @@ fn curves(
                 )
             };
             Some(Curve {
-                name: unknown.name.replace("theta", "θ"),
+                name: report.label(unknown),
                 look,
                 values,
             })
@@ -119,10 +128,10 @@ fn curves(
         .collect()
 }
 
-fn chart(assembly: &Assembly<'_>, name: &str, number: usize, curves: Vec<Curve>) -> String {
+fn chart(assembly: &Assembly<'_>, name: &str, id: String, curves: Vec<Curve>) -> String {
     let values = curves.iter().flat_map(|curve| curve.values.iter().copied());
     let chart = Chart {
-        id: format!("sensitivity-{number}"),
+        id,
         title: format!("Sensitivity of {name} to each parameter over frequency"),
         frequency_hz: &assembly.lines.frequency_hz,
         strips: vec![ChartStrip {

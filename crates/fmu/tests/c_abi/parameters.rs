@@ -1,0 +1,121 @@
+//! Parameters: when they are checked and take effect, and the warning where they make the model active.
+
+use crate::{
+    c,
+    equations::Equations,
+    importer::{Instance, Kind, vr},
+    stepping::{EQUATIONS, STATES, assert_close, lap},
+};
+
+#[test]
+fn parameters_are_checked_when_they_take_effect() {
+    for (reference, value, expected) in [
+        (
+            vr::A_MASS,
+            0.0,
+            "parameter a.m is 0 kg, expected a number greater than zero",
+        ),
+        (vr::A_MASS, -2.0, "parameter a.m is -2 kg"),
+        (vr::STEP_SIZE_MAX, 0.0, "parameter step_size_max is 0 s"),
+        (
+            vr::STEP_SIZE_MAX,
+            -1e-5,
+            "parameter step_size_max is -0.00001 s",
+        ),
+        // ω² = (8e5 + 8e6)/2, ω = 2098 rad/s: RK4 diverges beyond 2.83/ω = 1.35 ms
+        (
+            vr::STEP_SIZE_MAX,
+            1.4e-3,
+            "step_size_max = 0.0014 s diverge",
+        ),
+    ] {
+        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        assert_eq!(instance.set(&[reference], &[value]), c::OK);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        let message = instance.refused(Instance::exit_initialization);
+        assert!(
+            message.starts_with("fmi3ExitInitializationMode: "),
+            "{message}"
+        );
+        assert!(message.contains(expected), "{message}");
+
+        let mut start = Instance::new(Kind::Lap, 1, &[]);
+        let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+        assert_eq!(instance.set(&[reference], &[value]), c::OK);
+        let [good] = start.get([reference]);
+        let message = instance.refused(|i| i.step(1e-3, 1e-3).0);
+        assert!(
+            message.starts_with("fmi3DoStep: ") && message.contains(expected),
+            "{message}"
+        );
+        // with the parameter as it was, the simulation goes on as if nothing had been
+        assert_eq!(instance.set(&[reference], &[good]), c::OK);
+        assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+    }
+    let mut instance = Instance::new(Kind::Lap, 1, &[("step_size_max", 1.3e-3)]);
+    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+}
+
+#[test]
+fn a_tuned_parameter_acts_from_the_next_step_on() {
+    let mut instance = lap(2e-5);
+    assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    let reached = instance.get(STATES);
+    assert_eq!(instance.set(&[vr::K_YY, vr::C_YY], &[2e6, 30.0]), c::OK);
+    assert_eq!(instance.step(1e-3, 1e-3).0, c::OK);
+    let tuned = Equations {
+        k12: 2e6,
+        c12: 30.0,
+        ..EQUATIONS
+    };
+    assert_close(
+        instance.get(STATES),
+        tuned.runge_kutta(reached, 2e-5, 50),
+        1e-11,
+    );
+}
+
+#[test]
+fn active_models_give_a_warning_and_work() {
+    for (kind, changes, expected) in [
+        (
+            Kind::Lap,
+            ("joint.c_yy", -1.0),
+            "the joint's damping matrix is not positive semidefinite",
+        ),
+        (
+            Kind::Element,
+            ("joint.k_yy", -1.0),
+            "the joint's stiffness matrix is not positive semidefinite",
+        ),
+        (
+            Kind::Lap,
+            ("b.c_y", -0.5),
+            "a support has negative stiffness or damping",
+        ),
+    ] {
+        let mut instance = Instance::new(kind, 1, &[changes]);
+        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::WARNING);
+        let log = instance.take_log();
+        let warning = log
+            .iter()
+            .find(|message| message.status == c::WARNING)
+            .unwrap();
+        assert_eq!(warning.category, "logStatusWarning");
+        assert!(warning.text.contains(expected), "{warning:?}");
+        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    }
+    // tuned later, the next step warns once
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    assert_eq!(instance.set(&[vr::B_C_Y], &[-0.5]), c::OK);
+    assert_eq!(instance.step(0.0, 1e-3), (c::WARNING, 1e-3));
+    assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+    // a step that is refused for another reason does not swallow the warning
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    assert_eq!(instance.set(&[vr::B_C_Y], &[-0.5]), c::OK);
+    instance.refused(|i| i.step(0.0, 1e5).0);
+    assert_eq!(instance.step(0.0, 1e-3), (c::WARNING, 1e-3));
+}

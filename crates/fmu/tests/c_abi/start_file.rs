@@ -1,0 +1,225 @@
+//! The start-value file: the resource path in every form, and what is refused by line.
+
+use std::fs;
+
+use crate::{
+    importer::{Folder, Kind, Request, start_text, text, vr},
+    instantiation::{lap, refusal},
+};
+
+fn refusal_of_start(start: &str) -> String {
+    let folder = Folder::with_start(start);
+    let path = text(&folder.0);
+    let message = refusal(&Request {
+        resources: Some(&path),
+        ..Request::default()
+    });
+    // a '#' in a log message starts a reference to a variable: literal ones are doubled
+    assert!(message.contains("Prüfung 100% ##1/start.txt"), "{message}");
+    message
+}
+
+#[test]
+fn resource_paths_in_all_forms() {
+    let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[("joint.k_yy", 123.0)]));
+    let path = text(&folder.0);
+    let escaped: String = path
+        .bytes()
+        .map(|byte| match byte {
+            b'/' | b'-' | b'.' | b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' => {
+                char::from(byte).to_string()
+            }
+            other => format!("%{other:02X}"),
+        })
+        .collect();
+    for form in [
+        path.clone(),
+        format!("{path}/"),
+        format!("file://{escaped}"),
+        format!("file://{escaped}/"),
+        format!("file:{escaped}/"),
+        format!("file://localhost{escaped}/"),
+    ] {
+        let request = Request {
+            resources: Some(&form),
+            ..Request::default()
+        };
+        let mut instance = request.instantiate().unwrap();
+        assert_eq!(instance.get([vr::K_YY]), [123.0], "{form}");
+    }
+}
+
+#[test]
+fn carriage_returns_are_accepted() {
+    let folder = Folder::with_start(&lap().replace('\n', "\r\n"));
+    let path = text(&folder.0);
+    let request = Request {
+        resources: Some(&path),
+        ..Request::default()
+    };
+    assert_eq!(request.instantiate().unwrap().get([vr::A_MASS]), [2.0]);
+}
+
+#[test]
+fn missing_resources_are_named() {
+    let folder = Folder::new("empty");
+    let path = text(&folder.0);
+    let message = refusal(&Request {
+        resources: Some(&path),
+        ..Request::default()
+    });
+    assert!(
+        message.contains(&path) && message.contains("start.txt cannot be read"),
+        "{message}"
+    );
+    let message = refusal(&Request {
+        resources: Some("file://server/share"),
+        ..Request::default()
+    });
+    assert!(message.contains("no local file URI"), "{message}");
+    // the test program is no FMU's library
+    for resources in [None, Some("")] {
+        let message = refusal(&Request {
+            resources,
+            ..Request::default()
+        });
+        assert!(message.contains("resources"), "{message}");
+    }
+}
+
+#[test]
+fn start_files_that_are_not_text_or_too_long_are_refused() {
+    let folder = Folder::new("binary");
+    let path = text(&folder.0);
+    fs::write(folder.0.join("start.txt"), [0xff, 0xfe, 0, 1]).unwrap();
+    let message = refusal(&Request {
+        resources: Some(&path),
+        ..Request::default()
+    });
+    assert!(message.contains("cannot be read"), "{message}");
+    fs::write(folder.0.join("start.txt"), "x".repeat(3 << 20)).unwrap();
+    let message = refusal(&Request {
+        resources: Some(&path),
+        ..Request::default()
+    });
+    assert!(
+        message.contains("line 1") && message.len() < 1000,
+        "{message}"
+    );
+}
+
+#[test]
+fn start_files_with_a_fault_are_refused_by_line() {
+    for (from, to, line, expected) in [
+        (
+            "bolted-joint-start/1",
+            "bolted-joint-start/2",
+            1,
+            "found \"bolted-joint-start/2\", expected the header",
+        ),
+        (
+            "model lap",
+            "model beam",
+            2,
+            "found \"model beam\", expected \"model element\" or \"model lap\"",
+        ),
+        (
+            "dofs 2",
+            "dofs 3",
+            3,
+            "found \"dofs 3\", expected \"dofs 1\" or \"dofs 2\"",
+        ),
+        (
+            "token {",
+            "tocken {",
+            4,
+            "found \"tocken {7f0c-4a} ##1\", expected \"token\" and the instantiation token",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_yy",
+            5,
+            "found \"joint.k_yy\", expected the name of a parameter, a space and a number",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "",
+            5,
+            "found \"\", expected the name of a parameter",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_xx 4000000",
+            5,
+            "\"joint.k_xx\" is not a parameter of this FMU",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "a.y 0",
+            5,
+            "\"a.y\" is not a parameter of this FMU",
+        ),
+        (
+            "joint.k_ytheta 10000",
+            "joint.k_yy 10000",
+            6,
+            "parameter joint.k_yy is given a second time",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_yy inf",
+            5,
+            "parameter joint.k_yy is \"inf\", expected a finite number",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_yy NaN",
+            5,
+            "parameter joint.k_yy is \"NaN\", expected a finite number",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_yy 1e999",
+            5,
+            "parameter joint.k_yy is \"1e999\", expected a finite number",
+        ),
+        (
+            "joint.k_yy 4000000",
+            "joint.k_yy 4 N/m",
+            5,
+            "parameter joint.k_yy is \"4 N/m\", expected a finite number",
+        ),
+        (
+            "step_size_max 0.00002\n",
+            "",
+            24,
+            "the file ends without parameter step_size_max",
+        ),
+    ] {
+        let start = lap();
+        assert!(start.contains(from), "{from} in {start}");
+        let message = refusal_of_start(&start.replacen(from, to, 1));
+        assert!(
+            message.contains(&format!("line {line}: {expected}")),
+            "{message}"
+        );
+    }
+    let message = refusal_of_start("");
+    assert!(message.contains("line 1: found \"\""), "{message}");
+}
+
+#[test]
+fn rotational_parameters_belong_to_two_degrees_of_freedom_only() {
+    let message = refusal_of_start(&lap().replace("dofs 2", "dofs 1"));
+    assert!(
+        message.contains("line 6: \"joint.k_ytheta\" is not a parameter"),
+        "{message}"
+    );
+    let message = refusal_of_start(&start_text(Kind::Lap, 1, &[]).replace("dofs 1", "dofs 2"));
+    assert!(
+        message.contains("the file ends without parameter joint.k_ytheta"),
+        "{message}"
+    );
+    let message = refusal_of_start(&lap().replace("model lap", "model element"));
+    assert!(message.contains("\"a.m\" is not a parameter"), "{message}");
+}

@@ -1,0 +1,410 @@
+//! One line of the assemblies of a group: receptances, residuals and derivatives, and how they are whitened.
+
+mod corrections;
+mod row_products;
+
+use num_complex::Complex64;
+
+use super::group::Group;
+use super::kernel::{Kernel, complex_stiffness};
+use super::layout::Place;
+use super::noise::NoiseLevel;
+use super::normal::Normal;
+use super::objective::Weights;
+use super::strip::{ENTRIES_OF_ONE, MOST_ENTRIES};
+use super::weights::of_one;
+use row_products::{RowProducts, add_coupling};
+
+const ZERO: Complex64 = Complex64::new(0.0, 0.0);
+
+/// One line of a group, linearised: everything that the normal equations need of it. Reused from line to line.
+pub(super) struct Line<'g, const N: usize> {
+    group: &'g Group<N>,
+    joint_entries: &'g [Place],
+    kernel: Kernel<N>,
+    transfer: Vec<[Complex64; N]>,
+    pub(super) index: usize,
+    pub(super) omega: f64,
+    /// H^C at each entry of all blocks.
+    pub(super) computed: Vec<Complex64>,
+    /// y − H^C, then r̃, then whitened.
+    pub(super) residual: Vec<Complex64>,
+    /// The joints of this group, ascending.
+    joints: Vec<usize>,
+    /// ∂H^C/∂K*, then whitened: for each of `joints`, for each entry of all blocks, one of each unknown entry of its K*.
+    by_joint: Vec<[Complex64; MOST_ENTRIES]>,
+    /// Unknowns of all torques together.
+    unknowns: usize,
+    /// J: for each source, every entry of all blocks.
+    pub(super) by_source: Vec<Complex64>,
+    /// Σ, then its Cholesky factor.
+    factor: Vec<Complex64>,
+    /// Σ|r̃|²/|H^C|², before whitening.
+    pub(super) relative_power: f64,
+    cost: f64,
+    /// The cost that is left once the corrections have followed, as linearised.
+    residual_cost: f64,
+    signal: f64,
+    log_determinant: f64,
+    trial: Vec<Complex64>,
+}
+
+impl<'g, const N: usize> Line<'g, N> {
+    pub(super) fn new(group: &'g Group<N>, joint_entries: &'g [Place]) -> Self {
+        let size = group.entries();
+        let joints = group.joints();
+        Self {
+            group,
+            joint_entries,
+            kernel: Kernel::new(),
+            transfer: Vec::new(),
+            index: 0,
+            omega: 0.0,
+            computed: vec![ZERO; size],
+            residual: vec![ZERO; size],
+            by_joint: vec![[ZERO; MOST_ENTRIES]; size * joints.len()],
+            joints,
+            unknowns: 0,
+            by_source: vec![ZERO; size * group.sources.len()],
+            factor: vec![
+                ZERO;
+                if group.sources.is_empty() {
+                    0
+                } else {
+                    size * size
+                }
+            ],
+            relative_power: 0.0,
+            cost: 0.0,
+            residual_cost: 0.0,
+            signal: 0.0,
+            log_determinant: 0.0,
+            trial: Vec::new(),
+        }
+    }
+
+    pub(super) fn weights<'w>(&self, weights: &'w Weights, index: usize) -> (&'w [f64], &'w [f64]) {
+        let (size, sources) = (self.computed.len(), self.group.sources.len());
+        (
+            &weights.entries[index * size..(index + 1) * size],
+            &weights.sources[index * sources..(index + 1) * sources],
+        )
+    }
+
+    /// H^C of one line as computed before, and the residual.
+    pub(super) fn take(&mut self, index: usize, computed: &[Vec<Complex64>]) {
+        self.index = index;
+        let mut at = 0;
+        for (block, computed) in self.group.blocks.iter().zip(computed) {
+            let count = block.entries.len();
+            let place = index * count..(index + 1) * count;
+            self.computed[at..at + count].copy_from_slice(&computed[place.clone()]);
+            for (e, measured) in (at..).zip(&block.measured[place]) {
+                self.residual[e] = measured - self.computed[e];
+            }
+            at += count;
+        }
+    }
+
+    /// H^C, the residual and the derivatives at this line.
+    pub(super) fn linearise(
+        &mut self,
+        index: usize,
+        unknowns: &[f64],
+        delta: &[Complex64],
+    ) -> Option<()> {
+        self.compute(index, unknowns, delta, true)
+    }
+
+    /// The same, the derivatives being left as they are unless they are wanted.
+    fn compute(
+        &mut self,
+        index: usize,
+        unknowns: &[f64],
+        delta: &[Complex64],
+        derivatives: bool,
+    ) -> Option<()> {
+        self.index = index;
+        self.omega = self.group.blocks.first()?.omega[index];
+        self.unknowns = unknowns.len();
+        let size = self.computed.len();
+        if derivatives && self.joints.len() > 1 {
+            self.by_joint.fill([ZERO; MOST_ENTRIES]);
+        }
+        let mut at = 0;
+        for (number, block) in self.group.blocks.iter().enumerate() {
+            let own_joint = unknowns.get(block.unknowns(self.joint_entries))?;
+            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
+            let slot = size * self.slot(block.joint);
+            let columns = index * block.points..(index + 1) * block.points;
+            let count = block.entries.len();
+            let own = &block.own[index * count..(index + 1) * count];
+            let measured = &block.measured[index * count..(index + 1) * count];
+            let mut free = block.free[index];
+            self.transfer.clear();
+            self.transfer.extend_from_slice(&block.transfer[columns]);
+            for (source, &delta) in self.group.sources.iter().zip(delta) {
+                if let Some(pattern) = &source.patterns[number] {
+                    if pattern.acts_on_free {
+                        for i in 0..N {
+                            for j in 0..N {
+                                free[i][j] += delta * pattern.free[i][j];
+                            }
+                        }
+                    }
+                    for (column, change) in self.transfer.iter_mut().zip(&pattern.transfer) {
+                        for i in 0..N {
+                            column[i] += delta * change[i];
+                        }
+                    }
+                }
+            }
+            let transfer = self.transfer.iter().copied();
+            self.kernel.solve(&free, transfer, &stiffness)?;
+            for (e, &entry) in block.entries.iter().enumerate() {
+                let mut own = own[e];
+                for (source, &delta) in self.group.sources.iter().zip(delta) {
+                    if let Some(pattern) = &source.patterns[number]
+                        && let Some(&share) = pattern.own.get(e)
+                    {
+                        own += delta * share;
+                    }
+                }
+                let computed = self.kernel.receptance(own, entry);
+                self.computed[at + e] = computed;
+                self.residual[at + e] = measured[e] - computed;
+                if !derivatives {
+                    continue;
+                }
+                for (t, &place) in self.joint_entries.iter().enumerate() {
+                    self.by_joint[slot + at + e][t] = self.kernel.by_stiffness(entry, place);
+                }
+                for (s, source) in self.group.sources.iter().enumerate() {
+                    self.by_source[s * size + at + e] =
+                        source.patterns[number].as_ref().map_or(ZERO, |pattern| {
+                            let own = pattern.own.get(e).copied().unwrap_or(0.0);
+                            let free = pattern.acts_on_free.then_some(&pattern.free);
+                            self.kernel.by_source(entry, free, &pattern.transfer, own)
+                        });
+                }
+            }
+            at += count;
+        }
+        Some(())
+    }
+
+    /// Divides by σ where every entry has an error of its own.
+    pub(super) fn whiten_independent(&mut self, variances: &[f64]) {
+        self.measure();
+        for (e, variance) in variances.iter().enumerate() {
+            let weight = variance.recip().sqrt();
+            self.residual[e] *= weight;
+            for by_joint in self.by_joint.chunks_exact_mut(self.residual.len()) {
+                for value in &mut by_joint[e][..self.joint_entries.len()] {
+                    *value *= weight;
+                }
+            }
+        }
+    }
+
+    /// The same with the variances that `level` gives for the computed receptances.
+    pub(super) fn whiten_by(&mut self, level: NoiseLevel) {
+        self.measure();
+        let mut at = 0;
+        for block in &self.group.blocks {
+            let count = block.entries.len();
+            let known = block
+                .known
+                .get(self.index * count..(self.index + 1) * count);
+            for (e, entry) in block.entries.iter().enumerate() {
+                let known = known.map(|known| known[e]);
+                let variance = of_one(level, known, self.computed[at + e].norm_sqr());
+                self.residual[at + e] *= (f64::from(entry.count) / variance).sqrt();
+            }
+            at += count;
+        }
+    }
+
+    fn measure(&mut self) {
+        let pairs = self.residual.iter().zip(&self.computed);
+        self.relative_power = pairs.map(|(r, h)| r.norm_sqr() / h.norm_sqr()).sum();
+    }
+
+    /// y − H^C + Jδ: the residual as if the substructures' receptances were those measured.
+    pub(super) fn add_corrections(&mut self, delta: &[Complex64]) {
+        let size = self.residual.len();
+        for (s, delta) in delta.iter().enumerate() {
+            for e in 0..size {
+                self.residual[e] += self.by_source[s * size + e] * delta;
+            }
+        }
+    }
+
+    /// Σ = Σ_C + J Σ_H Jᴴ = L Lᴴ, and L⁻¹ before residual and derivatives.
+    pub(super) fn whiten(
+        &mut self,
+        (variances, of_sources): (&[f64], &[f64]),
+        delta: &[Complex64],
+    ) -> Option<()> {
+        if self.group.sources.is_empty() {
+            self.whiten_independent(variances);
+            return Some(());
+        }
+        let size = self.residual.len();
+        let powers = self.computed.iter().zip(variances);
+        self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
+        self.cost = self.whole_cost((variances, of_sources), delta);
+        self.add_corrections(delta);
+        self.measure();
+        self.factorise(variances, of_sources)?;
+        forward(&self.factor, size, &mut self.residual);
+        for by_joint in self.by_joint.chunks_exact_mut(size) {
+            for t in 0..self.joint_entries.len() {
+                for row in 0..size {
+                    let mut value = by_joint[row][t];
+                    for column in 0..row {
+                        value -= self.factor[row * size + column] * by_joint[column][t];
+                    }
+                    by_joint[row][t] = value / self.factor[row * size + row].re;
+                }
+            }
+        }
+        Some(())
+    }
+
+    fn factorise(&mut self, variances: &[f64], of_sources: &[f64]) -> Option<()> {
+        let size = self.residual.len();
+        self.factor.fill(ZERO);
+        for (e, variance) in variances.iter().enumerate() {
+            self.factor[e * size + e] = Complex64::from(*variance);
+        }
+        for (s, &variance) in of_sources.iter().enumerate() {
+            let column = &self.by_source[s * size..(s + 1) * size];
+            for row in 0..size {
+                let left = column[row] * variance;
+                for other in 0..=row {
+                    self.factor[row * size + other] += left * column[other].conj();
+                }
+            }
+        }
+        self.log_determinant = 0.0;
+        for row in 0..size {
+            for column in 0..=row {
+                let mut value = self.factor[row * size + column];
+                for k in 0..column {
+                    value -= self.factor[row * size + k] * self.factor[column * size + k].conj();
+                }
+                if row == column {
+                    if !(value.re.is_finite() && value.re > 0.0) {
+                        return None;
+                    }
+                    self.log_determinant += value.re.ln();
+                    self.factor[row * size + row] = Complex64::from(value.re.sqrt());
+                } else {
+                    self.factor[row * size + column] =
+                        value / self.factor[column * size + column].re;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²
+    fn whole_cost(&self, (variances, of_sources): (&[f64], &[f64]), delta: &[Complex64]) -> f64 {
+        let residuals = self.residual.iter().zip(variances);
+        let mut cost: f64 = residuals.map(|(r, variance)| r.norm_sqr() / variance).sum();
+        for (delta, variance) in delta.iter().zip(of_sources) {
+            if *variance > 0.0 {
+                cost += delta.norm_sqr() / variance;
+            }
+        }
+        cost
+    }
+
+    /// Where the unknowns of a joint begin among those of all.
+    fn first_unknown(&self, joint: usize) -> usize {
+        joint * 2 * self.joint_entries.len()
+    }
+
+    /// Place of a joint among those of this group.
+    fn slot(&self, joint: usize) -> usize {
+        self.joints.partition_point(|&other| other < joint)
+    }
+
+    /// Adds the whitened line to the normal equations (lower triangle).
+    pub(super) fn add_to(&self, normal: &mut Normal) {
+        normal.cost += self.cost;
+        normal.signal += self.signal;
+        normal.linearised_cost += self.residual.iter().map(|r| r.norm_sqr()).sum::<f64>();
+        if self.joint_entries.len() <= ENTRIES_OF_ONE {
+            self.add_rows_to::<ENTRIES_OF_ONE>(normal);
+        } else {
+            self.add_rows_to::<MOST_ENTRIES>(normal);
+        }
+    }
+
+    fn add_rows_to<const E: usize>(&self, normal: &mut Normal) {
+        let count = self.joint_entries.len();
+        let own_rows = || self.by_joint.chunks_exact(self.residual.len());
+        for (slot, (rows, &joint)) in own_rows().zip(&self.joints).enumerate() {
+            let first = self.first_unknown(joint);
+            let mut products = RowProducts::<E>::new();
+            for (residual, row) in self.residual.iter().zip(rows) {
+                if let Some(row) = row.first_chunk::<E>() {
+                    products.add(*residual, row, count);
+                }
+            }
+            products.add_to(normal, self.omega, count, first);
+            // Common errors of the substructures couple the joints of assemblies that share them.
+            for (others, &other) in own_rows().zip(&self.joints).take(slot) {
+                let first = (first, self.first_unknown(other));
+                add_coupling(normal, self.omega, count, first, rows.iter().zip(others));
+            }
+        }
+    }
+
+    /// Jᵀr of this whitened line by the unknowns: what it adds to the gradient.
+    pub(super) fn score(&self) -> Vec<f64> {
+        let count = self.joint_entries.len();
+        let mut score = vec![0.0; self.unknowns];
+        let own_rows = self.by_joint.chunks_exact(self.residual.len());
+        for (rows, &joint) in own_rows.zip(&self.joints) {
+            let first = self.first_unknown(joint);
+            for (residual, row) in self.residual.iter().zip(rows) {
+                for t in 0..count {
+                    let product = row[t].conj() * residual;
+                    score[first + t] += product.re;
+                    score[first + count + t] += self.omega * product.im;
+                }
+            }
+        }
+        score
+    }
+
+    /// ln det Σ of the whitened line.
+    pub(super) fn log_determinant(&self) -> f64 {
+        self.log_determinant
+    }
+}
+
+/// x ← L⁻¹ x
+fn forward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
+    for row in 0..size {
+        let mut value = x[row];
+        for column in 0..row {
+            value -= factor[row * size + column] * x[column];
+        }
+        x[row] = value / factor[row * size + row].re;
+    }
+}
+
+/// x ← L⁻ᴴ x
+fn backward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
+    for row in (0..size).rev() {
+        let mut value = x[row];
+        for other in row + 1..size {
+            value -= factor[other * size + row].conj() * x[other];
+        }
+        x[row] = value / factor[row * size + row].re;
+    }
+}

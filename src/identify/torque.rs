@@ -1,0 +1,359 @@
+//! Assemblies tightened to different torques: one joint for all of them, or one for each torque, and which of the two the
+//! data call for.
+//!
+//! Joints of different torques are estimated together, because the errors of a measured substructure are the same in every
+//! assembly that uses it: the unknowns of one joint after the other are one vector, and each assembly has its own part of it.
+
+use std::fmt;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use super::assessment::{Assessment, assess};
+use super::bolt_starts::bolt_starts;
+use super::choice::bayesian_criterion;
+use super::estimator::{Estimate, Free, eased_minimum, estimate};
+use super::layout::{Layout, Place};
+use super::lines::Lines;
+use super::noise::Noise;
+use super::objective::Objective;
+use super::search::{self, Data, Effort, Found};
+
+/// Whether the joint depends on the tightening torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TorqueDependence {
+    /// One joint in all assemblies, whatever their torques.
+    #[default]
+    Common,
+    /// A joint for each torque, common to the assemblies tightened to it.
+    Separate,
+}
+
+/// As in a study.
+impl fmt::Display for TorqueDependence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Common => "common",
+            Self::Separate => "separate",
+        })
+    }
+}
+
+/// A common joint beside one for each torque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueChoice {
+    /// The common joint, then the separate ones.
+    pub compared: [DependenceFit; 2],
+    /// The simplest adequate one by Schwarz's criterion; without an adequate one, that with the lowest.
+    pub recommended: TorqueDependence,
+    /// Whether either leaves nothing but noise.
+    pub any_is_adequate: bool,
+}
+
+impl TorqueChoice {
+    /// What speaks against the dependence that was `used`, in words.
+    #[must_use]
+    pub fn complaint(&self, used: TorqueDependence) -> Option<String> {
+        if self.recommended == used {
+            return None;
+        }
+        let [common, separate] = self.compared;
+        let lower = (common.bic_difference - separate.bic_difference).abs();
+        Some(match used {
+            TorqueDependence::Common => format!(
+                "the joint depends on the torque: a joint for each torque has a BIC lower by {lower:.1} than the common one; \
+                 state torques = \"separate\" in [joint]"
+            ),
+            TorqueDependence::Separate => format!(
+                "the data do not show that the joint depends on the torque: a common joint has a BIC lower by {lower:.1} than one for \
+                 each torque; consider torques = \"common\" in [joint]"
+            ),
+        })
+    }
+}
+
+/// How joints with one dependence on the torque fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DependenceFit {
+    /// The dependence.
+    pub dependence: TorqueDependence,
+    /// Unknowns of all joints together.
+    pub unknowns: usize,
+    /// −2 ln L + p ln n, less that of the other if it is lower.
+    pub bic_difference: f64,
+    /// χ² over degrees of freedom, where the noise is stated.
+    pub reduced_chi_squared: Option<f64>,
+    /// Whether they leave nothing but noise.
+    pub adequate: bool,
+}
+
+/// The different torques of a study's assemblies.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Torques {
+    /// Each torque once, in the order in which the assemblies have them, N·m.
+    pub(super) values_n_m: Vec<f64>,
+    /// Which of them each assembly has.
+    pub(super) of_assembly: Vec<usize>,
+}
+
+impl Torques {
+    /// `None` where not every one of `assemblies` has a torque, or all have the same.
+    pub(super) fn of(torques_n_m: &[f64], assemblies: usize) -> Option<Self> {
+        let mut values_n_m: Vec<f64> = Vec::new();
+        let mut of_assembly = Vec::with_capacity(assemblies);
+        for &torque in torques_n_m {
+            let known = values_n_m.iter().position(|&other| other == torque);
+            of_assembly.push(known.unwrap_or(values_n_m.len()));
+            if known.is_none() {
+                values_n_m.push(torque);
+            }
+        }
+        (torques_n_m.len() == assemblies && values_n_m.len() > 1).then_some(Self {
+            values_n_m,
+            of_assembly,
+        })
+    }
+}
+
+/// Which joints are sought in which assemblies.
+pub(super) struct Assignment<'a> {
+    /// Every assembly with the number of its joint.
+    pub(super) all: Vec<(&'a Lines, usize)>,
+    /// How many joints there are.
+    pub(super) joints: usize,
+}
+
+impl<'a> Assignment<'a> {
+    /// One joint in all assemblies.
+    pub(super) fn common(all: &'a [Lines]) -> Self {
+        Self {
+            all: all.iter().map(|lines| (lines, 0)).collect(),
+            joints: 1,
+        }
+    }
+
+    /// A joint for each torque.
+    pub(super) fn separate(all: &'a [Lines], torques: &Torques) -> Self {
+        Self {
+            all: all
+                .iter()
+                .zip(torques.of_assembly.iter().copied())
+                .collect(),
+            joints: torques.values_n_m.len(),
+        }
+    }
+
+    /// The assemblies of one joint alone.
+    fn only(&self, joint: usize) -> Vec<(&'a Lines, usize)> {
+        let own = self.all.iter().filter(|(_, own)| *own == joint);
+        own.map(|&(lines, _)| (lines, 0)).collect()
+    }
+}
+
+/// What joints are sought in: the data of all assemblies, each with its own joint.
+pub(super) struct Problem<'a, const N: usize> {
+    assignment: Assignment<'a>,
+    noise: &'a Noise,
+    data: Data<N>,
+}
+
+impl<'a, const N: usize> Problem<'a, N> {
+    pub(super) fn new(assignment: Assignment<'a>, noise: &'a Noise) -> Self {
+        Self {
+            data: Data::of(&assignment.all, noise),
+            assignment,
+            noise,
+        }
+    }
+
+    /// The objective over all lines.
+    pub(super) fn objective<'o>(&'o self, entries: &'o [Place]) -> Objective<'o, N> {
+        Objective {
+            groups: &self.data.whole,
+            entries,
+        }
+    }
+
+    /// How many joints are sought.
+    pub(super) fn joints(&self) -> usize {
+        self.assignment.joints
+    }
+
+    /// The best estimate of all joints together; `Err` with the number of starts if there is none. `starts` are those of
+    /// each joint.
+    ///
+    /// Several joints are first sought one by one, as if each torque had been a study of its own, and what that finds is
+    /// the start of the estimate of all.
+    pub(super) fn best(
+        &self,
+        layout: &Layout,
+        starts: &[Vec<DVector<f64>>],
+        effort: Effort,
+    ) -> Result<Found, usize> {
+        let (entries, noise) = (&layout.places(), self.noise);
+        let own_starts = |joint: usize| starts.get(joint).cloned().unwrap_or_default();
+        if self.joints() == 1 {
+            let starts = bolt_starts(&self.data, layout, noise, own_starts(0), effort);
+            return search::best(&self.data, entries, noise, starts, effort);
+        }
+        let mut joints = Vec::with_capacity(self.joints());
+        let (mut tried, mut agreeing) = (0, 0);
+        for joint in 0..self.joints() {
+            let data: Data<N> = Data::of(&self.assignment.only(joint), noise);
+            let starts = bolt_starts(&data, layout, noise, own_starts(joint), effort);
+            let found =
+                search::best(&data, entries, noise, starts, effort).map_err(|more| tried + more)?;
+            tried += found.tried;
+            agreeing += found.agreeing;
+            joints.push(found.estimate.unknowns);
+        }
+        let (estimate, assessment) = self.together(layout, &joints, effort).ok_or(tried)?;
+        Ok(Found {
+            estimate,
+            assessment,
+            tried,
+            agreeing,
+        })
+    }
+
+    /// The estimate of all joints together from what was found of each by itself; where that does not lead to one that fits,
+    /// from each of them at all torques.
+    fn together(
+        &self,
+        layout: &Layout,
+        joints: &[DVector<f64>],
+        effort: Effort,
+    ) -> Option<(Estimate, Assessment)> {
+        let (entries, noise) = (&layout.places(), self.noise);
+        let objective = self.objective(entries);
+        let concatenated = |joints: &mut dyn Iterator<Item = &DVector<f64>>| {
+            let values: Vec<f64> = joints.flat_map(|joint| joint.iter().copied()).collect();
+            DVector::from_vec(values)
+        };
+        let everywhere = joints
+            .iter()
+            .map(|joint| concatenated(&mut joints.iter().map(|_| joint)));
+        let starts = std::iter::once(concatenated(&mut joints.iter())).chain(everywhere);
+        let mut best: Option<(Estimate, Assessment)> = None;
+        for start in starts {
+            let Some(found) = self.estimate_together(&objective, start) else {
+                continue;
+            };
+            let Some(assessment) = assess(&objective, &found, noise) else {
+                continue;
+            };
+            let fits = found.converged && assessment.fits();
+            let lower = |(best, _): &(Estimate, Assessment)| found.misfit < best.misfit;
+            if best.as_ref().is_none_or(lower) {
+                best = Some((found, assessment));
+            }
+            if fits || effort == Effort::Related && best.is_some() {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The estimate that a start of all joints leads to.
+    fn estimate_together(
+        &self,
+        objective: &Objective<'_, N>,
+        start: DVector<f64>,
+    ) -> Option<Estimate> {
+        let noise = self.noise;
+        if self.data.thinned_whole.is_empty() {
+            return estimate(objective, noise, None, &Free, &start, None);
+        }
+        // Each joint by itself has been moved by other corrections of the same substructures. First all are moved alike, to where
+        // there are no corrections at all.
+        let few = |groups| Objective {
+            groups,
+            ..*objective
+        };
+        let (thinned, whole) = (few(&self.data.thinned), few(&self.data.thinned_whole));
+        let start = search::robust_start(&thinned, &whole, noise, start)?;
+        let (start, corrections) = eased_minimum(objective, noise, start)?;
+        estimate(objective, noise, None, &Free, &start, Some(corrections))
+    }
+}
+
+/// Compares the `found` estimate of `problem`, whose joints are `used`, with that of the other dependence on the torque;
+/// `None` if that has none.
+pub(super) fn compare<const N: usize>(
+    all: &[Lines],
+    torques: &Torques,
+    noise: &Noise,
+    layout: &Layout,
+    used: TorqueDependence,
+    found: &Found,
+) -> Option<TorqueChoice> {
+    let size = layout.unknowns();
+    let joints = found.estimate.unknowns.as_slice().chunks_exact(size);
+    let joints: Vec<DVector<f64>> = joints.map(DVector::from_column_slice).collect();
+    let (assignment, starts) = match used {
+        TorqueDependence::Common => (
+            Assignment::separate(all, torques),
+            vec![joints; torques.values_n_m.len()],
+        ),
+        TorqueDependence::Separate => (Assignment::common(all), vec![joints]),
+    };
+    let other = Problem::<N>::new(assignment, noise);
+    let other = other.best(layout, &starts, Effort::Related).ok()?;
+    let (common, separate) = match used {
+        TorqueDependence::Common => (found, &other),
+        TorqueDependence::Separate => (&other, found),
+    };
+    let criterion = |found: &Found| bayesian_criterion(&found.estimate);
+    let lowest = criterion(common).min(criterion(separate));
+    let fit = |dependence, found: &Found| DependenceFit {
+        dependence,
+        unknowns: found.estimate.unknowns.len(),
+        bic_difference: criterion(found) - lowest,
+        reduced_chi_squared: tested_chi_squared(found),
+        adequate: found.assessment.fits(),
+    };
+    let compared = [
+        fit(TorqueDependence::Common, common),
+        fit(TorqueDependence::Separate, separate),
+    ];
+    let any_is_adequate = compared.iter().any(|fit| fit.adequate);
+    let recommended = compared
+        .iter()
+        .filter(|fit| fit.adequate || !any_is_adequate)
+        .min_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference))
+        .map_or(used, |fit| fit.dependence);
+    // Of exact data a common joint leaves rounding, which is no likelihood: nothing is better than that.
+    let recommended = if common.assessment.is_exact {
+        TorqueDependence::Common
+    } else {
+        recommended
+    };
+    Some(TorqueChoice {
+        compared,
+        recommended,
+        any_is_adequate,
+    })
+}
+
+/// χ² over degrees of freedom as a test, which it is where the noise is stated or known.
+pub(super) fn tested_chi_squared(found: &Found) -> Option<f64> {
+    (found.assessment.noise_is_stated || found.assessment.noise_is_known)
+        .then(|| found.estimate.reduced_chi_squared())
+        .flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn assemblies_of_the_same_torque_belong_together() {
+        let torques = Torques::of(&[25.0, 10.0, 25.0, 15.0], 4).unwrap();
+        assert_eq!(torques.values_n_m, [25.0, 10.0, 15.0]);
+        assert_eq!(torques.of_assembly, [0, 1, 0, 2]);
+        assert_eq!(Torques::of(&[10.0, 10.0], 2), None);
+        assert_eq!(Torques::of(&[10.0, 20.0], 3), None);
+        assert_eq!(Torques::of(&[], 0), None);
+    }
+}

@@ -1,0 +1,269 @@
+//! A joint over the bolt's preload, taken at one preload.
+
+use thiserror::Error;
+
+use super::{
+    FreeEstimate, Intervals, Joint, JointFile, OverPreload, Problem, StandardDeviation,
+    Uncertainty, UncertaintyAtPreload,
+};
+
+/// Why a joint cannot be taken at a preload.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PreloadError {
+    /// The joint does not depend on the preload.
+    #[error(
+        "preload: found {found_n_m:?} N·m for a joint that does not depend on the preload, expected none; leave it out, or add \
+         joint.over_preload"
+    )]
+    Constant {
+        /// The preload asked for, N·m.
+        found_n_m: f64,
+    },
+    /// The preload is beyond those of the table.
+    #[error(
+        "preload: found {found_n_m:?} N·m, expected {first_n_m:?} to {last_n_m:?} N·m, the range of joint.over_preload.preload: \
+         beyond it nothing is known of the joint"
+    )]
+    Outside {
+        /// The preload asked for, N·m.
+        found_n_m: f64,
+        /// Lowest preload of the table, N·m.
+        first_n_m: f64,
+        /// Highest preload of the table, N·m.
+        last_n_m: f64,
+    },
+    /// The joint file contradicts itself.
+    #[error("the joint file is not valid: {}", problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n  "))]
+    Invalid {
+        /// Everything that is wrong, at least one.
+        problems: Vec<Problem>,
+    },
+}
+
+/// Where a preload lies in a table: between `lower` and the entry after it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place {
+    lower: usize,
+    /// Share of the entry after it, from 0 to 1.
+    share: f64,
+}
+
+impl Place {
+    fn of(preload_n_m: f64, table: &OverPreload) -> Result<Self, PreloadError> {
+        let preloads = &table.preload;
+        let (Some(&first_n_m), Some(&last_n_m)) = (preloads.first(), preloads.last()) else {
+            let found = preloads.len();
+            return Err(PreloadError::Invalid {
+                problems: vec![Problem::TooFewPreloads { found }],
+            });
+        };
+        if !(first_n_m..=last_n_m).contains(&preload_n_m) {
+            return Err(PreloadError::Outside {
+                found_n_m: preload_n_m,
+                first_n_m,
+                last_n_m,
+            });
+        }
+        let above = preloads.partition_point(|&preload| preload <= preload_n_m);
+        let lower = above
+            .saturating_sub(1)
+            .min(preloads.len().saturating_sub(2));
+        let (low, high) = (preloads[lower], preloads[lower + 1]);
+        Ok(Self {
+            lower,
+            share: (preload_n_m - low) / (high - low),
+        })
+    }
+
+    /// Whether it is one of the table's own, and which.
+    fn entry(self) -> Option<usize> {
+        match self.share {
+            0.0 => Some(self.lower),
+            1.0 => Some(self.lower + 1),
+            _ => None,
+        }
+    }
+
+    fn between(self, low: f64, high: f64) -> f64 {
+        (1.0 - self.share) * low + self.share * high
+    }
+
+    fn list(self, lists: &[Vec<f64>]) -> Vec<f64> {
+        let (Some(low), Some(high)) = (lists.get(self.lower), lists.get(self.lower + 1)) else {
+            return Vec::new();
+        };
+        let pairs = low.iter().zip(high);
+        pairs.map(|(&low, &high)| self.between(low, high)).collect()
+    }
+
+    fn matrix(self, low: &[Vec<f64>], high: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let rows = low.iter().zip(high);
+        let row = |(low, high): (&Vec<f64>, &Vec<f64>)| {
+            let pairs = low.iter().zip(high);
+            pairs.map(|(&low, &high)| self.between(low, high)).collect()
+        };
+        rows.map(row).collect()
+    }
+
+    fn ends(self, low: &[Vec<[f64; 2]>], high: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+        let between = |(low, high): (&[f64; 2], &[f64; 2])| {
+            [self.between(low[0], high[0]), self.between(low[1], high[1])]
+        };
+        let rows = low.iter().zip(high);
+        let row = |(low, high): (&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
+            low.iter().zip(high).map(between).collect()
+        };
+        rows.map(row).collect()
+    }
+}
+
+impl JointFile {
+    /// The file of this joint at one preload (N·m), its nominal one unless another is given: K, C and k₃ by linear
+    /// interpolation between the table's preloads, which keeps K and C positive semidefinite. A joint that does not depend
+    /// on the preload is as it was.
+    ///
+    /// Standard deviations are interpolated too, which is what they are at most, whatever the correlation of the two
+    /// preloads' errors. Name, validity and notes tell the preload.
+    ///
+    /// # Errors
+    ///
+    /// [`PreloadError`] where a preload is given that the joint does not have, or the file is not valid.
+    pub fn at_preload(&self, preload_n_m: Option<f64>) -> Result<Self, PreloadError> {
+        let Some(table) = &self.joint.over_preload else {
+            return match preload_n_m {
+                None => Ok(self.clone()),
+                Some(found_n_m) => Err(PreloadError::Constant { found_n_m }),
+            };
+        };
+        let problems = self.validate();
+        if !problems.is_empty() {
+            return Err(PreloadError::Invalid { problems });
+        }
+        let preload_n_m = preload_n_m.unwrap_or(table.nominal);
+        let place = Place::of(preload_n_m, table)?;
+        let of = |matrices: &[Vec<Vec<f64>>]| {
+            place.matrix(&matrices[place.lower], &matrices[place.lower + 1])
+        };
+        let mut file = self.clone();
+        file.joint = Joint {
+            dofs: self.joint.dofs,
+            stiffness: of(&table.stiffness),
+            damping: of(&table.damping),
+            cubic: place.list(&table.cubic),
+            over_preload: None,
+        };
+        file.name = format!("{}, at {preload_n_m} N·m", self.name);
+        file.uncertainty = self
+            .uncertainty
+            .as_ref()
+            .and_then(|uncertainty| uncertainty.at(place, table, preload_n_m == table.nominal));
+        let neighbours = match place.entry() {
+            Some(entry) => [table.preload[entry]; 2],
+            None => [table.preload[place.lower], table.preload[place.lower + 1]],
+        };
+        if let Some(validity) = &mut file.validity
+            && validity.torque_n_m.is_some()
+        {
+            validity.torque_n_m = Some(neighbours);
+        }
+        if let Some(provenance) = &mut file.provenance {
+            let [low, high] = neighbours;
+            provenance.notes.push(match place.entry() {
+                Some(_) => format!("The joint at a preload of {preload_n_m} N·m."),
+                None => format!(
+                    "The joint at a preload of {preload_n_m} N·m, interpolated linearly between {low} and {high} N·m."
+                ),
+            });
+        }
+        Ok(file)
+    }
+}
+
+impl Uncertainty {
+    /// At one place of the table; `None` where nothing is known of it.
+    fn at(&self, place: Place, joint: &OverPreload, is_nominal: bool) -> Option<Self> {
+        let Some(table) = &self.over_preload else {
+            return is_nominal.then(|| self.clone());
+        };
+        if is_nominal && place.entry().is_some() {
+            return Some(Self {
+                over_preload: None,
+                ..self.clone()
+            });
+        }
+        if let Some(entry) = place.entry() {
+            let own = table.at.get(entry)?;
+            return Some(Self {
+                standard_deviation: own.standard_deviation.clone(),
+                basis: self.basis.clone(),
+                correlation: None,
+                interval_95: own.interval_95.clone(),
+                inflation: self.inflation,
+                not_identified: own.not_identified.clone(),
+                free_estimate: own.free_estimate.clone(),
+                bootstrap: own.bootstrap.clone(),
+                over_preload: None,
+            });
+        }
+        let (low, high) = (table.at.get(place.lower)?, table.at.get(place.lower + 1)?);
+        Some(Self {
+            standard_deviation: deviation(place, low, high),
+            basis: format!(
+                "{}; between {} and {} N·m interpolated, which is the most that they can be there; the error of the \
+                 interpolation itself is not in them",
+                self.basis, low.preload, high.preload
+            ),
+            correlation: None,
+            interval_95: low.interval_95.as_ref().zip(high.interval_95.as_ref()).map(
+                |(low, high)| Intervals {
+                    stiffness: place.ends(&low.stiffness, &high.stiffness),
+                    damping: place.ends(&low.damping, &high.damping),
+                },
+            ),
+            inflation: self.inflation,
+            not_identified: either(&low.not_identified, &high.not_identified),
+            free_estimate: (low.free_estimate.is_some() || high.free_estimate.is_some()).then(
+                || {
+                    let low = free(low, joint, place.lower);
+                    let high = free(high, joint, place.lower + 1);
+                    FreeEstimate {
+                        stiffness: place.matrix(low.0, high.0),
+                        damping: place.matrix(low.1, high.1),
+                    }
+                },
+            ),
+            bootstrap: None,
+            over_preload: None,
+        })
+    }
+}
+
+fn deviation(
+    place: Place,
+    low: &UncertaintyAtPreload,
+    high: &UncertaintyAtPreload,
+) -> StandardDeviation {
+    let (low, high) = (&low.standard_deviation, &high.standard_deviation);
+    StandardDeviation {
+        stiffness: place.matrix(&low.stiffness, &high.stiffness),
+        damping: place.matrix(&low.damping, &high.damping),
+    }
+}
+
+/// K and C of the free estimate at one of the table's preloads: the joint's own where they are the same.
+fn free<'f>(
+    at: &'f UncertaintyAtPreload,
+    joint: &'f OverPreload,
+    entry: usize,
+) -> (&'f [Vec<f64>], &'f [Vec<f64>]) {
+    match &at.free_estimate {
+        Some(free) => (&free.stiffness, &free.damping),
+        None => (&joint.stiffness[entry], &joint.damping[entry]),
+    }
+}
+
+/// Names that are in one of the lists.
+fn either(one: &[String], other: &[String]) -> Vec<String> {
+    let more = other.iter().filter(|name| !one.contains(name));
+    one.iter().chain(more).cloned().collect()
+}

@@ -1,0 +1,196 @@
+//! A straight uniform beam by finite elements: the substructure that is computed instead of measured.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+
+mod error;
+mod mesh;
+
+pub use error::BeamError;
+
+use mesh::interpolation;
+
+/// How the two ends of a beam are held; the first word is the end at x = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// Both ends free.
+    FreeFree,
+    /// Fixed at x = 0, free at the other end.
+    FixedFree,
+    /// Free at x = 0, fixed at the other end.
+    FreeFixed,
+    /// Both ends fixed.
+    FixedFixed,
+    /// Both ends pinned.
+    PinnedPinned,
+    /// Fixed at x = 0, pinned at the other end.
+    FixedPinned,
+}
+
+/// Damping of the beam's elastic modes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Damping {
+    /// ζ of each mode in ascending order, rigid-body modes included; the last one holds for all higher modes.
+    Ratios(Vec<f64>),
+    /// Structural loss factor η: K (1 + jη).
+    LossFactor(f64),
+}
+
+/// A uniform beam of rectangular cross-section that bends about its width.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// Length, m.
+    pub length_m: f64,
+    /// Width of the cross-section, m.
+    pub width_m: f64,
+    /// Height of the cross-section in the direction of bending, m.
+    pub height_m: f64,
+    /// Young's modulus, Pa.
+    pub youngs_modulus_pa: f64,
+    /// Density, kg/m³.
+    pub density_kg_per_m3: f64,
+    /// How the ends are held.
+    pub boundary: Boundary,
+    /// Damping.
+    pub damping: Damping,
+}
+
+/// Which motion of a point on the beam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Displacement w, m (and force, N).
+    Translation,
+    /// Slope ∂w/∂x, rad (and moment, N·m).
+    Rotation,
+}
+
+/// One degree of freedom of the beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeamPoint {
+    /// Distance from the beam's first end, m.
+    pub position_m: f64,
+    /// Which motion there.
+    pub motion: Motion,
+}
+
+impl Beam {
+    /// Receptances between all `points`, one matrix (points×points) for each frequency: every mode of the
+    /// finite-element model is summed. All points are nodes of the mesh, save those within 1e-4 of the length
+    /// of another.
+    ///
+    /// # Errors
+    /// [`BeamError`] if the beam is not physical, a point is not on it or a frequency is that of an undamped mode.
+    pub fn receptances(
+        &self,
+        points: &[BeamPoint],
+        frequency_hz: &[f64],
+    ) -> Result<Vec<DMatrix<Complex64>>, BeamError> {
+        let nodes = self.mesh(points)?;
+        let modes = self.modes_on(&nodes)?;
+        let free = self.free_dofs(nodes.len());
+        // φ_r at each point: one row a point, one column a mode.
+        let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
+        for (p, point) in points.iter().enumerate() {
+            for (dof, weight) in interpolation(&nodes, point) {
+                if let Some(row) = free.iter().position(|&kept| kept == dof) {
+                    let mut amplitude = amplitudes.row_mut(p);
+                    amplitude += modes.shapes.row(row) * weight;
+                }
+            }
+        }
+        let rigid = self.rigid_body_modes();
+        let receptances = frequency_hz.iter().map(|frequency_hz| {
+            let omega = std::f64::consts::TAU * frequency_hz;
+            let mut receptance = DMatrix::zeros(points.len(), points.len());
+            for mode in 0..modes.angular_frequency.len() {
+                let natural = if mode < rigid {
+                    0.0
+                } else {
+                    modes.angular_frequency[mode]
+                };
+                // H_pq = Σ_r φ_pr φ_qr / (ω_r² − ω² + j d_r),  d_r = 2 ζ_r ω_r ω  or  η ω_r²
+                let denominator = Complex64::new(
+                    natural * natural - omega * omega,
+                    match &self.damping {
+                        Damping::Ratios(ratios) => {
+                            let ratio = ratios.get(mode).or(ratios.last()).copied();
+                            2.0 * ratio.unwrap_or(0.0) * natural * omega
+                        }
+                        Damping::LossFactor(eta) => eta * natural * natural,
+                    },
+                );
+                if denominator == Complex64::default() {
+                    return Err(self.resonance(*frequency_hz));
+                }
+                for p in 0..points.len() {
+                    let scaled = amplitudes[(p, mode)] / denominator;
+                    for q in 0..points.len() {
+                        receptance[(p, q)] += scaled * amplitudes[(q, mode)];
+                    }
+                }
+            }
+            Ok(receptance)
+        });
+        receptances.collect()
+    }
+
+    /// Natural frequencies in Hz, ascending, rigid-body modes (as zeros) included.
+    ///
+    /// # Errors
+    /// [`BeamError`] if the beam is not physical.
+    pub fn natural_frequencies_hz(&self) -> Result<Vec<f64>, BeamError> {
+        let nodes = self.mesh(&[])?;
+        let mut frequencies = self.modes_on(&nodes)?.frequency_hz();
+        frequencies[..self.rigid_body_modes()].fill(0.0);
+        Ok(frequencies)
+    }
+
+    fn resonance(&self, frequency_hz: f64) -> BeamError {
+        let (reason, advice) = if frequency_hz == 0.0 {
+            ("where a beam with free ends is not held", "")
+        } else {
+            (
+                "the frequency of an undamped mode",
+                ", or give the beam damping",
+            )
+        };
+        BeamError::Resonance {
+            frequency_hz,
+            reason,
+            advice,
+        }
+    }
+
+    fn check(&self) -> Result<(), BeamError> {
+        for (key, found) in [
+            ("length", self.length_m),
+            ("width", self.width_m),
+            ("height", self.height_m),
+            ("youngs_modulus", self.youngs_modulus_pa),
+            ("density", self.density_kg_per_m3),
+        ] {
+            if !(found.is_finite() && found > 0.0) {
+                return Err(BeamError::NotPositive { key, found });
+            }
+        }
+        let (key, values) = match &self.damping {
+            Damping::Ratios(ratios) => ("damping_ratio", ratios.as_slice()),
+            Damping::LossFactor(eta) => ("loss_factor", std::slice::from_ref(eta)),
+        };
+        if values.is_empty() {
+            return Err(BeamError::NoDampingRatio);
+        }
+        match values
+            .iter()
+            .find(|ratio| !ratio.is_finite() || **ratio < 0.0)
+        {
+            Some(&found) => Err(BeamError::Damping { key, found }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,213 @@
+//! The beam against closed forms and published frequencies.
+
+use super::mesh::ELEMENTS;
+use super::*;
+
+fn aluminium(boundary: Boundary) -> Beam {
+    Beam {
+        length_m: 0.221,
+        width_m: 0.025,
+        height_m: 0.006,
+        youngs_modulus_pa: 70e9,
+        density_kg_per_m3: 2700.0,
+        boundary,
+        damping: Damping::Ratios(vec![0.0]),
+    }
+}
+
+#[test]
+fn frequencies_are_the_roots_of_the_frequency_equations() {
+    // Roots λ = βL of the frequency equations (Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1).
+    let clamped = [
+        4.730_040_744_862_704,
+        7.853_204_624_095_838,
+        10.995_607_838_001_67,
+    ];
+    let cantilever = [
+        1.875_104_068_711_961,
+        4.694_091_132_974_175,
+        7.854_757_438_237_613,
+    ];
+    let propped = [
+        3.926_602_312_047_919,
+        7.068_582_745_628_732,
+        10.210_176_122_813_03,
+    ];
+    let pi = std::f64::consts::PI;
+    for (boundary, roots) in [
+        (Boundary::FreeFree, clamped),
+        (Boundary::FixedFixed, clamped),
+        (Boundary::FixedFree, cantilever),
+        (Boundary::FreeFixed, cantilever),
+        (Boundary::FixedPinned, propped),
+        (Boundary::PinnedPinned, [pi, 2.0 * pi, 3.0 * pi]),
+    ] {
+        let beam = aluminium(boundary);
+        let found = beam.natural_frequencies_hz().unwrap();
+        let skipped = beam.rigid_body_modes();
+        // f = (λ/L)² √(EI/ρA) / 2π
+        let speed = (70e9_f64 / 2700.0 / 12.0).sqrt() * 0.006;
+        for (found, root) in found[skipped..].iter().zip(roots) {
+            let exact = (root / 0.221_f64).powi(2) * speed / std::f64::consts::TAU;
+            let error = found / exact - 1.0;
+            let discretisation = (root / ELEMENTS).powi(4) / 1440.0;
+            assert!(
+                (error - discretisation).abs() < 0.1 * discretisation + 1e-7,
+                "{boundary:?}: {error} {discretisation}"
+            );
+        }
+    }
+}
+
+#[test]
+fn substructure_a_of_case_4_2_2_resonates_where_the_thesis_says() {
+    // EI = 67e9 · 4.5e-10 N·m², m = 0.405 kg/m: 25 mm × 6 mm of density 2700.
+    let beam = Beam {
+        length_m: 0.3,
+        youngs_modulus_pa: 67e9,
+        damping: Damping::Ratios(vec![0.01]),
+        ..aluminium(Boundary::FixedFree)
+    };
+    let found = beam.natural_frequencies_hz().unwrap();
+    assert!((found[1] - 336.25).abs() < 0.1, "{found:?}");
+}
+
+#[test]
+fn static_deflection_of_a_cantilever() {
+    let beam = aluminium(Boundary::FixedFree);
+    let tip = |motion| BeamPoint {
+        position_m: 0.221,
+        motion,
+    };
+    let points = [tip(Motion::Translation), tip(Motion::Rotation)];
+    let found = &beam.receptances(&points, &[0.0]).unwrap()[0];
+    // w = L³/3EI, L²/2EI; θ = L²/2EI, L/EI
+    let (l, ei): (f64, f64) = (0.221, 70e9 * 0.025 * 0.006_f64.powi(3) / 12.0);
+    let expected = [[l.powi(3) / 3.0, l * l / 2.0], [l * l / 2.0, l]];
+    for p in 0..2 {
+        for q in 0..2 {
+            let exact = expected[p][q] / ei;
+            assert!((found[(p, q)].re / exact - 1.0).abs() < 1e-6);
+            assert_eq!(found[(p, q)].im, 0.0);
+        }
+    }
+}
+
+#[test]
+fn a_free_beam_moves_like_a_rigid_body_at_low_frequency() {
+    let beam = aluminium(Boundary::FreeFree);
+    let end = BeamPoint {
+        position_m: 0.0,
+        motion: Motion::Translation,
+    };
+    let found = beam.receptances(&[end], &[0.1]).unwrap()[0][(0, 0)];
+    // H = −(1/m + (L/2)²/J)/ω² = −4/(m ω²)
+    let mass = 2700.0 * 0.221 * 0.025 * 0.006;
+    let omega = std::f64::consts::TAU * 0.1;
+    assert!((found.re * mass * omega * omega / -4.0 - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn structural_damping_limits_the_resonance() {
+    let beam = Beam {
+        damping: Damping::LossFactor(0.05),
+        ..aluminium(Boundary::PinnedPinned)
+    };
+    let middle = BeamPoint {
+        position_m: 0.1105,
+        motion: Motion::Translation,
+    };
+    let resonance = beam.natural_frequencies_hz().unwrap()[0];
+    let found = beam.receptances(&[middle], &[resonance]).unwrap()[0][(0, 0)];
+    // φ² at mid-span is 2/(ρAL): H ≈ 2/(ρAL · jη ω²)
+    let omega = std::f64::consts::TAU * resonance;
+    let exact = 2.0 / (2700.0 * 0.025 * 0.006 * 0.221 * 0.05 * omega * omega);
+    assert!((-found.im / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+}
+
+#[test]
+fn points_that_all_but_coincide_leave_the_modes_alone() {
+    // Exact frequencies do not depend on where the points are; a node of its own for each would.
+    let beam = aluminium(Boundary::FixedFree);
+    let at = |position_m, motion| BeamPoint { position_m, motion };
+    let alone = [
+        at(0.1, Motion::Translation),
+        at(0.1, Motion::Rotation),
+        at(0.221, Motion::Translation),
+    ];
+    let frequency_hz = [0.0, 60.0, 250.0, 900.0];
+    let reference = beam.receptances(&alone, &frequency_hz).unwrap();
+    for gap in [1e-11, 1e-7, 1e-6, 1e-5] {
+        let mut points = alone.to_vec();
+        points.push(at(0.1 + gap, Motion::Translation));
+        points.push(at(0.1 + gap, Motion::Rotation));
+        points.push(at(0.221 - gap, Motion::Translation));
+        let found = beam.receptances(&points, &frequency_hz).unwrap();
+        for (found, reference) in found.iter().zip(&reference) {
+            for p in 0..3 {
+                for q in 0..3 {
+                    let exact = reference[(p, q)];
+                    let same = (found[(p, q)] - exact).norm() / exact.norm();
+                    assert!(same < 1e-8, "gap {gap}, ({p}, {q}): {same}");
+                }
+            }
+            // w(x + gap) = w(x) + gap θ(x) + …
+            let taylor = reference[(0, 2)] + gap * reference[(1, 2)];
+            let error = (found[(3, 2)] - taylor).norm() / taylor.norm();
+            assert!(
+                error < 1e-8 + 100.0 * gap * gap / 0.01,
+                "gap {gap}: {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_receptance_without_a_value_is_an_error() {
+    let end = [BeamPoint {
+        position_m: 0.0,
+        motion: Motion::Translation,
+    }];
+    let free = aluminium(Boundary::FreeFree);
+    let message = free.receptances(&end, &[5.0, 0.0]).unwrap_err().to_string();
+    assert!(
+        message.contains("0 Hz") && message.contains("free ends"),
+        "{message}"
+    );
+    assert!(
+        aluminium(Boundary::FreeFixed)
+            .receptances(&end, &[0.0])
+            .is_ok()
+    );
+}
+
+#[test]
+fn impossible_beams_are_refused() {
+    let thin = Beam {
+        height_m: 0.0,
+        ..aluminium(Boundary::FreeFree)
+    };
+    assert_eq!(
+        thin.natural_frequencies_hz(),
+        Err(BeamError::NotPositive {
+            key: "height",
+            found: 0.0
+        })
+    );
+    let point = BeamPoint {
+        position_m: 0.3,
+        motion: Motion::Translation,
+    };
+    assert!(matches!(
+        aluminium(Boundary::FreeFree).receptances(&[point], &[1.0]),
+        Err(BeamError::OffTheBeam { .. })
+    ));
+    let undamped = Beam {
+        damping: Damping::Ratios(Vec::new()),
+        ..aluminium(Boundary::FreeFree)
+    };
+    assert_eq!(
+        undamped.natural_frequencies_hz(),
+        Err(BeamError::NoDampingRatio)
+    );
+}

@@ -1,0 +1,137 @@
+//! FRFs of a substructure together with its modes, which supply what was not measured.
+
+use crate::bench::{Bench, replaced};
+use crate::rig::{self, FULL, matrix_of, modes_of_a};
+
+/// The rig's bench with modes of A beside its functions, of which only some are left.
+fn bench(keep: impl Fn(u32, u32) -> bool) -> Bench {
+    let bench = rig::ready();
+    let begin = "    -1\n    58\n";
+    let all = bench.text("a.uff");
+    // Nine functions, reference by reference within each response.
+    let kept: String = all
+        .split(begin)
+        .skip(1)
+        .zip((1..=3).flat_map(|response| (1..=3).map(move |reference| (response, reference))))
+        .filter(|(_, (response, reference))| keep(*response, *reference))
+        .map(|(function, _)| format!("{begin}{function}"))
+        .collect();
+    bench.write("a.uff", kept);
+    bench.write("modes.toml", modes_of_a(1.0));
+    let study = bench.text("study.toml");
+    bench.write("bare.toml", &study);
+    let beside = "frf = \"a.uff\"\nmodal = \"modes.toml\"";
+    bench.write("study.toml", replaced(&study, "frf = \"a.uff\"", beside));
+    bench
+}
+
+fn error(bench: &Bench) -> f64 {
+    let file = bench.json("o.joint.json");
+    let mut largest = 0.0_f64;
+    for (key, exact) in [("stiffness", &FULL.stiffness), ("damping", &FULL.damping)] {
+        let found = matrix_of(&file, key);
+        for (i, j) in [(0, 0), (0, 1), (1, 1)] {
+            let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
+            largest = largest.max((found[(i, j)] - exact[(i, j)]).abs() / scale);
+        }
+    }
+    largest
+}
+
+const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
+
+#[test]
+fn columns_that_were_not_measured_come_from_the_modes() {
+    // Loads at point 2 alone: with reciprocity five of nine functions, where a rotation needs all.
+    let bench = bench(|_, reference| reference == 2);
+    bench.refused(
+        &["identify", "bare.toml", "-o", "o.joint.json"],
+        &["a.uff: no function with response 3:+Y and reference 3:+Y"],
+    );
+    let text = bench.done(&IDENTIFY).stdout;
+    let error = error(&bench);
+    assert!(error < 1e-6, "{error}");
+    assert!(
+        text.contains(
+            "from the modes of a: 3:+Y / 3:+Y, 3:+Y / 1:+Y, 1:+Y / 1:+Y, taken as exact; \
+             of the measured functions the modes are 0.00 % away"
+        ),
+        "{text}"
+    );
+    let file = bench.json("o.joint.json");
+    let provenance = &file["provenance"];
+    assert_eq!(
+        provenance["from_modes"],
+        serde_json::json!([{
+            "substructure": "a",
+            "file": "modes.toml",
+            "functions": [["3:+Y", "3:+Y"], ["3:+Y", "1:+Y"], ["1:+Y", "1:+Y"]]
+        }])
+    );
+    let roles: Vec<&str> = provenance["inputs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|input| input["role"].as_str().unwrap())
+        .collect();
+    let expected = [
+        "study",
+        "substructure a",
+        "substructure a, modes",
+        "substructure b",
+        "assembly",
+    ];
+    assert_eq!(roles, expected);
+}
+
+#[test]
+fn a_point_that_was_not_measured_comes_from_the_modes() {
+    let bench = bench(|response, reference| response != 3 && reference != 3);
+    bench.done(&IDENTIFY);
+    let error = error(&bench);
+    assert!(error < 1e-6, "{error}");
+}
+
+#[test]
+fn what_was_measured_wins_over_modes_that_are_wrong() {
+    let bench = bench(|_, _| true);
+    bench.write("modes.toml", modes_of_a(1.5));
+    let arguments = [&IDENTIFY[..], &["--report", "o.html"]].concat();
+    let text = bench.done(&arguments).stdout;
+    let error = error(&bench);
+    assert!(error < 1e-6, "{error}");
+    // Shapes 1.5 times too large make receptances 2.25 times too large.
+    for fragment in [
+        "nothing, all functions were measured",
+        "the modes are 125.00 % away",
+    ] {
+        assert!(text.contains(fragment), "{text}");
+    }
+    assert!(bench.text("o.html").contains("From modes, substructure A"));
+    assert_eq!(
+        bench.json("o.joint.json")["provenance"]["from_modes"][0]["functions"],
+        serde_json::json!([])
+    );
+}
+
+#[test]
+fn what_neither_the_functions_nor_the_modes_have_is_an_error() {
+    let bench = bench(|response, reference| response != 3 && reference != 3);
+    let without_3 = r#"points = ["1:+Y", "2:+Y"]
+[[mode]]
+frequency_hz = 30.0
+damping_ratio = 0.01
+shape = [[0.9, 0.0], [0.9, 0.0]]
+"#;
+    bench.write("modes.toml", without_3);
+    bench.refused(
+        &IDENTIFY,
+        &[
+            "a.uff: no function with response 3:+Y and reference 3:+Y",
+            "nor do the modes have it",
+            "modes.toml: no mode shape at 3:+Y; the points are 1:+Y, 2:+Y",
+        ],
+    );
+    bench.write("modes.toml", without_3.to_owned() + "[[mode]]\n");
+    bench.refused(&IDENTIFY, &["modes.toml: ", "missing field"]);
+}

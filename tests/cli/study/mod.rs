@@ -1,0 +1,266 @@
+//! Studies that are wrong: each fault is named by file and key or line, with what was found and expected.
+
+mod bolts;
+mod values;
+
+use crate::bench::{Bench, PNG, replaced};
+use crate::rig;
+
+/// A modal substructure and a computed beam, as in the demo.
+const BEAMS: &str = r#"method = "frf-decoupling"
+name = "beams"
+[a]
+modal = "a.toml"
+joint = { y = "2:+Y", theta = { points = ["3:+Y", "2:+Y", "1:+Y"], spacing = 0.015 } }
+[b]
+beam = { length = 0.2, width = 0.02, height = 0.006, youngs_modulus = 7e10, density = 2700, boundary = "free-free", damping_ratio = [0, 0, 0.01] }
+joint = { x = 0.015 }
+points = { "21:+Y" = 0.17, "22:+Y" = 0.2 }
+[assembly]
+frf = "c.uff"
+points = ["21:+Y", "22:+Y"]
+[joint]
+model = "full"
+[frequency]
+from = 5
+to = 200
+[bands]
+yy = [[50, 60]]
+[noise]
+relative = 0.01
+[bodies]
+a = { inertia = [1, 2], stiffness = [0, 0], damping = [0, 0] }
+b = { inertia = [1, 2], stiffness = [0, 0], damping = [0, 0] }
+"#;
+
+const MODES: &str = r#"points = ["1:+Y", "2:+Y", "3:+Y"]
+[[mode]]
+frequency_hz = 40.0
+damping_ratio = 0.01
+shape = [[4.0, 0.0], [3.6, 0.0], [3.3, 0.0]]
+"#;
+
+fn beams() -> Bench {
+    let bench = rig::ready();
+    bench.write("study.toml", BEAMS);
+    bench.write("a.toml", MODES);
+    bench
+}
+
+const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
+
+#[test]
+fn the_study_that_the_others_are_made_from_is_right() {
+    let outcome = beams().run(&IDENTIFY);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+}
+
+#[test]
+fn what_is_no_study_is_said_to_be_none() {
+    let bench = beams();
+    let cut = BEAMS.find(", width").unwrap();
+    bench.refused(
+        &["identify", "missing.toml", "-o", "o.joint.json"],
+        &["missing.toml: cannot be read", "check the path"],
+    );
+    for (contents, fragments) in [
+        (
+            b"".as_slice(),
+            ["found an empty file", "expected a study (TOML)"],
+        ),
+        (
+            b" \n\t\n",
+            ["found an empty file", "expected a study (TOML)"],
+        ),
+        (
+            PNG,
+            ["found binary data (byte 0)", "expected a study (TOML)"],
+        ),
+        (
+            b"method = \"frf\0\"",
+            ["found binary data (byte 13)", "UTF-8"],
+        ),
+        (
+            BEAMS.split_at(cut).0.as_bytes(),
+            ["line 7, column", "expected `}`"],
+        ),
+        (
+            b"{ \"method\": 1 }",
+            ["line 1, column 1", "{ \"method\": 1 }"],
+        ),
+        (
+            b"method = 1\nmethod = 2\n",
+            ["line 2, column 1", "duplicate key"],
+        ),
+    ] {
+        bench.write("study.toml", contents);
+        let [one, two] = fragments;
+        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
+    }
+}
+
+#[test]
+fn keys_that_do_not_belong_are_named_with_their_line() {
+    let bench = beams();
+    for (from, to, fragments) in [
+        (
+            "name =",
+            "nmae =",
+            ["line 2, column 1", "unknown field `nmae`"],
+        ),
+        (
+            "modal =",
+            "modes =",
+            ["line 4, column 1", "unknown field `modes`"],
+        ),
+        (
+            "spacing =",
+            "spacng =",
+            ["line 5, column", "unknown field `spacng`"],
+        ),
+        (
+            "length =",
+            "lenght =",
+            ["line 7, column", "unknown field `lenght`"],
+        ),
+        ("{ x =", "{ z =", ["line 8, column", "unknown field `z`"]),
+        (
+            "[assembly]",
+            "[assembled]",
+            ["line 10, column", "unknown field `assembled`"],
+        ),
+        (
+            "frf =",
+            "uff =",
+            ["line 11, column 1", "unknown field `uff`"],
+        ),
+        (
+            "model =",
+            "kind =",
+            ["line 14, column 1", "unknown field `kind`"],
+        ),
+        (
+            "from =",
+            "form =",
+            ["line 16, column 1", "unknown field `form`"],
+        ),
+        ("yy =", "xx =", ["line 19, column 1", "unknown field `xx`"]),
+        (
+            "relative =",
+            "sigma =",
+            ["line 21, column 1", "unknown field `sigma`"],
+        ),
+        (
+            "a = { inertia",
+            "c = { inertia",
+            ["line 23, column 1", "unknown field `c`"],
+        ),
+        (
+            "a = { inertia",
+            "a = { mass",
+            ["line 23, column", "unknown field `mass`"],
+        ),
+    ] {
+        bench.write("study.toml", replaced(BEAMS, from, to));
+        let [one, two] = fragments;
+        bench.refused(&IDENTIFY, &["study.toml: ", one, two, "expected"]);
+    }
+}
+
+#[test]
+fn missing_keys_and_wrong_types_are_named_with_their_line() {
+    let bench = beams();
+    for (from, to, fragments) in [
+        ("name = \"beams\"\n", "", ["line 1", "missing field `name`"]),
+        (
+            "[joint]\nmodel = \"full\"\n",
+            "",
+            ["line 1", "missing field `joint`"],
+        ),
+        (
+            "model = \"full\"\n",
+            "",
+            ["line 13", "missing field `model`"],
+        ),
+        ("frf = \"c.uff\"\n", "", ["line 10", "missing field `frf`"]),
+        (
+            ", spacing = 0.015",
+            "",
+            ["line 5", "missing field `spacing`"],
+        ),
+        (
+            "density = 2700, ",
+            "",
+            ["line 7", "missing field `density`"],
+        ),
+        (
+            "name = \"beams\"",
+            "name = 3",
+            ["line 2, column 8", "expected a string"],
+        ),
+        (
+            "length = 0.2",
+            "length = \"0.2\"",
+            ["line 7", "expected f64"],
+        ),
+        ("from = 5", "from = \"5 Hz\"", ["line 16", "\"5 Hz\""]),
+        (
+            "[[50, 60]]",
+            "[50, 60]",
+            ["line 19", "expected an array of length 2"],
+        ),
+        (
+            "[[50, 60]]",
+            "\"mean\"",
+            ["line 19", "expected \"automatic\" or \"median\""],
+        ),
+        (
+            "[bands]\nyy = [[50, 60]]\n",
+            "[start]\nstiffness = [[1]]\n",
+            ["line 18", "missing field `damping`"],
+        ),
+        (
+            "[0, 0, 0.01] }",
+            "\"low\" }",
+            ["line 7", "expected a number or a list of numbers"],
+        ),
+        (
+            "\"frf-decoupling\"",
+            "\"guess\"",
+            ["line 1, column 10", "expected `frf-decoupling`"],
+        ),
+        (
+            "\"full\"",
+            "\"cross\"",
+            [
+                "line 14, column 9",
+                "expected one of `translation`, `diagonal`, `full`",
+            ],
+        ),
+        ("\"free-free\"", "\"free\"", ["line 7", "`fixed-free`"]),
+        (
+            "y = \"2:+Y\"",
+            "y = \"2+Y\"",
+            ["line 5", "such as \"11:+Y\""],
+        ),
+        (
+            "points = [\"21:+Y\"",
+            "points = [\"21:+W\"",
+            ["line 12", "X, Y, Z, RX, RY or RZ"],
+        ),
+        (
+            "\"21:+Y\" = 0.17",
+            "\"x\" = 0.17",
+            ["line 9", "NODE:DIRECTION"],
+        ),
+        (
+            "[\"3:+Y\", \"2:+Y\", \"1:+Y\"]",
+            "[\"3:+Y\", \"1:+Y\"]",
+            ["a.joint.theta.points", "expected three points"],
+        ),
+    ] {
+        bench.write("study.toml", replaced(BEAMS, from, to));
+        let [one, two] = fragments;
+        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
+    }
+}

@@ -1,0 +1,372 @@
+//! Assemblies tightened to different torques: a joint for each, over the torque in the joint file, and its export.
+
+use std::fs;
+
+use nalgebra::matrix;
+use serde_json::{Value, json};
+
+use crate::bench::{Bench, replaced};
+use crate::rig::{FULL, Joint, Quantity, measure, study};
+
+const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
+/// Torques in the order of the assemblies, N·m, and how stiff the joint is beside `FULL`.
+const TORQUES: [(f64, f64); 3] = [(20.0, 1.0), (10.0, 0.7), (25.0, 1.05)];
+
+fn at(factor: f64) -> Joint {
+    Joint {
+        stiffness: FULL.stiffness * factor,
+        damping: FULL.damping / factor,
+    }
+}
+
+/// Exact measurements of an assembly for each torque, and their study.
+fn ready(torques: &str) -> Bench {
+    let bench = Bench::new();
+    let mut assemblies = String::new();
+    for (number, (torque, factor)) in TORQUES.into_iter().enumerate() {
+        measure(&bench, &at(factor), [Quantity::Receptance; 3]);
+        let file = format!("c{number}.uff");
+        fs::rename(bench.path("c.uff"), bench.path(&file)).unwrap();
+        assemblies += &format!(
+            "[[assembly]]\nfrf = \"{file}\"\npoints = [\"21:+Y\", \"22:+Y\", \"23:+Y\"]\ntorque = {torque}\n\
+             level = {{ force = {} }}\n",
+            0.5 + number as f64
+        );
+    }
+    let text = study("full", &[21, 22, 23]);
+    let (before, after) = text.split_once("[assembly]").unwrap();
+    let (_, after) = after.split_once("[joint]").unwrap();
+    let after = after.replace("\"full\"", &format!("\"full\"\ntorques = \"{torques}\""));
+    bench.write(
+        "study.toml",
+        format!("{before}{assemblies}\n[joint]{after}"),
+    );
+    bench
+}
+
+/// The largest error of matrices beside those of the joint, relative to the diagonal.
+fn error(table: &Value, factor: f64) -> f64 {
+    let exact = at(factor);
+    let mut largest: f64 = 0.0;
+    for (found, exact) in [
+        (&table["stiffness"], exact.stiffness),
+        (&table["damping"], exact.damping),
+    ] {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
+            let found = found[i][j].as_f64().unwrap();
+            largest = largest.max((found - exact[(i, j)]).abs() / scale);
+        }
+    }
+    largest
+}
+
+#[test]
+fn each_torque_has_its_joint_in_the_file_ascending() {
+    let bench = ready("separate");
+    let outcome = bench.done(&IDENTIFY);
+    for line in [
+        "at 20 N·m\n",
+        "at 10 N·m\n",
+        "joints over the torque by BIC: common +",
+        "\"separate\" is the simplest adequate one",
+    ] {
+        assert!(outcome.stdout.contains(line), "{line}: {}", outcome.stdout);
+    }
+    let file = bench.json("o.joint.json");
+    let table = &file["joint"]["over_preload"];
+    assert_eq!(table["preload"], json!([10.0, 20.0, 25.0]));
+    // The first assembly's torque is the nominal one.
+    assert_eq!(table["nominal"], 20.0);
+    assert_eq!(file["joint"]["stiffness"], Value::Null);
+    assert_eq!(file["validity"]["torque_n_m"], json!([10.0, 25.0]));
+    assert_eq!(file["validity"]["level"], "force 0.5 to 2.5 N amplitude");
+    let uncertainty = &file["uncertainty"];
+    for (place, factor) in [0.7, 1.0, 1.05].into_iter().enumerate() {
+        let own =
+            json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
+        assert!(error(&own, factor) < 1e-6, "{factor}");
+        let own = &uncertainty["over_preload"]["at"][place];
+        assert_eq!(own["preload"], table["preload"][place]);
+        assert!(
+            own["standard_deviation"]["stiffness"][0][0]
+                .as_f64()
+                .unwrap()
+                > 0.0
+        );
+    }
+    let nominal = &uncertainty["over_preload"]["at"][1];
+    assert_eq!(
+        uncertainty["standard_deviation"],
+        nominal["standard_deviation"]
+    );
+    assert_eq!(uncertainty["interval_95"], nominal["interval_95"]);
+    let correlation = &uncertainty["over_preload"]["correlation"];
+    let names = correlation["unknowns"].as_array().unwrap();
+    assert_eq!(names.len(), 18);
+    assert_eq!(
+        (&names[0], &names[6]),
+        (&json!("k_yy@10"), &json!("k_yy@20"))
+    );
+    // A and B were measured once, so that their errors move the joints of all torques.
+    let between = correlation["matrix"][0][6].as_f64().unwrap();
+    assert!(between.abs() > 0.05 && between.abs() < 1.0, "{between}");
+    let lines = file["residual"]["functions"].as_array().unwrap();
+    assert_eq!(lines.len(), 27);
+}
+
+#[test]
+fn an_export_is_at_one_preload() {
+    let bench = ready("separate");
+    bench.done(&IDENTIFY);
+    let table = bench.json("o.joint.json")["joint"]["over_preload"].clone();
+    let start = |name: &str, key: &str| -> f64 {
+        let file = fs::File::open(bench.path(name)).unwrap();
+        let mut archive = zip::ZipArchive::new(file).unwrap();
+        let mut member = archive.by_name("resources/start.txt").unwrap();
+        let mut text = String::new();
+        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
+        let line = text
+            .lines()
+            .find_map(|line| line.strip_prefix(&format!("{key} ")));
+        line.unwrap().parse().unwrap()
+    };
+    let outcome = bench.done(&["export", "o.joint.json", "-o", "nominal.fmu"]);
+    assert!(
+        outcome.stdout.contains("two bodies, at 20 N·m"),
+        "{}",
+        outcome.stdout
+    );
+    let entry =
+        |place: usize, (i, j): (usize, usize)| table["stiffness"][place][i][j].as_f64().unwrap();
+    assert_eq!(start("nominal.fmu", "joint.k_yy"), entry(1, (0, 0)));
+    bench.done(&[
+        "export",
+        "o.joint.json",
+        "-o",
+        "twelve.fmu",
+        "--preload",
+        "12",
+    ]);
+    for (key, place) in [("joint.k_yy", (0, 0)), ("joint.k_ytheta", (0, 1))] {
+        let expected = 0.8 * entry(0, place) + 0.2 * entry(1, place);
+        let found = start("twelve.fmu", key);
+        assert!((found / expected - 1.0).abs() < 1e-14, "{key} {found}");
+    }
+    bench.done(&[
+        "export",
+        "o.joint.json",
+        "-o",
+        "highest.fmu",
+        "--preload",
+        "25",
+    ]);
+    assert_eq!(start("highest.fmu", "joint.k_yy"), entry(2, (0, 0)));
+    for preload in ["9.99", "25.1", "-1", "nan"] {
+        bench.refused(
+            &[
+                "export",
+                "o.joint.json",
+                "-o",
+                "o.fmu",
+                "--preload",
+                preload,
+            ],
+            &["o.joint.json: preload: found", "expected 10.0 to 25.0 N·m"],
+        );
+    }
+    // The FMU is sound in itself, and has the table that it was taken from beside the joint that it is.
+    let checked = bench.done(&["check", "twelve.fmu"]);
+    assert!(
+        checked.stdout.contains("no problem found"),
+        "{}",
+        checked.stdout
+    );
+    let file = fs::File::open(bench.path("twelve.fmu")).unwrap();
+    let mut archive = zip::ZipArchive::new(file).unwrap();
+    let mut member = |name: &str| {
+        let mut text = String::new();
+        let mut member = archive.by_name(name).unwrap();
+        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
+        text
+    };
+    assert_eq!(
+        member("resources/joint-over-preload.json"),
+        bench.text("o.joint.json")
+    );
+    let constant: Value = serde_json::from_str(&member("resources/joint.json")).unwrap();
+    assert_eq!(constant["joint"]["over_preload"], Value::Null);
+    assert_eq!(constant["validity"]["torque_n_m"], json!([10.0, 20.0]));
+    let page = member("documentation/index.html");
+    for text in [
+        "force 0.5 to 2.5 N amplitude",
+        "interpolated linearly between 10 and 20 N·m",
+        "resources/joint-over-preload.json",
+        "10 to 20 N·m",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    let checked = bench.done(&["check", "o.joint.json"]);
+    assert!(
+        checked
+            .stdout
+            .contains("preloads: 10, 20, 25 N·m, nominal 20 N·m")
+    );
+}
+
+#[test]
+fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
+    let bench = ready("separate");
+    let active = Joint {
+        stiffness: FULL.stiffness,
+        damping: matrix![6.0, 0.3; 0.3, 0.005],
+    };
+    measure(&bench, &active, [Quantity::Receptance; 3]);
+    fs::rename(bench.path("c.uff"), bench.path("c0.uff")).unwrap();
+    let outcome = bench.done(&IDENTIFY);
+    assert!(
+        outcome.stdout.contains("free estimate"),
+        "{}",
+        outcome.stdout
+    );
+    let file = bench.json("o.joint.json");
+    let table = &file["joint"]["over_preload"];
+    let damping = &table["damping"][1];
+    let entry = |i: usize, j: usize| damping[i][j].as_f64().unwrap();
+    // On the boundary of the cone: singular, not negative.
+    let ratio = entry(0, 1).powi(2) / (entry(0, 0) * entry(1, 1));
+    assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
+    let at = &file["uncertainty"]["over_preload"]["at"];
+    let free = &at[1]["free_estimate"]["damping"];
+    assert!((free[0][1].as_f64().unwrap() - 0.3).abs() < 1e-6);
+    // The others are passive as they are, and stay where they were but for what the substructures have in common.
+    for (place, factor) in [(0, 0.7), (2, 1.05)] {
+        assert_eq!(at[place]["free_estimate"], Value::Null);
+        let own =
+            json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
+        assert!(error(&own, factor) < 1e-2, "{}", error(&own, factor));
+    }
+    bench.done(&["export", "o.joint.json", "-o", "o.fmu"]);
+}
+
+#[test]
+fn a_preload_is_refused_where_the_joint_has_none() {
+    let bench = crate::rig::ready();
+    bench.done(&IDENTIFY);
+    bench.refused(
+        &["export", "o.joint.json", "-o", "o.fmu", "--preload", "12"],
+        &["does not depend on the preload, expected none"],
+    );
+}
+
+#[test]
+fn a_common_joint_of_different_joints_is_warned_of() {
+    let bench = ready("common");
+    let outcome = bench.done(&IDENTIFY);
+    assert!(
+        outcome.stderr.contains("the joint depends on the torque")
+            && outcome.stderr.contains("torques = \"separate\""),
+        "{}",
+        outcome.stderr
+    );
+    assert_eq!(
+        bench.json("o.joint.json")["joint"]["over_preload"],
+        Value::Null
+    );
+    let json = [&IDENTIFY[..], &["--json"]].concat();
+    let found = bench.done(&json).json();
+    assert_eq!(found["torques"]["used"], "common");
+    assert_eq!(found["torques"]["recommended"], "separate");
+    let counts = found["torques"]["compared"].as_array().unwrap().iter();
+    let counts: Vec<u64> = counts
+        .map(|fit| fit["unknowns"].as_u64().unwrap())
+        .collect();
+    assert_eq!(counts, [6, 18]);
+}
+
+#[test]
+fn torques_and_levels_that_cannot_be_are_refused() {
+    let bench = ready("separate");
+    let good = bench.text("study.toml");
+    for (from, to, fragments) in [
+        (
+            "torque = 10\n",
+            "",
+            ["`joint.torques`", "no torque in 1 of 3 [[assembly]]"],
+        ),
+        (
+            "\"separate\"",
+            "\"sometimes\"",
+            ["unknown variant", "`common` or `separate`"],
+        ),
+        (
+            "{ force = 0.5 }",
+            "{ force = 0.5, velocity = 1 }",
+            [
+                "`assembly.level`: found force = 0.5, velocity = 1",
+                "exactly one",
+            ],
+        ),
+        (
+            "{ force = 0.5 }",
+            "{ force = -1 }",
+            ["found force = -1", "above zero"],
+        ),
+        (
+            "{ force = 0.5 }",
+            "{ }",
+            ["found no level", "`acceleration` (m/s²)"],
+        ),
+        (
+            "{ force = 0.5 }",
+            "{ force = 0.5, measure = \"mean\" }",
+            ["unknown variant `mean`", "rms"],
+        ),
+    ] {
+        bench.write("study.toml", replaced(&good, from, to));
+        bench.refused(&IDENTIFY, &fragments);
+    }
+    let same = good
+        .replace("torque = 10\n", "torque = 20\n")
+        .replace("torque = 25\n", "torque = 20\n");
+    bench.write("study.toml", same);
+    bench.refused(&IDENTIFY, &["`joint.torques`", "and one torque"]);
+}
+
+#[test]
+fn levels_of_another_kind_are_told_one_by_one() {
+    let bench = ready("separate");
+    let text = replaced(
+        &bench.text("study.toml"),
+        "level = { force = 1.5 }",
+        "level = { acceleration = 2, measure = \"rms\" }",
+    );
+    bench.write("study.toml", text);
+    bench.done(&IDENTIFY);
+    assert_eq!(
+        bench.json("o.joint.json")["validity"]["level"],
+        "assembly 1: force 0.5 N amplitude; assembly 2: acceleration 2 m/s² r.m.s.; assembly 3: force 2.5 N amplitude"
+    );
+}
+
+#[test]
+fn the_report_shows_the_joint_over_the_torque() {
+    let bench = ready("separate");
+    bench.done(&[&IDENTIFY[..], &["--report", "o.html"]].concat());
+    let page = bench.text("o.html");
+    for text in [
+        "<h2>Identified parameters</h2>\n<p>Each torque has a joint of its own",
+        "id=\"over-torque\"",
+        ">tightening torque, N·m</text>",
+        "<h3>Dependence on the torque</h3>",
+        "The joint depends on the torque.",
+        "tightened to 20 N·m; force 0.5 N amplitude",
+        "<th scope=\"row\">10 and 20 N·m</th>",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    let figure = page.split("id=\"over-torque\"").nth(1).unwrap();
+    let figure = figure.split("</figure>").next().unwrap();
+    // Six unknowns, each with one line joining its three values.
+    assert_eq!(figure.matches("stroke-dasharray").count(), 6);
+}

@@ -1,0 +1,156 @@
+//! Joints over the preload: taken at one, with their deviations, and tables that do not fit.
+
+use bolted_joint::joint::{JointFile, PreloadError};
+
+use crate::GOOD;
+
+/// K, C and k₃ of two DOFs at three preloads, with their standard deviations.
+const OVER_PRELOAD: &str = r#"{
+  "format": "bolted-joint/1",
+  "name": "table",
+  "joint": { "dofs": ["y", "theta"], "over_preload": {
+    "preload": [10, 15, 25], "nominal": 15,
+    "stiffness": [[[4e5, 3e3], [3e3, 9e2]], [[6e5, 5e3], [5e3, 1.2e3]], [[7e5, 6e3], [6e3, 1.4e3]]],
+    "damping": [[[12, -0.5], [-0.5, 0.1]], [[8, -0.3], [-0.3, 0.06]], [[7, -0.2], [-0.2, 0.05]]],
+    "cubic": [[0, 0], [-1e9, 0], [-3e9, 20]]
+  } },
+  "uncertainty": {
+    "standard_deviation": { "stiffness": [[200, 2], [2, 0.2]], "damping": [[0.2, 0.02], [0.02, 0.002]] },
+    "basis": "test",
+    "interval_95": { "stiffness": [[[599600, 600400], [4996, 5004]], [[4996, 5004], [1199.6, 1200.4]]],
+                     "damping": [[[7.6, 8.4], [-0.34, -0.26]], [[-0.34, -0.26], [0.056, 0.064]]] },
+    "over_preload": { "at": [
+      { "preload": 10,
+        "standard_deviation": { "stiffness": [[100, 1], [1, 0.1]], "damping": [[0.1, 0.01], [0.01, 0.001]] },
+        "not_identified": ["k_ytheta"] },
+      { "preload": 15,
+        "standard_deviation": { "stiffness": [[200, 2], [2, 0.2]], "damping": [[0.2, 0.02], [0.02, 0.002]] },
+        "free_estimate": { "stiffness": [[6e5, 5e3], [5e3, 1.2e3]], "damping": [[8, -0.4], [-0.4, 0.05]] } },
+      { "preload": 25,
+        "standard_deviation": { "stiffness": [[400, 4], [4, 0.4]], "damping": [[0.4, 0.04], [0.04, 0.004]] } }
+    ] }
+  },
+  "validity": { "frequency_hz": [5, 500], "torque_n_m": [10, 25] },
+  "provenance": { "tool": "t", "version": "1", "method": "m", "model": "full" }
+}"#;
+
+#[test]
+fn a_joint_over_preload_is_taken_at_one_by_linear_interpolation() {
+    let table = JointFile::from_json(OVER_PRELOAD, "").unwrap();
+    // 17 N·m is a fifth of the way from 15 to 25 N·m.
+    let file = table.at_preload(Some(17.0)).unwrap();
+    assert_eq!(file.validate(), []);
+    assert_eq!(file.name, "table, at 17 N·m");
+    let law = file.joint.law::<2>().unwrap();
+    let near = |found: &[f64], expected: &[f64]| {
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() <= 1e-14 * expected.abs(),
+                "{found} {expected}"
+            );
+        }
+    };
+    near(law.stiffness.as_flattened(), &[6.2e5, 5.2e3, 5.2e3, 1.24e3]);
+    near(law.damping.as_flattened(), &[7.8, -0.28, -0.28, 0.058]);
+    near(&law.cubic, &[-1.4e9, 4.0]);
+    let uncertainty = file.uncertainty.unwrap();
+    near(&uncertainty.standard_deviation.stiffness[0], &[240.0, 2.4]);
+    near(&uncertainty.standard_deviation.damping[1], &[0.024, 0.0024]);
+    assert!(
+        uncertainty
+            .basis
+            .starts_with("test; between 15 and 25 N·m interpolated")
+    );
+    // The free estimate of 25 N·m is the joint itself.
+    let free = uncertainty.free_estimate.unwrap();
+    near(&free.damping[0], &[7.8, 0.8 * -0.4 + 0.2 * -0.2]);
+    assert_eq!(uncertainty.over_preload, None);
+    assert_eq!(file.validity.unwrap().torque_n_m, Some([15.0, 25.0]));
+    let notes = file.provenance.unwrap().notes;
+    assert!(notes[0].contains("17 N·m, interpolated linearly between 15 and 25 N·m"));
+}
+
+#[test]
+fn a_joint_over_preload_is_at_its_own_preloads_what_the_table_says() {
+    let table = JointFile::from_json(OVER_PRELOAD, "").unwrap();
+    let over_preload = table.joint.over_preload.clone().unwrap();
+    for (place, preload) in [10.0, 15.0, 25.0].into_iter().enumerate() {
+        let file = table.at_preload(Some(preload)).unwrap();
+        assert_eq!(file.joint.stiffness, over_preload.stiffness[place]);
+        assert_eq!(file.joint.damping, over_preload.damping[place]);
+        assert_eq!(file.joint.cubic, over_preload.cubic[place]);
+        assert_eq!(file.validity.unwrap().torque_n_m, Some([preload; 2]));
+        let own = &table
+            .uncertainty
+            .as_ref()
+            .unwrap()
+            .over_preload
+            .as_ref()
+            .unwrap()
+            .at[place];
+        let uncertainty = file.uncertainty.unwrap();
+        assert_eq!(uncertainty.standard_deviation, own.standard_deviation);
+        // The nominal preload's interval stands beside the table.
+        assert_eq!(uncertainty.interval_95.is_some(), preload == 15.0);
+    }
+    assert_eq!(table.at_preload(None), table.at_preload(Some(15.0)));
+    let constant = JointFile::from_json(GOOD, "").unwrap();
+    assert_eq!(constant.at_preload(None), Ok(constant.clone()));
+    assert_eq!(
+        constant.at_preload(Some(10.0)),
+        Err(PreloadError::Constant { found_n_m: 10.0 })
+    );
+    for found_n_m in [9.9, 25.1, -1.0, f64::INFINITY] {
+        assert_eq!(
+            table.at_preload(Some(found_n_m)),
+            Err(PreloadError::Outside {
+                found_n_m,
+                first_n_m: 10.0,
+                last_n_m: 25.0
+            })
+        );
+    }
+    assert!(table.at_preload(Some(f64::NAN)).is_err());
+}
+
+#[test]
+fn interpolation_between_passive_joints_is_passive() {
+    let table = JointFile::from_json(OVER_PRELOAD, "").unwrap();
+    for step in 0..=150 {
+        let file = table
+            .at_preload(Some(10.0 + 0.1 * f64::from(step)))
+            .unwrap();
+        assert!(file.passivity().is_passive(), "{}", file.name);
+    }
+}
+
+#[test]
+fn deviations_over_preload_that_do_not_fit_the_joint() {
+    for (from, to, fragment) in [
+        (
+            "{ \"preload\": 10,",
+            "{ \"preload\": 11,",
+            "uncertainty.over_preload.at[0].preload: found 11.0 N·m, expected 10.0 N·m as in joint.over_preload.preload",
+        ),
+        (
+            "[[100, 1], [1, 0.1]]",
+            "[[-100, 1], [1, 0.1]]",
+            "uncertainty.over_preload.at[0].standard_deviation.stiffness[0][0]: found -100.0",
+        ),
+        (
+            "[[8, -0.4], [-0.4, 0.05]]",
+            "[[8, -0.4], [-0.5, 0.05]]",
+            "uncertainty.over_preload.at[1].free_estimate.damping: found -0.4 at [0][1]",
+        ),
+        (
+            "\"preload\": [10, 15, 25]",
+            "\"preload\": [10, 15, 20, 25]",
+            "uncertainty.over_preload.at: found 3 entries, expected 4, one for each of joint.over_preload.preload",
+        ),
+    ] {
+        assert!(OVER_PRELOAD.contains(from), "{from}");
+        let text = OVER_PRELOAD.replacen(from, to, 1);
+        let message = JointFile::from_json(&text, "").unwrap_err().to_string();
+        assert!(message.contains(fragment), "{message}");
+    }
+}

@@ -6,9 +6,11 @@ use num_complex::Complex64;
 use super::{Line, backward, forward};
 
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
-const CORRECTION_ROUNDS: usize = 20;
+const CORRECTION_ROUNDS: usize = 40;
 /// … as long as they promise to lower its cost by this fraction …
 const CORRECTION_GAIN: f64 = 1e-3;
+/// (by this one where the full step does not lower it) …
+const CORRECTION_GAIN_OF_SHORT_STEPS: f64 = 1e-12;
 /// … each shortened to a quarter at most so many times …
 const CORRECTION_QUARTERINGS: usize = 8;
 /// … until it lowers the cost by this part of what the linear model promises of it. At a sharp resonance a step can end beyond
@@ -28,6 +30,7 @@ impl<const N: usize> Line<'_, N> {
         delta: &mut [Complex64],
     ) -> Option<()> {
         let mut trial = std::mem::take(&mut self.trial);
+        let mut negligible = CORRECTION_GAIN;
         if let Some(from) = from {
             trial.clear();
             trial.extend_from_slice(delta);
@@ -38,6 +41,9 @@ impl<const N: usize> Line<'_, N> {
             let after = self.cost_at(index, variances, to, &trial);
             if after <= before {
                 delta.copy_from_slice(&trial);
+            } else {
+                // Full steps overshoot here, and would for ever.
+                negligible = CORRECTION_GAIN_OF_SHORT_STEPS;
             }
         }
         for _ in 0..CORRECTION_ROUNDS {
@@ -47,7 +53,7 @@ impl<const N: usize> Line<'_, N> {
             trial.extend_from_slice(delta);
             self.follow(variances, to, to, &mut trial)?;
             let promised = before - self.residual_cost;
-            if promised <= CORRECTION_GAIN * before {
+            if promised <= negligible * before {
                 break;
             }
             let mut accepted = false;

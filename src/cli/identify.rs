@@ -185,9 +185,17 @@ fn summary(found: &Identification, study: &Study) -> String {
         text += "\n";
         text += &parameters(joint, bolts);
     }
-    let is_active = |joint: &JointEstimate| joint.free != joint.bolts();
-    if joints.iter().any(is_active) {
-        text += "\nThe free estimate is active; \"identified\" is the passive joint that fits best, and is what the file holds.\n";
+    let active: Vec<String> = joints
+        .iter()
+        .filter(|joint| joint.free_is_active())
+        .map(place)
+        .collect();
+    if !active.is_empty() {
+        let _ = writeln!(
+            text,
+            "\nThe free estimate is active{}; \"identified\" is the passive joint that fits best, and is what the file holds.",
+            active.join(" and")
+        );
     }
     for joint in joints {
         text += &averaged(joint, bolts);

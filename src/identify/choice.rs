@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::estimator::Estimate;
 use super::layout::Layout;
 use super::model::JointModel;
+use super::passive::CHANCE;
 use super::search::{Effort, Found};
 use super::torque::{Problem, tested_chi_squared};
 
@@ -69,6 +70,11 @@ pub(super) fn compare<const N: usize>(
         .collect();
     let bic = |(_, found): &(Layout, Found)| bayesian_criterion(&found.estimate);
     let lowest = fits.iter().map(bic).fold(f64::INFINITY, f64::min);
+    let misfits = fits.iter().map(|(_, found)| found.estimate.misfit);
+    let best = misfits.fold(f64::INFINITY, f64::min);
+    // A model that is too simple can pass for one with much noise. Of exact data rounding is left, which is no likelihood.
+    let is_as_likely =
+        |found: &Found| found.assessment.is_exact || found.estimate.misfit <= best + CHANCE;
     let models: Vec<ModelFit> = fits
         .iter()
         .map(|fit| ModelFit {
@@ -76,7 +82,7 @@ pub(super) fn compare<const N: usize>(
             unknowns: fit.1.estimate.unknowns.len(),
             bic_difference: bic(fit) - lowest,
             reduced_chi_squared: tested_chi_squared(&fit.1),
-            adequate: fit.1.assessment.fits(),
+            adequate: fit.1.assessment.fits() && is_as_likely(&fit.1),
         })
         .collect();
     let any_is_adequate = models.iter().any(|fit| fit.adequate);

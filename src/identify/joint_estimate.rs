@@ -6,7 +6,7 @@ use super::assessment;
 use super::bands::UsedBands;
 use super::bootstrap::Bootstrap;
 use super::layout::Layout;
-use super::model::{JointMatrices, JointModel};
+use super::model::{JointMatrices, JointModel, is_positive_semidefinite};
 use super::noise::Noise;
 use super::objective::Objective;
 use super::search::Found;
@@ -90,6 +90,14 @@ impl JointEstimate {
     #[must_use]
     pub fn unknowns_of(&self, bolt: usize) -> Vec<usize> {
         self.layout.indices_of(bolt)
+    }
+
+    /// Whether the free estimate can feed energy into a structure. Of several joints one that is not may have a passive estimate
+    /// of its own all the same, beside another that is.
+    #[must_use]
+    pub fn free_is_active(&self) -> bool {
+        let mut matrices = self.free.iter().flat_map(|j| [&j.stiffness, &j.damping]);
+        !matrices.all(is_positive_semidefinite)
     }
 
     /// What follows its numbers in a message: the torque at which they hold, where they are those of one torque.

@@ -24,6 +24,8 @@ enum Face {
     RankOne,
     /// Only these entries of the joint model, the others being zero.
     Only(Vec<usize>),
+    /// These values and no others.
+    Held(Vec<f64>),
 }
 
 impl Face {
@@ -45,6 +47,7 @@ impl Face {
             Self::Free => entries,
             Self::RankOne => 2,
             Self::Only(kept) => kept.len(),
+            Self::Held(_) => 0,
         }
     }
 
@@ -59,6 +62,7 @@ impl Face {
                 }
                 values
             }
+            Self::Held(values) => values.clone(),
         }
     }
 
@@ -70,6 +74,7 @@ impl Face {
                 [[2.0 * x[0], 0.0], [x[1], x[0]], [0.0, 2.0 * x[1]]][entry][coordinate]
             }
             Self::Only(kept) => f64::from(u8::from(kept[coordinate] == entry)),
+            Self::Held(_) => 0.0,
         }
     }
 
@@ -83,6 +88,7 @@ impl Face {
                 values[2].abs().sqrt() * values[1].signum(),
             ],
             Self::Only(kept) => kept.iter().map(|&index| values[index].max(0.0)).collect(),
+            Self::Held(_) => Vec::new(),
         }
     }
 }
@@ -158,15 +164,41 @@ fn first_active(layout: &Layout, unknowns: &DVector<f64>) -> Option<usize> {
     torques.position(|own| is_passive(layout, own).contains(&false))
 }
 
+/// By how much the −2 log-likelihood of an estimate under constraints may be above that of the free one by chance: five standard
+/// deviations.
+pub(super) const CHANCE: f64 = 25.0;
+
 /// The passive estimate beside the `free` one; `None` if no face has a minimum, which only a joint without any effect has.
 ///
-/// Of several torques one after the other gets its faces, those before it keeping theirs: only the common errors of the
-/// substructures couple them.
+/// Joints of different torques that measured substructures couple tell of each other's errors: if one of them is active by
+/// chance, the others move with it. If noise does not explain that it is active, they are held where they are.
 pub(super) fn passive<const N: usize>(
     objective: &Objective<'_, N>,
     layout: &Layout,
     noise: &Noise,
     free: &Estimate,
+) -> Option<Estimate> {
+    let together = constrained(objective, layout, noise, free, Others::Move);
+    let alone = free.unknowns.len() == layout.unknowns();
+    together
+        .filter(|estimate| alone || estimate.misfit <= free.misfit + CHANCE)
+        .or_else(|| constrained(objective, layout, noise, free, Others::Stay))
+}
+
+/// What the joints of the torques do that are not being constrained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Others {
+    Move,
+    Stay,
+}
+
+/// One active torque after the other gets its faces, those before it keeping theirs.
+fn constrained<const N: usize>(
+    objective: &Objective<'_, N>,
+    layout: &Layout,
+    noise: &Noise,
+    free: &Estimate,
+    others: Others,
 ) -> Option<Estimate> {
     let torques = free.unknowns.len() / layout.unknowns();
     let matrices = 2 * layout.joints() * torques;
@@ -180,6 +212,10 @@ pub(super) fn passive<const N: usize>(
         let Some(active) = first_active(layout, &estimate.unknowns) else {
             return Some(estimate);
         };
+        if others == Others::Stay {
+            let values = estimate.unknowns.as_slice().chunks(faces.entries);
+            faces.faces = values.map(|values| Face::Held(values.to_vec())).collect();
+        }
         (faces, estimate) = on_a_face(objective, layout, noise, &estimate, &faces, active)?;
     }
     first_active(layout, &estimate.unknowns)

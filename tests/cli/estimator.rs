@@ -111,7 +111,7 @@ fn the_simplest_model_that_leaves_nothing_is_recommended() {
         .iter()
         .map(|fit| fit["adequate"].as_bool().unwrap())
         .collect();
-    assert_eq!(adequate, [false, true, true]);
+    assert_eq!(adequate, [false, true, true], "{compared:?}");
     assert_ne!(found["models"]["recommended"], "translation");
 }
 

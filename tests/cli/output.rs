@@ -110,6 +110,7 @@ fn json_has_its_keys() {
             "reduced_chi_squared",
             "warnings",
             "models",
+            "torques",
             "models_not_compared"
         ]
     );

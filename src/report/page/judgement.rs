@@ -1,5 +1,6 @@
 //! How well the joint fits, which joint model the data call for, and whether the joint is passive.
 
+use super::parameters::place;
 use super::{IdentificationReport, counted, over_torque};
 use crate::html::{capitalised, cell, escaped, number_cell, percent, quantity, shown, table};
 use crate::identify::{JointEstimate, JointMatrices};
@@ -219,20 +220,27 @@ fn passivity(report: &IdentificationReport<'_>, files: &[JointFile]) -> String {
          <ul>\n{verdicts}</ul>\n"
     );
     let joints = found.estimate.by_torque();
-    let active = joints.iter().filter(|joint| joint.free != joint.bolts());
-    let tables: String = active
-        .map(|joint| free_and_passive(report, joint))
+    let active: Vec<String> = joints
+        .iter()
+        .filter(|joint| joint.free_is_active())
+        .map(|joint| place(joint))
         .collect();
-    if tables.is_empty() {
+    if active.is_empty() {
         html += "<p>The free estimate is passive already: free and passive estimate are the same.</p>\n";
         return html;
     }
-    html += &tables;
-    html + "<p>The free estimate is active. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
-            holds.</p>\n"
+    let tables = joints.iter().filter(|joint| joint.free != joint.bolts());
+    html += &tables
+        .map(|joint| free_and_passive(report, joint))
+        .collect::<String>();
+    html + &format!(
+        "<p>The free estimate is active{}. The passive one, K = LLᵀ and C = LLᵀ with the same likelihood, is what the joint file \
+         holds.</p>\n",
+        active.join(" and")
+    )
 }
 
-/// Both estimates of a joint whose free one is active.
+/// Both estimates of a joint.
 fn free_and_passive(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String {
     let covariance = &joint.covariance;
     let rows: Vec<String> = covariance

@@ -130,7 +130,7 @@ fn basis(report: &IdentificationReport<'_>) -> String {
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
          over the bands (Tol, equation 3.21); it is given for comparison.",
     );
-    if joints.iter().any(|joint| joint.free != joint.bolts()) {
+    if joints.iter().any(JointEstimate::free_is_active) {
         html += " The free estimate is not passive. The estimate above is the passive joint that fits best; the interval is about \
                  the free one.";
     }

@@ -1,7 +1,9 @@
 //! How long an identification takes, and how near the Cramér–Rao bound it comes.
 //!
 //! `cargo bench --bench identification` times 2,048 lines at three points, with intervals, and 1,000 bootstrap draws.
-//! `-- write FILE` writes the same data for `same_in_numpy.py`, which times the same algorithm in NumPy.
+//! `-- against PYTHON` runs `same_in_numpy.py`, the same algorithm in NumPy and SciPy, with that interpreter in turns with ours, with
+//! one BLAS thread and with as many as it takes by itself, and prints the ratios.
+//! `-- write FILE` writes the data that the script reads, `-- repeat COUNT` identifies them so many times, for a profiler.
 //! `-- table [DRAWS [CASE]]` prints the errors of stiff and soft joints with light and heavy damping over many draws of
 //! noise, of the cases whose names hold CASE.
 
@@ -15,6 +17,8 @@ mod measured;
 #[path = "../../tests/identification/monte_carlo.rs"]
 mod monte_carlo;
 
+use std::path::Path;
+use std::process::Command;
 use std::time::Instant;
 
 use bolted_joint::identify::{Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines};
@@ -27,6 +31,8 @@ const ONE_PER_CENT: NoiseLevel = NoiseLevel {
 };
 const LINES: usize = 2048;
 const REPETITIONS: usize = 20;
+/// Turns of both programs.
+const TURNS: usize = 5;
 
 fn axis(count: usize, step_hz: f64) -> Vec<f64> {
     (1..=count).map(|line| line as f64 * step_hz).collect()
@@ -40,7 +46,8 @@ fn main() {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
         ["write", file] => write(file),
-        ["repeat", count] => repeat(count.parse().unwrap()),
+        ["against", python] => against(python),
+        ["repeat", count] => drop(repeat(count.parse().unwrap())),
         ["table"] => table(100, ""),
         ["table", draws] => table(draws.parse().unwrap(), ""),
         ["table", draws, chosen] => table(draws.parse().unwrap(), chosen),
@@ -52,16 +59,76 @@ fn rig() -> Rig {
     Rig::new("timing", joint(1.0, 1.0), thesis(axis(LINES, 0.25)))
 }
 
-fn repeat(count: usize) {
+/// Seconds that each of `count` identifications of the same lines takes.
+fn repeat(count: usize) -> Vec<f64> {
     let rig = rig();
     let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
     let options = Options {
         noise: Noise::stated(ONE_PER_CENT),
         ..Options::default()
     };
-    for _ in 0..count {
+    let one = |_| {
+        let begun = Instant::now();
         let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
         assert!(found.assessment().fits());
+        begun.elapsed().as_secs_f64()
+    };
+    (0..count).map(one).collect()
+}
+
+/// Seconds that each identification of the script takes; with `threads` of BLAS, or as many as it takes by itself.
+fn repeat_in_numpy(python: &str, file: &Path, threads: Option<&str>) -> Vec<f64> {
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/benches/identification/same_in_numpy.py"
+    );
+    let mut command = Command::new(python);
+    command.arg(script).arg(file).arg("--seconds");
+    for library in ["OPENBLAS", "MKL", "OMP"] {
+        let name = format!("{library}_NUM_THREADS");
+        match threads {
+            Some(threads) => command.env(name, threads),
+            None => command.env_remove(name),
+        };
+    }
+    let output = command.output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    text.split_whitespace()
+        .map(|word| word.parse().unwrap())
+        .collect()
+}
+
+/// Both in turns, so that they share whatever else the machine does.
+fn against(python: &str) {
+    let file = std::env::temp_dir().join(format!("identification-{}.bin", std::process::id()));
+    write(file.to_str().unwrap());
+    let mut times: [Vec<f64>; 3] = Default::default();
+    for _ in 0..TURNS {
+        times[0].extend(repeat(REPETITIONS).split_off(1));
+        times[1].extend(repeat_in_numpy(python, &file, Some("1")));
+        times[2].extend(repeat_in_numpy(python, &file, None));
+    }
+    std::fs::remove_file(&file).unwrap();
+    for times in &mut times {
+        times.sort_by(f64::total_cmp);
+    }
+    let names = [
+        "this program",
+        "NumPy, one BLAS thread",
+        "NumPy, its own BLAS threads",
+    ];
+    println!("{LINES} lines, three points, with intervals; ms");
+    for (name, of) in names.iter().zip(&times) {
+        let (median, fastest) = (of[of.len() / 2], of[0]);
+        let (by_median, by_fastest) =
+            (median / times[0][times[0].len() / 2], fastest / times[0][0]);
+        println!(
+            "{name:28} median {:6.1} = {by_median:5.1} × ours, fastest {:6.1} = {by_fastest:5.1} × ours",
+            1e3 * median,
+            1e3 * fastest
+        );
     }
 }
 

@@ -1,7 +1,8 @@
 """The identification of `cargo bench --bench identification` by the same algorithm in NumPy and SciPy, timed.
 
+    cargo bench --bench identification -- against python3
     cargo bench --bench identification -- write lines.bin
-    python benches/identification/same_in_numpy.py lines.bin
+    python3 benches/identification/same_in_numpy.py lines.bin
 """
 
 import sys
@@ -206,6 +207,9 @@ def main():
         begun = time.perf_counter()
         theta, deviation, correlation = identify(lines)
         times.append(time.perf_counter() - begun)
+    if "--seconds" in sys.argv:
+        print(*times)
+        return
     for value, sigma in zip(theta, deviation):
         print(f"{value:14.6g} ± {sigma:.2g}")
     print(f"correlation of neighbouring lines {correlation:.3f}")

@@ -1,26 +1,30 @@
 //! Bands for the averages, chosen by what the data say about the joint and where the substructures' own resonances spoil it.
 
+use std::ops::Range;
+
 use num_complex::Complex64;
 
 use crate::frf::resonances;
-use crate::structure::{ComplexMatrix, CouplingError};
+use crate::structure::CouplingError;
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
+use super::independent_parts::IndependentParts;
 use super::kernel::{Kernel, complex_stiffness};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
+use super::parallel;
 
 /// Lines closer than this part of the frequency to a resonance of a substructure are avoided; the thesis stays off its
 /// resonance at 336 Hz by 11 %.
 const DISTANCE: f64 = 0.1;
 /// A band holds the lines whose sensitivity is at least this part of the highest; of the next part where no band has it.
 const SHARES: [f64; 3] = [1.0 / 3.0, 0.1, 0.03];
-/// Sine of the angle between columns of the Jacobian, below which one line does not tell them apart.
-const DEPENDENT: f64 = 1e-6;
 /// A band has so many lines at least.
 const SHORTEST_BAND: usize = 3;
+/// Lines that one processor goes through at a time.
+const LINES_OF_A_PART: usize = 256;
 
 /// Bands from sensitivity and distance (Tol 4.2.2): for each entry of `model` the lines that determine it best, among those
 /// 10 % or more away from the substructures' own resonances.
@@ -177,57 +181,81 @@ fn measures<const N: usize>(
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<Vec<Vec<f64>>> {
-    let (lines, entries) = (block.lines(), block.entries.len());
-    let mut sizes = vec![Vec::with_capacity(lines); entries];
-    let mut jacobians = Vec::with_capacity(lines);
-    let mut kernel = Kernel::new();
-    for line in 0..lines {
-        let stiffness = complex_stiffness::<N>(places, unknowns, block.omega[line]);
-        let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
-        kernel.solve(&block.free[line], transfer.iter().copied(), &stiffness)?;
-        for (e, &entry) in block.entries.iter().enumerate() {
-            let own = block.own[line * entries + e];
-            sizes[e].push(kernel.receptance(own, entry).norm());
-        }
-        jacobians.push(ComplexMatrix::from_fn(entries, decoupled.len(), |e, t| {
-            kernel.by_stiffness(block.entries[e], decoupled[t])
-        }));
-    }
-    let usual: Vec<f64> = sizes
-        .iter()
-        .map(|sizes| median(sizes.clone()).unwrap_or(0.0))
+    let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
+    let parts = parallel::map(&parts, |lines| {
+        Part::of(block, lines.clone(), places, unknowns, decoupled)
+    });
+    let parts: Vec<Part> = parts.into_iter().collect::<Option<_>>()?;
+    let usual: Vec<f64> = (0..block.entries.len())
+        .map(|e| {
+            let sizes = parts
+                .iter()
+                .flat_map(|part| part.sizes.iter().skip(e).step_by(block.entries.len()));
+            median(sizes.copied().collect()).unwrap_or(0.0)
+        })
         .collect();
-    let mut measures = vec![Vec::with_capacity(lines); decoupled.len()];
-    for (line, mut jacobian) in jacobians.into_iter().enumerate() {
-        for (e, mut row) in jacobian.row_iter_mut().enumerate() {
-            row /= Complex64::from(sizes[e][line].max(usual[e]));
-        }
-        let determined = determined(&jacobian);
-        for (t, measures) in measures.iter_mut().enumerate() {
-            measures.push(determined.as_ref().map_or(0.0, |determined| determined[t]));
-        }
-    }
-    Some(measures)
+    let found = parallel::map_each(parts, |part| part.measures(&usual, decoupled.len()));
+    let of = |t: usize| found.iter().flat_map(move |part| &part[t]).copied();
+    Some((0..decoupled.len()).map(|t| of(t).collect()).collect())
 }
 
-/// 1/√[(JᴴJ)⁻¹]_ii; `None` where J determines a combination of its columns only.
-fn determined(jacobian: &ComplexMatrix) -> Option<Vec<f64>> {
-    let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
-    let mut scaled = jacobian.clone();
-    for (mut column, &length) in scaled.column_iter_mut().zip(&lengths) {
-        if !(length.is_finite() && length > 0.0) {
-            return None;
+/// |H^C| and ∂H^C/∂K* of some lines.
+struct Part {
+    /// Of each entry, line by line.
+    sizes: Vec<f64>,
+    /// The rows of each line's Jacobian one after the other.
+    jacobians: Vec<Complex64>,
+}
+
+impl Part {
+    fn of<const N: usize>(
+        block: &Block<N>,
+        lines: Range<usize>,
+        places: &[Place],
+        unknowns: &[f64],
+        decoupled: &[Place],
+    ) -> Option<Self> {
+        let entries = block.entries.len();
+        let mut part = Self {
+            sizes: Vec::with_capacity(lines.len() * entries),
+            jacobians: Vec::with_capacity(lines.len() * entries * decoupled.len()),
+        };
+        let mut kernel = Kernel::new();
+        for line in lines {
+            let stiffness = complex_stiffness::<N>(places, unknowns, block.omega[line]);
+            let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
+            kernel.solve(&block.free[line], transfer.iter().copied(), &stiffness)?;
+            for (e, &entry) in block.entries.iter().enumerate() {
+                let own = block.own[line * entries + e];
+                let size = kernel.receptance(own, entry).norm_sqr().sqrt();
+                part.sizes.push(size);
+                let row = decoupled.iter().map(|&at| kernel.by_stiffness(entry, at));
+                part.jacobians.extend(row);
+            }
         }
-        column /= Complex64::from(length);
+        Some(part)
     }
-    let factor = (scaled.adjoint() * &scaled).cholesky()?;
-    let pivots = factor.l_dirty().diagonal();
-    if pivots.iter().any(|pivot| pivot.re < DEPENDENT) {
-        return None;
+
+    /// The measure of each of `columns` entries of K* at each line.
+    fn measures(mut self, usual: &[f64], columns: usize) -> Vec<Vec<f64>> {
+        let mut independent = IndependentParts::new(columns);
+        let mut measures = vec![Vec::with_capacity(self.sizes.len() / usual.len()); columns];
+        let jacobians = self.jacobians.chunks_exact_mut(columns * usual.len());
+        for (jacobian, sizes) in jacobians.zip(self.sizes.chunks_exact(usual.len())) {
+            let rows = jacobian.chunks_exact_mut(columns).zip(sizes).zip(usual);
+            for ((row, &size), &usual) in rows {
+                let weight = size.max(usual).recip();
+                for value in row {
+                    *value *= weight;
+                }
+            }
+            let found = independent.lengths(jacobian);
+            for (t, measures) in measures.iter_mut().enumerate() {
+                measures.push(found.map_or(0.0, |found| found[t]));
+            }
+        }
+        measures
     }
-    let inverse = factor.inverse();
-    let measure = |(index, length): (usize, &f64)| length / inverse[(index, index)].re.sqrt();
-    Some(lengths.iter().enumerate().map(measure).collect())
 }
 
 /// The bands in which the measure is highest among the lines that are `far` from resonances.
@@ -268,18 +296,6 @@ fn stretches(lines: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_other_entries_could_do_as_well_does_not_count() {
-        let c = |re| Complex64::new(re, 0.0);
-        // Columns of length 2 and 1 at an angle of 60°: what is at right angles to the other is sin 60° of each.
-        let jacobian = nalgebra::dmatrix![c(2.0), c(0.5); c(0.0), c(0.75_f64.sqrt())];
-        let found = determined(&jacobian).unwrap();
-        let sine = 0.75_f64.sqrt();
-        assert!((found[0] - 2.0 * sine).abs() < 1e-12 && (found[1] - sine).abs() < 1e-12);
-        assert!(determined(&nalgebra::dmatrix![c(2.0), c(1.0); c(4.0), c(2.0)]).is_none());
-        assert!(determined(&nalgebra::dmatrix![c(2.0), c(1.0)]).is_none());
-    }
 
     #[test]
     fn bands_are_where_the_measure_is_high_and_lines_are_far_from_resonances() {

@@ -19,6 +19,7 @@ mod from_modes;
 mod group;
 mod identification;
 mod independent;
+mod independent_parts;
 mod joint_estimate;
 mod joint_file;
 mod kernel;

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::num::NonZero;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
@@ -9,6 +10,14 @@ use std::thread;
 thread_local! {
     /// Whether this thread shares in work already, all processors being busy with it.
     static SHARES: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Pieces of at most `length` indices, of all below `count`.
+pub(crate) fn pieces(count: usize, length: usize) -> Vec<Range<usize>> {
+    let starts = (0..count).step_by(length);
+    starts
+        .map(|start| start..count.min(start + length))
+        .collect()
 }
 
 /// `work` of each item, in the order of the items.

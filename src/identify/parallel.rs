@@ -1,16 +1,8 @@
 //! Independent pieces of work on all processors, in a result that does not depend on how many there are.
 
-use std::cell::Cell;
-use std::num::NonZero;
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
-use std::thread;
 
-thread_local! {
-    /// Whether this thread shares in work already, all processors being busy with it.
-    static SHARES: Cell<bool> = const { Cell::new(false) };
-}
+use rayon::prelude::*;
 
 /// Pieces of at most `length` indices, of all below `count`.
 pub(crate) fn pieces(count: usize, length: usize) -> Vec<Range<usize>> {
@@ -21,20 +13,22 @@ pub(crate) fn pieces(count: usize, length: usize) -> Vec<Range<usize>> {
 }
 
 /// `work` of each item, in the order of the items.
-pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    share(items.len(), |index| items.get(index).map(&work))
+pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
+    if is_alone(items.len()) {
+        return items.iter().map(work).collect();
+    }
+    items.par_iter().with_max_len(1).map(work).collect()
 }
 
 /// The same with items that are handed over.
-pub(crate) fn map_each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Some(item).into()).collect();
-    share(items.len(), |index| {
-        let mut item = items
-            .get(index)?
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        item.take().map(&work)
-    })
+pub(crate) fn map_each<T: Send, R: Send>(
+    items: Vec<T>,
+    work: impl Fn(T) -> R + Send + Sync,
+) -> Vec<R> {
+    if is_alone(items.len()) {
+        return items.into_iter().map(work).collect();
+    }
+    items.into_par_iter().with_max_len(1).map(work).collect()
 }
 
 /// What two pieces of work come to.
@@ -42,58 +36,16 @@ pub(crate) fn both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    if SHARES.get() || processors() == 1 {
+    if is_alone(2) {
         return (one(), other());
     }
-    thread::scope(|scope| {
-        let one = scope.spawn(one);
-        let other = other();
-        match one.join() {
-            Ok(one) => (one, other),
-            Err(panic) => std::panic::resume_unwind(panic),
-        }
-    })
+    rayon::join(one, other)
 }
 
-/// Processors of this machine; asking the system takes longer than some of the work.
-fn processors() -> usize {
-    static PROCESSORS: OnceLock<usize> = OnceLock::new();
-    *PROCESSORS.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))
-}
-
-/// What `work` makes of each index below `count`.
-fn share<R: Send>(count: usize, work: impl Fn(usize) -> Option<R> + Sync) -> Vec<R> {
-    if count < 2 || SHARES.get() || processors() == 1 {
-        return (0..count).filter_map(work).collect();
-    }
-    let next = AtomicUsize::new(0);
-    let share = || {
-        SHARES.set(true);
-        let mut done = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            if index >= count {
-                SHARES.set(false);
-                return done;
-            }
-            done.extend(work(index).map(|result| (index, result)));
-        }
-    };
-    let mut results: Vec<(usize, R)> = thread::scope(|scope| {
-        let handles: Vec<_> = (1..processors().min(count))
-            .map(|_| scope.spawn(share))
-            .collect();
-        let mut results = share();
-        for handle in handles {
-            match handle.join() {
-                Ok(done) => results.extend(done),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        results
-    });
-    results.sort_by_key(|(index, _)| *index);
-    results.into_iter().map(|(_, result)| result).collect()
+/// Whether there is nothing to share: within a piece of shared work all processors are busy with the others, and one that
+/// waited for its parts would begin more of the others before it ends.
+fn is_alone(pieces: usize) -> bool {
+    pieces < 2 || rayon::current_thread_index().is_some()
 }
 
 #[cfg(test)]

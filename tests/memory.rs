@@ -16,10 +16,10 @@ mod measured;
 use std::path::Path;
 
 use bolted_joint::frf::{ByteOrder, Dof, Frf, FrfSet, write_uff58b};
-use bolted_joint::identify::{NoiseLevel, Study, identify};
+use bolted_joint::identify::{NoiseLevel, Receptances, Study, identify};
 use bolted_joint::structure::ComplexMatrix;
 
-use measured::{Noisy, Rig, joint};
+use measured::{Noisy, Rig, joint, thesis};
 
 const ONE_PER_CENT: NoiseLevel = NoiseLevel {
     relative: 0.01,
@@ -58,7 +58,10 @@ fn write(path: &Path, frequency_hz: &[f64], matrices: &[ComplexMatrix], nodes: &
     let mut functions = Vec::new();
     for (row, &response) in nodes.iter().enumerate() {
         for (column, &reference) in nodes.iter().enumerate() {
-            let values = matrices.iter().map(|matrix| matrix[(row, column)]).collect();
+            let values = matrices
+                .iter()
+                .map(|matrix| matrix[(row, column)])
+                .collect();
             let (response, reference) = (dof(response), dof(reference));
             let axis = frequency_hz.to_vec();
             functions.push(Frf::new(response, reference, axis, values).unwrap());
@@ -72,15 +75,22 @@ fn write(path: &Path, frequency_hz: &[f64], matrices: &[ComplexMatrix], nodes: &
 fn written(folder: &Path, count: usize) -> usize {
     let step_hz = 500.0 / count as f64;
     let axis = (1..=count).map(|line| line as f64 * step_hz).collect();
-    let rig = Rig::new("memory", joint(1.0, 1.0), 0.01, axis);
+    let rig = Rig::new("memory", joint(1.0, 1.0), thesis(axis));
     let lines = rig.lines(Noisy::Everything, ONE_PER_CENT, 1);
     let hz = &lines.frequency_hz;
-    write(&folder.join("assembly.uff"), hz, &lines.assembly, &[21, 22, 23]);
-    let measured = lines.a_measured.as_ref().unwrap();
-    write(&folder.join("a.uff"), hz, &measured.receptances, &[1, 2, 3]);
-    let measured = lines.b_measured.as_ref().unwrap();
+    write(
+        &folder.join("assembly.uff"),
+        hz,
+        &lines.assembly,
+        &[21, 22, 23],
+    );
+    let all = |substructure: &Receptances| -> Vec<ComplexMatrix> {
+        let measured = substructure.measured().unwrap();
+        (0..count).map(|line| measured.receptance(line)).collect()
+    };
+    write(&folder.join("a.uff"), hz, &all(&lines.a), &[1, 2, 3]);
     let nodes = [11, 12, 13, 21, 22, 23];
-    write(&folder.join("b.uff"), hz, &measured.receptances, &nodes);
+    write(&folder.join("b.uff"), hz, &all(&lines.b), &nodes);
     std::fs::write(folder.join("study.toml"), STUDY).unwrap();
     16 * count * (9 + 9 + 36)
 }

@@ -201,9 +201,9 @@ fn write(file: &str) {
     let lines: Lines = rig().lines(Noisy::Assembly, ONE_PER_CENT, 1);
     let mut bytes = Vec::new();
     for (line, frequency_hz) in lines.frequency_hz.iter().enumerate() {
-        let b = &lines.b[line];
+        let b = lines.b_at(line);
         bytes.extend((std::f64::consts::TAU * frequency_hz).to_le_bytes());
-        let free = &lines.a_joint[line] + &b.joint;
+        let free = &*lines.a.at(line) + &b.joint;
         for matrix in [&free, &b.joint_points, &b.points, &lines.assembly[line]] {
             for row in matrix.row_iter() {
                 for value in row.iter() {

@@ -1,5 +1,7 @@
 //! Whether what a fit leaves is noise: the gate that tells the joint from a local minimum or a model that is too simple.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -81,7 +83,7 @@ pub(super) fn assess<const N: usize>(
     estimate: &Estimate,
     noise: &Noise,
 ) -> Option<Assessment> {
-    let corrections = Some(estimate.corrections.clone());
+    let corrections = Some(Arc::clone(&estimate.corrections));
     let state = objective.unweighted(estimate.unknowns.clone(), corrections);
     let mut last: Vec<Complex64> = Vec::new();
     let mut last_group = usize::MAX;
@@ -184,7 +186,7 @@ impl<const N: usize> Objective<'_, N> {
     ) -> Option<(Vec<Weights>, super::objective::State)> {
         let state = self.unweighted(
             estimate.unknowns.clone(),
-            Some(estimate.corrections.clone()),
+            Some(Arc::clone(&estimate.corrections)),
         );
         Some((self.weights(estimate.levels, &state)?, state))
     }

@@ -54,7 +54,7 @@ pub(super) fn for_joints(
     joints: &[JointMatrices],
     given: &Bands,
 ) -> Result<Vec<Bands>, CouplingError> {
-    let choose = match lines.a_joint.first().map_or(0, |h| h.nrows()) {
+    let choose = match lines.joint_dofs() {
         1 => with_dofs::<1>,
         2 => with_dofs::<2>,
         3 => with_dofs::<3>,
@@ -87,7 +87,7 @@ fn with_dofs<const N: usize>(
 }
 
 /// The bands that each entry of each joint is averaged over. `chosen` are the automatic ones, `None` if there is no
-/// preliminary estimate to choose them at.
+/// estimate to choose them at.
 pub(super) fn used(
     layout: &Layout,
     choices: &BandChoices,
@@ -121,11 +121,18 @@ pub(super) fn own_resonances<'a>(all: impl Iterator<Item = &'a Lines>) -> Vec<f6
     let mut own: Vec<f64> = Vec::new();
     for lines in all {
         let hz = &lines.frequency_hz;
-        for dof in 0..lines.a_joint.first().map_or(0, |h| h.nrows()) {
-            let a: Vec<Complex64> = lines.a_joint.iter().map(|h| h[(dof, dof)]).collect();
-            let b: Vec<Complex64> = lines.b.iter().map(|b| b.joint[(dof, dof)]).collect();
-            let found = [resonances(hz, &a), resonances(hz, &b)].concat();
-            own.extend(found.iter().map(|resonance| resonance.frequency_hz));
+        for substructure in [&lines.a, &lines.b] {
+            let mut functions = vec![Vec::with_capacity(hz.len()); lines.joint_dofs()];
+            for line in 0..hz.len() {
+                let receptance = substructure.at(line);
+                for (dof, function) in functions.iter_mut().enumerate() {
+                    function.push(receptance[(dof, dof)]);
+                }
+            }
+            let found = functions
+                .iter()
+                .flat_map(|function| resonances(hz, function));
+            own.extend(found.map(|resonance| resonance.frequency_hz));
         }
     }
     own

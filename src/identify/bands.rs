@@ -24,7 +24,7 @@ pub struct Bands {
 /// How the lines are found over which an entry is averaged.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum BandChoice {
-    /// Bands by sensitivity and distance to the substructures' resonances, at a preliminary estimate.
+    /// Bands by sensitivity and distance to the substructures' resonances, at the estimate.
     #[default]
     Automatic,
     /// The median over all lines.

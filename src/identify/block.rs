@@ -111,17 +111,17 @@ impl<const N: usize> Block<N> {
     }
 
     fn push_substructures(&mut self, lines: &Lines, line: usize) {
-        let (a, b) = (&lines.a_joint[line], &lines.b[line]);
+        let (a, b) = (lines.a.at(line), lines.b.at(line));
         let symmetric = |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
         self.free.push(std::array::from_fn(|i| {
-            std::array::from_fn(|j| symmetric(a, i, j) + symmetric(&b.joint, i, j))
+            std::array::from_fn(|j| symmetric(&a, i, j) + symmetric(&b, i, j))
         }));
-        let rows = b.joint_points.column_iter().zip(b.points_joint.row_iter());
+        let points = N..N + self.points;
         self.transfer
-            .extend(rows.map(|(column, row)| std::array::from_fn(|i| 0.5 * (column[i] + row[i]))));
+            .extend(points.map(|point| std::array::from_fn(|i| symmetric(&b, i, point))));
         let own = self.entries.iter();
         self.own
-            .extend(own.map(|entry| symmetric(&b.points, entry.row, entry.column)));
+            .extend(own.map(|entry| symmetric(&b, N + entry.row, N + entry.column)));
     }
 
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.

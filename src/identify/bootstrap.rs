@@ -1,5 +1,7 @@
 //! Parametric bootstrap: the estimate repeated on data drawn from the fitted model, all noise included.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
@@ -93,7 +95,7 @@ fn draw<const N: usize>(
 /// Adds to a measured receptance of a substructure, and to all that was formed from it.
 fn shift<const N: usize>(group: &mut Group<N>, s: usize, line: usize, by: Complex64) {
     let source = &mut group.sources[s];
-    source.value[line] += by;
+    Arc::make_mut(&mut source.value)[line] += by;
     for (block, pattern) in group.blocks.iter_mut().zip(&source.patterns) {
         let Some(pattern) = pattern else { continue };
         for i in 0..N {

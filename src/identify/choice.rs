@@ -65,7 +65,7 @@ pub(super) fn compare<const N: usize>(
                 .map(|unknowns| vec![embedded(layout, unknowns, &other)])
                 .collect();
             let found = problem.best(&other, &starts, Effort::Related).ok()?;
-            Some((other, found))
+            Some((other, found.without_corrections()))
         })
         .collect();
     let bic = |(_, found): &(Layout, Found)| bayesian_criterion(&found.estimate);

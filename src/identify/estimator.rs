@@ -6,14 +6,14 @@
 //! unknowns of their own (see `objective`), not part of the residual's variance.
 
 use std::slice;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use num_complex::Complex64;
 
 use super::group::Group;
 use super::noise::{Levels, Noise, NoiseLevel};
 use super::normal::{Normal, TOLERANCE, relative_change};
-use super::objective::{Objective, State, Weights};
+use super::objective::{Corrections, Objective, State, Weights};
 
 /// How the unknowns follow from the coordinates in which they are sought.
 pub(super) trait Chart {
@@ -53,10 +53,18 @@ pub(super) struct Estimate {
     pub(super) information: DMatrix<f64>,
     pub(super) levels: Levels,
     pub(super) converged: bool,
-    pub(super) corrections: Vec<Vec<Complex64>>,
+    pub(super) corrections: Corrections,
 }
 
 impl Estimate {
+    /// The same, its corrections given up for the memory that they take.
+    pub(super) fn without_corrections(self) -> Self {
+        Self {
+            corrections: Corrections::default(),
+            ..self
+        }
+    }
+
     /// χ² over degrees of freedom: twice the cost, because σ² is the sum of the variances of two parts.
     pub(super) fn reduced_chi_squared(&self) -> Option<f64> {
         (self.degrees_of_freedom > 0).then(|| 2.0 * self.cost / self.degrees_of_freedom as f64)
@@ -88,7 +96,7 @@ pub(super) fn estimate<const N: usize>(
     levels: Option<Levels>,
     chart: &impl Chart,
     start: &DVector<f64>,
-    corrections: Option<Vec<Vec<Complex64>>>,
+    corrections: Option<Corrections>,
 ) -> Option<Estimate> {
     let is_trial = levels.is_some();
     let estimates_level = levels.is_none() && !noise.is_stated();
@@ -116,6 +124,8 @@ pub(super) fn estimate<const N: usize>(
         let shift = step.amax();
         let settled = rest.settled;
         coordinates = rest.coordinates;
+        // Two sets of them at a time would be much memory.
+        drop(weights);
         if estimates_level && shrinkage > 0.0 {
             levels = noise.levels(objective.level(noise, &rest.state, shrinkage)?);
         }
@@ -255,7 +265,7 @@ pub(super) fn minimum<const N: usize>(
     start: &DVector<f64>,
 ) -> Option<DVector<f64>> {
     let none = vec![Vec::new(); objective.groups.len()];
-    let state = objective.at(weights, start.clone(), Some(none))?;
+    let state = objective.at(weights, start.clone(), Some(Arc::new(none)))?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
     Some(levenberg_marquardt(objective, weights, &Free, start, state, control).coordinates)
 }
@@ -271,7 +281,7 @@ pub(super) fn eased_minimum<const N: usize>(
     objective: &Objective<'_, N>,
     noise: &Noise,
     start: DVector<f64>,
-) -> Option<(DVector<f64>, Vec<Vec<Complex64>>)> {
+) -> Option<(DVector<f64>, Corrections)> {
     let levels = first_levels(objective, noise);
     let mut state = objective.unweighted(start, None);
     for part in EASING {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use num_complex::Complex64;
 
 use super::block::Block;
-use super::lines::{Lines, MeasuredSubstructure};
+use super::lines::Lines;
+use super::receptances::MeasuredSubstructure;
 
 /// Which substructure a measured receptance belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,8 +18,8 @@ pub(super) enum Side {
 impl Side {
     fn of(self, lines: &Lines) -> Option<&Arc<MeasuredSubstructure>> {
         match self {
-            Self::A => lines.a_measured.as_ref(),
-            Self::B => lines.b_measured.as_ref(),
+            Self::A => lines.a.measured(),
+            Self::B => lines.b.measured(),
         }
     }
 }
@@ -42,7 +43,7 @@ pub(super) struct Source<const N: usize> {
     /// Independent measurements that its value is the mean of.
     pub(super) count: u32,
     /// The value at each line.
-    pub(super) value: Vec<Complex64>,
+    pub(super) value: Arc<Vec<Complex64>>,
     /// Variance of one measurement as a fraction of |H|² at each line; empty where it follows from a level.
     pub(super) known: Vec<f64>,
     /// For each block of the group, whether and how it enters.
@@ -127,11 +128,11 @@ impl<const N: usize> Group<N> {
         users: &[bool],
         stride: usize,
     ) {
-        let labels = measured.transformation.ncols();
+        let labels = measured.transformation().ncols();
         for column in 0..labels {
             for row in 0..=column {
                 let indices: Vec<usize> = measured
-                    .measured
+                    .measured()
                     .iter()
                     .enumerate()
                     .filter(|&(_, &(p, q))| (p.min(q), p.max(q)) == (row, column))
@@ -140,13 +141,13 @@ impl<const N: usize> Group<N> {
                 if indices.is_empty() {
                     continue;
                 }
-                let chosen = || measured.receptances.iter().enumerate().step_by(stride);
-                let known = measured.relative_variance.as_ref().map(|known| {
+                let value = measured.function(row, column);
+                let known = measured.relative_variance().map(|known| {
                     let mean = |line: usize| {
                         let sum: f64 = indices.iter().map(|&index| known[index][line]).sum();
                         sum / indices.len() as f64
                     };
-                    chosen().map(|(line, _)| mean(line)).collect()
+                    (0..value.len()).step_by(stride).map(mean).collect()
                 });
                 let patterns = self.blocks.iter().zip(users).map(|(block, &user)| {
                     user.then(|| pattern(side, measured, (row, column), block))
@@ -155,7 +156,11 @@ impl<const N: usize> Group<N> {
                 self.sources.push(Source {
                     side,
                     count: indices.len() as u32,
-                    value: chosen().map(|(_, matrix)| matrix[(row, column)]).collect(),
+                    value: if stride == 1 {
+                        Arc::clone(value)
+                    } else {
+                        Arc::new(value.iter().step_by(stride).copied().collect())
+                    },
                     known: known.unwrap_or_default(),
                     patterns,
                 });
@@ -188,12 +193,11 @@ impl<const N: usize> Group<N> {
 }
 
 fn share(one: &Lines, other: &Lines, noisy: &impl Fn(Side) -> bool) -> bool {
-    let same = |one: &Option<Arc<MeasuredSubstructure>>, other: &Option<_>| match (one, other) {
-        (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+    let same = |side: Side| match (side.of(one), side.of(other)) {
+        (Some(one), Some(other)) => noisy(side) && Arc::ptr_eq(one, other),
         _ => false,
     };
-    noisy(Side::A) && same(&one.a_measured, &other.a_measured)
-        || noisy(Side::B) && same(&one.b_measured, &other.b_measured)
+    same(Side::A) || same(Side::B)
 }
 
 /// dH = W dU Wᵀ for a symmetric entry of U, split into the joint's and the points' part.
@@ -203,7 +207,7 @@ fn pattern<const N: usize>(
     (p, q): (usize, usize),
     block: &Block<N>,
 ) -> Pattern<N> {
-    let w = &measured.transformation;
+    let w = measured.transformation();
     let change = |i: usize, j: usize| {
         let once = w[(i, p)] * w[(j, q)];
         if p == q {

@@ -28,8 +28,6 @@ pub struct Identification {
     pub lines: Lines,
     /// The bolts.
     pub bolts: Bolts,
-    /// K* of each line by (3.21), over the DOFs of all bolts; `None` where a matrix was singular.
-    pub decoupled: Vec<Option<ComplexMatrix>>,
     /// Average of the decoupled values over bands, where every entry had lines; at the first bolt where every bolt has its own.
     pub band_average: Option<JointMatrices>,
     /// The passive estimate, which is the free one where that is passive: of the first assembly's joint, where each torque has
@@ -154,7 +152,6 @@ pub fn identify_and_draw(
         name: study.name.clone(),
         model: study.model,
         bolts: study.bolts.clone(),
-        decoupled: estimate.decoupled().first().cloned().unwrap_or_default(),
         band_average: estimate.band_average().cloned(),
         joint: estimate.joint().clone(),
         standard_deviation: estimate.standard_deviation(study.model),

@@ -119,7 +119,7 @@ impl Identification {
         } else {
             "the noise that the residual shows"
         };
-        let substructures = self.lines.a_measured.is_some() || self.lines.b_measured.is_some();
+        let substructures = self.lines.a.measured().is_some() || self.lines.b.measured().is_some();
         let of = if substructures {
             "the assembly and of the measured substructures"
         } else {

@@ -31,8 +31,7 @@ pub(super) fn decouple<const N: usize>(
         return vec![None; count];
     }
     let used = layout.used_dofs();
-    let is_fixed =
-        lines.points.len() > N && used.len() == N && lines.a_joint.iter().all(|a| a.nrows() == N);
+    let is_fixed = lines.points.len() > N && used.len() == N && lines.joint_dofs() == N;
     let mut least_squares = LeastSquares::<N>::default();
     let mut decoupled = Vec::with_capacity(count);
     for first in (0..count).step_by(LANES) {
@@ -53,15 +52,15 @@ pub(super) fn decouple<const N: usize>(
 
 /// One line, whatever its matrices are, at the joint's DOFs that are `used`.
 fn alone(lines: &Lines, used: &[usize], line: usize) -> Option<ComplexMatrix> {
-    let a_joint = lines.a_joint[line].select_rows(used).select_columns(used);
+    let a_joint = lines.a.at(line).select_rows(used).select_columns(used);
     // Equation (3.21) needs nothing of A but H_jj.
     let a = Partition::of(&a_joint, used.len());
-    let b = &lines.b[line];
+    let b = lines.b_at(line);
     let b = Partition {
         joint: b.joint.select_rows(used).select_columns(used),
         joint_points: b.joint_points.select_rows(used),
         points_joint: b.points_joint.select_columns(used),
-        points: b.points.clone(),
+        points: b.points,
     };
     decoupling::from_ss(&a, &b, &lines.assembly[line])
 }
@@ -81,23 +80,20 @@ struct LeastSquares<const N: usize> {
 impl<const N: usize> LeastSquares<N> {
     /// `None` where columns depend on each other, or a matrix is singular, at any of the lines.
     fn solve(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
-        let (a, assembly) = (
-            index.map(|i| &lines.a_joint[i]),
-            index.map(|i| &lines.assembly[i]),
-        );
-        let b = index.map(|line| &lines.b[line]);
+        let a = index.map(|line| lines.a.at(line));
+        let b = index.map(|line| lines.b.at(line));
+        let (a, b) = (a.each_ref().map(|a| &**a), b.each_ref().map(|b| &**b));
+        let assembly = index.map(|line| &lines.assembly[line]);
         let points = lines.points.len();
         let of = |matrix: [&ComplexMatrix; LANES], i, j| Complexes::of(|lane| matrix[lane][(i, j)]);
-        self.left
-            .of(points, |p, i| of(b.map(|b| &b.points_joint), p, i))?;
-        self.right
-            .of(points, |p, i| of(b.map(|b| &b.joint_points), i, p))?;
+        self.left.of(points, |p, i| of(b, N + p, i))?;
+        self.right.of(points, |p, i| of(b, i, N + p))?;
         // Z⁻¹ = H_sk⁺ (H_ss − H^C_ss) H_ks⁺
         let mut z_inverse = [[Complexes::ZERO; N]; N];
         for (q, right) in self.right.columns.iter().enumerate() {
             let mut product = [Complexes::ZERO; N];
             for (p, left) in self.left.columns.iter().enumerate() {
-                let difference = of(b.map(|b| &b.points), p, q) - of(assembly, p, q);
+                let difference = of(b, N + p, N + q) - of(assembly, p, q);
                 for i in 0..N {
                     product[i] += left[i] * difference;
                 }
@@ -112,7 +108,7 @@ impl<const N: usize> LeastSquares<N> {
         let mut z = inverse(z_inverse)?;
         for i in 0..N {
             for j in 0..N {
-                z[i][j] -= of(a, i, j) + of(b.map(|b| &b.joint), i, j);
+                z[i][j] -= of(a, i, j) + of(b, i, j);
             }
         }
         inverse(z)

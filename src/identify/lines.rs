@@ -1,23 +1,22 @@
 //! What the estimator works on: receptances of the substructures and of the assembly, line by line.
 
-use std::sync::Arc;
-
 use nalgebra::DMatrix;
 
 use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, CouplingError, Partition, transmission};
 
 use super::model::JointMatrices;
+use super::receptances::Receptances;
 
 /// Receptances at the lines of one frequency axis.
 #[derive(Clone, Debug)]
 pub struct Lines {
     /// Frequency of each line, Hz.
     pub frequency_hz: Vec<f64>,
-    /// H_jj of A at each line.
-    pub a_joint: Vec<ComplexMatrix>,
-    /// H_kk, H_ks, H_sk, H_ss of B at each line.
-    pub b: Vec<Partition>,
+    /// H_jj of A.
+    pub a: Receptances,
+    /// H_kk, H_ks, H_sk, H_ss of B: the joint's DOFs, then the points.
+    pub b: Receptances,
     /// H^C_ss at each line.
     pub assembly: Vec<ComplexMatrix>,
     /// Points of B at which the assembly was measured: rows and columns of H^C_ss.
@@ -28,10 +27,6 @@ pub struct Lines {
     pub relative_variance: Option<Vec<Vec<f64>>>,
     /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
     pub repeats: Option<Repeats>,
-    /// What H_jj of A was formed from, where that was measured line by line. Assemblies may share it.
-    pub a_measured: Option<Arc<MeasuredSubstructure>>,
-    /// The same for B: the joint and the points.
-    pub b_measured: Option<Arc<MeasuredSubstructure>>,
 }
 
 /// Repeated measurements of the same functions.
@@ -43,24 +38,28 @@ pub struct Repeats {
     pub scatter: Vec<DMatrix<f64>>,
 }
 
-/// Measured receptances from which those of a substructure were formed.
-#[derive(Clone, Debug)]
-pub struct MeasuredSubstructure {
-    /// W: motion of the joint's DOFs, then of the points, by that of the measured DOFs: H = W U Wᵀ.
-    pub transformation: DMatrix<f64>,
-    /// U at each line, symmetric.
-    pub receptances: Vec<ComplexMatrix>,
-    /// Entries (row, column) of U that were measured, each independently of the others.
-    pub measured: Vec<(usize, usize)>,
-    /// Variance of each of `measured` at each line as a fraction of |U|², where it is known line by line.
-    pub relative_variance: Option<Vec<Vec<f64>>>,
-}
-
 impl Lines {
     /// The measured entries that are not the exact copy of their transpose, as reciprocity fills them in.
     #[must_use]
     pub fn independent(&self) -> Vec<(usize, usize)> {
-        independent(&self.measured, &self.assembly)
+        let is_symmetric = |p, q| {
+            self.assembly
+                .iter()
+                .all(|matrix| matrix[(p, q)] == matrix[(q, p)])
+        };
+        independent(&self.measured, is_symmetric)
+    }
+
+    /// DOFs of the joint, those of all bolts; 0 without lines.
+    #[must_use]
+    pub fn joint_dofs(&self) -> usize {
+        self.a.size()
+    }
+
+    /// H_kk, H_ks, H_sk, H_ss of B at a line.
+    #[must_use]
+    pub fn b_at(&self, line: usize) -> Partition {
+        Partition::of(&self.b.at(line), self.joint_dofs())
     }
 
     /// H^C_ss at each line, as coupling with this joint gives it.
@@ -71,8 +70,8 @@ impl Lines {
         (0..self.frequency_hz.len())
             .map(|line| {
                 let stiffness = joint.complex_stiffness(self.frequency_hz[line]);
-                let b = &self.b[line];
-                let z_inverse = transmission(&self.a_joint[line], &b.joint, &stiffness)?;
+                let b = self.b_at(line);
+                let z_inverse = transmission(&self.a.at(line), &b.joint, &stiffness)?;
                 // H^C_ss = H_ss − H_sk Z⁻¹ H_ks   (Tol 3.17)
                 Ok(&b.points - &b.points_joint * z_inverse * &b.joint_points)
             })
@@ -84,14 +83,10 @@ impl Lines {
 /// reciprocity writes such copies, which are no measurements.
 pub(super) fn independent(
     measured: &[(usize, usize)],
-    matrices: &[ComplexMatrix],
+    is_symmetric: impl Fn(usize, usize) -> bool,
 ) -> Vec<(usize, usize)> {
     let is_copy = |&(row, column): &(usize, usize)| {
-        row > column
-            && measured.contains(&(column, row))
-            && matrices
-                .iter()
-                .all(|matrix| matrix[(row, column)] == matrix[(column, row)])
+        row > column && measured.contains(&(column, row)) && is_symmetric(row, column)
     };
     let mut independent = measured.to_vec();
     independent.retain(|place| !is_copy(place));

@@ -6,7 +6,7 @@ use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::assessment::Assessment;
-use super::averages::{Decoupled, band_averages, used_bands};
+use super::averages::{Decoupled, band_averages, first_averages, used_bands};
 use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
@@ -239,7 +239,7 @@ pub fn identify_lines(
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
     let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
-    let dofs = first.map_or(0, |lines| lines.a_joint[0].nrows());
+    let dofs = first.map_or(0, Lines::joint_dofs);
     let layout = Layout::new(model, &options.bolts, dofs);
     let is_empty = all.iter().any(|lines| lines.measured.is_empty());
     let Some(layout) = layout.filter(|_| !is_empty) else {
@@ -291,21 +291,17 @@ fn identify_with<const N: usize>(
                 .collect::<Vec<_>>()
         },
     );
-    let averaged: Vec<Averaged> = (0..count)
+    let decoupled_of = |joint: usize| -> Vec<Decoupled<'_>> {
+        let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
+        own.filter(|(_, own)| **own == joint)
+            .map(|((lines, values), _)| Decoupled { lines, values })
+            .collect()
+    };
+    let starts: Vec<Vec<DVector<f64>>> = (0..count)
         .map(|joint| {
-            let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
-            let own: Vec<Decoupled<'_>> = own
-                .filter(|(_, own)| **own == joint)
-                .map(|((lines, values), _)| Decoupled { lines, values })
-                .collect();
-            let bands = used_bands::<N>(&own, &layout, &options.bands, noise);
-            let averages = band_averages(&own, &layout, &bands);
-            Averaged { bands, averages }
+            let averages = first_averages(&decoupled_of(joint), &layout, &options.bands);
+            starts(&layout, options.start.as_ref(), averages.as_deref())
         })
-        .collect();
-    let starts: Vec<Vec<DVector<f64>>> = averaged
-        .iter()
-        .map(|averaged| averaged.starts(&layout, options.start.as_ref()))
         .collect();
     let found = problem
         .best(&layout, &starts, Effort::Whole)
@@ -322,15 +318,20 @@ fn identify_with<const N: usize>(
         Some((bootstrap, draws))
     });
     let size = layout.unknowns();
-    let of_torque = |(joint, averaged): (usize, Averaged)| {
+    let of_torque = |joint: usize| {
         let own = joint * size..(joint + 1) * size;
+        let (data, unknowns) = (
+            decoupled_of(joint),
+            &estimate.unknowns.as_slice()[own.clone()],
+        );
+        let bands = used_bands::<N>(&data, &layout, &options.bands, unknowns);
         let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
         let free = matrices(&estimate.unknowns);
         let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
         JointEstimate {
             torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
-            bands: averaged.bands,
-            band_averages: averaged.averages,
+            band_averages: band_averages(&data, &layout, &bands),
+            bands,
             covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
             bootstrap: draws
                 .as_ref()
@@ -341,10 +342,16 @@ fn identify_with<const N: usize>(
             passive,
         }
     };
-    let joints: Vec<JointEstimate> = averaged.into_iter().enumerate().map(of_torque).collect();
+    let joints: Vec<JointEstimate> = (0..count).map(of_torque).collect();
+    drop(passive);
+    let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
+        .then_some(estimate.levels.assembly)
+        .filter(|_| !found.assessment.noise_is_known);
+    let found = found.without_corrections();
     let choice = options
         .compare_models
         .then(|| choice::compare(&problem, &layout, &found));
+    drop(problem);
     let torque_choice = torques
         .filter(|_| options.compare_models)
         .and_then(|torques| {
@@ -359,9 +366,7 @@ fn identify_with<const N: usize>(
     );
     Ok(LinesEstimate {
         decoupled,
-        noise_level: (noise.is_stated() || estimate.degrees_of_freedom > 0)
-            .then_some(estimate.levels.assembly)
-            .filter(|_| !found.assessment.noise_is_known),
+        noise_level,
         joints,
         joint_of_assembly,
         layout,
@@ -374,23 +379,19 @@ fn identify_with<const N: usize>(
     })
 }
 
-/// What the decoupled values at one torque give.
-struct Averaged {
-    bands: Vec<Vec<UsedBands>>,
-    averages: Option<Vec<JointMatrices>>,
-}
-
-impl Averaged {
-    /// Starts from a `given` joint and from the averages.
-    fn starts(&self, layout: &Layout, given: Option<&JointMatrices>) -> Vec<DVector<f64>> {
-        let given = given.map(std::slice::from_ref);
-        [given, self.averages.as_deref()]
-            .into_iter()
-            .flatten()
-            .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
-            .filter(|start| start.iter().all(|value| value.is_finite()))
-            .collect()
-    }
+/// Starts from a `given` joint and from the `averages` at one torque.
+fn starts(
+    layout: &Layout,
+    given: Option<&JointMatrices>,
+    averages: Option<&[JointMatrices]>,
+) -> Vec<DVector<f64>> {
+    let given = given.map(std::slice::from_ref);
+    [given, averages]
+        .into_iter()
+        .flatten()
+        .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
+        .filter(|start| start.iter().all(|value| value.is_finite()))
+        .collect()
 }
 
 impl<const N: usize> Data<N> {

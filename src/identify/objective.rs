@@ -8,6 +8,8 @@
 //! θ holds the unknowns of one torque after the other; each assembly has one of them. Where assemblies with different joints
 //! share a substructure, δ couples these.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 use num_complex::Complex64;
 
@@ -37,12 +39,14 @@ pub(super) struct Weights {
     pub(super) scatter: f64,
 }
 
+/// For each group, δ of each source, line by line. They take as much memory as the substructures' data.
+pub(super) type Corrections = Arc<Vec<Vec<Complex64>>>;
+
 /// A point: the unknowns, what the substructures' receptances are corrected by, and the normal equations there.
 #[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) unknowns: DVector<f64>,
-    /// For each group, δ of each source, line by line.
-    pub(super) corrections: Vec<Vec<Complex64>>,
+    pub(super) corrections: Corrections,
     pub(super) normal: Normal,
 }
 
@@ -86,7 +90,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: &[Weights],
         unknowns: DVector<f64>,
-        corrections: Option<Vec<Vec<Complex64>>>,
+        corrections: Option<Corrections>,
     ) -> Option<State> {
         let corrections = corrections.unwrap_or_else(|| self.no_corrections());
         self.walk(weights, unknowns, corrections, None)
@@ -96,7 +100,7 @@ impl<const N: usize> Objective<'_, N> {
     pub(super) fn unweighted(
         &self,
         unknowns: DVector<f64>,
-        corrections: Option<Vec<Vec<Complex64>>>,
+        corrections: Option<Corrections>,
     ) -> State {
         let normal = Normal::zero(unknowns.len());
         State {
@@ -106,9 +110,9 @@ impl<const N: usize> Objective<'_, N> {
         }
     }
 
-    fn no_corrections(&self) -> Vec<Vec<Complex64>> {
+    fn no_corrections(&self) -> Corrections {
         let zero = |group: &Group<N>| vec![ZERO; group.sources.len() * group.lines()];
-        self.groups.iter().map(zero).collect()
+        Arc::new(self.groups.iter().map(zero).collect())
     }
 
     /// The point to which a step takes from `state`, the corrections following.
@@ -121,7 +125,7 @@ impl<const N: usize> Objective<'_, N> {
         self.walk(
             weights,
             unknowns,
-            state.corrections.clone(),
+            Arc::clone(&state.corrections),
             Some(&state.unknowns),
         )
     }
@@ -130,9 +134,10 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: &[Weights],
         unknowns: DVector<f64>,
-        mut corrections: Vec<Vec<Complex64>>,
+        corrections: Corrections,
         from: Option<&DVector<f64>>,
     ) -> Option<State> {
+        let mut corrections = Arc::unwrap_or_clone(corrections);
         let mut normal = Normal::zero(unknowns.len());
         let groups = self.groups.iter().zip(weights).zip(&mut corrections);
         for ((group, weights), corrections) in groups {
@@ -148,7 +153,7 @@ impl<const N: usize> Objective<'_, N> {
         normal.matrix.fill_upper_triangle_with_lower_triangle();
         normal.cost.is_finite().then_some(State {
             unknowns,
-            corrections,
+            corrections: Arc::new(corrections),
             normal,
         })
     }
@@ -195,7 +200,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         levels: Levels,
         unknowns: DVector<f64>,
-        corrections: Option<Vec<Vec<Complex64>>>,
+        corrections: Option<Corrections>,
     ) -> Option<(Vec<Weights>, State)> {
         if !self.is_independent() {
             let state = self.unweighted(unknowns, corrections);

@@ -4,6 +4,8 @@
 //! columns, K = l lᵀ or less. There L's own derivatives stay regular, which those of a full L would not as a column
 //! vanishes. Each face of the cone is searched, and the lowest minimum whose other matrix is passive is the estimate.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::estimator::{Chart, Estimate, estimate};
@@ -273,7 +275,7 @@ fn lowest<const N: usize>(
                 Some(from.levels),
                 &chart,
                 &chart.near(&from.unknowns),
-                Some(from.corrections.clone()),
+                Some(Arc::clone(&from.corrections)),
             )?;
             Some((chart, estimate))
         })

@@ -78,6 +78,16 @@ pub(super) struct Found {
     pub(super) agreeing: usize,
 }
 
+impl Found {
+    /// The same, the corrections of its estimate given up for the memory that they take.
+    pub(super) fn without_corrections(self) -> Self {
+        Self {
+            estimate: self.estimate.without_corrections(),
+            ..self
+        }
+    }
+}
+
 /// The best estimate from `first` and from the search's own starts; `Err` with the number of starts if there is none.
 pub(super) fn best<const N: usize>(
     data: &Data<N>,
@@ -106,11 +116,22 @@ pub(super) fn best<const N: usize>(
         }
     }
     let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
+    let agreeing = agreeing(&trials, &finals, &best.estimate);
+    let whole = Objective {
+        groups: &data.whole,
+        entries,
+    };
+    let estimate = if best.has_corrections || whole.is_independent() {
+        best.estimate.clone()
+    } else {
+        let start = &best.estimate.unknowns;
+        estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?
+    };
     Ok(Found {
-        estimate: best.estimate.clone(),
+        estimate,
         assessment: best.assessment.clone(),
         tried,
-        agreeing: agreeing(&trials, &finals, &best.estimate),
+        agreeing,
     })
 }
 
@@ -159,6 +180,17 @@ struct Final {
     candidate: Estimate,
     estimate: Estimate,
     assessment: Assessment,
+    has_corrections: bool,
+}
+
+impl Final {
+    fn without_corrections(self) -> Self {
+        Self {
+            estimate: self.estimate.without_corrections(),
+            has_corrections: false,
+            ..self
+        }
+    }
 }
 
 /// A robust start and the estimate to which it led.
@@ -204,7 +236,10 @@ fn try_starts<const N: usize>(
             new.push(start.clone());
         }
     }
-    let trial = |start: &DVector<f64>| estimate(&whole, noise, levels, &Free, start, None);
+    let trial = |start: &DVector<f64>| {
+        let found = estimate(&whole, noise, levels, &Free, start, None)?;
+        Some(found.without_corrections())
+    };
     let estimates = parallel::map(&new, trial);
     let led = new.into_iter().zip(estimates);
     ways.extend(led.map(|(start, estimate)| Way { start, estimate }));
@@ -242,18 +277,24 @@ fn finalists<const N: usize>(
         entries,
     };
     // Thinned lines may have passed over the resonances that tell two minima apart.
-    let mut finals: Vec<Final> = chosen
-        .into_iter()
-        .filter_map(|candidate| {
-            let start = &candidate.unknowns;
-            let estimate = estimate(&whole, noise, None, &Free, start, None)?;
-            Some(Final {
-                candidate: candidate.clone(),
-                assessment: assess(&whole, &estimate, noise)?,
-                estimate,
-            })
-        })
-        .collect();
+    let mut finals: Vec<Final> = Vec::new();
+    // The corrections of all of them would be much memory: those of the last one are kept, most likely the best.
+    for candidate in chosen.into_iter().rev() {
+        finals = finals.into_iter().map(Final::without_corrections).collect();
+        let start = &candidate.unknowns;
+        let Some(estimate) = estimate(&whole, noise, None, &Free, start, None) else {
+            continue;
+        };
+        let Some(assessment) = assess(&whole, &estimate, noise) else {
+            continue;
+        };
+        finals.push(Final {
+            candidate: candidate.clone(),
+            has_corrections: true,
+            estimate,
+            assessment,
+        });
+    }
     finals.sort_by(|a, b| rank(&a.estimate).total_cmp(&rank(&b.estimate)));
     finals
 }

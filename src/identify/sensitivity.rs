@@ -25,8 +25,8 @@ impl Linearised {
         joint: &JointMatrices,
     ) -> Result<Self, CouplingError> {
         let stiffness = joint.complex_stiffness(lines.frequency_hz[line]);
-        let b = &lines.b[line];
-        let free = &lines.a_joint[line] + &b.joint;
+        let b = lines.b_at(line);
+        let free = &*lines.a.at(line) + &b.joint;
         let unit = ComplexMatrix::identity(free.nrows(), free.ncols());
         // P = H_sk (I + K*H)⁻¹,  Q = (I + H K*)⁻¹ H_ks,  H = H_jj + H_kk
         let left = (&unit + &stiffness * &free)

@@ -16,15 +16,25 @@ pub(super) fn rotation(position_m: f64) -> BeamPoint {
 }
 
 /// Receptances of a beam at each line, its joint's translation and rotation first.
+pub(super) fn joint_first(
+    beam: &Beam,
+    joint_m: f64,
+    points: &[BeamPoint],
+    frequency_hz: &[f64],
+) -> Result<Vec<ComplexMatrix>, ReproduceError> {
+    let mut dofs = vec![translation(joint_m), rotation(joint_m)];
+    dofs.extend_from_slice(points);
+    Ok(beam.receptances(&dofs, frequency_hz)?)
+}
+
+/// The same in parts.
 pub(super) fn partitions(
     beam: &Beam,
     joint_m: f64,
     points: &[BeamPoint],
     frequency_hz: &[f64],
 ) -> Result<Vec<Partition>, ReproduceError> {
-    let mut dofs = vec![translation(joint_m), rotation(joint_m)];
-    dofs.extend_from_slice(points);
-    let receptances = beam.receptances(&dofs, frequency_hz)?;
+    let receptances = joint_first(beam, joint_m, points, frequency_hz)?;
     Ok(receptances.iter().map(|h| Partition::of(h, 2)).collect())
 }
 

@@ -2,7 +2,7 @@
 
 use bolted_joint::identify::{
     Bolts, JointMatrices, JointModel, Lines, LinesEstimate, Noise, NoiseLevel, Options,
-    identify_lines,
+    Receptances, identify_lines,
 };
 use bolted_joint::structure::{BeamPoint, Boundary, ComplexMatrix, Motion, Partition, couple};
 use nalgebra::{DMatrix, dmatrix};
@@ -69,8 +69,8 @@ fn lines(joints: &[JointMatrices; 2], points_m: &[f64], relative: f64, seed: u64
         .collect();
     Lines {
         frequency_hz,
-        a_joint: a,
-        b: b_parts,
+        a: Receptances::Exact(a),
+        b: Receptances::Exact(b),
         assembly,
         points: (0..count)
             .map(|p| format!("{}:+Y", p + 1).parse().unwrap())
@@ -80,8 +80,6 @@ fn lines(joints: &[JointMatrices; 2], points_m: &[f64], relative: f64, seed: u64
             .collect(),
         relative_variance: None,
         repeats: None,
-        a_measured: None,
-        b_measured: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! The thesis's beams, coupled through known joints.
 
 use bolted_joint::frf::{Frf, FrfSet};
-use bolted_joint::identify::{JointMatrices, Lines};
+use bolted_joint::identify::{JointMatrices, Lines, Receptances};
 use bolted_joint::structure::{
     Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition, couple,
 };
@@ -85,15 +85,13 @@ impl Pair {
             .collect();
         Lines {
             frequency_hz: self.frequency_hz.clone(),
-            a_joint: self.a.iter().map(|part| part.joint.clone()).collect(),
-            b: self.b.clone(),
+            a: Receptances::Exact(self.a.iter().map(|part| part.joint.clone()).collect()),
+            b: Receptances::Exact(self.b.iter().map(whole).collect()),
             assembly,
             points: (0..count).map(dof).collect(),
             measured: places,
             relative_variance: None,
             repeats: None,
-            a_measured: None,
-            b_measured: None,
         }
     }
 }
@@ -102,4 +100,17 @@ impl Pair {
 pub(crate) fn axis(to_hz: f64, step_hz: f64) -> Vec<f64> {
     let count = (to_hz / step_hz).round() as usize;
     (1..=count).map(|line| line as f64 * step_hz).collect()
+}
+
+/// The parts in one matrix, the joint first.
+fn whole(parts: &Partition) -> ComplexMatrix {
+    let (joint, points) = (parts.joint.nrows(), parts.points.nrows());
+    ComplexMatrix::from_fn(joint + points, joint + points, |i, j| {
+        match (i < joint, j < joint) {
+            (true, true) => parts.joint[(i, j)],
+            (true, false) => parts.joint_points[(i, j - joint)],
+            (false, true) => parts.points_joint[(i - joint, j)],
+            (false, false) => parts.points[(i - joint, j - joint)],
+        }
+    })
 }

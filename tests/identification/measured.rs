@@ -5,7 +5,9 @@
 
 use std::sync::Arc;
 
-use bolted_joint::identify::{JointMatrices, JointModel, Lines, MeasuredSubstructure, NoiseLevel};
+use bolted_joint::identify::{
+    JointMatrices, JointModel, Lines, MeasuredSubstructure, NoiseLevel, Receptances,
+};
 use bolted_joint::structure::{
     Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition, couple,
 };
@@ -183,27 +185,26 @@ impl Rig {
                 *matrix = (&noisy + noisy.transpose()) * Complex64::from(0.5);
             }
         }
-        let joint = |u: &[ComplexMatrix], w: &DMatrix<f64>| formed(u, w);
-        let b_formed = joint(&b, &self.b_transformation);
         let all = |count: usize| {
             (0..count)
                 .flat_map(|row| (0..count).map(move |column| (row, column)))
                 .collect::<Vec<_>>()
         };
-        let measured = |w: &DMatrix<f64>, u: Vec<ComplexMatrix>, is_noisy: bool| {
-            is_noisy.then(|| {
-                Arc::new(MeasuredSubstructure {
-                    transformation: w.clone(),
-                    measured: all(w.ncols()),
-                    receptances: u,
-                    relative_variance: None,
-                })
-            })
+        let receptances = |w: &DMatrix<f64>, u: &[ComplexMatrix], is_noisy: bool| {
+            if !is_noisy {
+                return Receptances::Exact(formed(u, w));
+            }
+            let count = w.ncols();
+            let triangle = (0..count).flat_map(|q| (0..=q).map(move |p| (p, q)));
+            let functions = triangle.map(|place| u.iter().map(|u| u[place]).collect());
+            let functions = functions.collect();
+            let measured = MeasuredSubstructure::new(w.clone(), functions, all(count), None);
+            Receptances::Measured(Arc::new(measured))
         };
         let first = Lines {
             frequency_hz: self.frequency_hz.clone(),
-            a_joint: joint(&a, &self.a_transformation),
-            b: b_formed.iter().map(|h| Partition::of(h, 2)).collect(),
+            a: receptances(&self.a_transformation, &a, noisy != Noisy::Assembly),
+            b: receptances(&self.b_transformation, &b, noisy == Noisy::Everything),
             assembly: Vec::new(),
             points: (1..=3)
                 .map(|point| format!("{point}:+Y").parse().unwrap())
@@ -211,8 +212,6 @@ impl Rig {
             measured: all(3),
             relative_variance: None,
             repeats: None,
-            a_measured: measured(&self.a_transformation, a, noisy != Noisy::Assembly),
-            b_measured: measured(&self.b_transformation, b, noisy == Noisy::Everything),
         };
         let with = |assembly| Lines {
             assembly,

@@ -2,7 +2,7 @@
 
 use bolted_joint::identify::{
     Bands, IdentifyError, JointMatrices, JointModel, Lines, LinesEstimate, Noise, NoiseLevel,
-    Options, identify_lines,
+    Options, Receptances, identify_lines,
 };
 use nalgebra::dmatrix;
 
@@ -242,8 +242,8 @@ fn no_line_is_an_error_and_no_panic() {
     assert!(identified(&lines, JointModel::Full, None).is_err());
     let lines = Lines {
         frequency_hz: Vec::new(),
-        a_joint: Vec::new(),
-        b: Vec::new(),
+        a: Receptances::Exact(Vec::new()),
+        b: Receptances::Exact(Vec::new()),
         assembly: Vec::new(),
         ..beams_4_2_2(vec![117.0], &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1)
     };

@@ -1,8 +1,8 @@
 //! Several bolts, sensitivities, and the two-step update, against joints that are known.
 
 use bolted_joint::identify::{
-    Amplitudes, Bands, JointMatrices, JointModel, Lines, choose_bands, from_ss, of_bolt,
-    sensitivities, update_in_two_steps,
+    Amplitudes, Bands, JointMatrices, JointModel, Lines, Receptances, choose_bands, from_ss,
+    of_bolt, sensitivities, update_in_two_steps,
 };
 use bolted_joint::structure::{
     Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition,
@@ -36,7 +36,6 @@ fn lines(
             })
         })
     };
-    let joint_dofs = 2 * at_bolts.len();
     let a: Vec<BeamPoint> = bolted(0.2).collect();
     let motion = Motion::Translation;
     let points = points_m
@@ -52,8 +51,8 @@ fn lines(
     let count = points_m.len();
     let mut lines = Lines {
         frequency_hz,
-        a_joint: a,
-        b: b.iter().map(|h| Partition::of(h, joint_dofs)).collect(),
+        a: Receptances::Exact(a),
+        b: Receptances::Exact(b),
         assembly: Vec::new(),
         points: (0..count)
             .map(|p| format!("{}:+Y", p + 1).parse().unwrap())
@@ -63,8 +62,6 @@ fn lines(
             .collect(),
         relative_variance: None,
         repeats: None,
-        a_measured: None,
-        b_measured: None,
     };
     lines.assembly = lines.regenerated(joint).unwrap();
     lines
@@ -102,12 +99,12 @@ fn two_bolts_return_from_the_decoupling_as_a_block_diagonal_joint() {
         .map(|line| {
             let nothing = ComplexMatrix::zeros(0, 0);
             let a = Partition {
-                joint: lines.a_joint[line].clone(),
+                joint: lines.a.at(line).into_owned(),
                 joint_points: nothing.clone(),
                 points_joint: nothing.clone(),
                 points: nothing,
             };
-            from_ss(&a, &lines.b[line], &lines.assembly[line])
+            from_ss(&a, &lines.b_at(line), &lines.assembly[line])
         })
         .collect();
     for (index, bolt) in bolts.iter().enumerate() {

@@ -9,9 +9,11 @@ use super::reader::in_file;
 use crate::frf::{Dof, FrfSet};
 use crate::structure::{ComplexMatrix, ModalModel};
 
-/// Receptances between labelled DOFs: a matrix for each line, and which entries were measured independently of the others.
+/// Receptances between labelled DOFs, and which of them were measured independently of the others.
 pub(super) struct Labelled {
-    pub(super) matrices: Vec<ComplexMatrix>,
+    labels: usize,
+    /// Each entry of the matrix over all lines, column by column.
+    functions: Vec<Vec<Complex64>>,
     /// Empty where the receptances come from modes.
     pub(super) measured: Vec<(usize, usize)>,
     /// σ²/|H|² of each of `measured` at each line, where coherence says it.
@@ -39,7 +41,7 @@ pub(super) fn labelled_functions(
 ) -> Result<Labelled, IdentifyError> {
     let mut measured = Vec::new();
     let mut from_modes = Vec::new();
-    let mut entries = Vec::with_capacity(labels.len() * labels.len());
+    let mut functions = Vec::with_capacity(labels.len() * labels.len());
     let mut missing = Vec::new();
     for (column, &reference) in labels.iter().enumerate() {
         for (row, &response) in labels.iter().enumerate() {
@@ -48,12 +50,12 @@ pub(super) fn labelled_functions(
                     if !receptance.is_reciprocal() {
                         measured.push((row, column));
                     }
-                    entries.push(receptance.values().to_vec());
+                    functions.push(receptance.values().to_vec());
                 }
                 Err(error) => match completeness {
                     Completeness::WithModes(modes) => {
                         let found = modes.receptance(response, reference, set.frequency_hz());
-                        entries.push(found.map_err(|modal| {
+                        functions.push(found.map_err(|modal| {
                             IdentifyError::NeitherMeasuredNorModal {
                                 frf: Box::new(in_file(path, error)),
                                 modal: Box::new(modal),
@@ -65,7 +67,7 @@ pub(super) fn labelled_functions(
                     }
                     Completeness::All | Completeness::Any => {
                         missing.push((row, column, error));
-                        entries.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
+                        functions.push(vec![Complex64::new(f64::NAN, f64::NAN); set.line_count()]);
                     }
                 },
             }
@@ -82,7 +84,8 @@ pub(super) fn labelled_functions(
     match fatal {
         Some((_, _, error)) => Err(in_file(path, error)),
         None => Ok(Labelled {
-            matrices: matrices(labels.len(), set.line_count(), &entries),
+            labels: labels.len(),
+            functions,
             relative_variance: relative_variances(set, labels, &measured),
             measured,
             from_modes,
@@ -103,6 +106,44 @@ pub(super) fn relative_variances(
 }
 
 impl Labelled {
+    /// Those that modes give between all `labels`.
+    pub(super) fn of_modes(
+        modes: &ModalModel,
+        labels: &[Dof],
+        frequency_hz: &[f64],
+    ) -> Result<Self, IdentifyError> {
+        let mut functions = Vec::with_capacity(labels.len() * labels.len());
+        for &reference in labels {
+            for &response in labels {
+                functions.push(modes.receptance(response, reference, frequency_hz)?);
+            }
+        }
+        Ok(Self {
+            labels: labels.len(),
+            functions,
+            measured: Vec::new(),
+            relative_variance: None,
+            from_modes: Vec::new(),
+        })
+    }
+
+    /// An entry over all lines.
+    pub(super) fn function(&self, row: usize, column: usize) -> &[Complex64] {
+        &self.functions[column * self.labels + row]
+    }
+
+    /// The matrix at a line.
+    pub(super) fn matrix(&self, line: usize) -> ComplexMatrix {
+        let values = self.functions.iter().map(|function| function[line]);
+        ComplexMatrix::from_iterator(self.labels, self.labels, values)
+    }
+
+    /// The matrix at each line.
+    pub(super) fn matrices(&self) -> Vec<ComplexMatrix> {
+        let lines = self.functions.first().map_or(0, Vec::len);
+        (0..lines).map(|line| self.matrix(line)).collect()
+    }
+
     /// √(Σ|H_modal − H|²/Σ|H|²) over the measured entries that the modes have, too; `None` if they have none.
     pub(super) fn deviation_of(
         &self,
@@ -113,37 +154,30 @@ impl Labelled {
         let (mut difference, mut size) = (0.0, 0.0);
         for &(row, column) in &self.measured {
             let modal = modes.receptance(labels[row], labels[column], frequency_hz);
-            for (modal, matrix) in modal.iter().flatten().zip(&self.matrices) {
-                difference += (modal - matrix[(row, column)]).norm_sqr();
-                size += matrix[(row, column)].norm_sqr();
+            for (modal, value) in modal.iter().flatten().zip(self.function(row, column)) {
+                difference += (modal - value).norm_sqr();
+                size += value.norm_sqr();
             }
         }
         (size > 0.0).then(|| (difference / size).sqrt())
     }
 
-    /// Replaces H_pq and H_qp by their mean: by reciprocity they are one number, measured twice.
-    pub(super) fn symmetrise(&mut self) {
-        for matrix in &mut self.matrices {
-            for column in 0..matrix.ncols() {
-                for row in column + 1..matrix.nrows() {
-                    let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
-                    matrix[(row, column)] = mean;
-                    matrix[(column, row)] = mean;
+    /// The upper triangle column by column, H_pq and H_qp replaced by their mean: by reciprocity they are one number, measured
+    /// twice.
+    pub(super) fn symmetrised(self) -> Vec<Vec<Complex64>> {
+        let labels = self.labels;
+        let mut functions = self.functions;
+        let mut triangle = Vec::with_capacity(labels * (labels + 1) / 2);
+        for column in 0..labels {
+            for row in 0..=column {
+                let mut upper = std::mem::take(&mut functions[column * labels + row]);
+                let lower = std::mem::take(&mut functions[row * labels + column]);
+                for (value, other) in upper.iter_mut().zip(lower) {
+                    *value = 0.5 * (*value + other);
                 }
+                triangle.push(upper);
             }
         }
+        triangle
     }
-}
-
-/// One size×size matrix a line from entries in column-major order, each over all lines.
-pub(super) fn matrices(
-    size: usize,
-    line_count: usize,
-    entries: &[Vec<Complex64>],
-) -> Vec<ComplexMatrix> {
-    (0..line_count)
-        .map(|line| {
-            ComplexMatrix::from_iterator(size, size, entries.iter().map(|entry| entry[line]))
-        })
-        .collect()
 }

@@ -7,11 +7,14 @@ mod reader;
 mod repeats;
 mod substructure;
 
+use std::sync::Arc;
+
 pub use prediction::{predict_assembly, predict_lines};
 
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::lines::Lines;
+use super::receptances::Receptances;
 use super::study::{Study, Substructure};
 use super::watch::Watch;
 use crate::frf::FileSummary;
@@ -55,11 +58,11 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
         for (earlier, earlier_study) in all.iter().zip(studies_before(study, all.len())) {
             let same_axis = earlier.frequency_hz.len() == lines.frequency_hz.len();
             if same_axis && earlier_study.0.is_same_measurement(&its_study.a) {
-                lines.a_measured.clone_from(&earlier.a_measured);
+                share(&mut lines.a, &earlier.a);
             }
             let same_points = earlier.points == lines.points;
             if same_axis && same_points && earlier_study.1.is_same_measurement(&its_study.b) {
-                lines.b_measured.clone_from(&earlier.b_measured);
+                share(&mut lines.b, &earlier.b);
             }
         }
         all.push(lines);
@@ -78,6 +81,13 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
         warnings: reader.warnings,
         from_modes,
     })
+}
+
+/// Takes what was measured once from where it is already.
+fn share(receptances: &mut Receptances, earlier: &Receptances) {
+    if let Receptances::Measured(measured) = earlier {
+        *receptances = Receptances::Measured(Arc::clone(measured));
+    }
 }
 
 /// A and B of the first `count` assemblies.
@@ -103,8 +113,8 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     };
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any, path)?;
-    let (labelled, repeats) = repeated(study, labelled, &axis, reader)?;
-    let measured = labelled.measured;
+    let mean = repeated(study, labelled, &axis, reader)?;
+    let measured = mean.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.
     let needed = study
         .layout()
@@ -123,10 +133,10 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         });
     }
     let lines = Lines {
-        assembly: labelled.matrices,
+        assembly: mean.receptances,
         measured,
-        relative_variance: labelled.relative_variance,
-        repeats,
+        relative_variance: mean.relative_variance,
+        repeats: mean.repeats,
         ..substructures(study, &axis, reader)?
     };
     Ok(lines)

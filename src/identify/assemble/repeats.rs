@@ -11,15 +11,32 @@ use super::labelled::{Completeness, Labelled, labelled_functions};
 use super::reader::{Reader, in_file};
 use crate::structure::ComplexMatrix;
 
+/// The mean of repeated measurements of an assembly.
+pub(super) struct Mean {
+    /// A matrix for each line.
+    pub(super) receptances: Vec<ComplexMatrix>,
+    /// Which of its entries were measured.
+    pub(super) measured: Vec<(usize, usize)>,
+    /// As in [`Labelled`].
+    pub(super) relative_variance: Option<Vec<Vec<f64>>>,
+    /// The scatter; `None` where nothing was repeated.
+    pub(super) repeats: Option<Repeats>,
+}
+
 /// The mean of repeated measurements of the assembly, and their scatter; the `first` where there are no others.
 pub(super) fn repeated(
     study: &Study,
     first: Labelled,
     axis: &Axis<'_>,
     reader: &mut Reader,
-) -> Result<(Labelled, Option<Repeats>), IdentifyError> {
+) -> Result<Mean, IdentifyError> {
     if study.repeats.is_empty() {
-        return Ok((first, None));
+        return Ok(Mean {
+            receptances: first.matrices(),
+            measured: first.measured,
+            relative_variance: first.relative_variance,
+            repeats: None,
+        });
     }
     let mut all = vec![first];
     for file in &study.repeats {
@@ -45,13 +62,11 @@ pub(super) fn repeated(
     let mut means = Vec::new();
     let mut scatter = Vec::new();
     for line in 0..axis.frequency_hz.len() {
-        let sum = |sum: ComplexMatrix, one: &Labelled| sum + &one.matrices[line];
+        let matrices: Vec<ComplexMatrix> = all.iter().map(|one| one.matrix(line)).collect();
         let zero = ComplexMatrix::zeros(study.points.len(), study.points.len());
-        let mean = all.iter().fold(zero, sum) / Complex64::from(count);
+        let mean = matrices.iter().fold(zero, |sum, one| sum + one) / Complex64::from(count);
         let squares = |place: (usize, usize)| -> f64 {
-            let differences = all
-                .iter()
-                .map(|one| one.matrices[line][place] - mean[place]);
+            let differences = matrices.iter().map(|one| one[place] - mean[place]);
             differences.map(|difference| difference.norm_sqr()).sum()
         };
         scatter.push(DMatrix::from_fn(mean.nrows(), mean.ncols(), |p, q| {
@@ -64,11 +79,10 @@ pub(super) fn repeated(
         scatter,
     };
     // Repeats say themselves how far the measurements scatter.
-    let mean = Labelled {
-        matrices: means,
+    Ok(Mean {
+        receptances: means,
         measured,
         relative_variance: None,
-        from_modes: Vec::new(),
-    };
-    Ok((mean, Some(repeats)))
+        repeats: Some(repeats),
+    })
 }

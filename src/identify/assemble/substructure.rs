@@ -8,13 +8,14 @@ use num_complex::Complex64;
 
 use super::super::error::IdentifyError;
 use super::super::from_modes::FromModes;
-use super::super::lines::{Lines, MeasuredSubstructure, independent};
+use super::super::lines::{Lines, independent};
+use super::super::receptances::{MeasuredSubstructure, Receptances};
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
-use super::labelled::{Completeness, Labelled, labelled_functions, matrices, relative_variances};
+use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
 use super::reader::{Reader, in_file};
 use crate::frf::Dof;
-use crate::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion, Partition};
+use crate::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion};
 
 /// Lines without the assembly: what A and B contribute.
 pub(super) fn substructures(
@@ -23,22 +24,15 @@ pub(super) fn substructures(
     reader: &mut Reader,
 ) -> Result<Lines, IdentifyError> {
     let points = &study.points;
-    let joint_dofs = study.bolts.count() * study.dofs_of_a_bolt();
-    let (a_joint, a_measured) = joint_and_points(study, "a", &[], axis, reader)?;
-    let (b, b_measured) = joint_and_points(study, "b", points, axis, reader)?;
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
-        a_joint,
-        b: b.iter()
-            .map(|receptance| Partition::of(receptance, joint_dofs))
-            .collect(),
+        a: joint_and_points(study, "a", &[], axis, reader)?,
+        b: joint_and_points(study, "b", points, axis, reader)?,
         assembly: Vec::new(),
         points: points.clone(),
         measured: Vec::new(),
         relative_variance: None,
         repeats: None,
-        a_measured,
-        b_measured,
     })
 }
 
@@ -49,7 +43,7 @@ fn joint_and_points(
     points: &[Dof],
     axis: &Axis<'_>,
     reader: &mut Reader,
-) -> Result<(Vec<ComplexMatrix>, Option<Arc<MeasuredSubstructure>>), IdentifyError> {
+) -> Result<Receptances, IdentifyError> {
     let dofs_of_a_bolt = study.dofs_of_a_bolt();
     let substructure = if key == "a" { &study.a } else { &study.b };
     match substructure {
@@ -65,29 +59,27 @@ fn joint_and_points(
                     key,
                     source,
                 })?;
-            Ok((receptances, None))
+            Ok(Receptances::Exact(receptances))
         }
         Substructure::Measured { source, joints } => {
             let motions = Motions::new(joints, dofs_of_a_bolt, points);
             let labelled = labelled_receptances(key, source, &motions.labels, axis, reader)?;
             // (joint, points) = W (labels): H = W H_labels Wᵀ   (Tol 3.54)
             let whole = motions.transformation();
-            let complex = whole.map(Complex64::from);
-            let transposed = complex.transpose();
-            let receptances = labelled
-                .matrices
-                .iter()
-                .map(|receptance| &complex * receptance * &transposed)
-                .collect();
-            let measured = (!labelled.measured.is_empty()).then(|| {
-                Arc::new(MeasuredSubstructure {
-                    transformation: whole,
-                    receptances: labelled.matrices,
-                    measured: labelled.measured,
-                    relative_variance: labelled.relative_variance,
-                })
-            });
-            Ok((receptances, measured))
+            if labelled.measured.is_empty() {
+                let complex = whole.map(Complex64::from);
+                let transposed = complex.transpose();
+                let lines = 0..axis.frequency_hz.len();
+                let formed = lines.map(|line| &complex * labelled.matrix(line) * &transposed);
+                return Ok(Receptances::Exact(formed.collect()));
+            }
+            let (measured, variance) = (
+                labelled.measured.clone(),
+                labelled.relative_variance.clone(),
+            );
+            let functions = labelled.symmetrised();
+            let measured = MeasuredSubstructure::new(whole, functions, measured, variance);
+            Ok(Receptances::Measured(Arc::new(measured)))
         }
     }
 }
@@ -217,10 +209,10 @@ fn labelled_receptances(
                 .as_ref()
                 .map_or(Completeness::All, Completeness::WithModes);
             let mut labelled = labelled_functions(&set, labels, completeness, &file.path)?;
-            let measured = independent(&labelled.measured, &labelled.matrices);
+            let is_symmetric = |p, q| labelled.function(p, q) == labelled.function(q, p);
+            let measured = independent(&labelled.measured, is_symmetric);
             labelled.relative_variance = relative_variances(&set, labels, &measured);
             labelled.measured = measured;
-            labelled.symmetrise();
             if let (Some(path), Some(modal)) = (modes, &modal) {
                 let pairs = labelled.from_modes.iter();
                 reader.from_modes.push(FromModes {
@@ -234,18 +226,7 @@ fn labelled_receptances(
         }
         Source::Modal(path) => {
             let model = ModalModel::read(path)?;
-            let mut entries = Vec::with_capacity(labels.len() * labels.len());
-            for &reference in labels {
-                for &response in labels {
-                    entries.push(model.receptance(response, reference, axis.frequency_hz)?);
-                }
-            }
-            Ok(Labelled {
-                matrices: matrices(labels.len(), axis.frequency_hz.len(), &entries),
-                measured: Vec::new(),
-                relative_variance: None,
-                from_modes: Vec::new(),
-            })
+            Labelled::of_modes(&model, labels, axis.frequency_hz)
         }
     }
 }

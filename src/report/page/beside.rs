@@ -66,8 +66,7 @@ pub(super) fn bands(report: &IdentificationReport<'_>) -> String {
     let mut html = entries.join("; ");
     let mut all = report.found.estimate.bands().iter().flatten();
     if all.any(|used| used.origin == BandOrigin::Automatic) {
-        html += ". Chosen are the most sensitive lines, 10 % or more away from the substructures' own resonances, at a preliminary \
-                 estimate";
+        html += ". Chosen are the most sensitive lines, 10 % or more away from the substructures' own resonances, at the estimate";
     }
     html
 }

@@ -1,13 +1,12 @@
 //! What was measured, what was computed, and what the identification takes for granted.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use super::{Assembly, IdentificationReport, beside, counted, files};
 use crate::frf::Dof;
 use crate::html::{escaped, number, percent, shown, table};
 use crate::identify::{
-    Bolts, FrfFile, JointModel, Level, Lines, MeasuredSubstructure, NoiseLevel, Rotation, Source,
+    Bolts, FrfFile, JointModel, Level, Lines, NoiseLevel, Receptances, Rotation, Source,
     StatedLevel, Substructure,
 };
 use crate::structure::{Beam, Boundary, Damping};
@@ -306,13 +305,13 @@ fn noise(report: &IdentificationReport<'_>) -> String {
             ));
         }
     }
-    let measured = |of: &Option<Arc<MeasuredSubstructure>>| {
-        let variance = of.as_ref().map(|measured| &measured.relative_variance);
-        variance.map(Option::is_some)
+    let measured = |of: &Receptances| {
+        let measured = of.measured();
+        measured.map(|measured| measured.relative_variance().is_some())
     };
     for (name, measured, stated) in [
-        ("A", measured(&found.lines.a_measured), noise.a),
-        ("B", measured(&found.lines.b_measured), noise.b),
+        ("A", measured(&found.lines.a), noise.a),
+        ("B", measured(&found.lines.b), noise.b),
     ] {
         let words = match (measured, stated) {
             (None, _) => "taken as exact".to_owned(),

@@ -84,7 +84,7 @@ fn figure(
 /// How far the errors of neighbouring torques go together.
 fn coupling(report: &IdentificationReport<'_>, unknowns: &[Unknown]) -> String {
     let lines = &report.found.lines;
-    if lines.a_measured.is_none() && lines.b_measured.is_none() {
+    if lines.a.measured().is_none() && lines.b.measured().is_none() {
         return "<p>No substructure was measured line by line, so the errors of different torques are independent, but for the level \
                 of the noise where that was estimated.</p>\n"
             .to_owned();

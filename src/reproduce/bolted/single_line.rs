@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::identify::{Equation, Inverse, JointMatrices, JointModel, Lines, decouple};
+use crate::identify::{Equation, Inverse, JointMatrices, JointModel, Lines, Receptances, decouple};
 use crate::reproduce::draws::{Repetition, rows};
 use crate::reproduce::error::ReproduceError;
 use crate::reproduce::outcome::{Reproduction, Row};
@@ -101,17 +101,19 @@ impl Bolt {
 /// The same lines with the receptances of A later in phase.
 fn with_late_a(lines: &Lines) -> Lines {
     let late = Complex64::from_polar(1.0, -LATE_DEG.to_radians());
+    let a = (0..lines.frequency_hz.len())
+        .map(|line| &*lines.a.at(line) * late)
+        .collect();
     Lines {
-        a_joint: lines.a_joint.iter().map(|h| h * late).collect(),
+        a: Receptances::Exact(a),
         ..lines.clone()
     }
 }
 
 /// The joint that (3.21) with the inverse as printed returns at one line.
 fn at_line(lines: &Lines, line: usize) -> Option<JointMatrices> {
-    let (a, b) = (&lines.a_joint[line], &lines.b[line]);
     let a = Partition {
-        joint: a.clone(),
+        joint: lines.a.at(line).into_owned(),
         joint_points: ComplexMatrix::zeros(2, 0),
         points_joint: ComplexMatrix::zeros(0, 2),
         points: ComplexMatrix::zeros(0, 0),
@@ -120,7 +122,7 @@ fn at_line(lines: &Lines, line: usize) -> Option<JointMatrices> {
         Equation::Ss,
         Inverse::AsPrinted,
         &a,
-        b,
+        &lines.b_at(line),
         &lines.assembly[line],
     )?;
     let omega = std::f64::consts::TAU * lines.frequency_hz[line];

@@ -6,13 +6,11 @@ use nalgebra::{DMatrix, dmatrix};
 use num_complex::Complex64;
 
 use crate::frf::{Direction, Dof, Sign, resonances};
-use crate::identify::{JointMatrices, Lines};
-use crate::structure::{
-    Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, ModalModel, Partition,
-};
+use crate::identify::{JointMatrices, Lines, Receptances};
+use crate::structure::{Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, ModalModel};
 
 use crate::reproduce::error::ReproduceError;
-use crate::reproduce::receptances::partitions;
+use crate::reproduce::receptances::joint_first;
 
 /// Distance between neighbouring points on A and on B, and of the joint and the middle points from the ends.
 pub(super) const SPACING_M: f64 = 0.015;
@@ -154,7 +152,7 @@ pub(super) fn assembled(
         .map(|h| &transformation * h * &transposed)
         .collect();
     let points = points_m(beam).map(crate::reproduce::receptances::translation);
-    let b = partitions(beam, SPACING_M, &points, &frequency_hz)?;
+    let b = joint_first(beam, SPACING_M, &points, &frequency_hz)?;
     lines(frequency_hz, a_joint, b, joint)
 }
 
@@ -162,14 +160,14 @@ pub(super) fn assembled(
 pub(super) fn lines(
     frequency_hz: Vec<f64>,
     a_joint: Vec<ComplexMatrix>,
-    b: Vec<Partition>,
+    b: Vec<ComplexMatrix>,
     joint: &JointMatrices,
 ) -> Result<Lines, ReproduceError> {
     let dof = |node| Dof::new(node, Direction::Y, Sign::Plus);
     let mut lines = Lines {
         frequency_hz,
-        a_joint,
-        b,
+        a: Receptances::Exact(a_joint),
+        b: Receptances::Exact(b),
         assembly: Vec::new(),
         points: [11, 12, 13].map(dof).to_vec(),
         measured: (0..3)
@@ -177,8 +175,6 @@ pub(super) fn lines(
             .collect(),
         relative_variance: None,
         repeats: None,
-        a_measured: None,
-        b_measured: None,
     };
     lines.assembly = lines.regenerated(joint)?;
     Ok(lines)
@@ -186,12 +182,15 @@ pub(super) fn lines(
 
 /// The same lines measured at some of the points only.
 pub(super) fn measured_at(lines: &Lines, places: &[usize]) -> Lines {
+    let dofs = lines.joint_dofs();
+    let kept: Vec<usize> = (0..dofs)
+        .chain(places.iter().map(|place| dofs + place))
+        .collect();
+    let b = (0..lines.frequency_hz.len())
+        .map(|line| lines.b.at(line).select_rows(&kept).select_columns(&kept))
+        .collect();
     Lines {
-        b: lines
-            .b
-            .iter()
-            .map(|b| crate::reproduce::receptances::at(b, places))
-            .collect(),
+        b: Receptances::Exact(b),
         assembly: lines
             .assembly
             .iter()

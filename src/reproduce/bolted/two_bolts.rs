@@ -7,7 +7,7 @@ use crate::reproduce::error::ReproduceError;
 use crate::reproduce::outcome::{Reproduction, Row};
 use crate::reproduce::published::PublishedTable;
 use crate::reproduce::receptances::{rotation, translation};
-use crate::structure::{ComplexMatrix, Difference, FiniteDifference, Order, Partition};
+use crate::structure::{ComplexMatrix, Difference, FiniteDifference, Order};
 
 use super::bolts::m6x30;
 use super::structures::{self, SPACING_M, joint};
@@ -75,6 +75,5 @@ fn two_bolt_lines(bolts: usize, joint: &JointMatrices) -> Result<Lines, Reproduc
         .chain(structures::points_m(&beam).map(translation))
         .collect();
     let b = beam.receptances(&dofs, &frequency_hz)?;
-    let b = b.iter().map(|h| Partition::of(h, 2 * bolts)).collect();
     structures::lines(frequency_hz, a_joint, b, joint)
 }

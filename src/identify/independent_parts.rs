@@ -62,8 +62,8 @@ impl IndependentParts {
                     left -= factor[i * size + k] * factor[j * size + k].conj();
                 }
                 factor[i * size + j] = if i == j {
-                    let pivot = left.re.max(0.0).sqrt();
-                    if !(pivot >= DEPENDENT) {
+                    let pivot = left.re.sqrt();
+                    if pivot.is_nan() || pivot < DEPENDENT {
                         return None;
                     }
                     pivot.into()

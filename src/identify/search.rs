@@ -104,7 +104,7 @@ pub(super) fn best<const N: usize>(
     let mut ways = Vec::new();
     let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
     let mut tried = candidates.len();
-    let mut finals = finalists(data, entries, noise, &trials);
+    let mut finals = finalists(data, entries, noise, &trials, Vec::new());
     if effort == Effort::Whole {
         for part in starts::grid(&data.thinned, entries).chunks(STARTS_AT_A_TIME) {
             if is_certain(&trials, &finals) {
@@ -112,7 +112,7 @@ pub(super) fn best<const N: usize>(
             }
             tried += part.len();
             trials.extend(try_starts(data, entries, noise, part, &mut ways));
-            finals = finalists(data, entries, noise, &trials);
+            finals = finalists(data, entries, noise, &trials, finals);
         }
     }
     let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
@@ -141,10 +141,10 @@ fn softest_of_the_best<'f, const N: usize>(
     finals: &'f [Final],
     groups: &[Group<N>],
     entries: &[Place],
-) -> Option<&'f Final> {
-    let lowest = rank(&finals.first()?.estimate);
+) -> Option<&'f End> {
+    let lowest = finals.first()?.rank();
     let own = groups.first()?.blocks.first()?.dynamic_stiffness;
-    let size = |end: &&Final| -> f64 {
+    let size = |end: &&End| -> f64 {
         let places = entries.iter().enumerate();
         let parts = places.map(|(t, place)| {
             let (i, j) = place.first();
@@ -152,16 +152,16 @@ fn softest_of_the_best<'f, const N: usize>(
         });
         parts.sum()
     };
-    finals
-        .iter()
-        .filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
+    let ends = finals.iter().filter_map(|one| one.end.as_ref());
+    ends.filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
         .min_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
 /// Whether no other minimum can be better. With errors in the substructures a wrong one can pass for noise: two starts have
 /// to agree.
 fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
-    finals.first().is_some_and(|best| {
+    let best = finals.first().and_then(|best| best.end.as_ref());
+    best.is_some_and(|best| {
         best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
     })
 }
@@ -169,15 +169,23 @@ fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
 /// How many of the trials led to `best`.
 fn agreeing(trials: &[Estimate], finals: &[Final], best: &Estimate) -> usize {
     let leads_to_best = |trial: &&Estimate| {
-        let known = |end: &Final| same(&end.candidate, trial) && same(&end.estimate, best);
+        let known = |one: &Final| {
+            let is_best = |end: &End| same(&end.estimate, best);
+            same(&one.candidate, trial) && one.end.as_ref().is_some_and(is_best)
+        };
         finals.iter().any(known)
     };
     trials.iter().filter(leads_to_best).count()
 }
 
-/// A minimum on thinned lines and where it lies on all of them.
+/// A minimum on thinned lines and where it lies on all of them, if it is one there.
 struct Final {
     candidate: Estimate,
+    end: Option<End>,
+}
+
+/// A minimum on all lines.
+struct End {
     estimate: Estimate,
     assessment: Assessment,
     has_corrections: bool,
@@ -185,11 +193,20 @@ struct Final {
 
 impl Final {
     fn without_corrections(self) -> Self {
-        Self {
-            estimate: self.estimate.without_corrections(),
+        let give_up = |end: End| End {
+            estimate: end.estimate.without_corrections(),
             has_corrections: false,
+            ..end
+        };
+        Self {
+            end: self.end.map(give_up),
             ..self
         }
+    }
+
+    fn rank(&self) -> f64 {
+        let end = self.end.as_ref();
+        end.map_or(f64::INFINITY, |end| rank(&end.estimate))
     }
 }
 
@@ -250,12 +267,13 @@ fn try_starts<const N: usize>(
     starts.iter().filter_map(end).collect()
 }
 
-/// The best few different `trials`, on all lines, best first.
+/// The best few different `trials`, on all lines, best first; `known` are those of fewer trials.
 fn finalists<const N: usize>(
     data: &Data<N>,
     entries: &[Place],
     noise: &Noise,
     trials: &[Estimate],
+    mut known: Vec<Final>,
 ) -> Vec<Final> {
     let mut ranked: Vec<&Estimate> = trials.iter().collect();
     ranked.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
@@ -280,22 +298,28 @@ fn finalists<const N: usize>(
     let mut finals: Vec<Final> = Vec::new();
     // The corrections of all of them would be much memory: those of the last one are kept, most likely the best.
     for candidate in chosen.into_iter().rev() {
+        let is_it = |end: &Final| same(&end.candidate, candidate);
+        if let Some(place) = known.iter().position(is_it) {
+            finals.push(known.swap_remove(place));
+            continue;
+        }
         finals = finals.into_iter().map(Final::without_corrections).collect();
+        known = known.into_iter().map(Final::without_corrections).collect();
         let start = &candidate.unknowns;
-        let Some(estimate) = estimate(&whole, noise, None, &Free, start, None) else {
-            continue;
-        };
-        let Some(assessment) = assess(&whole, &estimate, noise) else {
-            continue;
-        };
+        let found = estimate(&whole, noise, None, &Free, start, None);
         finals.push(Final {
             candidate: candidate.clone(),
-            has_corrections: true,
-            estimate,
-            assessment,
+            end: found.and_then(|estimate| {
+                let assessment = assess(&whole, &estimate, noise)?;
+                Some(End {
+                    estimate,
+                    assessment,
+                    has_corrections: true,
+                })
+            }),
         });
     }
-    finals.sort_by(|a, b| rank(&a.estimate).total_cmp(&rank(&b.estimate)));
+    finals.sort_by(|a, b| a.rank().total_cmp(&b.rank()));
     finals
 }
 

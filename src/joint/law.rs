@@ -65,6 +65,7 @@ impl Joint {
             stiffness: matrix("joint.stiffness", &self.stiffness)?,
             damping: matrix("joint.damping", &self.damping)?,
             cubic,
+            higher: dynamics::HigherTerms::NONE,
         })
     }
 }

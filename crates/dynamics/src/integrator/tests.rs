@@ -1,7 +1,7 @@
 //! The integrator against closed forms and the textbook.
 
 use super::*;
-use crate::joint::JointLaw;
+use crate::{higher::HigherTerms, joint::JointLaw};
 
 fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
     let body = Body {
@@ -13,6 +13,7 @@ fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
         stiffness: [[0.0]],
         damping: [[0.0]],
         cubic: [0.0],
+        higher: HigherTerms::NONE,
     };
     Lap {
         joint,
@@ -122,6 +123,7 @@ fn equal_loads_at_all_stages_are_held_loads() {
         stiffness: [[7e3]],
         damping: [[0.3]],
         cubic: [1e9],
+        higher: HigherTerms::NONE,
     };
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
@@ -168,6 +170,7 @@ fn a_step_is_the_textbook_s_four_stages() {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[108.3, -0.83], [-0.83, 0.083]],
             cubic: [5e12, 1e6],
+            higher: HigherTerms::NONE,
         },
         a: body(1.0),
         b: body(2.5),
@@ -218,6 +221,7 @@ fn many_steps_at_once_are_as_many_single_steps() {
         stiffness: [[7e3]],
         damping: [[0.3]],
         cubic: [1e9],
+        higher: HigherTerms::NONE,
     };
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {

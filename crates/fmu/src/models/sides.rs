@@ -1,6 +1,6 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
-use bolted_joint_dynamics::{Body, JointLaw, Motion, is_positive_semidefinite};
+use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
 
 use crate::interface::{Values, reference as vr};
 
@@ -110,6 +110,7 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
         stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
         damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
         cubic: gather(values, &CUBIC),
+        higher: HigherTerms::NONE,
     }
 }
 

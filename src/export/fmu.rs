@@ -258,7 +258,7 @@ fn sized_lap_facts<const D: usize>(
     options: &ExportOptions,
 ) -> Result<LapFacts, ExportError> {
     let lap = file.lap::<D>()?;
-    let step = StepSize::choose(&lap, options.step_size_max_s)?;
+    let step = StepSize::choose(&file.tangent_laps::<D>()?, options.step_size_max_s)?;
     let spectrum = lap.spectrum();
     Ok(LapFacts {
         step,

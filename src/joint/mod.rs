@@ -19,11 +19,12 @@ pub use at_preload::PreloadError;
 pub use dofs::DofSet;
 pub use error::JointFileError;
 pub use law::LawError;
+pub(crate) use law::displacements;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
     BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
-    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
-    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    FreeEstimate, FromModesRecord, FunctionResidual, HigherTerms, InputFile, Intervals, Joint,
+    JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };

@@ -22,7 +22,7 @@ use crate::{
     mode::Mode,
     models::{self, Model},
     pace::Pace,
-    refusal::{Active, Refusal},
+    refusal::{Active, Refusal, Warning},
     start_file::StartFile,
 };
 use intermediate::Access;
@@ -123,16 +123,16 @@ impl Instance {
     }
 
     /// Ends initialisation: the parameters take effect. If they cannot, the importer may still set others.
-    pub(crate) fn exit_initialization(&mut self) -> Result<Option<Active>, Refusal> {
+    pub(crate) fn exit_initialization(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require(&[Mode::Initialization])?;
-        let warning = self.prepare_model()?;
+        let active = self.prepare_model()?;
         self.parameters_changed = false;
         self.mode = match self.interface_type() {
             InterfaceType::CoSimulation if self.event_mode_used => Mode::Event,
             InterfaceType::CoSimulation => Mode::Step,
             InterfaceType::ModelExchange => Mode::Event,
         };
-        Ok(warning)
+        Ok(Warning::of(active, None))
     }
 
     /// Ends the simulation.
@@ -160,6 +160,7 @@ impl Instance {
         self.pace = Pace::NONE;
         self.parameters_changed = true;
         self.outputs_stale = true;
+        self.model.reset();
     }
 
     /// Who integrates.

@@ -48,6 +48,8 @@ pub(crate) enum Role {
     Output = 16,
     /// Derivative of a continuous state, calculated; exposed as a local variable.
     Derivative = 32,
+    /// Parameter that follows from others.
+    CalculatedParameter = 64,
 }
 
 impl fmt::Display for Role {
@@ -59,6 +61,7 @@ impl fmt::Display for Role {
             Self::State => "a state",
             Self::Output => "a calculated output",
             Self::Derivative => "a calculated derivative",
+            Self::CalculatedParameter => "a calculated parameter",
         })
     }
 }

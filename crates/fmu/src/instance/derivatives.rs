@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::Instance;
+use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
     interface::{REFERENCE_COUNT, Role, Roles, Values},
     refusal::Refusal,
@@ -24,7 +24,7 @@ impl Instance {
             // a known that is listed twice counts twice
             change[index] += seed;
         }
-        self.model.differentiate_outputs(&self.values, &mut change);
+        self.differentiate(unknowns, &mut change)?;
         for (&unknown, sensitivity) in unknowns.iter().zip(sensitivity) {
             let (index, _) = self.known(unknown)?;
             sensitivity.write(self.finite(index, change[index])?);
@@ -49,13 +49,26 @@ impl Instance {
             // one column of the Jacobian
             let mut column: Values = [0.0; REFERENCE_COUNT];
             column[known] = 1.0;
-            self.model.differentiate_outputs(&self.values, &mut column);
+            self.differentiate(unknowns, &mut column)?;
             let mut sum = 0.0;
             for (&unknown, &seed) in unknowns.iter().zip(seed) {
                 let (unknown, _) = self.known(unknown)?;
                 sum += seed * column[unknown];
             }
             sensitivity.write(self.finite(known, sum)?);
+        }
+        Ok(())
+    }
+
+    /// Turns a direction into the change of all that is calculated; of calculated parameters only where they are asked for.
+    fn differentiate(&self, unknowns: &[u32], change: &mut Values) -> Result<(), Refusal> {
+        self.model.differentiate_outputs(&self.values, change);
+        for &unknown in unknowns {
+            let (_, roles) = self.known(unknown)?;
+            if roles.intersects(CALCULATED_PARAMETERS) {
+                self.model.differentiate_parameters(&self.values, change);
+                break;
+            }
         }
         Ok(())
     }

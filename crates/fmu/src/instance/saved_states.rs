@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Instance, variables::CALCULATED};
+use super::{
+    Instance,
+    variables::{CALCULATED, CALCULATED_PARAMETERS},
+};
 use crate::{fmu_state::Snapshot, refusal::Refusal};
 
 impl Instance {
@@ -10,7 +13,8 @@ impl Instance {
     pub(crate) fn snapshot(&self) -> Snapshot {
         // what is calculated is no part of the state: it follows from the rest, and may not even be finite
         let values = std::array::from_fn(|index| {
-            if self.roles[index].intersects(CALCULATED) {
+            let roles = self.roles[index];
+            if roles.intersects(CALCULATED) || roles.intersects(CALCULATED_PARAMETERS) {
                 0.0
             } else {
                 self.values[index]

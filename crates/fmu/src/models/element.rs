@@ -9,18 +9,57 @@ use crate::{
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_joint_load},
+        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        watch::{Watch, finite},
     },
-    refusal::{Active, Refusal},
+    refusal::{Active, Reached, Refusal},
 };
 
 /// The joint alone, with `D` degrees of freedom.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Element<const D: usize> {
+    watch: Watch<D>,
+    /// Relative displacement up to which there is nothing to tell the user.
+    quiet: Quiet<D>,
+}
+
+/// A relative displacement of each DOF; unlimited unless told otherwise.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Element<const D: usize>;
+struct Quiet<const D: usize>([f64; D]);
+
+impl<const D: usize> Default for Quiet<D> {
+    fn default() -> Self {
+        Self([f64::MAX; D])
+    }
+}
+
+impl<const D: usize> Element<D> {
+    /// Whether there is nothing to tell the user of the inputs.
+    #[inline]
+    fn is_quiet(&self, values: &Values) -> bool {
+        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
+        (0..D).all(|dof| relative.displacement[dof].abs() <= self.quiet.0[dof])
+    }
+
+    /// What there is to tell of the inputs at `time_s` (s): nothing is integrated here that could run away, so that the
+    /// joint may be opened further than its own springs hold.
+    fn look(&mut self, values: &Values, time_s: f64) -> Option<Reached> {
+        if self.is_quiet(values) {
+            return None;
+        }
+        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
+        let reached = self.watch.look(&relative.displacement, time_s);
+        self.quiet = Quiet(self.watch.quiet());
+        reached
+    }
+}
 
 impl<const D: usize> Model for Element<D> {
     fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
-        let [joint_stiffness, joint_damping] = is_active::<D>(&joint_law(values));
+        let law = joint_law::<D>(values);
+        self.watch.set(&law, finite(law.escape_amplitude()));
+        self.quiet = Quiet(self.watch.quiet());
+        let [joint_stiffness, joint_damping] = is_active(&law);
         Ok(Active {
             joint_stiffness,
             joint_damping,
@@ -29,8 +68,8 @@ impl<const D: usize> Model for Element<D> {
         .warning())
     }
 
-    fn check_states(&self, _: &Values) -> Result<(), Refusal> {
-        Ok(())
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+        Ok(self.look(values, values[vr::TIME]))
     }
 
     fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
@@ -39,15 +78,29 @@ impl<const D: usize> Model for Element<D> {
 
     fn advance(
         &mut self,
-        _: &mut Values,
-        _: CommunicationStep,
+        values: &mut Values,
+        step: CommunicationStep,
         _: &InputCourse,
-    ) -> Result<(), Refusal> {
-        Ok(())
+    ) -> Result<Option<Reached>, Refusal> {
+        Ok(self.look(values, step.time_s))
     }
 
-    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
-        true
+    fn advance_steadily(&self, values: &mut Values, _: f64) -> bool {
+        self.is_quiet(values)
+    }
+
+    fn reset(&mut self) {
+        self.watch.forget();
+    }
+
+    fn calculate_parameters(&self, values: &mut Values) {
+        let amplitude = finite(joint_law::<D>(values).escape_amplitude());
+        set_escape_amplitude(values, &amplitude);
+    }
+
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
+        let [law, law_change] = [values, &*change].map(joint_law::<D>);
+        set_escape_amplitude(change, &law.escape_amplitude_tangent(&law_change));
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
@@ -76,7 +129,7 @@ impl<const D: usize> Model for Element<D> {
         B.set_load(values, &on_b);
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative.velocity);
+        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -92,10 +145,7 @@ impl<const D: usize> Model for Element<D> {
             &relative.displacement,
             &relative_change.displacement,
         );
-        change[vr::POWER_DISSIPATED] = law.dissipated_power_tangent(
-            &law_change,
-            &relative.velocity,
-            &relative_change.velocity,
-        );
+        change[vr::POWER_DISSIPATED] =
+            law.dissipated_power_tangent(&law_change, &relative, &relative_change);
     }
 }

@@ -3,6 +3,7 @@
 mod element;
 mod lap;
 mod sides;
+mod watch;
 
 pub(crate) use lap::SUBSTEPS_MAX;
 
@@ -11,7 +12,7 @@ use std::num::NonZeroU32;
 use crate::{
     input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
-    refusal::{Active, Refusal},
+    refusal::{Active, Reached, Refusal},
 };
 
 /// A model behind the FMI functions.
@@ -27,26 +28,36 @@ pub(crate) trait Model: Send {
         interface_type: InterfaceType,
     ) -> Result<Option<Active>, Refusal>;
 
-    /// Whether the states in `values` are such that the simulation can go on.
-    fn check_states(&self, values: &Values) -> Result<(), Refusal>;
+    /// Whether the states in `values` are such that the simulation can go on, and whether they have reached what the user
+    /// should know of.
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal>;
 
     /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
     fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal>;
 
     /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
-    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls. The inputs in `values`
-    /// stay those at the step's beginning.
+    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls, but for what the user was
+    /// told already. The inputs in `values` stay those at the step's beginning.
     fn advance(
         &mut self,
         values: &mut Values,
         step: CommunicationStep,
         inputs: &InputCourse,
-    ) -> Result<(), Refusal>;
+    ) -> Result<Option<Reached>, Refusal>;
 
     /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
     /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool;
+
+    /// Forgets what the user was told.
+    fn reset(&mut self);
+
+    /// Calculates the calculated parameters from the parameters, whether these are in use or not.
+    fn calculate_parameters(&self, values: &mut Values);
+
+    /// Writes the first-order change of the calculated parameters along the direction `change` to it.
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values);
 
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
@@ -56,7 +67,7 @@ pub(crate) trait Model: Send {
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values);
 
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
-    /// variables at the point `values`: writes those of outputs and derivatives to `change`, exactly.
+    /// variables at the point `values` but calculated parameters: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
@@ -79,8 +90,8 @@ const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 /// The model of an FMU.
 pub(crate) fn model(variables: Variables) -> Box<dyn Model> {
     match (variables.kind, variables.dofs) {
-        (Kind::Element, Dofs::One) => Box::new(element::Element::<1>),
-        (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>),
+        (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
+        (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),
         (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
         (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
     }

@@ -1,8 +1,8 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
-use bolted_joint_dynamics::{Body, JointLaw, Motion, is_positive_semidefinite};
+use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
 
-use crate::interface::{Values, reference as vr};
+use crate::interface::{Dofs, Kind, Values, Variable, Variables, reference as vr};
 
 /// Value references of one side, translation first, then rotation.
 pub(super) struct Side {
@@ -106,11 +106,30 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
         [vr::JOINT_C_YTHETA, vr::JOINT_C_THETATHETA],
     ];
     const CUBIC: [usize; 2] = [vr::JOINT_K3_Y, vr::JOINT_K3_THETA];
+    const QUINTIC: [usize; 2] = [vr::JOINT_K5_Y, vr::JOINT_K5_THETA];
+    const SEPTIC: [usize; 2] = [vr::JOINT_K7_Y, vr::JOINT_K7_THETA];
+    const DAMPING_QUADRATIC: [usize; 2] = [vr::JOINT_C2_Y, vr::JOINT_C2_THETA];
+    const DAMPING_QUARTIC: [usize; 2] = [vr::JOINT_C4_Y, vr::JOINT_C4_THETA];
     JointLaw {
         stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
         damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
         cubic: gather(values, &CUBIC),
+        higher: HigherTerms {
+            quintic: gather(values, &QUINTIC),
+            septic: gather(values, &SEPTIC),
+            damping_quadratic: gather(values, &DAMPING_QUADRATIC),
+            damping_quartic: gather(values, &DAMPING_QUARTIC),
+        },
     }
+}
+
+/// Writes the calculated parameters `joint.escape_amplitude_y` and `joint.escape_amplitude_theta`.
+pub(super) fn set_escape_amplitude<const D: usize>(values: &mut Values, amplitude: &[f64; D]) {
+    const ESCAPE: [usize; 2] = [
+        vr::JOINT_ESCAPE_AMPLITUDE_Y,
+        vr::JOINT_ESCAPE_AMPLITUDE_THETA,
+    ];
+    scatter(values, &ESCAPE, amplitude);
 }
 
 /// Whether the joint's stiffness and damping can feed energy.
@@ -122,6 +141,25 @@ pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
 #[inline]
 pub(super) fn set_joint_load<const D: usize>(values: &mut Values, load_on_b: &[f64; D]) {
     scatter(values, &[vr::JOINT_FORCE, vr::JOINT_MOMENT], load_on_b);
+}
+
+/// Name of a variable that both FMUs have.
+pub(super) fn name(reference: usize) -> &'static str {
+    variable(reference).map_or("", |variable| variable.name)
+}
+
+/// Unit of a variable that both FMUs have.
+pub(super) fn unit(reference: usize) -> &'static str {
+    variable(reference).map_or("", |variable| variable.unit)
+}
+
+/// The variable of the lap, which has all that the element has.
+fn variable(reference: usize) -> Option<&'static Variable> {
+    Variables {
+        kind: Kind::Lap,
+        dofs: Dofs::Two,
+    }
+    .get(reference)
 }
 
 #[inline]

@@ -6,10 +6,9 @@ use bolted_joint_dynamics::{Defect, Lap, LapState, STABILITY_LIMIT_REAL};
 
 use super::{loads::Loads, prepared::Prepared};
 use crate::{
-    interface::{Dofs, Kind, Variable, Variables},
     models::{
         CommunicationStep,
-        sides::{A, B},
+        sides::{A, B, name, unit},
     },
     refusal::Refusal,
 };
@@ -19,10 +18,10 @@ pub(super) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Result<(), Refus
     match lap.defect() {
         Some(Defect::Inertia { on_a, dof, value }) => {
             let side = if on_a { A } else { B };
-            let variable = side.inertia.get(dof).copied().and_then(variable);
+            let reference = side.inertia.get(dof).copied();
             Err(Refusal::Inertia {
-                name: variable.map_or("", |variable| variable.name),
-                unit: variable.map_or("", |variable| variable.unit),
+                name: reference.map_or("", name),
+                unit: reference.map_or("", unit),
                 found: value,
             })
         }
@@ -99,7 +98,7 @@ impl<const D: usize> Prepared<D> {
                 return Refusal::Escape {
                     a: name(A.displacement[dof]),
                     b: name(B.displacement[dof]),
-                    unit: variable(A.displacement[dof]).map_or("", |variable| variable.unit),
+                    unit: unit(A.displacement[dof]),
                     relative: relative.displacement[dof],
                     amplitude: self.amplitude[dof],
                     time_s,
@@ -112,16 +111,4 @@ impl<const D: usize> Prepared<D> {
             time_s,
         }
     }
-}
-
-fn variable(reference: usize) -> Option<&'static Variable> {
-    Variables {
-        kind: Kind::Lap,
-        dofs: Dofs::Two,
-    }
-    .get(reference)
-}
-
-fn name(reference: usize) -> &'static str {
-    variable(reference).map_or("", |variable| variable.name)
 }

@@ -50,6 +50,38 @@ pub(super) struct Experiment {
 }
 
 impl StepSize {
+    /// The step for all of these laps, which are one at different preloads: one that none of them refuses, and that suits the
+    /// fastest.
+    pub(super) fn choose_for_all<const D: usize>(
+        laps: &[Lap<D>],
+        given_s: Option<f64>,
+    ) -> Result<Self, ExportError> {
+        let choices = laps
+            .iter()
+            .map(|lap| Self::choose(lap, given_s))
+            .collect::<Result<Vec<_>, _>>()?;
+        let shorter = |one: Option<f64>, other: Option<f64>| match (one, other) {
+            (Some(one), Some(other)) => Some(f64::min(one, other)),
+            (limit, None) | (None, limit) => limit,
+        };
+        choices
+            .into_iter()
+            .reduce(|all, next| {
+                let (fastest, other) = match (all.choice, next.choice) {
+                    (_, StepChoice::NoModes) => (all, next),
+                    (StepChoice::NoModes, _) => (next, all),
+                    _ if next.longest_s < all.longest_s => (next, all),
+                    _ => (all, next),
+                };
+                Self {
+                    largest_modulus: f64::max(fastest.largest_modulus, other.largest_modulus),
+                    stability_limit_s: shorter(fastest.stability_limit_s, other.stability_limit_s),
+                    ..fastest
+                }
+            })
+            .ok_or(ExportError::NoSpectrum)
+    }
+
     /// Takes the step that is `given`, or picks one from the model's eigenvalues.
     pub(super) fn choose<const D: usize>(
         lap: &Lap<D>,

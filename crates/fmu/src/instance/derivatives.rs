@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    interface::{REFERENCE_COUNT, Role, Roles, Values},
+    interface::{Role, Roles, VALUE_COUNT, Values, memory},
     refusal::Refusal,
 };
 
@@ -17,14 +17,15 @@ impl Instance {
         sensitivity: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
         self.check_derivative(unknowns, knowns)?;
-        let mut change = [0.0; REFERENCE_COUNT];
+        let mut change = [0.0; VALUE_COUNT];
         for (&known, &seed) in knowns.iter().zip(seed) {
             let (index, _) = self.known(known)?;
             self.check_seed(index, seed)?;
             // a known that is listed twice counts twice
             change[index] += seed;
         }
-        self.model.differentiate_outputs(&self.values, &mut change);
+        self.model
+            .differentiate_outputs(&self.present(), &mut change);
         for (&unknown, sensitivity) in unknowns.iter().zip(sensitivity) {
             let (index, _) = self.known(unknown)?;
             sensitivity.write(self.finite(index, change[index])?);
@@ -44,12 +45,13 @@ impl Instance {
             let (index, _) = self.known(unknown)?;
             self.check_seed(index, seed)?;
         }
+        let values = self.present();
         for (&known, sensitivity) in knowns.iter().zip(sensitivity) {
             let (known, _) = self.known(known)?;
             // one column of the Jacobian
-            let mut column: Values = [0.0; REFERENCE_COUNT];
+            let mut column: Values = [0.0; VALUE_COUNT];
             column[known] = 1.0;
-            self.model.differentiate_outputs(&self.values, &mut column);
+            self.model.differentiate_outputs(&values, &mut column);
             let mut sum = 0.0;
             for (&unknown, &seed) in unknowns.iter().zip(seed) {
                 let (unknown, _) = self.known(unknown)?;
@@ -58,6 +60,13 @@ impl Instance {
             sensitivity.write(self.finite(known, sum)?);
         }
         Ok(())
+    }
+
+    /// The present point, with the rate of the preload.
+    fn present(&self) -> Values {
+        let mut values = self.values;
+        values[memory::PRELOAD_RATE] = self.preload_rate();
+        values
     }
 
     /// Whether there are derivatives now, of these unknowns and by these knowns.

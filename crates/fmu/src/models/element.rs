@@ -9,24 +9,31 @@ use crate::{
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_joint_load},
+        law::{LawSource, preload_power, preload_power_change},
+        sides::{A, B, is_active, set_joint_load},
     },
     refusal::{Active, Refusal},
 };
 
 /// The joint alone, with `D` degrees of freedom.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Element<const D: usize>;
+#[derive(Clone, Debug)]
+pub(super) struct Element<const D: usize> {
+    pub(super) law: LawSource<D>,
+}
 
 impl<const D: usize> Model for Element<D> {
     fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
-        let [joint_stiffness, joint_damping] = is_active::<D>(&joint_law(values));
+        let [joint_stiffness, joint_damping] = is_active::<D>(&self.law.law(values));
         Ok(Active {
             joint_stiffness,
             joint_damping,
             supports: false,
         }
         .warning())
+    }
+
+    fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
+        self.law.check_input(input, value)
     }
 
     fn check_states(&self, _: &Values) -> Result<(), Refusal> {
@@ -68,7 +75,7 @@ impl<const D: usize> Model for Element<D> {
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
-        let law = joint_law::<D>(values);
+        let law = self.law.law(values);
         let relative = A.motion::<D>(values).relative_to(&B.motion(values));
         let on_b = law.load_on_b(&relative);
         // 0 − F is −F but for F = 0, which stays without a sign
@@ -77,22 +84,26 @@ impl<const D: usize> Model for Element<D> {
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
         values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+        if let LawSource::Table(table) = &self.law {
+            values[vr::POWER_PRELOAD] = preload_power(table, values, &relative.displacement);
+        }
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
-        let [law, law_change] = [values, &*change].map(joint_law::<D>);
+        let law = self.law.law(values);
+        let law_change = self.law.law_change(values, change);
         let [relative, relative_change] =
             [values, &*change].map(|values| A.motion::<D>(values).relative_to(&B.motion(values)));
         let on_b = law.load_on_b_tangent(&law_change, &relative, &relative_change);
         A.set_load(change, &on_b.map(|load| -load));
         B.set_load(change, &on_b);
         set_joint_load(change, &on_b);
-        change[vr::ENERGY_STORED] = law.stored_energy_tangent(
-            &law_change,
-            &relative.displacement,
-            &relative_change.displacement,
-        );
+        let r = [&relative.displacement, &relative_change.displacement];
+        change[vr::ENERGY_STORED] = law.stored_energy_tangent(&law_change, r[0], r[1]);
         change[vr::POWER_DISSIPATED] =
             law.dissipated_power_tangent(&law_change, &relative, &relative_change);
+        if let LawSource::Table(table) = &self.law {
+            change[vr::POWER_PRELOAD] = preload_power_change(table, [values, &*change], r);
+        }
     }
 }

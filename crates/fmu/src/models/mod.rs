@@ -2,15 +2,21 @@
 
 mod element;
 mod lap;
+mod law;
+mod loosening;
 mod sides;
 
 pub(crate) use lap::SUBSTEPS_MAX;
+
+use law::LawSource;
+use loosening::LooseningLap;
 
 use std::num::NonZeroU32;
 
 use crate::{
     input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
+    preload_table::PreloadTable,
     refusal::{Active, Refusal},
 };
 
@@ -26,6 +32,14 @@ pub(crate) trait Model: Send {
         values: &Values,
         interface_type: InterfaceType,
     ) -> Result<Option<Active>, Refusal>;
+
+    /// Begins to keep account of the energy at the present point, where initialisation ends.
+    fn begin(&self, _: &mut Values) {}
+
+    /// Whether an input that is limited can have this value.
+    fn check_input(&self, _: usize, _: f64) -> Result<(), Refusal> {
+        Ok(())
+    }
 
     /// Whether the states in `values` are such that the simulation can go on.
     fn check_states(&self, values: &Values) -> Result<(), Refusal>;
@@ -76,12 +90,22 @@ pub(crate) const MODEL_SIZE_MAX: usize = 2048;
 
 const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 
-/// The model of an FMU.
-pub(crate) fn model(variables: Variables) -> Box<dyn Model> {
-    match (variables.kind, variables.dofs) {
-        (Kind::Element, Dofs::One) => Box::new(element::Element::<1>),
-        (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>),
-        (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
-        (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+/// The model of an FMU, with the table that it has if its joint is one over the preload.
+pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
+    match (variables.kind, table) {
+        (Kind::Element, Some(PreloadTable::One(table))) => element(LawSource::Table(table)),
+        (Kind::Element, Some(PreloadTable::Two(table))) => element(LawSource::Table(table)),
+        (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
+        (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
+        (kind, None) => match (kind, variables.dofs) {
+            (Kind::Element, Dofs::One) => element(LawSource::<1>::Parameters),
+            (Kind::Element, Dofs::Two) => element(LawSource::<2>::Parameters),
+            (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
+            (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+        },
     }
+}
+
+fn element<const D: usize>(law: LawSource<D>) -> Box<dyn Model> {
+    Box::new(element::Element { law })
 }

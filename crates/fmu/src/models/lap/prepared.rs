@@ -180,17 +180,23 @@ impl<const D: usize> Prepared<D> {
     /// Whether the state is finite and the joint holds.
     #[inline]
     pub(super) fn holds(&self, state: &LapState<D>) -> bool {
-        let relative = state.a.relative_to(&state.b);
-        let mut sum = 0.0;
-        let mut holds = true;
-        for dof in 0..D {
-            sum += state.a.displacement[dof].abs() + state.b.displacement[dof].abs();
-            sum += state.a.velocity[dof].abs() + state.b.velocity[dof].abs();
-            // a comparison with NaN is false
-            holds &= relative.displacement[dof].abs() <= self.amplitude[dof];
-        }
-        holds && sum <= f64::MAX
+        holds(state, &self.amplitude)
     }
+}
+
+/// Whether the state is finite and the joint holds, which it does up to this relative displacement.
+#[inline]
+pub(in crate::models) fn holds<const D: usize>(state: &LapState<D>, amplitude: &[f64; D]) -> bool {
+    let relative = state.a.relative_to(&state.b);
+    let mut sum = 0.0;
+    let mut holds = true;
+    for dof in 0..D {
+        sum += state.a.displacement[dof].abs() + state.b.displacement[dof].abs();
+        sum += state.a.velocity[dof].abs() + state.b.velocity[dof].abs();
+        // a comparison with NaN is false
+        holds &= relative.displacement[dof].abs() <= amplitude[dof];
+    }
+    holds && sum <= f64::MAX
 }
 
 /// The Runge–Kutta steps where time does not matter.
@@ -207,7 +213,10 @@ fn stepped<const D: usize>(
 
 /// Number of Runge–Kutta steps in a communication step.
 #[cold]
-fn count(interval_s: f64, step_size_max_s: f64) -> Result<NonZeroU32, Refusal> {
+pub(in crate::models) fn count(
+    interval_s: f64,
+    step_size_max_s: f64,
+) -> Result<NonZeroU32, Refusal> {
     // n = ⌈H/h_max⌉
     substeps(interval_s, step_size_max_s)
         .filter(|count| count.get() <= SUBSTEPS_MAX)

@@ -213,7 +213,7 @@ fn make_factors_change(tree: &mut Fmi3ModelDescription) {
             .as_ref()
             .is_some_and(|AttrList(on)| on.iter().any(|known| inputs.contains(known)));
         if let (true, Some(AttrList(kinds))) = (on_preload, &mut unknown.dependencies_kind) {
-            kinds.fill(DependenciesKind::Dependent);
+            kinds.fill_with(|| DependenciesKind::Dependent);
         }
     }
 }

@@ -12,7 +12,8 @@ use std::sync::{Arc, Mutex};
 use bolted_joint_importer::{FmiVersion, ImportError, Instance, Library, Message, Setup, Status};
 
 const START: &str = "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken {100 % #1}\n\
-    joint.k_yy 4e6\njoint.c_yy 8\njoint.k3_y 0\na.m 2\na.k_y 8e5\na.c_y 1\nb.m 2\nb.k_y 8e5\nb.c_y 1\nstep_size_max 2e-5\n";
+    joint.k_yy 4e6\njoint.c_yy 8\njoint.k3_y 0\njoint.k5_y 0\njoint.k7_y 0\n\
+    joint.c2_y 0\njoint.c4_y 0\na.m 2\na.k_y 8e5\na.c_y 1\nb.m 2\nb.k_y 8e5\nb.c_y 1\nstep_size_max 2e-5\n";
 const TOKEN: &str = "{100 % #1}";
 const A_Y: u32 = 1;
 const B_Y: u32 = 5;

@@ -43,6 +43,15 @@ fn joint<const D: usize>(law: &JointLaw<D>) -> String {
             let _ = writeln!(text, "joint.c_{pair} {:e}", law.damping[i][j]);
         }
         let _ = writeln!(text, "joint.k3_{} {:e}", DOFS[i], law.cubic[i]);
+        let higher = &law.higher;
+        for (name, list) in [
+            ("k5", &higher.quintic),
+            ("k7", &higher.septic),
+            ("c2", &higher.damping_quadratic),
+            ("c4", &higher.damping_quartic),
+        ] {
+            let _ = writeln!(text, "joint.{name}_{} {:e}", DOFS[i], list[i]);
+        }
     }
     text
 }

@@ -71,6 +71,7 @@ fn causality(role: Role) -> &'static str {
         Role::Parameter => "parameter",
         Role::Input => "input",
         Role::State | Role::Output => "output",
+        Role::CalculatedParameter => "calculatedParameter",
         Role::Derivative => "local",
     }
 }

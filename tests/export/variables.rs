@@ -52,7 +52,8 @@ fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
         format!(
             "bolted-joint-start/1\nmodel element\ndofs 2\ntoken {}\njoint.k_yy 573000.0\njoint.k_ytheta 5820.0\n\
              joint.k_thetatheta 1290.0\njoint.c_yy 10.83\njoint.c_ytheta -0.83\njoint.c_thetatheta 0.083\n\
-             joint.k3_y 0.0\njoint.k3_theta 0.0\n",
+             joint.k3_y 0.0\njoint.k3_theta 0.0\njoint.k5_y 0.0\njoint.k5_theta 0.0\njoint.k7_y 0.0\n\
+             joint.k7_theta 0.0\njoint.c2_y 0.0\njoint.c2_theta 0.0\njoint.c4_y 0.0\njoint.c4_theta 0.0\n",
             fmu.token
         )
     );
@@ -83,6 +84,10 @@ fn a_joint_without_rotation_has_no_rotational_variable() {
             "joint.k_yy",
             "joint.c_yy",
             "joint.k3_y",
+            "joint.k5_y",
+            "joint.k7_y",
+            "joint.c2_y",
+            "joint.c4_y",
             "a.m",
             "a.k_y",
             "a.c_y",
@@ -122,6 +127,10 @@ fn a_joint_without_rotation_has_no_rotational_variable() {
             "joint.k_yy 4560000.0",
             "joint.c_yy 0.54",
             "joint.k3_y 1670.0",
+            "joint.k5_y 0.0",
+            "joint.k7_y 0.0",
+            "joint.c2_y 0.0",
+            "joint.c4_y 0.0",
             "a.m 2.35",
             "a.k_y 1056000.0",
             "a.c_y 1.39",

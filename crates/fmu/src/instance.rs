@@ -22,7 +22,7 @@ use crate::{
     mode::Mode,
     models::{self, Model},
     pace::Pace,
-    refusal::{Active, Refusal},
+    refusal::{Active, Refusal, Warning},
     start_file::StartFile,
 };
 use intermediate::Access;
@@ -124,9 +124,9 @@ impl Instance {
     }
 
     /// Ends initialisation: the parameters take effect. If they cannot, the importer may still set others.
-    pub(crate) fn exit_initialization(&mut self) -> Result<Option<Active>, Refusal> {
+    pub(crate) fn exit_initialization(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require(&[Mode::Initialization])?;
-        let warning = self.prepare_model()?;
+        let active = self.prepare_model()?;
         self.parameters_changed = false;
         self.model.begin(&mut self.values);
         self.outputs_stale = true;
@@ -135,7 +135,7 @@ impl Instance {
             InterfaceType::CoSimulation => Mode::Step,
             InterfaceType::ModelExchange => Mode::Event,
         };
-        Ok(warning)
+        Ok(Warning::of(active, None))
     }
 
     /// Ends the simulation.
@@ -163,6 +163,7 @@ impl Instance {
         self.pace = Pace::NONE;
         self.parameters_changed = true;
         self.outputs_stale = true;
+        self.model.reset();
     }
 
     /// Who integrates.

@@ -61,6 +61,8 @@ pub(crate) enum Role {
     Output = 16,
     /// Derivative of a continuous state, calculated; exposed as a local variable.
     Derivative = 32,
+    /// Parameter that follows from others.
+    CalculatedParameter = 64,
 }
 
 impl fmt::Display for Role {
@@ -72,6 +74,7 @@ impl fmt::Display for Role {
             Self::State => "a state",
             Self::Output => "a calculated output",
             Self::Derivative => "a calculated derivative",
+            Self::CalculatedParameter => "a calculated parameter",
         })
     }
 }
@@ -85,7 +88,7 @@ impl Roles {
     pub(crate) const NONE: Self = Self(0);
 
     /// An input that does not take every number, beside its role.
-    pub(crate) const LIMITED: Self = Self(64);
+    pub(crate) const LIMITED: Self = Self(128);
 
     /// The set of these roles.
     pub(crate) const fn of(roles: &[Role]) -> Self {

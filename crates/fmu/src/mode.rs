@@ -75,7 +75,10 @@ impl Mode {
             // within a communication step there are none: they belong to communication points
             Self::Instantiated | Self::SetUp | Self::IntermediateUpdate => None,
             // the initial unknowns: what is calculated; a state is given there
-            Self::Initialization => Some((Roles::of(&[Role::Output, Role::Derivative]), KNOWN)),
+            Self::Initialization => Some((
+                Roles::of(&[Role::Output, Role::Derivative, Role::CalculatedParameter]),
+                KNOWN,
+            )),
             // outputs, among them the states, and derivatives of states
             Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
                 Roles::of(&[Role::State, Role::Output, Role::Derivative]),

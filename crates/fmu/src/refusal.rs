@@ -3,7 +3,7 @@
 mod message;
 mod warning;
 
-pub(crate) use warning::Active;
+pub(crate) use warning::{Active, Limit, Reached, Warning};
 
 use crate::{
     abi::Abi,

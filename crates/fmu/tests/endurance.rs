@@ -90,7 +90,8 @@ unsafe extern "C" fn count(environment: *mut c_void, _: c_int, _: *const c_char,
 }
 
 const START: &str = "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken {endurance}\njoint.k_yy 4e6\njoint.c_yy 8\n\
-                     joint.k3_y 1e11\na.m 2\na.k_y 8e5\na.c_y 1\nb.m 2\nb.k_y 8e5\nb.c_y 1\nstep_size_max 2e-5\n";
+                     joint.k3_y 1e11\njoint.k5_y 0\njoint.k7_y 0\njoint.c2_y 0\njoint.c4_y 0\n\
+                     a.m 2\na.k_y 8e5\na.c_y 1\nb.m 2\nb.k_y 8e5\nb.c_y 1\nstep_size_max 2e-5\n";
 
 /// An instance from its beginning to its end, with a step, a saved state, and a refused step.
 fn live(resources: &CString) {

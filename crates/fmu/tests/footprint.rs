@@ -89,11 +89,11 @@ unsafe extern "C" {
 fn start_text(model: &str, dofs: u8, k3: f64) -> String {
     let mut text = format!(
         "bolted-joint-start/1\nmodel {model}\ndofs {dofs}\ntoken {{footprint}}\njoint.k_yy 4e6\njoint.c_yy 8\n\
-         joint.k3_y {k3:e}\n"
+         joint.k3_y {k3:e}\njoint.k5_y 0\njoint.k7_y 0\njoint.c2_y 0\njoint.c4_y 0\n"
     );
     if dofs == 2 {
         text += "joint.k_ytheta 1e4\njoint.k_thetatheta 2e3\njoint.c_ytheta 0.5\njoint.c_thetatheta 0.25\n\
-                 joint.k3_theta 0\n";
+                 joint.k3_theta 0\njoint.k5_theta 0\njoint.k7_theta 0\njoint.c2_theta 0\njoint.c4_theta 0\n";
     }
     if model == "lap" {
         for side in ["a", "b"] {

@@ -21,13 +21,18 @@ pub(crate) fn check(
     };
     outputs.check_entries(|variable| matches!(variable.role, Role::Output | Role::State))?;
     outputs.check_dependencies(is_known)?;
-    // Initial unknowns: every output and every derivative that is not given exactly
+    // Initial unknowns: every output and every derivative that is not given exactly, and every calculated parameter
     let initial = List {
         element: "InitialUnknown",
         entries: structure.initial_unknowns().collect(),
         variables,
     };
-    initial.check_entries(|variable| matches!(variable.role, Role::Output | Role::Derivative))?;
+    initial.check_entries(|variable| {
+        matches!(
+            variable.role,
+            Role::Output | Role::Derivative | Role::CalculatedParameter
+        )
+    })?;
     initial.check_dependencies(is_known)?;
     initial.check_initial_kinds()?;
     // State derivatives: that of every state, each once

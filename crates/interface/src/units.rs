@@ -142,7 +142,10 @@ pub(crate) fn check_derivatives(
             .find(|candidate| {
                 candidate.reference == reference
                     && candidate.name != variable.name
-                    && !matches!(candidate.role, Role::Independent | Role::Parameter)
+                    && !matches!(
+                        candidate.role,
+                        Role::Independent | Role::Parameter | Role::CalculatedParameter
+                    )
             })
             .ok_or_else(|| {
                 Problem::Variable(VariableProblem::UndefinedDerivative {

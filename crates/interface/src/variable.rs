@@ -24,6 +24,8 @@ pub enum Role {
     Output,
     /// Local variable that is calculated, as the derivative of a continuous state.
     Derivative,
+    /// Tunable parameter that is calculated from others.
+    CalculatedParameter,
 }
 
 /// A variable of an FMU, checked.
@@ -147,6 +149,9 @@ fn role(declared: &FmiFloat64) -> Result<Role, VariableProblem> {
     match (causality, variability, initial) {
         (Causality::Independent, ..) => Ok(Role::Independent),
         (Causality::Parameter, Variability::Tunable, _) => Ok(Role::Parameter),
+        (Causality::CalculatedParameter, Variability::Tunable, Some(Initial::Calculated)) => {
+            Ok(Role::CalculatedParameter)
+        }
         (Causality::Input, Variability::Continuous, _) => Ok(Role::Input),
         (Causality::Output, Variability::Continuous, Some(Initial::Exact)) => Ok(Role::State),
         (Causality::Output, Variability::Continuous, Some(Initial::Calculated)) => Ok(Role::Output),
@@ -180,9 +185,11 @@ fn default_variability(causality: Causality) -> Variability {
 fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, VariableProblem> {
     let found = declared.intermediate_update.unwrap_or(false);
     match role {
-        Role::Independent | Role::Parameter if found => Err(VariableProblem::IntermediateUpdate {
-            variable: declared.name.clone(),
-        }),
+        Role::Independent | Role::Parameter | Role::CalculatedParameter if found => {
+            Err(VariableProblem::IntermediateUpdate {
+                variable: declared.name.clone(),
+            })
+        }
         _ => Ok(found),
     }
 }

@@ -17,6 +17,7 @@ pub(super) fn section(page: &Page<'_>) -> String {
                 Role::Input => "input",
                 Role::State => "output, state",
                 Role::Output => "output",
+                Role::CalculatedParameter => "calculated parameter",
                 Role::Derivative => "local, derivative of a state",
             };
             [

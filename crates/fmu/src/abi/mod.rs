@@ -20,7 +20,7 @@ use crate::{
     instance::Instance,
     interface::InterfaceType,
     logging::Status,
-    refusal::{Active, Refusal},
+    refusal::{Refusal, Warning},
 };
 
 /// Pointers to what the other side keeps to itself: instances, FMU states, the importer's environments.
@@ -107,11 +107,11 @@ pub(crate) enum Done {
     /// What was asked; worth an entry in the log of events.
     Event(Event),
     /// What was asked, but with a warning.
-    Warning(Active),
+    Warning(Warning),
 }
 
-impl From<Option<Active>> for Done {
-    fn from(warning: Option<Active>) -> Self {
+impl From<Option<Warning>> for Done {
+    fn from(warning: Option<Warning>) -> Self {
         warning.map_or(Self::Silently, Self::Warning)
     }
 }

@@ -16,7 +16,7 @@ use crate::{
     fmi3::{Boolean, Opaque, arguments::output, function},
     instance::{Instance, Update},
     logging::Status,
-    refusal::{Active, Refusal},
+    refusal::{Refusal, Warning},
 };
 
 /// `fmi3IntermediateUpdateCallback`.
@@ -183,7 +183,7 @@ unsafe fn take_turns(
     instance: Opaque,
     update: IntermediateUpdate,
     [current_s, interval_s]: [f64; 2],
-) -> Result<(bool, Option<Active>), Refusal> {
+) -> Result<(bool, Option<Warning>), Refusal> {
     let early_return_allowed = update.early_return_allowed;
     // SAFETY: the caller's promise
     let mut step = unsafe {

@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::Instance;
+use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
     interface::{Role, Roles, VALUE_COUNT, Values, memory},
     refusal::Refusal,
@@ -24,8 +24,7 @@ impl Instance {
             // a known that is listed twice counts twice
             change[index] += seed;
         }
-        self.model
-            .differentiate_outputs(&self.present(), &mut change);
+        self.differentiate(&self.present(), unknowns, &mut change)?;
         for (&unknown, sensitivity) in unknowns.iter().zip(sensitivity) {
             let (index, _) = self.known(unknown)?;
             sensitivity.write(self.finite(index, change[index])?);
@@ -51,7 +50,7 @@ impl Instance {
             // one column of the Jacobian
             let mut column: Values = [0.0; VALUE_COUNT];
             column[known] = 1.0;
-            self.model.differentiate_outputs(&values, &mut column);
+            self.differentiate(&values, unknowns, &mut column)?;
             let mut sum = 0.0;
             for (&unknown, &seed) in unknowns.iter().zip(seed) {
                 let (unknown, _) = self.known(unknown)?;
@@ -67,6 +66,25 @@ impl Instance {
         let mut values = self.values;
         values[memory::PRELOAD_RATE] = self.preload_rate();
         values
+    }
+
+    /// Turns a direction from the point `values` into the change of all that is calculated; of calculated parameters only
+    /// where they are asked for.
+    fn differentiate(
+        &self,
+        values: &Values,
+        unknowns: &[u32],
+        change: &mut Values,
+    ) -> Result<(), Refusal> {
+        self.model.differentiate_outputs(values, change);
+        for &unknown in unknowns {
+            let (_, roles) = self.known(unknown)?;
+            if roles.intersects(CALCULATED_PARAMETERS) {
+                self.model.differentiate_parameters(values, change);
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Whether there are derivatives now, of these unknowns and by these knowns.

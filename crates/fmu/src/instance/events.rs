@@ -5,7 +5,7 @@ use crate::{
     abi::Abi,
     interface::InterfaceType,
     mode::Mode,
-    refusal::{Active, Refusal},
+    refusal::{Active, Refusal, Warning},
 };
 
 impl Instance {
@@ -40,13 +40,13 @@ impl Instance {
     }
 
     /// From an event on to communication steps: parameters that were changed take effect.
-    pub(crate) fn enter_step_mode(&mut self) -> Result<Option<Active>, Refusal> {
+    pub(crate) fn enter_step_mode(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require_type(InterfaceType::CoSimulation)?;
         self.require_event_mode()?;
         self.require(&[Mode::Event])?;
-        let warning = self.use_parameters()?;
+        let active = self.use_parameters()?;
         self.mode = Mode::Step;
-        Ok(warning)
+        Ok(Warning::of(active, None))
     }
 
     /// Takes parameters that were changed into use.
@@ -54,9 +54,9 @@ impl Instance {
         if !self.parameters_changed {
             return Ok(None);
         }
-        let warning = self.prepare_model()?;
+        let active = self.prepare_model()?;
         self.parameters_changed = false;
-        Ok(warning)
+        Ok(active)
     }
 
     fn require_event_mode(&self) -> Result<(), Refusal> {

@@ -10,7 +10,7 @@ use crate::{
     interface::{InterfaceType, REFERENCE_COUNT, Role, Values, reference::TIME},
     mode::Mode,
     models::CommunicationStep,
-    refusal::{Active, NotIntermediate, Refusal},
+    refusal::{Active, NotIntermediate, Reached, Refusal, Warning},
 };
 
 /// What the importer may do with variables within a communication step.
@@ -69,7 +69,8 @@ pub(crate) struct IntermediateStep {
     taken: u32,
     count: u32,
     is_steady: bool,
-    warning: Option<Active>,
+    active: Option<Active>,
+    reached: Option<Reached>,
     turn: Turn,
     /// Length for which inputs were asked, s, and values at its beginning and its middle.
     asked_s: f64,
@@ -110,7 +111,7 @@ impl Instance {
         early_return_allowed: bool,
     ) -> Result<IntermediateStep, Refusal> {
         let end_s = self.end_of_step(current_s, interval_s)?;
-        let warning = if self.parameters_changed {
+        let active = if self.parameters_changed {
             self.prepare_model()?
         } else {
             None
@@ -126,7 +127,8 @@ impl Instance {
             taken: 0,
             count: count.get(),
             is_steady: self.pace.followed_by(interval_s).is_steady(),
-            warning,
+            active,
+            reached: None,
             turn: self.first_turn(),
             asked_s: 0.0,
             present: self.values,
@@ -178,7 +180,7 @@ impl Instance {
     }
 
     /// Ends the communication step; tells whether that is early.
-    pub(crate) fn finish_step(&mut self, step: &IntermediateStep) -> (bool, Option<Active>) {
+    pub(crate) fn finish_step(&mut self, step: &IntermediateStep) -> (bool, Option<Warning>) {
         let reached_s = self.time_s();
         let early = reached_s < step.end_s;
         let interval_s = if early {
@@ -191,7 +193,7 @@ impl Instance {
         if !self.asks_for_inputs() {
             self.inputs = self.inputs.ended();
         }
-        (early, step.warning)
+        (early, Warning::of(step.active, step.reached))
     }
 
     /// Back to the beginning of the step.
@@ -249,11 +251,12 @@ impl Instance {
     fn take_internal_step(&mut self, step: &mut IntermediateStep) -> Result<(), Refusal> {
         let now_s = self.time_s();
         let (length_s, reached_s) = step.internal_step(now_s);
-        self.advance(CommunicationStep {
+        let reached = self.advance(CommunicationStep {
             time_s: now_s,
             interval_s: length_s,
             is_steady: step.is_steady && length_s == step.length_s,
         })?;
+        step.reached = step.reached.or(reached);
         step.taken += 1;
         self.values[TIME] = reached_s;
         Ok(())

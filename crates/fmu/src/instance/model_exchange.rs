@@ -7,7 +7,7 @@ use crate::{
     abi::Abi,
     interface::{ContinuousState, InterfaceType, reference::TIME},
     mode::Mode,
-    refusal::{Active, Refusal},
+    refusal::{Refusal, Warning},
 };
 
 /// Modes in which the states and what follows from them can be read.
@@ -20,11 +20,11 @@ const READABLE: &[Mode] = &[
 
 impl Instance {
     /// From an event on to continuous time: parameters that were changed take effect.
-    pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<Option<Active>, Refusal> {
+    pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require(&[Mode::Event])?;
-        let warning = self.use_parameters()?;
+        let active = self.use_parameters()?;
         self.mode = Mode::ContinuousTime;
-        Ok(warning)
+        Ok(Warning::of(active, None))
     }
 
     /// Sets the time; the importer's solver may also go back.
@@ -88,12 +88,12 @@ impl Instance {
     }
 
     /// Checks what a step of the importer's solver has led to.
-    pub(crate) fn complete_integrator_step(&mut self) -> Result<Option<Active>, Refusal> {
+    pub(crate) fn complete_integrator_step(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require(&[Mode::ContinuousTime])?;
         // a restored state may have brought other parameters
-        let warning = self.use_parameters()?;
-        self.model.check_states(&self.values)?;
-        Ok(warning)
+        let active = self.use_parameters()?;
+        let reached = self.model.check_states(&self.values)?;
+        Ok(Warning::of(active, reached))
     }
 
     /// Number of continuous states.

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Instance, variables::CALCULATED};
+use super::{
+    Instance,
+    variables::{CALCULATED, CALCULATED_PARAMETERS},
+};
 use crate::{fmu_state::Snapshot, interface::memory, refusal::Refusal};
 
 impl Instance {
@@ -11,7 +14,9 @@ impl Instance {
         // what is calculated is no part of the state: it follows from the rest, and may not even be finite
         let values = std::array::from_fn(|index| {
             let is_calculated = match self.roles.get(index) {
-                Some(roles) => roles.intersects(CALCULATED),
+                Some(&roles) => {
+                    roles.intersects(CALCULATED) || roles.intersects(CALCULATED_PARAMETERS)
+                }
                 None => index == memory::PRELOAD_RATE,
             };
             if is_calculated {

@@ -5,7 +5,7 @@ use crate::{
     interface::{InterfaceType, Role, Values, reference::TIME},
     mode::Mode,
     models::CommunicationStep,
-    refusal::{Active, Refusal},
+    refusal::{Reached, Refusal, Warning},
 };
 
 impl Instance {
@@ -14,15 +14,15 @@ impl Instance {
         &mut self,
         current_s: f64,
         interval_s: f64,
-    ) -> Result<Option<Active>, Refusal> {
+    ) -> Result<Option<Warning>, Refusal> {
         let end_s = self.end_of_step(current_s, interval_s)?;
-        let warning = if self.parameters_changed {
+        let active = if self.parameters_changed {
             self.prepare_model()?
         } else {
             None
         };
         let pace = self.pace.followed_by(interval_s);
-        self.advance(CommunicationStep {
+        let reached = self.advance(CommunicationStep {
             time_s: current_s,
             interval_s,
             is_steady: pace.is_steady(),
@@ -34,7 +34,7 @@ impl Instance {
         // only now, so that a warning reaches the importer even if this step is refused and the next one is not
         self.parameters_changed = false;
         self.values[TIME] = end_s;
-        Ok(warning)
+        Ok(Warning::of(active, reached))
     }
 
     /// Takes the step in the most common case: one of many equal ones, with the inputs held and nothing wrong. Tells
@@ -64,23 +64,23 @@ impl Instance {
 
     /// Advances states and inputs, but not the time; on refusal nothing moves.
     #[inline]
-    pub(super) fn advance(&mut self, step: CommunicationStep) -> Result<(), Refusal> {
-        if self.inputs.is_held() {
-            self.model.advance(&mut self.values, step, &self.inputs)?;
+    pub(super) fn advance(&mut self, step: CommunicationStep) -> Result<Option<Reached>, Refusal> {
+        let reached = if self.inputs.is_held() {
+            self.model.advance(&mut self.values, step, &self.inputs)?
         } else {
-            self.advance_along(step)?;
-        }
+            self.advance_along(step)?
+        };
         self.outputs_stale = true;
-        Ok(())
+        Ok(reached)
     }
 
     #[cold]
-    fn advance_along(&mut self, step: CommunicationStep) -> Result<(), Refusal> {
+    fn advance_along(&mut self, step: CommunicationStep) -> Result<Option<Reached>, Refusal> {
         let end = self.inputs_after(step)?;
-        self.model.advance(&mut self.values, step, &self.inputs)?;
+        let reached = self.model.advance(&mut self.values, step, &self.inputs)?;
         self.set_inputs(&end);
         self.inputs = self.inputs.moved(step.interval_s);
-        Ok(())
+        Ok(reached)
     }
 
     /// The inputs at the end of the step.

@@ -12,6 +12,9 @@ use crate::{
 /// Roles whose values are calculated only when somebody asks.
 pub(super) const CALCULATED: Roles = Roles::of(&[Role::Output, Role::Derivative]);
 
+/// Roles whose values follow from the parameters, and are calculated whenever somebody asks.
+pub(super) const CALCULATED_PARAMETERS: Roles = Roles::of(&[Role::CalculatedParameter]);
+
 /// Roles whose values are always there.
 const AT_HAND: Roles = Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
 
@@ -38,6 +41,9 @@ impl Instance {
                 if !self.values[index].is_finite() {
                     return Err(self.overflow(index));
                 }
+            }
+            if roles.intersects(CALCULATED_PARAMETERS) {
+                self.model.calculate_parameters(&mut self.values);
             }
             value.write(self.values[index]);
         }

@@ -2,28 +2,64 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::Motion;
+use bolted_joint_dynamics::{JointLaw, Motion};
 
 use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        law::{LawSource, preload_power, preload_power_change},
-        sides::{A, B, is_active, set_joint_load},
+        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        watch::{Watch, finite},
     },
-    refusal::{Active, Refusal},
+    refusal::{Active, Reached, Refusal},
 };
 
 /// The joint alone, with `D` degrees of freedom.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Element<const D: usize> {
-    pub(super) law: LawSource<D>,
+    watch: Watch<D>,
+    /// Relative displacement up to which there is nothing to tell the user.
+    quiet: Quiet<D>,
+}
+
+/// A relative displacement of each DOF; unlimited unless told otherwise.
+#[derive(Clone, Copy, Debug)]
+struct Quiet<const D: usize>([f64; D]);
+
+impl<const D: usize> Default for Quiet<D> {
+    fn default() -> Self {
+        Self([f64::MAX; D])
+    }
+}
+
+impl<const D: usize> Element<D> {
+    /// Whether there is nothing to tell the user of the inputs.
+    #[inline]
+    fn is_quiet(&self, values: &Values) -> bool {
+        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
+        (0..D).all(|dof| relative.displacement[dof].abs() <= self.quiet.0[dof])
+    }
+
+    /// What there is to tell of the inputs at `time_s` (s): nothing is integrated here that could run away, so that the
+    /// joint may be opened further than its own springs hold.
+    fn look(&mut self, values: &Values, time_s: f64) -> Option<Reached> {
+        if self.is_quiet(values) {
+            return None;
+        }
+        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
+        let reached = self.watch.look(&relative.displacement, time_s);
+        self.quiet = Quiet(self.watch.quiet());
+        reached
+    }
 }
 
 impl<const D: usize> Model for Element<D> {
     fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
-        let [joint_stiffness, joint_damping] = is_active::<D>(&self.law.law(values));
+        let law = joint_law::<D>(values);
+        self.watch.set(&law, finite(law.escape_amplitude()));
+        self.quiet = Quiet(self.watch.quiet());
+        let [joint_stiffness, joint_damping] = is_active(&law);
         Ok(Active {
             joint_stiffness,
             joint_damping,
@@ -32,12 +68,8 @@ impl<const D: usize> Model for Element<D> {
         .warning())
     }
 
-    fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
-        self.law.check_input(input, value)
-    }
-
-    fn check_states(&self, _: &Values) -> Result<(), Refusal> {
-        Ok(())
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+        Ok(self.look(values, values[vr::TIME]))
     }
 
     fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
@@ -46,64 +78,99 @@ impl<const D: usize> Model for Element<D> {
 
     fn advance(
         &mut self,
-        _: &mut Values,
-        _: CommunicationStep,
+        values: &mut Values,
+        step: CommunicationStep,
         _: &InputCourse,
-    ) -> Result<(), Refusal> {
-        Ok(())
+    ) -> Result<Option<Reached>, Refusal> {
+        Ok(self.look(values, step.time_s))
     }
 
-    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
-        true
+    fn advance_steadily(&self, values: &mut Values, _: f64) -> bool {
+        self.is_quiet(values)
     }
 
-    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
-        for side in [A, B] {
-            let Motion { velocity, .. } = side.motion::<D>(values);
-            let [displacements, velocities] = side.motion_references::<D>();
-            // the velocity that is put in is the displacement's derivative, unless another one was given
-            side.set_motion(
-                rates,
-                &Motion {
-                    displacement: std::array::from_fn(|dof| {
-                        inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
-                    }),
-                    velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
-                },
-            );
-        }
+    fn reset(&mut self) {
+        self.watch.forget();
+    }
+
+    fn calculate_parameters(&self, values: &mut Values) {
+        let amplitude = finite(joint_law::<D>(values).escape_amplitude());
+        set_escape_amplitude(values, &amplitude);
+    }
+
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
+        let [law, law_change] = [values, &*change].map(joint_law::<D>);
+        set_escape_amplitude(change, &law.escape_amplitude_tangent(&law_change));
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
+        rates::<D>(values, inputs, change);
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
-        let law = self.law.law(values);
-        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
-        let on_b = law.load_on_b(&relative);
-        // 0 − F is −F but for F = 0, which stays without a sign
-        A.set_load(values, &on_b.map(|load| 0.0 - load));
-        B.set_load(values, &on_b);
-        set_joint_load(values, &on_b);
-        values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
-        if let LawSource::Table(table) = &self.law {
-            values[vr::POWER_PRELOAD] = preload_power(table, values, &relative.displacement);
-        }
+        let law = joint_law::<D>(values);
+        set_outputs(values, &law);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
-        let law = self.law.law(values);
-        let law_change = self.law.law_change(values, change);
-        let [relative, relative_change] =
-            [values, &*change].map(|values| A.motion::<D>(values).relative_to(&B.motion(values)));
-        let on_b = law.load_on_b_tangent(&law_change, &relative, &relative_change);
-        A.set_load(change, &on_b.map(|load| -load));
-        B.set_load(change, &on_b);
-        set_joint_load(change, &on_b);
-        let r = [&relative.displacement, &relative_change.displacement];
-        change[vr::ENERGY_STORED] = law.stored_energy_tangent(&law_change, r[0], r[1]);
-        change[vr::POWER_DISSIPATED] =
-            law.dissipated_power_tangent(&law_change, &relative, &relative_change);
-        if let LawSource::Table(table) = &self.law {
-            change[vr::POWER_PRELOAD] = preload_power_change(table, [values, &*change], r);
-        }
+        let [law, law_change] = [values, &*change].map(joint_law::<D>);
+        differentiate([&law, &law_change], values, change);
     }
+}
+
+/// Derivatives of the motions with respect to time.
+pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates: &mut Values) {
+    for side in [A, B] {
+        let Motion { velocity, .. } = side.motion::<D>(values);
+        let [displacements, velocities] = side.motion_references::<D>();
+        // the velocity that is put in is the displacement's derivative, unless another one was given
+        side.set_motion(
+            rates,
+            &Motion {
+                displacement: std::array::from_fn(|dof| {
+                    inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
+                }),
+                velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
+            },
+        );
+    }
+}
+
+/// Writes what is calculated from the law and the motions.
+#[inline]
+pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
+    let relative = relative::<D>(values);
+    let on_b = law.load_on_b(&relative);
+    // 0 − F is −F but for F = 0, which stays without a sign
+    A.set_load(values, &on_b.map(|load| 0.0 - load));
+    B.set_load(values, &on_b);
+    set_joint_load(values, &on_b);
+    values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
+    values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+}
+
+/// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
+pub(super) fn differentiate<const D: usize>(
+    [law, law_change]: [&JointLaw<D>; 2],
+    values: &Values,
+    change: &mut Values,
+) {
+    let [relative, relative_change] = [values, &*change].map(relative::<D>);
+    let on_b = law.load_on_b_tangent(law_change, &relative, &relative_change);
+    A.set_load(change, &on_b.map(|load| -load));
+    B.set_load(change, &on_b);
+    set_joint_load(change, &on_b);
+    change[vr::ENERGY_STORED] = law.stored_energy_tangent(
+        law_change,
+        &relative.displacement,
+        &relative_change.displacement,
+    );
+    change[vr::POWER_DISSIPATED] =
+        law.dissipated_power_tangent(law_change, &relative, &relative_change);
+}
+
+/// Motion of side a as seen from side b.
+#[inline]
+pub(super) fn relative<const D: usize>(values: &Values) -> Motion<D> {
+    A.motion::<D>(values).relative_to(&B.motion(values))
 }

@@ -15,9 +15,10 @@ use crate::{
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_joint_load},
+        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        watch::{Watch, finite},
     },
-    refusal::{Active, Refusal},
+    refusal::{Active, Reached, Refusal},
 };
 use faults::{check_parameters, check_step};
 use loads::Loads;
@@ -28,6 +29,7 @@ use prepared::Prepared;
 pub(super) struct LapModel<const D: usize> {
     /// What the parameters give; `None` before they are first taken into use.
     prepared: Option<Prepared<D>>,
+    watch: Watch<D>,
 }
 
 impl<const D: usize> Model for LapModel<D> {
@@ -42,7 +44,14 @@ impl<const D: usize> Model for LapModel<D> {
         if interface_type == InterfaceType::CoSimulation {
             check_step(&lap, step_size_max_s)?;
         }
-        self.prepared = Some(Prepared::new(&lap, step_size_max_s));
+        let escape = lap.escape_amplitude();
+        self.watch.set(&lap.joint, finite(escape));
+        self.prepared = Some(Prepared::new(
+            &lap,
+            step_size_max_s,
+            escape,
+            self.watch.quiet(),
+        ));
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
         let supports = [&lap.a, &lap.b]
             .iter()
@@ -56,14 +65,13 @@ impl<const D: usize> Model for LapModel<D> {
         .warning())
     }
 
-    fn check_states(&self, values: &Values) -> Result<(), Refusal> {
-        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+        let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let state = state(values);
-        if prepared.holds(&state) {
-            Ok(())
-        } else {
-            Err(prepared.fault(&state, values[vr::TIME]))
+        if !prepared.holds(&state) {
+            return Err(prepared.fault(&state, values[vr::TIME]));
         }
+        Ok(prepared.look(&mut self.watch, &state, values[vr::TIME]))
     }
 
     fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
@@ -76,7 +84,7 @@ impl<const D: usize> Model for LapModel<D> {
         values: &mut Values,
         step: CommunicationStep,
         inputs: &InputCourse,
-    ) -> Result<(), Refusal> {
+    ) -> Result<Option<Reached>, Refusal> {
         let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
         let start = state::<D>(values);
         let loads = Loads {
@@ -88,12 +96,16 @@ impl<const D: usize> Model for LapModel<D> {
         } else {
             prepared.advance_along(&start, &loads, step)?
         };
-        if !prepared.holds(&end) {
-            return Err(prepared.explain(&start, &loads, step));
+        let mut reached = None;
+        if !prepared.holds_quietly(&end) {
+            if !prepared.holds(&end) {
+                return Err(prepared.explain(&start, &loads, step));
+            }
+            reached = prepared.look(&mut self.watch, &end, step.time_s + step.interval_s);
         }
         A.set_motion(values, &end.a);
         B.set_motion(values, &end.b);
-        Ok(())
+        Ok(reached)
     }
 
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
@@ -102,13 +114,27 @@ impl<const D: usize> Model for LapModel<D> {
         };
         let (start, loads) = (state(values), loads(values));
         match prepared.steady_end(&start, &loads, interval_s) {
-            Some(end) if prepared.holds(&end) => {
+            Some(end) if prepared.holds_quietly(&end) => {
                 A.set_motion(values, &end.a);
                 B.set_motion(values, &end.b);
                 true
             }
             _ => false,
         }
+    }
+
+    fn reset(&mut self) {
+        self.watch.forget();
+    }
+
+    fn calculate_parameters(&self, values: &mut Values) {
+        let amplitude = finite(lap::<D>(values).escape_amplitude());
+        set_escape_amplitude(values, &amplitude);
+    }
+
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
+        let [lap, lap_change] = [values, &*change].map(lap::<D>);
+        set_escape_amplitude(change, &lap.escape_amplitude_tangent(&lap_change));
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {

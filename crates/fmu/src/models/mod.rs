@@ -2,14 +2,13 @@
 
 mod element;
 mod lap;
-mod law;
 mod loosening;
 mod sides;
+mod watch;
 
 pub(crate) use lap::SUBSTEPS_MAX;
 
-use law::LawSource;
-use loosening::LooseningLap;
+use loosening::{LooseningElement, LooseningLap};
 
 use std::num::NonZeroU32;
 
@@ -17,7 +16,7 @@ use crate::{
     input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
     preload_table::PreloadTable,
-    refusal::{Active, Refusal},
+    refusal::{Active, Reached, Refusal},
 };
 
 /// A model behind the FMI functions.
@@ -41,26 +40,36 @@ pub(crate) trait Model: Send {
         Ok(())
     }
 
-    /// Whether the states in `values` are such that the simulation can go on.
-    fn check_states(&self, values: &Values) -> Result<(), Refusal>;
+    /// Whether the states in `values` are such that the simulation can go on, and whether they have reached what the user
+    /// should know of.
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal>;
 
     /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
     fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal>;
 
     /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
-    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls. The inputs in `values`
-    /// stay those at the step's beginning.
+    /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls, but for what the user was
+    /// told already. The inputs in `values` stay those at the step's beginning.
     fn advance(
         &mut self,
         values: &mut Values,
         step: CommunicationStep,
         inputs: &InputCourse,
-    ) -> Result<(), Refusal>;
+    ) -> Result<Option<Reached>, Refusal>;
 
     /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
     /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool;
+
+    /// Forgets what the user was told.
+    fn reset(&mut self);
+
+    /// Calculates the calculated parameters from the parameters, whether these are in use or not.
+    fn calculate_parameters(&self, values: &mut Values);
+
+    /// Writes the first-order change of the calculated parameters along the direction `change` to it.
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values);
 
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
@@ -70,7 +79,7 @@ pub(crate) trait Model: Send {
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values);
 
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
-    /// variables at the point `values`: writes those of outputs and derivatives to `change`, exactly.
+    /// variables at the point `values` but calculated parameters: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
@@ -93,19 +102,15 @@ const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 /// The model of an FMU, with the table that it has if its joint is one over the preload.
 pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
     match (variables.kind, table) {
-        (Kind::Element, Some(PreloadTable::One(table))) => element(LawSource::Table(table)),
-        (Kind::Element, Some(PreloadTable::Two(table))) => element(LawSource::Table(table)),
+        (Kind::Element, Some(PreloadTable::One(table))) => Box::new(LooseningElement::new(table)),
+        (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(table)),
         (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
         (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
         (kind, None) => match (kind, variables.dofs) {
-            (Kind::Element, Dofs::One) => element(LawSource::<1>::Parameters),
-            (Kind::Element, Dofs::Two) => element(LawSource::<2>::Parameters),
+            (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
+            (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),
             (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
             (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
         },
     }
-}
-
-fn element<const D: usize>(law: LawSource<D>) -> Box<dyn Model> {
-    Box::new(element::Element { law })
 }

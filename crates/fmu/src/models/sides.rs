@@ -2,7 +2,7 @@
 
 use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
 
-use crate::interface::{Values, reference as vr};
+use crate::interface::{Dependence, Dofs, Kind, Values, Variable, Variables, reference as vr};
 
 /// Value references of one side, translation first, then rotation.
 pub(super) struct Side {
@@ -123,6 +123,15 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     }
 }
 
+/// Writes the calculated parameters `joint.escape_amplitude_y` and `joint.escape_amplitude_theta`.
+pub(super) fn set_escape_amplitude<const D: usize>(values: &mut Values, amplitude: &[f64; D]) {
+    const ESCAPE: [usize; 2] = [
+        vr::JOINT_ESCAPE_AMPLITUDE_Y,
+        vr::JOINT_ESCAPE_AMPLITUDE_THETA,
+    ];
+    scatter(values, &ESCAPE, amplitude);
+}
+
 /// Whether the joint's stiffness and damping can feed energy.
 pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
     [&law.stiffness, &law.damping].map(|matrix| !is_positive_semidefinite(matrix))
@@ -132,6 +141,26 @@ pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
 #[inline]
 pub(super) fn set_joint_load<const D: usize>(values: &mut Values, load_on_b: &[f64; D]) {
     scatter(values, &[vr::JOINT_FORCE, vr::JOINT_MOMENT], load_on_b);
+}
+
+/// Name of a variable that both FMUs have.
+pub(super) fn name(reference: usize) -> &'static str {
+    variable(reference).map_or("", |variable| variable.name)
+}
+
+/// Unit of a variable that both FMUs have.
+pub(super) fn unit(reference: usize) -> &'static str {
+    variable(reference).map_or("", |variable| variable.unit)
+}
+
+/// The variable of the lap, which has all that the element has.
+fn variable(reference: usize) -> Option<&'static Variable> {
+    Variables {
+        kind: Kind::Lap,
+        dofs: Dofs::Two,
+        dependence: Dependence::Constant,
+    }
+    .get(reference)
 }
 
 #[inline]

@@ -200,7 +200,7 @@ impl fmt::Display for Refusal {
             Self::Escape { a, b, unit, relative, amplitude, time_s } => write!(
                 f,
                 "{a} - {b} = {relative:e} {unit} at t = {time_s} s is past {amplitude:e} {unit}, where the softening \
-                 joint no longer holds and the motion diverges; reduce the load or check the cubic stiffness"
+                 joint no longer holds and the motion diverges; reduce the load or check the joint's nonlinear stiffness"
             ),
             Self::StateNotFinite { name, time_s } => write!(
                 f,

@@ -6,10 +6,9 @@ use bolted_joint_dynamics::{Defect, Lap, LapState, STABILITY_LIMIT_REAL};
 
 use super::{loads::Loads, prepared::Prepared};
 use crate::{
-    interface::{Dependence, Dofs, Kind, Variable, Variables},
     models::{
         CommunicationStep,
-        sides::{A, B},
+        sides::{A, B, name, unit},
     },
     refusal::Refusal,
 };
@@ -19,10 +18,10 @@ pub(in crate::models) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Resul
     match lap.defect() {
         Some(Defect::Inertia { on_a, dof, value }) => {
             let side = if on_a { A } else { B };
-            let variable = side.inertia.get(dof).copied().and_then(variable);
+            let reference = side.inertia.get(dof).copied();
             Err(Refusal::Inertia {
-                name: variable.map_or("", |variable| variable.name),
-                unit: variable.map_or("", |variable| variable.unit),
+                name: reference.map_or("", name),
+                unit: reference.map_or("", unit),
                 found: value,
             })
         }
@@ -109,7 +108,7 @@ pub(in crate::models) fn fault<const D: usize>(
             return Refusal::Escape {
                 a: name(A.displacement[dof]),
                 b: name(B.displacement[dof]),
-                unit: variable(A.displacement[dof]).map_or("", |variable| variable.unit),
+                unit: unit(A.displacement[dof]),
                 relative: relative.displacement[dof],
                 amplitude: amplitude[dof],
                 time_s,
@@ -121,17 +120,4 @@ pub(in crate::models) fn fault<const D: usize>(
         name: name(A.displacement[0]),
         time_s,
     }
-}
-
-fn variable(reference: usize) -> Option<&'static Variable> {
-    Variables {
-        kind: Kind::Lap,
-        dofs: Dofs::Two,
-        dependence: Dependence::Constant,
-    }
-    .get(reference)
-}
-
-fn name(reference: usize) -> &'static str {
-    variable(reference).map_or("", |variable| variable.name)
 }

@@ -5,7 +5,13 @@ use std::num::NonZeroU32;
 use bolted_joint_dynamics::{Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps};
 
 use super::loads::Loads;
-use crate::{models::CommunicationStep, refusal::Refusal};
+use crate::{
+    models::{
+        CommunicationStep,
+        watch::{Watch, finite},
+    },
+    refusal::{Reached, Refusal},
+};
 
 /// Most Runge–Kutta steps in one communication step: about a minute's work.
 pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
@@ -24,6 +30,8 @@ pub(super) struct Prepared<const D: usize> {
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
     pub(super) amplitude: [f64; D],
+    /// Relative displacement up to which there is nothing to tell the user.
+    quiet: [f64; D],
     /// Whether the joint holds only so far.
     softens: bool,
     /// What the latest length of a communication step gives; `None` before the first one.
@@ -51,14 +59,20 @@ enum Propagation<const D: usize> {
 }
 
 impl<const D: usize> Prepared<D> {
-    /// Prepares `lap` for Runge–Kutta steps of `step_size_max_s` (s) at most.
-    pub(super) fn new(lap: &Lap<D>, step_size_max_s: f64) -> Self {
-        let limits = lap.escape_amplitude();
+    /// Prepares `lap` for Runge–Kutta steps of `step_size_max_s` (s) at most, with its escape amplitudes, and the
+    /// relative displacements up to which there is nothing to tell the user.
+    pub(super) fn new(
+        lap: &Lap<D>,
+        step_size_max_s: f64,
+        escape: [Option<f64>; D],
+        quiet: [f64; D],
+    ) -> Self {
         Self {
             integrator: LapIntegrator::new(lap),
             step_size_max_s,
-            amplitude: limits.map(|limit| limit.unwrap_or(f64::MAX)),
-            softens: limits.iter().any(Option::is_some),
+            amplitude: finite(escape),
+            quiet: std::array::from_fn(|dof| quiet[dof].min(escape[dof].unwrap_or(f64::MAX))),
+            softens: escape.iter().any(Option::is_some),
             interval: None,
         }
     }
@@ -180,13 +194,38 @@ impl<const D: usize> Prepared<D> {
     /// Whether the state is finite and the joint holds.
     #[inline]
     pub(super) fn holds(&self, state: &LapState<D>) -> bool {
-        holds(state, &self.amplitude)
+        is_within(&self.amplitude, state)
+    }
+
+    /// Whether, besides, there is nothing to tell the user.
+    #[inline]
+    pub(super) fn holds_quietly(&self, state: &LapState<D>) -> bool {
+        is_within(&self.quiet, state)
+    }
+
+    /// What there is to tell the user of this state at `time_s` (s).
+    pub(super) fn look(
+        &mut self,
+        watch: &mut Watch<D>,
+        state: &LapState<D>,
+        time_s: f64,
+    ) -> Option<Reached> {
+        if self.holds_quietly(state) {
+            return None;
+        }
+        let relative = state.a.relative_to(&state.b);
+        let reached = watch.look(&relative.displacement, time_s);
+        self.quiet = watch.quiet();
+        for dof in 0..D {
+            self.quiet[dof] = self.quiet[dof].min(self.amplitude[dof]);
+        }
+        reached
     }
 }
 
-/// Whether the state is finite and the joint holds, which it does up to this relative displacement.
+/// Whether the state is finite and its relative displacements are within the limits.
 #[inline]
-pub(in crate::models) fn holds<const D: usize>(state: &LapState<D>, amplitude: &[f64; D]) -> bool {
+pub(in crate::models) fn is_within<const D: usize>(limits: &[f64; D], state: &LapState<D>) -> bool {
     let relative = state.a.relative_to(&state.b);
     let mut sum = 0.0;
     let mut holds = true;
@@ -194,7 +233,7 @@ pub(in crate::models) fn holds<const D: usize>(state: &LapState<D>, amplitude: &
         sum += state.a.displacement[dof].abs() + state.b.displacement[dof].abs();
         sum += state.a.velocity[dof].abs() + state.b.velocity[dof].abs();
         // a comparison with NaN is false
-        holds &= relative.displacement[dof].abs() <= amplitude[dof];
+        holds &= relative.displacement[dof].abs() <= limits[dof];
     }
     holds && sum <= f64::MAX
 }

@@ -11,40 +11,39 @@ use bolted_joint_dynamics::{
     CountedState, JointLaw, JointOverPreload, Lap, LapConditions, LapLoads, LapState, PassedEnergy,
 };
 
-use super::{
-    CommunicationStep, Model,
-    lap::{
-        differentiate,
-        faults::{check_parameters, check_step, fault},
-        loads,
-        loads::Loads,
-        prepared::{count, holds},
-        rates, set_outputs, state,
-    },
-    law::{check_preload, preload_power, preload_power_change},
-    sides::{A, B, is_active},
-};
+use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
 use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, Values, memory, reference as vr},
-    refusal::{Active, Refusal},
+    models::{
+        CommunicationStep, Model,
+        lap::{
+            differentiate,
+            faults::{check_parameters, check_step, fault},
+            loads,
+            loads::Loads,
+            prepared::{count, is_within},
+            rates, set_outputs, state,
+        },
+        sides::{A, B, is_active, set_escape_amplitude},
+        watch::{Watch, finite},
+    },
+    refusal::{Active, Reached, Refusal},
 };
-
-/// Preloads in each gap of the table at which steps and passivity are checked, beside those of the table.
-const CHECKED_BETWEEN: u32 = 3;
 
 /// Runge–Kutta steps after which the escape amplitude is taken anew while the preload changes.
 const STEPS_BETWEEN_CHECKS: u32 = 8;
 
 /// Two bodies and a joint over the preload between them.
 #[derive(Clone, Debug)]
-pub(super) struct LooseningLap<const D: usize> {
+pub(in crate::models) struct LooseningLap<const D: usize> {
     table: JointOverPreload<D>,
     step_size_max_s: Option<f64>,
     /// Who integrates: where it is the importer, so it is for the energies.
     interface_type: InterfaceType,
     /// The joint at the latest preload that a communication step began with.
     latest: Option<AtPreload<D>>,
+    watch: Watch<D>,
 }
 
 /// The joint at one preload.
@@ -52,20 +51,18 @@ pub(super) struct LooseningLap<const D: usize> {
 struct AtPreload<const D: usize> {
     preload_n_m: f64,
     law: JointLaw<D>,
-    hold: Hold<D>,
+    /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
+    hold: [f64; D],
 }
 
-/// Relative displacement that a softening joint holds at most; the largest number where it always holds.
-#[derive(Clone, Copy, Debug)]
-struct Hold<const D: usize>([f64; D]);
-
 impl<const D: usize> LooseningLap<D> {
-    pub(super) fn new(table: JointOverPreload<D>) -> Self {
+    pub(in crate::models) fn new(table: JointOverPreload<D>) -> Self {
         Self {
             table,
             step_size_max_s: None,
             interface_type: InterfaceType::CoSimulation,
             latest: None,
+            watch: Watch::default(),
         }
     }
 
@@ -98,10 +95,10 @@ impl<const D: usize> LooseningLap<D> {
         &self,
         start: &CountedState<D>,
         step: CommunicationStep,
-        mut hold: Hold<D>,
+        mut hold: [f64; D],
         conditions_at: &dyn Fn(f64) -> Result<LapConditions<D>, Refusal>,
         is_held: bool,
-    ) -> Result<CountedState<D>, Refusal> {
+    ) -> Result<(CountedState<D>, LapConditions<D>), Refusal> {
         let count = self.internal_steps(step.interval_s)?.get();
         let length_s = step.interval_s / f64::from(count);
         let mut counted = *start;
@@ -117,12 +114,12 @@ impl<const D: usize> LooseningLap<D> {
                 let next = LapConditions::step([&first, &middle, &last], &counted, length_s);
                 first = last;
                 if (index + 1) % STEPS_BETWEEN_CHECKS == 0 || index + 1 == count {
-                    hold = Hold::of(&first.lap);
+                    hold = finite(first.lap.escape_amplitude());
                 }
                 next
             };
-            if !holds(&counted.state, &hold.0) {
-                return Err(fault(&counted.state, &hold.0, step.time_s + to_s));
+            if !is_within(&hold, &counted.state) {
+                return Err(fault(&counted.state, &hold, step.time_s + to_s));
             }
         }
         let PassedEnergy {
@@ -140,16 +137,34 @@ impl<const D: usize> LooseningLap<D> {
                 return Err(Refusal::StateNotFinite { name, time_s });
             }
         }
-        Ok(counted)
+        Ok((counted, first))
     }
-}
 
-impl<const D: usize> Hold<D> {
-    fn of(lap: &Lap<D>) -> Self {
-        Self(
-            lap.escape_amplitude()
-                .map(|limit| limit.unwrap_or(f64::MAX)),
-        )
+    /// What there is to tell of a state of this lap at `time_s` (s).
+    fn look(
+        &mut self,
+        lap: &Lap<D>,
+        hold: [f64; D],
+        state: &LapState<D>,
+        time_s: f64,
+    ) -> Option<Reached> {
+        self.watch.set(&lap.joint, hold);
+        if is_within(&self.watch.quiet(), state) {
+            return None;
+        }
+        let relative = state.a.relative_to(&state.b);
+        self.watch.look(&relative.displacement, time_s)
+    }
+
+    /// The lap at the preloads that are looked at, for changes of the bodies.
+    fn laps(&self, values: &Values) -> impl Iterator<Item = Lap<D>> {
+        let [a, b] = [A.body(values), B.body(values)];
+        let samples = self.table.samples_n_m(CHECKED_BETWEEN);
+        samples.map(move |preload_n_m| Lap {
+            joint: self.table.law(preload_n_m),
+            a,
+            b,
+        })
     }
 }
 
@@ -163,8 +178,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         check_parameters(&self.lap(values))?;
         let mut active = [false; 2];
         // the bolt may come to any preload of the table
-        for preload_n_m in self.table.samples_n_m(CHECKED_BETWEEN) {
-            let lap = self.lap_with(values, self.table.law(preload_n_m));
+        for lap in self.laps(values) {
             if interface_type == InterfaceType::CoSimulation {
                 check_step(&lap, step_size_max_s)?;
             }
@@ -205,12 +219,13 @@ impl<const D: usize> Model for LooseningLap<D> {
         }
     }
 
-    fn check_states(&self, values: &Values) -> Result<(), Refusal> {
-        let (state, hold) = (state(values), Hold::of(&self.lap(values)));
-        if holds(&state, &hold.0) {
-            Ok(())
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+        let (state, lap) = (state(values), self.lap(values));
+        let hold = finite(lap.escape_amplitude());
+        if is_within(&hold, &state) {
+            Ok(self.look(&lap, hold, &state, values[vr::TIME]))
         } else {
-            Err(fault(&state, &hold.0, values[vr::TIME]))
+            Err(fault(&state, &hold, values[vr::TIME]))
         }
     }
 
@@ -224,13 +239,13 @@ impl<const D: usize> Model for LooseningLap<D> {
         values: &mut Values,
         step: CommunicationStep,
         inputs: &InputCourse,
-    ) -> Result<(), Refusal> {
+    ) -> Result<Option<Reached>, Refusal> {
         let preload_n_m = values[vr::PRELOAD];
         let latest = match self.latest {
             Some(latest) if latest.preload_n_m.to_bits() == preload_n_m.to_bits() => latest,
             _ => {
                 let law = self.table.law(preload_n_m);
-                let hold = Hold::of(&self.lap_with(values, law));
+                let hold = finite(self.lap_with(values, law).escape_amplitude());
                 AtPreload {
                     preload_n_m,
                     law,
@@ -277,7 +292,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         };
         let is_held = inputs.is_held();
         let conditions_at: &dyn Fn(f64) -> _ = if is_held { &held } else { &along };
-        let end = self.steps(&start, step, latest.hold, conditions_at, is_held)?;
+        let (end, last) = self.steps(&start, step, latest.hold, conditions_at, is_held)?;
         A.set_motion(values, &end.state.a);
         B.set_motion(values, &end.state.b);
         values[vr::ENERGY_SUPPLIED] = end.passed.supplied;
@@ -288,11 +303,47 @@ impl<const D: usize> Model for LooseningLap<D> {
         } else {
             inputs.value(vr::PRELOAD, preload_n_m, step.interval_s)
         };
-        Ok(())
+        let hold = if is_held {
+            latest.hold
+        } else {
+            finite(last.lap.escape_amplitude())
+        };
+        let end_s = step.time_s + step.interval_s;
+        Ok(self.look(&last.lap, hold, &end.state, end_s))
     }
 
     fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
         false
+    }
+
+    fn reset(&mut self) {
+        self.watch.forget();
+    }
+
+    fn calculate_parameters(&self, values: &mut Values) {
+        let amplitude = self.laps(values).fold([f64::MAX; D], |least, lap| {
+            smaller(least, finite(lap.escape_amplitude()))
+        });
+        set_escape_amplitude(values, &amplitude);
+    }
+
+    fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
+        let mut least = [f64::MAX; D];
+        let mut tangent = [0.0; D];
+        for lap in self.laps(values) {
+            let own = finite(lap.escape_amplitude());
+            let own_tangent = lap.escape_amplitude_tangent(&Lap {
+                joint: JointLaw::NONE,
+                a: A.body(change),
+                b: B.body(change),
+            });
+            for dof in 0..D {
+                if own[dof] < least[dof] {
+                    (least[dof], tangent[dof]) = (own[dof], own_tangent[dof]);
+                }
+            }
+        }
+        set_escape_amplitude(change, &tangent);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {

@@ -329,7 +329,10 @@ fn sized_lap_facts<const D: usize>(
         .iter()
         .map(JointFile::lap)
         .collect::<Result<Vec<Lap<D>>, _>>()?;
-    let step = StepSize::choose_for_all(&laps, options.step_size_max_s)?;
+    let mut step = StepSize::choose_for_all(&laps, options.step_size_max_s)?;
+    if subject.over_preload.is_some() {
+        step = step.for_energy();
+    }
     let spectrum = lap.spectrum();
     let least = |one: Option<f64>, other: Option<f64>| match (one, other) {
         (Some(one), Some(other)) => Some(f64::min(one, other)),

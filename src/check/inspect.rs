@@ -198,8 +198,8 @@ fn against_joint_file(start: &StartFile, joint: &JointFile) -> Vec<String> {
 }
 
 fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
-    fn unstable<const D: usize>(lap: &Lap<D>, step_s: f64) -> Option<String> {
-        match lap.spectrum() {
+    fn unstable<const D: usize>(laps: &[Lap<D>], step_s: f64) -> Option<String> {
+        laps.iter().find_map(|lap| match lap.spectrum() {
             None => {
                 Some("resources/joint.json: the equations of motion have no eigenvalues".to_owned())
             }
@@ -209,12 +209,16 @@ fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
                 spectrum.largest_modulus()
             )),
             Some(_) => None,
-        }
+        })
     }
     let at_one = |joint: &JointFile| {
         let finding = match joint.joint.dofs {
-            DofSet::Translation => joint.lap::<1>().map(|lap| unstable(&lap, step_s)),
-            DofSet::TranslationRotation => joint.lap::<2>().map(|lap| unstable(&lap, step_s)),
+            DofSet::Translation => joint
+                .tangent_laps::<1>()
+                .map(|laps| unstable(&laps, step_s)),
+            DofSet::TranslationRotation => joint
+                .tangent_laps::<2>()
+                .map(|laps| unstable(&laps, step_s)),
         };
         finding.unwrap_or_else(|error| Some(format!("resources/joint.json: {error}")))
     };

@@ -28,7 +28,7 @@ pub(super) struct NeighbourArguments {
     /// Damping to ground that is attached to bodies a and b of a lap, N·s/m
     #[arg(long, value_name = "A,B", value_parser = number_pair, conflicts_with = "neighbour_mass")]
     neighbour_damping: Option<[f64; 2]>,
-    /// Amplitude of the relative motion, for cubic joints: m, and rad where there is rotation [default: rest]
+    /// Amplitude of the relative motion, for nonlinear joints: m, and rad where there is rotation [default: rest]
     #[arg(long, value_name = "Y[,THETA]", value_delimiter = ',')]
     amplitude: Option<Vec<f64>>,
 }
@@ -248,19 +248,19 @@ fn about(joints: &[JointFile], amplitude: Option<&[f64]>) -> Vec<String> {
 }
 
 fn about_amplitude(joints: &[JointFile], amplitude: Option<&[f64]>) -> String {
-    let is_linear = joints
-        .iter()
-        .all(|file| file.joint.cubic.iter().all(|&cubic| cubic == 0.0));
+    let is_linear = joints.iter().map(|file| &file.joint).all(|joint| {
+        joint.cubic.iter().all(|&cubic| cubic == 0.0) && !joint.has_terms_of_higher_order()
+    });
     match amplitude {
         _ if is_linear => {
             "communication step: the joint is linear, the bound holds for any amplitude".to_owned()
         }
         None => {
-            "communication step: for small motion about rest; give --amplitude for this cubic joint"
+            "communication step: for small motion about rest; give --amplitude for this nonlinear joint"
                 .to_owned()
         }
         Some(amplitude) => format!(
-            "communication step: with the joint's tangent stiffness from rest up to the relative motion {amplitude:?}"
+            "communication step: with the joint's tangent stiffness and damping from rest up to the relative motion {amplitude:?}"
         ),
     }
 }

@@ -1,11 +1,12 @@
 //! The joint element between two rigid neighbours that the importer integrates.
 
+use bolted_joint_dynamics::JointLaw;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use thiserror::Error;
 
 use super::StepBound;
 use super::stability::Search;
-use crate::joint::{Joint, LawError};
+use crate::joint::{DofSet, Joint, LawError, displacements};
 
 /// Inertia of a neighbour in one DOF, at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,8 +98,8 @@ fn at(amplitude: &[f64]) -> String {
 
 /// How long the communication step may be for the element of `joint` between `neighbours`.
 ///
-/// Cubic stiffness enters by the tangent: at rest, and where there is an `amplitude` of the relative displacement (m, rad)
-/// also at it, in each DOF alone and in all; the shortest bound counts.
+/// Nonlinear stiffness and damping enter by the tangent: at rest, and where there is an `amplitude` of the relative
+/// displacement (m, rad) also at it, in each DOF alone and in all, and at what turns on the way; the shortest bound counts.
 ///
 /// # Errors
 ///
@@ -123,13 +124,18 @@ pub fn element_bound(
         }
     }
     let mut bound = StepBound::Nothing;
-    for at in points(amplitude, dofs)? {
-        let (stiffness, damping) = tangent(joint, &at)?;
-        let Some(relative) = Relative::new(&stiffness, &damping, neighbours) else {
+    let tangents = match joint.dofs {
+        DofSet::Translation => tangents::<1>(joint, amplitude),
+        DofSet::TranslationRotation => tangents::<2>(joint, amplitude),
+    }?;
+    for tangent in tangents {
+        let Some(relative) = Relative::new(&tangent.stiffness, &tangent.damping, neighbours) else {
             continue;
         };
         if !relative.is_passive() {
-            return Err(CouplingError::Active { amplitude: at });
+            return Err(CouplingError::Active {
+                amplitude: tangent.at,
+            });
         }
         bound = bound.min(relative.bound(master));
     }
@@ -144,51 +150,48 @@ pub(super) fn check_count(found: usize, expected: usize) -> Result<(), CouplingE
     }
 }
 
-/// Rest, and the corners of the box that the amplitude spans.
-pub(super) fn points(
+/// Rest, and where an amplitude is given the places within it at which stiffness or damping of small motion is largest or
+/// least.
+pub(super) fn places<const D: usize>(
+    law: &JointLaw<D>,
     amplitude: Option<&[f64]>,
-    dofs: usize,
-) -> Result<Vec<Vec<f64>>, CouplingError> {
+) -> Result<Vec<[f64; D]>, CouplingError> {
     let Some(amplitude) = amplitude else {
-        return Ok(vec![vec![0.0; dofs]]);
+        return Ok(vec![[0.0; D]]);
     };
-    check_count(amplitude.len(), dofs)?;
+    check_count(amplitude.len(), D)?;
     if let Some(&found) = amplitude.iter().find(|r| !(r.is_finite() && **r >= 0.0)) {
         let expected = "an amplitude of zero or more";
         return Err(CouplingError::Value { found, expected });
     }
-    Ok((0..1_u32 << dofs)
-        .map(|corner| {
-            let is_in = |i: usize| corner >> i & 1 == 1;
-            (0..dofs)
-                .map(|i| if is_in(i) { amplitude[i] } else { 0.0 })
-                .collect()
+    Ok(displacements(law, &std::array::from_fn(|i| amplitude[i])))
+}
+
+/// Stiffness and damping of small motion about the places within the amplitude, and the places.
+fn tangents<const D: usize>(
+    joint: &Joint,
+    amplitude: Option<&[f64]>,
+) -> Result<Vec<Tangent>, CouplingError> {
+    let law = joint.law::<D>()?;
+    let matrix = |entries: &[[f64; D]; D]| DMatrix::from_fn(D, D, |i, j| entries[i][j]);
+    Ok(places(&law, amplitude)?
+        .iter()
+        .map(|place| {
+            let linear = law.linearised_about(place);
+            Tangent {
+                at: place.to_vec(),
+                stiffness: matrix(&linear.stiffness),
+                damping: matrix(&linear.damping),
+            }
         })
         .collect())
 }
 
-/// Stiffness and damping of small motion about the relative displacement `at`.
-pub(super) fn tangent(
-    joint: &Joint,
-    at: &[f64],
-) -> Result<(DMatrix<f64>, DMatrix<f64>), CouplingError> {
-    if joint.over_preload.is_some() {
-        return Err(LawError::OverPreload.into());
-    }
-    let dofs = joint.dofs.count();
-    let entry = |rows: &[Vec<f64>], i: usize, j: usize| {
-        rows.get(i)
-            .and_then(|row| row.get(j))
-            .copied()
-            .unwrap_or(0.0)
-    };
-    let mut stiffness = DMatrix::from_fn(dofs, dofs, |i, j| entry(&joint.stiffness, i, j));
-    for (i, r) in at.iter().enumerate() {
-        // d(k r + k3 r³)/dr = k + 3 k3 r²
-        stiffness[(i, i)] += 3.0 * joint.cubic.get(i).copied().unwrap_or(0.0) * r * r;
-    }
-    let damping = DMatrix::from_fn(dofs, dofs, |i, j| entry(&joint.damping, i, j));
-    Ok((stiffness, damping))
+/// Small motion about a relative displacement.
+struct Tangent {
+    at: Vec<f64>,
+    stiffness: DMatrix<f64>,
+    damping: DMatrix<f64>,
 }
 
 /// The relative motion q̈ + C q̇ + K q = 0 in coordinates q = W^−½ r with W = M_a⁻¹ + M_b⁻¹.

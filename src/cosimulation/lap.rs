@@ -1,11 +1,11 @@
 //! The lap model under loads that an importer computes from its motion and holds over the step.
 
 use bolted_joint_dynamics::{
-    Body, HigherTerms, JointLaw, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps,
+    Body, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps,
 };
 use nalgebra::DMatrix;
 
-use super::element::{CouplingError, points};
+use super::element::{CouplingError, places};
 use super::stability::{Search, StepBound};
 use crate::joint::{JointFile, LawError};
 
@@ -56,13 +56,11 @@ pub fn lap_bound<const D: usize>(
     }
     let lap = file.lap::<D>()?;
     let mut bound = StepBound::Nothing;
-    for at in points(amplitude, D)? {
-        let mut tangent = lap;
-        for (i, r) in at.iter().enumerate() {
-            // d(k r + k3 r³)/dr = k + 3 k3 r²
-            tangent.joint.stiffness[i][i] += 3.0 * lap.joint.cubic[i] * r * r;
-            tangent.joint.cubic[i] = 0.0;
-        }
+    for at in places(&lap.joint, amplitude)? {
+        let tangent = Lap {
+            joint: lap.joint.linearised_about(&at),
+            ..lap
+        };
         bound = bound.min(tangent_bound(&tangent, restraints, step_size_max_s)?);
     }
     Ok(bound)
@@ -101,11 +99,7 @@ fn restrained<const D: usize>(lap: &Lap<D>, restraints: [&Restraint; 2]) -> Lap<
         damping: std::array::from_fn(|i| body.damping[i] + restraint.damping[i]),
     };
     Lap {
-        joint: JointLaw {
-            cubic: [0.0; D],
-            higher: HigherTerms::NONE,
-            ..lap.joint
-        },
+        joint: lap.joint,
         a: with(&lap.a, restraints[0]),
         b: with(&lap.b, restraints[1]),
     }

@@ -323,13 +323,16 @@ fn sized_lap_facts<const D: usize>(
 ) -> Result<LapFacts, ExportError> {
     let lap = subject.file.lap::<D>()?;
     // of a joint over the preload, the bolt may come to any preload of the table
-    let laps = subject
-        .source()
-        .over_its_preloads()?
+    let joints = subject.source().over_its_preloads()?;
+    let laps = joints
         .iter()
         .map(JointFile::lap)
         .collect::<Result<Vec<Lap<D>>, _>>()?;
-    let mut step = StepSize::choose_for_all(&laps, options.step_size_max_s)?;
+    let tangents = joints
+        .iter()
+        .map(JointFile::tangent_laps)
+        .collect::<Result<Vec<Vec<Lap<D>>>, _>>()?;
+    let mut step = StepSize::choose(&tangents.concat(), options.step_size_max_s)?;
     if subject.over_preload.is_some() {
         step = step.for_energy();
     }

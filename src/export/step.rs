@@ -31,7 +31,7 @@ pub struct StepSize {
     pub longest_s: f64,
     /// Why that one.
     pub choice: StepChoice,
-    /// Largest |λ| of the model about rest, 1/s.
+    /// Largest |λ| of the model about rest, and within the amplitude that the joint file states, 1/s.
     pub largest_modulus: f64,
     /// Longest step with which RK4 is stable, s; `None` where no step makes it unstable.
     pub stability_limit_s: Option<f64>,
@@ -56,38 +56,6 @@ pub(super) struct Experiment {
 }
 
 impl StepSize {
-    /// The step for all of these laps, which are one at different preloads: one that none of them refuses, and that suits the
-    /// fastest.
-    pub(super) fn choose_for_all<const D: usize>(
-        laps: &[Lap<D>],
-        given_s: Option<f64>,
-    ) -> Result<Self, ExportError> {
-        let choices = laps
-            .iter()
-            .map(|lap| Self::choose(lap, given_s))
-            .collect::<Result<Vec<_>, _>>()?;
-        let shorter = |one: Option<f64>, other: Option<f64>| match (one, other) {
-            (Some(one), Some(other)) => Some(f64::min(one, other)),
-            (limit, None) | (None, limit) => limit,
-        };
-        choices
-            .into_iter()
-            .reduce(|all, next| {
-                let (fastest, other) = match (all.choice, next.choice) {
-                    (_, StepChoice::NoModes) => (all, next),
-                    (StepChoice::NoModes, _) => (next, all),
-                    _ if next.longest_s < all.longest_s => (next, all),
-                    _ => (all, next),
-                };
-                Self {
-                    largest_modulus: f64::max(fastest.largest_modulus, other.largest_modulus),
-                    stability_limit_s: shorter(fastest.stability_limit_s, other.stability_limit_s),
-                    ..fastest
-                }
-            })
-            .ok_or(ExportError::NoSpectrum)
-    }
-
     /// The step for a lap whose energies are counted: a shorter one, unless it was given.
     pub(super) fn for_energy(self) -> Self {
         match self.choice {
@@ -99,20 +67,39 @@ impl StepSize {
         }
     }
 
-    /// Takes the step that is `given`, or picks one from the model's eigenvalues.
+    /// Takes the step that is `given`, or picks one from the eigenvalues of the model, linear about every place that it
+    /// shall be good for.
     pub(super) fn choose<const D: usize>(
-        lap: &Lap<D>,
+        laps: &[Lap<D>],
         given_s: Option<f64>,
     ) -> Result<Self, ExportError> {
-        let spectrum = lap.spectrum().ok_or(ExportError::NoSpectrum)?;
-        let largest_modulus = spectrum.largest_modulus();
-        let stability_limit_s = stability_limit_s(&spectrum);
-        let (longest_s, choice) = match (given_s, spectrum.accurate_step_s()) {
+        let spectra = laps.iter().map(Lap::spectrum).collect::<Option<Vec<_>>>();
+        let spectra = spectra
+            .filter(|spectra| !spectra.is_empty())
+            .ok_or(ExportError::NoSpectrum)?;
+        let largest_modulus = spectra
+            .iter()
+            .map(Spectrum::largest_modulus)
+            .fold(0.0, f64::max);
+        let stability_limit_s = spectra
+            .iter()
+            .filter_map(stability_limit_s)
+            .min_by(f64::total_cmp);
+        let accurate_s = spectra
+            .iter()
+            .filter_map(Spectrum::accurate_step_s)
+            .min_by(f64::total_cmp);
+        let is_stable_with = |step_s: f64| {
+            spectra
+                .iter()
+                .all(|spectrum| spectrum.is_stable_with(step_s))
+        };
+        let (longest_s, choice) = match (given_s, accurate_s) {
             (Some(found_s), _) if !(found_s.is_finite() && found_s > 0.0) => {
                 return Err(ExportError::StepNotPositive { found_s });
             }
             (Some(found_s), _) => match stability_limit_s {
-                Some(limit_s) if !spectrum.is_stable_with(found_s) => {
+                Some(limit_s) if !is_stable_with(found_s) => {
                     return Err(ExportError::StepUnstable {
                         found_s,
                         largest_modulus,
@@ -238,7 +225,7 @@ mod tests {
     #[test]
     fn the_limit_is_that_of_the_fastest_mode() {
         // Undamped: |λ| = √((k + 2 k12)/m) on the imaginary axis.
-        let step = StepSize::choose(&lap(2.35, 10.56e5, 0.0, 4.56e6, 0.0), None).unwrap();
+        let step = StepSize::choose(&[lap(2.35, 10.56e5, 0.0, 4.56e6, 0.0)], None).unwrap();
         let fastest = f64::sqrt((10.56e5 + 2.0 * 4.56e6) / 2.35);
         let limit = step.stability_limit_s.unwrap();
         assert!((limit * fastest / STABILITY_LIMIT_IMAGINARY - 1.0).abs() < 1e-5);
@@ -247,7 +234,7 @@ mod tests {
         assert!(step.longest_s <= accurate && step.longest_s > 0.95 * accurate);
         assert_eq!(step.choice, StepChoice::Accuracy);
         // Overdamped: λ ≈ −2 c12/m on the real axis.
-        let step = StepSize::choose(&lap(1.0, 0.0, 0.0, 0.0, 5e3), None).unwrap();
+        let step = StepSize::choose(&[lap(1.0, 0.0, 0.0, 0.0, 5e3)], None).unwrap();
         let limit = step.stability_limit_s.unwrap();
         assert!((limit * 1e4 / STABILITY_LIMIT_REAL - 1.0).abs() < 1e-5);
     }
@@ -255,9 +242,9 @@ mod tests {
     #[test]
     fn a_given_step_must_be_stable() {
         let model = lap(2.35, 10.56e5, 1.39, 4.56e6, 0.54);
-        let step = StepSize::choose(&model, Some(2e-4)).unwrap();
+        let step = StepSize::choose(&[model], Some(2e-4)).unwrap();
         assert_eq!((step.longest_s, step.choice), (2e-4, StepChoice::Given));
-        let message = StepSize::choose(&model, Some(2e-3))
+        let message = StepSize::choose(&[model], Some(2e-3))
             .unwrap_err()
             .to_string();
         // √((10.56e5 + 2·4.56e6)/2.35) = 2080.9 1/s; 2.828/2080.9 = 1.359e-3 s
@@ -265,15 +252,32 @@ mod tests {
             assert!(message.contains(fragment), "{message}");
         }
         for bad in [0.0, -1e-5, f64::NAN, f64::INFINITY] {
-            let refused = StepSize::choose(&model, Some(bad)).unwrap_err();
+            let refused = StepSize::choose(&[model], Some(bad)).unwrap_err();
             assert!(matches!(refused, ExportError::StepNotPositive { .. }));
         }
     }
 
     #[test]
+    fn the_fastest_place_sets_the_step() {
+        let slow = lap(2.35, 10.56e5, 1.39, 4.56e6, 0.54);
+        let stiff = lap(2.35, 10.56e5, 1.39, 9.0e6, 0.54);
+        let damped = lap(2.35, 10.56e5, 1.39, 4.56e6, 1e5);
+        for fast in [stiff, damped] {
+            let both = StepSize::choose(&[slow, fast], None).unwrap();
+            assert_eq!(both, StepSize::choose(&[fast], None).unwrap());
+            assert!(both.longest_s < StepSize::choose(&[slow], None).unwrap().longest_s);
+        }
+        // stable about rest alone
+        let given_s = 1e-4;
+        assert!(StepSize::choose(&[slow], Some(given_s)).is_ok());
+        let refused = StepSize::choose(&[slow, damped], Some(given_s));
+        assert!(matches!(refused, Err(ExportError::StepUnstable { .. })));
+    }
+
+    #[test]
     fn a_model_without_modes_still_has_a_step() {
         let model = lap(1.0, 0.0, 0.0, 0.0, 0.0);
-        let step = StepSize::choose(&model, None).unwrap();
+        let step = StepSize::choose(&[model], None).unwrap();
         assert_eq!(step.choice, StepChoice::NoModes);
         let experiment = Experiment::of_lap(model.spectrum().as_ref(), &step);
         assert!(experiment.stop_s > 0.0 && experiment.communication_step_s > 0.0);
@@ -282,7 +286,7 @@ mod tests {
     #[test]
     fn the_suggested_simulation_shows_the_slowest_mode_and_resolves_the_fastest() {
         let model = lap(2.35, 10.56e5, 1.39, 4.56e6, 0.54);
-        let step = StepSize::choose(&model, None).unwrap();
+        let step = StepSize::choose(&[model], None).unwrap();
         let experiment = Experiment::of_lap(model.spectrum().as_ref(), &step);
         // 20 periods of 670.35 rad/s are 0.187 s.
         assert_eq!(experiment.stop_s, 0.1);

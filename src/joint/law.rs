@@ -77,6 +77,20 @@ impl Joint {
 }
 
 impl Joint {
+    /// Whether a term of higher order is not zero.
+    #[must_use]
+    pub fn has_terms_of_higher_order(&self) -> bool {
+        self.higher.as_ref().is_some_and(|terms| {
+            let lists = [
+                &terms.quintic,
+                &terms.septic,
+                &terms.damping_quadratic,
+                &terms.damping_quartic,
+            ];
+            lists.into_iter().flatten().any(|&term| term != 0.0)
+        })
+    }
+
     /// The terms of higher order, zero where they are left out.
     fn higher_terms<const D: usize>(&self) -> Result<dynamics::HigherTerms<D>, LawError> {
         let Some(terms) = &self.higher else {
@@ -142,6 +156,54 @@ impl JointFile {
             b: body("bodies.b", &bodies.b)?,
         })
     }
+}
+
+impl JointFile {
+    /// The linear laps of small motion about rest, and where the joint file states an amplitude, about the displacements
+    /// within it at which stiffness and damping are largest or least.
+    ///
+    /// # Errors
+    ///
+    /// As [`JointFile::lap`].
+    pub(crate) fn tangent_laps<const D: usize>(&self) -> Result<Vec<dynamics::Lap<D>>, LawError> {
+        let lap = self.lap::<D>()?;
+        let amplitude = match &self.joint.higher {
+            Some(terms) if !terms.amplitude.is_empty() => {
+                list("joint.higher.amplitude", &terms.amplitude)?
+            }
+            _ => [0.0; D],
+        };
+        let about = |displacement: &[f64; D]| dynamics::Lap {
+            joint: lap.joint.linearised_about(displacement),
+            ..lap
+        };
+        Ok(displacements(&lap.joint, &amplitude)
+            .iter()
+            .map(about)
+            .collect())
+    }
+}
+
+/// All combinations of the displacements at which stiffness or damping of small motion are largest or least within the
+/// amplitude, rest first.
+pub(crate) fn displacements<const D: usize>(
+    law: &dynamics::JointLaw<D>,
+    amplitude: &[f64; D],
+) -> Vec<[f64; D]> {
+    let mut all = vec![[0.0; D]];
+    for i in 0..D {
+        all = law
+            .extremes(i, amplitude[i])
+            .flat_map(|r| {
+                all.iter().map(move |displacement| {
+                    let mut displacement = *displacement;
+                    displacement[i] = r;
+                    displacement
+                })
+            })
+            .collect();
+    }
+    all
 }
 
 fn body<const D: usize>(path: &'static str, body: &Body) -> Result<dynamics::Body<D>, LawError> {

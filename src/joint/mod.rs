@@ -19,6 +19,7 @@ pub use at_preload::PreloadError;
 pub use dofs::DofSet;
 pub use error::JointFileError;
 pub use law::LawError;
+pub(crate) use law::displacements;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{

@@ -1,5 +1,7 @@
 //! Whether a joint can only store and take energy, or can feed it into a simulation.
 
+mod amplitude;
+
 use std::fmt;
 
 use bolted_joint_dynamics::is_positive_semidefinite;
@@ -10,17 +12,18 @@ use super::{Joint, JointFile};
 /// Judgement on each stiffness and damping matrix of a joint.
 ///
 /// A joint is passive if its K and C are positive semidefinite (theory: a massless joint that is not can make a
-/// time-domain model blow up). An active joint can be read, but is exported only if the user insists.
+/// time-domain model blow up), C also with the damping that depends on the amplitude, at every amplitude that the joint
+/// file states it for. An active joint can be read, but is exported only if the user insists.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passivity {
-    /// K and C, or those at every preload where the joint depends on it.
+    /// K and C, or those at every preload where the joint depends on it; C with the damping that depends on the amplitude.
     pub matrices: Vec<MatrixPassivity>,
 }
 
 /// Judgement on one matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatrixPassivity {
-    /// Key of the matrix, such as `joint.damping`.
+    /// Key of the matrix, such as `joint.damping`, with what else is in it.
     pub path: String,
     /// Its eigenvalues, ascending, as the numbers stand in SI units.
     pub eigenvalues: Vec<f64>,
@@ -66,6 +69,7 @@ impl Joint {
                     &self.stiffness,
                 ));
                 matrices.push(MatrixPassivity::new("joint.damping".into(), &self.damping));
+                matrices.extend(amplitude::passivity(self));
             }
             Some(table) => {
                 for (key, list) in [("stiffness", &table.stiffness), ("damping", &table.damping)] {

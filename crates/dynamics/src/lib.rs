@@ -13,6 +13,7 @@ mod higher;
 mod integrator;
 mod joint;
 mod lap;
+mod linearised;
 mod loosening;
 mod over_preload;
 mod pair;

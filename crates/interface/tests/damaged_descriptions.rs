@@ -146,7 +146,7 @@ refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dep
     Problem::Structure(StructureProblem::MissingUnknown { element: "Output", variable }) if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "Output", variable }) if variable == "a.F");
-refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="3 4 7 8 20 21 22 29 30 35 36"/>"# => "",
+refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49"/>"# => "",
     Problem::Structure(StructureProblem::MissingUnknown { element: "InitialUnknown", variable }) if variable == "power.dissipated");
 refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "InitialUnknown", variable }) if variable == "a.y");
@@ -162,7 +162,7 @@ refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" d
     Problem::Structure(StructureProblem::DuplicateDependency { element: "Output", variable, dependency }) if variable == "a.y" && dependency == "a.F");
 refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
     Problem::Structure(StructureProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 }) if variable == "a.y");
-refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="3 4 7 8 20 21 22 29 30 35 36"/>"#
+refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49"/>"#
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
     Problem::Structure(StructureProblem::InitialKind { variable }) if variable == "power.dissipated");
 
@@ -225,7 +225,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="42""#,
+        r#"name="step_size_max" valueReference="52""#,
     );
     assert_eq!(
         problem,
@@ -308,13 +308,17 @@ fn missing_file_is_named() {
 fn intact_descriptions_are_accepted() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
     let interfaces = Interfaces::read(&folder).unwrap();
-    assert_eq!(interfaces.element.variables.len(), 25);
-    assert_eq!(interfaces.lap.variables.len(), 42);
-    assert_eq!(interfaces.reference_count(), 42);
+    assert_eq!(interfaces.element.variables.len(), 35);
+    assert_eq!(interfaces.lap.variables.len(), 52);
+    assert_eq!(interfaces.reference_count(), 52);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
     assert_eq!(role(&interfaces.lap, "joint.F"), Some(Role::Output));
+    assert_eq!(
+        role(&interfaces.lap, "joint.escape_amplitude_y"),
+        Some(Role::CalculatedParameter)
+    );
     assert_eq!(
         role(&interfaces.lap, "a.acceleration"),
         Some(Role::Derivative)
@@ -346,7 +350,8 @@ fn intact_descriptions_are_accepted() {
             .filter(|variable| variable.requires_rotation())
             .count()
     };
-    // θ, ω, M of both sides, M of the joint, five joint parameters; J, k_θ, c_θ, α of both bodies
-    assert_eq!(rotational(&interfaces.element), 6 + 1 + 5);
-    assert_eq!(rotational(&interfaces.lap), 6 + 1 + 5 + 6 + 2);
+    // θ, ω, M of both sides, M of the joint, nine joint parameters and the escape amplitude; J, k_θ, c_θ, α of both
+    // bodies
+    assert_eq!(rotational(&interfaces.element), 6 + 1 + 9 + 1);
+    assert_eq!(rotational(&interfaces.lap), 6 + 1 + 9 + 1 + 6 + 2);
 }

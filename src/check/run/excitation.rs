@@ -1,7 +1,7 @@
 //! What the run does to the FMU: every DOF is moved or loaded, far enough for a cubic term to show, not so far that a
 //! softening joint escapes.
 
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{JointLaw, Lap};
 
 use super::balance::Integral;
 use super::names::References;
@@ -17,6 +17,9 @@ const LINEAR_AMPLITUDE: [f64; 2] = [1e-5, 1e-4];
 const LARGEST_AMPLITUDE: [f64; 2] = [1e-3, 1e-2];
 /// Amplitude of a cubic joint by √(k/|k3|), where the cubic load would be as large as the linear one.
 const CUBIC_AMPLITUDE: f64 = 0.02;
+/// Amplitude of a joint with terms of higher order, by that at which the first of them is as large as the linear one, and by
+/// the escape amplitude: those of seventh order still show.
+const HIGHER_AMPLITUDE: f64 = 0.1;
 /// Period of a motion by c/k, so that the damper takes a fair part of the energy.
 const PERIOD_BY_RELAXATION: f64 = 20.0;
 /// Period (s) where the joint has no damping.
@@ -190,20 +193,34 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
         DofSet::Translation => escape_amplitude(&file.lap::<1>().ok()),
         DofSet::TranslationRotation => escape_amplitude(&file.lap::<2>().ok()),
     };
+    let part = if file.joint.has_terms_of_higher_order() {
+        HIGHER_AMPLITUDE
+    } else {
+        CUBIC_AMPLITUDE
+    };
+    let nonlinear = match file.joint.dofs {
+        DofSet::Translation => nonlinear_amplitude(&file.joint.law::<1>().ok()),
+        DofSet::TranslationRotation => nonlinear_amplitude(&file.joint.law::<2>().ok()),
+    };
     (0..file.joint.dofs.count())
         .map(|i| {
             let k = file.joint.stiffness.get(i).and_then(|row| row.get(i));
-            let k3 = file.joint.cubic.get(i).copied().unwrap_or(0.0).abs();
-            let by_cubic = match k {
-                Some(&k) if k > 0.0 && k3 > 0.0 => {
-                    (CUBIC_AMPLITUDE * (k / k3).sqrt()).min(LARGEST_AMPLITUDE[i.min(1)])
+            let nonlinear = nonlinear.get(i).copied().unwrap_or(f64::INFINITY);
+            let by_terms = match k {
+                Some(&k) if k > 0.0 && nonlinear > 0.0 && nonlinear.is_finite() => {
+                    (part * nonlinear).min(LARGEST_AMPLITUDE[i.min(1)])
                 }
                 _ => LINEAR_AMPLITUDE[i.min(1)],
             };
             let escape = escape.get(i).copied().flatten();
-            escape.map_or(by_cubic, |escape| by_cubic.min(CUBIC_AMPLITUDE * escape))
+            escape.map_or(by_terms, |escape| by_terms.min(part * escape))
         })
         .collect()
+}
+
+fn nonlinear_amplitude<const D: usize>(law: &Option<JointLaw<D>>) -> Vec<f64> {
+    law.as_ref()
+        .map_or_else(Vec::new, |law| law.nonlinear_amplitude().to_vec())
 }
 
 fn escape_amplitude<const D: usize>(lap: &Option<Lap<D>>) -> Vec<Option<f64>> {

@@ -131,15 +131,39 @@ fn expected_loads(joint: &Joint, sample: &Sample<'_>) -> Vec<(f64, f64)> {
     let (r, v) = (relative(sample.displacements), relative(sample.velocities));
     (0..dofs)
         .map(|i| {
-            // F = K r + C ṙ + k3 r³
-            let cubic = joint.cubic.get(i).copied().unwrap_or(0.0) * r[i].powi(3);
+            // F = K r + C ṙ + k3 r³ + k5 r⁵ + k7 r⁷ + (c2 r² + c4 r⁴) ṙ
+            let [k3, k5, k7, c2, c4] = nonlinear_terms(joint, i);
+            let (x, rate) = (r[i], v[i]);
+            let terms = [
+                k3 * x.powi(3),
+                k5 * x.powi(5),
+                k7 * x.powi(7),
+                c2 * x.powi(2) * rate,
+                c4 * x.powi(4) * rate,
+            ];
             let linear =
                 (0..dofs).flat_map(|j| [joint.stiffness[i][j] * r[j], joint.damping[i][j] * v[j]]);
-            linear.fold((cubic, cubic.abs()), |(sum, size), term| {
-                (sum + term, size + term.abs())
-            })
+            terms
+                .into_iter()
+                .chain(linear)
+                .fold((0.0, 0.0), |(sum, size): (f64, f64), term| {
+                    (sum + term, size + term.abs())
+                })
         })
         .collect()
+}
+
+/// k3, k5, k7, c2 and c4 of a DOF.
+fn nonlinear_terms(joint: &Joint, i: usize) -> [f64; 5] {
+    let of = |list: &[f64]| list.get(i).copied().unwrap_or(0.0);
+    let higher = joint.higher.clone().unwrap_or_default();
+    [
+        of(&joint.cubic),
+        of(&higher.quintic),
+        of(&higher.septic),
+        of(&higher.damping_quadratic),
+        of(&higher.damping_quartic),
+    ]
 }
 
 /// Where the directional derivative of the joint's load is not that of the joint file's law.
@@ -154,9 +178,23 @@ pub(super) fn derivative_finding(
     let relative_rate = |i: usize| seed[2 * dofs + i] - seed[3 * dofs + i];
     for (i, found) in found.iter().enumerate() {
         let r = sample.displacements[i] - sample.displacements[dofs + i];
-        // δF = K δr + C δṙ + 3 k3 r² δr
-        let cubic = 3.0 * joint.cubic.get(i).copied().unwrap_or(0.0) * r * r * relative(i);
-        let (mut expected, mut size) = (cubic, cubic.abs());
+        let v = sample.velocities[i] - sample.velocities[dofs + i];
+        // δF = K δr + C δṙ + (3 k3 r² + 5 k5 r⁴ + 7 k7 r⁶ + (2 c2 r + 4 c4 r³) ṙ) δr + (c2 r² + c4 r⁴) δṙ
+        let [k3, k5, k7, c2, c4] = nonlinear_terms(joint, i);
+        let nonlinear = [
+            3.0 * k3 * r.powi(2) * relative(i),
+            5.0 * k5 * r.powi(4) * relative(i),
+            7.0 * k7 * r.powi(6) * relative(i),
+            2.0 * c2 * r * v * relative(i),
+            4.0 * c4 * r.powi(3) * v * relative(i),
+            c2 * r.powi(2) * relative_rate(i),
+            c4 * r.powi(4) * relative_rate(i),
+        ];
+        let (mut expected, mut size) = (0.0, 0.0);
+        for term in nonlinear {
+            expected += term;
+            size += term.abs();
+        }
         for j in 0..dofs {
             let terms = [
                 joint.stiffness[i][j] * relative(j),

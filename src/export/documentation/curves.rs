@@ -1,7 +1,7 @@
 //! What the joint does, drawn: receptances of a lap, dynamic stiffness of an element, load over displacement of what is
 //! not linear.
 
-use bolted_joint_dynamics::{JointLaw, Lap};
+use bolted_joint_dynamics::{JointLaw, Lap, Motion};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -19,8 +19,9 @@ const ABOUT_RESONANCE: [f64; 11] = [-8.0, -4.0, -2.0, -1.0, -0.4, 0.0, 0.4, 1.0,
 /// Frequencies (Hz) shown of an element whose joint file states none.
 const BAND_OF_ELEMENT_HZ: [f64; 2] = [1.0, 1000.0];
 
-/// Loads are drawn up to this part of √(K/|k3|), where a softening joint has long turned over (at 0.58).
-const PART_OF_CUBIC: f64 = 0.7;
+/// Loads are drawn up to this part of the displacement at which the first nonlinear term is as large as the linear one, where
+/// a softening cubic joint has long turned over (at 0.58).
+const PART_OF_NONLINEAR: f64 = 0.7;
 
 /// Points of a load-displacement curve.
 const LOAD_POINTS: i32 = 120;
@@ -227,9 +228,14 @@ fn load_curve<const D: usize>(
     law: &JointLaw<D>,
     i: usize,
 ) -> Option<(LineFigure<'static>, String)> {
-    let (stiffness, cubic) = (law.stiffness[i][i], law.cubic[i]);
-    // |k3| x³ = K x at x = √(K/|k3|)
-    let reach = PART_OF_CUBIC * (stiffness / cubic.abs()).sqrt();
+    let stiffness = law.stiffness[i][i];
+    // only the springs: damping has no part in a static load
+    let mut springs = *law;
+    springs.higher.damping_quadratic = [0.0; D];
+    springs.higher.damping_quartic = [0.0; D];
+    // |kₙ| xⁿ = K x at x = (K/|kₙ|)^(1/(n−1))
+    let equal = springs.nonlinear_amplitude()[i];
+    let reach = PART_OF_NONLINEAR * equal;
     let dof = &DOFS[i];
     if !(reach > 0.0 && reach <= dof.longest) {
         return None;
@@ -248,24 +254,38 @@ fn load_curve<const D: usize>(
         0 => ("relative displacement, mm", "force, N"),
         _ => ("relative rotation, mrad", "moment, N·m"),
     };
+    let load = |x: f64| {
+        let mut relative = Motion::REST;
+        relative.displacement[i] = x;
+        springs.load_on_b(&relative)[i]
+    };
+    let is_cubic = springs.higher.quintic[i] == 0.0 && springs.higher.septic[i] == 0.0;
+    let name = if is_cubic {
+        "with cubic term"
+    } else {
+        "with nonlinear terms"
+    };
     let figure = LineFigure {
         title: "Static load of the joint over its relative displacement",
         across: (across, Scale::Linear),
         up: (up, Scale::Linear),
-        lines: vec![
-            line("with cubic term", &|x| stiffness * x + cubic * x * x * x),
-            line("linear part", &|x| stiffness * x),
-        ],
+        lines: vec![line(name, &load), line("linear part", &|x| stiffness * x)],
     };
-    let caption = format!(
-        "Static load of the joint over the relative motion <i>{motion}</i>. The cubic part is 1 % of the linear one at {small} \
-         {unit}, 10 % at {large} {unit}.",
-        motion = dof.motion,
-        small = number(three_digits(per_si * reach / PART_OF_CUBIC * 0.1)),
-        large = number(three_digits(
-            per_si * reach / PART_OF_CUBIC * 0.1_f64.sqrt()
-        )),
-    );
+    let motion = dof.motion;
+    let part = if is_cubic {
+        format!(
+            "The cubic part is 1 % of the linear one at {small} {unit}, 10 % at {large} {unit}.",
+            small = number(three_digits(per_si * equal * 0.1)),
+            large = number(three_digits(per_si * equal * 0.1_f64.sqrt())),
+        )
+    } else {
+        format!(
+            "The first of its nonlinear terms is as large as the linear one at {} {unit}.",
+            number(three_digits(per_si * equal))
+        )
+    };
+    let caption =
+        format!("Static load of the joint over the relative motion <i>{motion}</i>. {part}");
     Some((figure, caption))
 }
 

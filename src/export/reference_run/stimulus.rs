@@ -17,11 +17,12 @@ const TONES: [[(f64, f64); 2]; 4] = [
 /// Largest relative motion of a linear joint, m and rad: that of small vibration.
 const SMALL_MOTION: [f64; 2] = [1e-4, 1e-3];
 
-/// How much further a cubic joint is opened where its cubic load would not show otherwise.
+/// How much further a nonlinear joint is opened where its nonlinear load would not show otherwise.
 const FURTHER: f64 = 10.0;
 
-/// Part of √(K/|k3|) that the relative motion reaches: the cubic load is its square of the linear one.
-const PART_OF_CUBIC: f64 = 0.3;
+/// Part that the relative motion reaches of the amplitude at which the first nonlinear term is as large as the linear one: a
+/// cubic load is its square of the linear one.
+const PART_OF_NONLINEAR: f64 = 0.3;
 
 /// Significant digits of a level.
 const DIGITS: usize = 6;
@@ -41,10 +42,10 @@ pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
 /// Largest relative motion of each DOF in the run, m and rad.
 pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>) -> [f64; D] {
     std::array::from_fn(|i| {
-        // |k3| x³ = p² K x at x = p √(K/|k3|)
-        let cubic = PART_OF_CUBIC * (law.stiffness[i][i] / law.cubic[i].abs()).sqrt();
-        if cubic.is_finite() && cubic > 0.0 {
-            cubic.min(FURTHER * SMALL_MOTION[i])
+        // |k3| x³ = p² K x at x = p √(K/|k3|), and likewise for the terms of higher order
+        let nonlinear = PART_OF_NONLINEAR * law.nonlinear_amplitude()[i];
+        if law.stiffness[i][i] > 0.0 && nonlinear.is_finite() && nonlinear > 0.0 {
+            nonlinear.min(FURTHER * SMALL_MOTION[i])
         } else {
             SMALL_MOTION[i]
         }

@@ -170,12 +170,12 @@ fn wrong_arguments_are_refused() {
     let status = |result: Result<Vec<f64>, i32>| result.err().unwrap_or(c::OK);
     for call in [Instance::directional, Instance::adjoint] {
         for (unknown, known, seed, expected) in [
-            (vr::NONE, vr::A_Y, 1.0, "value reference 42 does not exist"),
+            (vr::NONE, vr::A_Y, 1.0, "value reference 52 does not exist"),
             (
                 vr::JOINT_F,
                 vr::NONE,
                 1.0,
-                "value reference 42 does not exist",
+                "value reference 52 does not exist",
             ),
             (
                 vr::A_F,

@@ -235,7 +235,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let bytes = instance.serialize(saved);
     instance.free_state(saved);
     // before the checksum there are the derivatives of 13 inputs, before them the values; step_size_max comes before
-    // four accelerations
+    // fourteen others
     let forge = |position: usize, content: &[u8]| {
         let mut forged = bytes.clone();
         forged[position..position + content.len()].copy_from_slice(content);
@@ -249,7 +249,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         forged
     };
     let inputs = bytes.len() - 8 - (3 + 8 * 3 * 13);
-    let step_size_max = inputs - 8 * 5;
+    let step_size_max = inputs - 8 * 15;
     assert!(
         instance
             .deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()))

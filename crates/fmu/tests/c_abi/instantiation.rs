@@ -99,7 +99,7 @@ fn required_intermediate_variables_are_checked() {
             "variable joint.k_yy has no intermediateUpdate in modelDescription.xml",
         ),
         (vr::A_THETA, "value reference 2 does not exist"),
-        (vr::NONE, "value reference 42 does not exist"),
+        (vr::NONE, "value reference 52 does not exist"),
     ] {
         let message = refusal(&request(&path, &[vr::A_F, reference]));
         assert!(message.contains(expected), "{message}");

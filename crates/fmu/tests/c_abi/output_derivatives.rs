@@ -88,7 +88,7 @@ fn an_element_takes_the_velocities_for_what_they_are() {
 fn only_first_derivatives_of_outputs_are_given() {
     let mut instance = Instance::stepping(Kind::Lap, 2, &[]);
     for (reference, order, expected) in [
-        (vr::NONE, 1, "value reference 42 does not exist"),
+        (vr::NONE, 1, "value reference 52 does not exist"),
         (vr::A_F, 1, "variable a.F is an input and no output"),
         (
             vr::K_YY,

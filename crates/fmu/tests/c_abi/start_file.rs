@@ -192,7 +192,7 @@ fn start_files_with_a_fault_are_refused_by_line() {
         (
             "step_size_max 0.00002\n",
             "",
-            24,
+            32,
             "the file ends without parameter step_size_max",
         ),
     ] {

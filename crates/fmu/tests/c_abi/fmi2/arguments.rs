@@ -196,7 +196,7 @@ fn variables_of_other_types_are_refused_by_name() {
             );
             let message = instance.refused(|_| call(none.as_ptr()));
             assert!(
-                message.contains("value reference 42 does not exist"),
+                message.contains("value reference 52 does not exist"),
                 "{message}"
             );
         }
@@ -222,7 +222,7 @@ fn numbers_and_references_are_checked() {
         (
             [vr::A_F, vr::NONE],
             [1.0, 1.0],
-            "value reference 42 does not exist",
+            "value reference 52 does not exist",
         ),
         (
             [vr::A_F, u32::MAX],

@@ -211,7 +211,7 @@ fn derivatives_of_outputs_are_rates_of_change() {
         ),
         (vr::A_F, 1, "variable a.F is an input and no output"),
         (vr::A_F, 2, "variable a.F is an input and no output"),
-        (vr::NONE, 1, "value reference 42 does not exist"),
+        (vr::NONE, 1, "value reference 52 does not exist"),
     ] {
         let message = instance
             .refused(|i| status_of(i.output_derivatives(&[vr::A_V, reference], &[1, order])));
@@ -231,7 +231,7 @@ fn derivatives_of_anything_but_inputs_are_refused() {
             1.0,
             "variable joint.k_yy is a parameter and no input",
         ),
-        (vr::NONE, 1, 1.0, "value reference 42 does not exist"),
+        (vr::NONE, 1, 1.0, "value reference 52 does not exist"),
         (
             vr::B_F,
             0,

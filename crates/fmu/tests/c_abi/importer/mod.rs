@@ -40,11 +40,17 @@ pub(crate) mod vr {
     pub(crate) const A_MASS: u32 = 25;
     pub(crate) const B_C_Y: u32 = 35;
     pub(crate) const STEP_SIZE_MAX: u32 = 37;
+    pub(crate) const K5_Y: u32 = 42;
+    pub(crate) const K7_Y: u32 = 44;
+    pub(crate) const C2_Y: u32 = 46;
+    pub(crate) const C4_Y: u32 = 48;
+    pub(crate) const ESCAPE_Y: u32 = 50;
+    pub(crate) const ESCAPE_THETA: u32 = 51;
     pub(crate) const A_ACCELERATION: u32 = 38;
     pub(crate) const A_ALPHA: u32 = 39;
     pub(crate) const B_ACCELERATION: u32 = 40;
     pub(crate) const B_ALPHA: u32 = 41;
-    pub(crate) const NONE: u32 = 42;
+    pub(crate) const NONE: u32 = 52;
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

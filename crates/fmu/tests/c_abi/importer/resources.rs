@@ -9,7 +9,7 @@ use std::{
 use super::{Kind, TOKEN};
 
 /// Parameters of the FMUs with round values, so that expected results can be worked out by hand.
-const JOINT: [(&str, f64); 8] = [
+const JOINT: [(&str, f64); 16] = [
     ("joint.k_yy", 4.0e6),
     ("joint.k_ytheta", 1.0e4),
     ("joint.k_thetatheta", 2.0e3),
@@ -18,6 +18,14 @@ const JOINT: [(&str, f64); 8] = [
     ("joint.c_thetatheta", 0.25),
     ("joint.k3_y", 0.0),
     ("joint.k3_theta", 0.0),
+    ("joint.k5_y", 0.0),
+    ("joint.k5_theta", 0.0),
+    ("joint.k7_y", 0.0),
+    ("joint.k7_theta", 0.0),
+    ("joint.c2_y", 0.0),
+    ("joint.c2_theta", 0.0),
+    ("joint.c4_y", 0.0),
+    ("joint.c4_theta", 0.0),
 ];
 
 const BODY: [(&str, f64); 6] = [

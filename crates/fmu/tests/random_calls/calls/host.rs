@@ -18,24 +18,32 @@ pub(crate) struct Model {
     pub(crate) lap: bool,
     pub(crate) dofs: u8,
     cubic_n_per_m3: f64,
+    quintic_n_per_m5: f64,
 }
 
-/// Element and lap; one and two degrees of freedom; linear, hardening and softening.
-pub(crate) const MODELS: [Model; 6] = [
+/// Element and lap; one and two degrees of freedom; linear, hardening, softening, and with terms of higher order.
+pub(crate) const MODELS: [Model; 8] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
     Model::new(true, 2, 5e11),
     Model::new(false, 1, 5e11),
     Model::new(false, 2, 0.0),
+    Model::with_quintic(true, 2, -2e12, 2e17),
+    Model::with_quintic(false, 1, 5e11, -3e17),
 ];
 
 impl Model {
     const fn new(lap: bool, dofs: u8, cubic_n_per_m3: f64) -> Self {
+        Self::with_quintic(lap, dofs, cubic_n_per_m3, 0.0)
+    }
+
+    const fn with_quintic(lap: bool, dofs: u8, cubic_n_per_m3: f64, quintic_n_per_m5: f64) -> Self {
         Self {
             lap,
             dofs,
             cubic_n_per_m3,
+            quintic_n_per_m5,
         }
     }
 
@@ -91,6 +99,14 @@ impl Model {
             ("joint.c_thetatheta", 0.25),
             ("joint.k3_y", self.cubic_n_per_m3),
             ("joint.k3_theta", 0.0),
+            ("joint.k5_y", self.quintic_n_per_m5),
+            ("joint.k5_theta", 0.0),
+            ("joint.k7_y", 0.0),
+            ("joint.k7_theta", 0.0),
+            ("joint.c2_y", self.quintic_n_per_m5.abs() * 1e-11),
+            ("joint.c2_theta", 0.0),
+            ("joint.c4_y", 0.0),
+            ("joint.c4_theta", 0.0),
         ] {
             parameter(name, value);
         }

@@ -10,7 +10,7 @@ use roxmltree::Document;
 use super::archive::Archive;
 use super::described::{Described, FILE};
 use super::{InspectError, attributes, parts, variables};
-use crate::export::{Interface, StartFile, declared, start_value};
+use crate::export::{Interface, StartFile, declared, start_value, table_lines};
 use crate::joint::{DofSet, JointFile, Passivity};
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
@@ -86,6 +86,12 @@ pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
         }
     };
     findings.extend(against_joint_file(&start, &joint));
+    if start.table != table_lines(joint.joint.over_preload.as_ref(), start.extrapolates()) {
+        findings.push(
+            "resources/start.txt: found another table over the preload than that of resources/joint.json; export the FMU again"
+                .to_owned(),
+        );
+    }
     let passivity = joint.passivity();
     findings.extend(
         passivity.active().map(|matrix| {
@@ -205,13 +211,19 @@ fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
             Some(_) => None,
         })
     }
-    let finding = match joint.joint.dofs {
-        DofSet::Translation => joint
-            .tangent_laps::<1>()
-            .map(|laps| unstable(&laps, step_s)),
-        DofSet::TranslationRotation => joint
-            .tangent_laps::<2>()
-            .map(|laps| unstable(&laps, step_s)),
+    let at_one = |joint: &JointFile| {
+        let finding = match joint.joint.dofs {
+            DofSet::Translation => joint
+                .tangent_laps::<1>()
+                .map(|laps| unstable(&laps, step_s)),
+            DofSet::TranslationRotation => joint
+                .tangent_laps::<2>()
+                .map(|laps| unstable(&laps, step_s)),
+        };
+        finding.unwrap_or_else(|error| Some(format!("resources/joint.json: {error}")))
     };
-    finding.unwrap_or_else(|error| Some(format!("resources/joint.json: {error}")))
+    match joint.over_its_preloads() {
+        Ok(joints) => joints.iter().find_map(at_one),
+        Err(error) => Some(format!("resources/joint.json: {error}")),
+    }
 }

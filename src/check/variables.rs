@@ -106,10 +106,11 @@ pub(super) fn against_start_file(found: &Described, start: &StartFile) -> Vec<St
     let mut declared: Vec<(u32, String, f64)> = found
         .variables
         .iter()
-        .filter(|variable| variable.causality == "parameter")
+        .filter(|variable| variable.causality == "parameter" || variable.name == "preload")
         .filter_map(|variable| Some((variable.reference, variable.name.clone(), variable.start?)))
         .collect();
-    declared.sort_by_key(|(reference, ..)| *reference);
+    // the preload comes last
+    declared.sort_by_key(|(reference, name, _)| (name == "preload", *reference));
     let declared: Vec<(String, f64)> = declared
         .into_iter()
         .map(|(_, name, value)| (name, value))

@@ -99,11 +99,8 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         format!("degrees of freedom: {}", file.joint.dofs),
     ];
     facts.extend(passivity.matrices.iter().map(ToString::to_string));
-    // What a simulation does with the joint is told at the nominal preload, which an export has.
-    let constant = file.at_preload(None).map_err(|source| CliError::Preload {
-        path: path.to_owned(),
-        source,
-    })?;
+    // what a simulation does with the joint is told of the whole table, all of which an FMU may come to
+    let joints = over_its_preloads(path, &file)?;
     if let Some(table) = &file.joint.over_preload {
         let preloads: Vec<String> = table.preload.iter().map(f64::to_string).collect();
         facts.push(format!(
@@ -112,10 +109,10 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
             table.nominal
         ));
     }
-    if constant.bodies.is_some() {
-        facts.push(match constant.joint.dofs {
-            DofSet::Translation => lap_fact(&constant.lap::<1>()),
-            DofSet::TranslationRotation => lap_fact(&constant.lap::<2>()),
+    if file.bodies.is_some() {
+        facts.push(match file.joint.dofs {
+            DofSet::Translation => lap_fact::<1>(&joints),
+            DofSet::TranslationRotation => lap_fact::<2>(&joints),
         });
     }
     let findings = passivity
@@ -124,7 +121,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         .collect();
     let mut details = Map::new();
     let neighbours = &arguments.neighbours;
-    if let Some(step) = communication_step(&constant, Interface::Element, neighbours, None, None)? {
+    if let Some(step) = communication_step(&joints, Interface::Element, neighbours, None, None)? {
         facts.extend(step.facts);
         details.insert("communication_step".to_owned(), step.details);
     }
@@ -137,17 +134,23 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
     })
 }
 
-/// How fast the lap model with these bodies is.
-fn lap_fact<const D: usize>(
-    lap: &Result<bolted_joint_dynamics::Lap<D>, crate::joint::LawError>,
-) -> String {
-    let spectrum = lap
-        .as_ref()
-        .ok()
-        .and_then(bolted_joint_dynamics::Lap::spectrum);
-    match spectrum
-        .and_then(|spectrum| Some((spectrum.largest_modulus(), spectrum.accurate_step_s()?)))
-    {
+/// The joint, or one over the preload at each preload that is judged.
+fn over_its_preloads(path: &Path, file: &JointFile) -> Result<Vec<JointFile>, CliError> {
+    file.over_its_preloads()
+        .map_err(|source| CliError::Preload {
+            path: path.to_owned(),
+            source,
+        })
+}
+
+/// How fast the lap model with these bodies is, at the preload where it is fastest.
+fn lap_fact<const D: usize>(joints: &[JointFile]) -> String {
+    let fastest = joints
+        .iter()
+        .filter_map(|joint| joint.lap::<D>().ok()?.spectrum())
+        .filter_map(|spectrum| Some((spectrum.largest_modulus(), spectrum.accurate_step_s()?)))
+        .max_by(|one, other| one.0.total_cmp(&other.0));
+    match fastest {
         Some((modulus, step_s)) => format!(
             "as lap: |λ|max = {} 1/s, so RK4 steps of {} s",
             number(modulus, 4),
@@ -202,7 +205,7 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         messages = report.messages;
     }
     if let Some(step) = communication_step(
-        &inspection.joint,
+        &over_its_preloads(path, &inspection.joint)?,
         inspection.interface,
         &arguments.neighbours,
         inspection.step_size_max_s,

@@ -41,9 +41,9 @@ pub(super) struct CommunicationStep {
 
 /// The bounds that were asked for; `None` where no neighbour was given.
 ///
-/// `step_size_max_s` is that of a lap, `suggested_s` the communication step of the FMU's default experiment.
+/// `joints` are one joint, or one at several preloads, of which the bound is the shortest. `step_size_max_s` is that of a lap, `suggested_s` the communication step of the FMU's default experiment.
 pub(super) fn communication_step(
-    file: &JointFile,
+    joints: &[JointFile],
     interface: Interface,
     arguments: &NeighbourArguments,
     step_size_max_s: Option<f64>,
@@ -61,11 +61,14 @@ pub(super) fn communication_step(
             }),
         },
         (Interface::Element, Some(mass), _) => {
-            let neighbours = neighbours(file, mass, arguments.neighbour_inertia)?;
-            of_element(file, &neighbours, arguments, suggested_s).map(Some)
+            let dofs = joints
+                .first()
+                .map_or(DofSet::Translation, |file| file.joint.dofs);
+            let neighbours = neighbours(dofs, mass, arguments.neighbour_inertia)?;
+            of_element(joints, &neighbours, arguments, suggested_s).map(Some)
         }
         (Interface::Lap, None, true) => {
-            of_lap(file, arguments, step_size_max_s, suggested_s).map(Some)
+            of_lap(joints, arguments, step_size_max_s, suggested_s).map(Some)
         }
         (Interface::Element, None, true) => Err(CliError::Option {
             option: "--neighbour-stiffness, --neighbour-damping",
@@ -82,12 +85,12 @@ pub(super) fn communication_step(
 }
 
 fn neighbours(
-    file: &JointFile,
+    dofs: DofSet,
     mass: [Inertia; 2],
     inertia: Option<[Inertia; 2]>,
 ) -> Result<Neighbours, CliError> {
     let mut sides = mass.map(|mass| vec![mass]);
-    match (file.joint.dofs, inertia) {
+    match (dofs, inertia) {
         (DofSet::Translation, None) => {}
         (DofSet::TranslationRotation, Some(inertia)) => {
             for (side, inertia) in sides.iter_mut().zip(inertia) {
@@ -114,7 +117,7 @@ fn neighbours(
 }
 
 fn of_element(
-    file: &JointFile,
+    joints: &[JointFile],
     neighbours: &Neighbours,
     arguments: &NeighbourArguments,
     suggested_s: Option<f64>,
@@ -124,7 +127,9 @@ fn of_element(
     let mut details = json!({ "interface": "element", "suggested": suggested_s });
     let mut held = StepBound::Nothing;
     for master in Master::ALL {
-        let bound = element_bound(&file.joint, neighbours, master, amplitude).map_err(refusal)?;
+        let bound = shortest(joints, |file| {
+            element_bound(&file.joint, neighbours, master, amplitude)
+        })?;
         let (key, how) = match master {
             Master::Held => ("held", "load held over the step, neighbours exact"),
             Master::Late => ("late", "the same with the load one step late"),
@@ -136,7 +141,7 @@ fn of_element(
         details[key] = seconds(bound);
         facts.push(format!("communication step: {how}: {}", told(bound)));
     }
-    facts.push(about(file, amplitude));
+    facts.extend(about(joints, amplitude));
     facts.push(advice(
         held,
         suggested_s,
@@ -146,12 +151,12 @@ fn of_element(
 }
 
 fn of_lap(
-    file: &JointFile,
+    joints: &[JointFile],
     arguments: &NeighbourArguments,
     step_size_max_s: Option<f64>,
     suggested_s: Option<f64>,
 ) -> Result<CommunicationStep, CliError> {
-    let dofs = file.joint.dofs.count();
+    let dofs = joints.first().map_or(0, |file| file.joint.dofs.count());
     let (stiffness, damping) = (
         arguments.neighbour_stiffness.unwrap_or_default(),
         arguments.neighbour_damping.unwrap_or_default(),
@@ -169,27 +174,27 @@ fn of_lap(
     let restraints = [&restraint(0), &restraint(1)];
     let longest_s = step_size_max_s.unwrap_or(f64::INFINITY);
     let amplitude = arguments.amplitude.as_deref();
-    let bound = match file.joint.dofs {
+    let bound = shortest(joints, |file| match file.joint.dofs {
         DofSet::Translation => lap_bound::<1>(file, restraints, longest_s, amplitude),
         DofSet::TranslationRotation => lap_bound::<2>(file, restraints, longest_s, amplitude),
-    }
-    .map_err(refusal)?;
-    Ok(CommunicationStep {
-        facts: vec![
+    })?;
+    let mut facts = vec![
             format!(
                 "communication step: loads of the attached springs and dampers held over the step: {}",
                 told(bound)
             ),
             "communication step: loads that do not depend on the motion need no bound; held, they are late by half a step"
                 .to_owned(),
-            about(file, amplitude),
-            advice(
-                bound,
-                suggested_s,
-                "make the attached stiffness part of `bodies` in the joint file, or repeat steps from saved states until \
-                 load and motion agree",
-            ),
-        ],
+    ];
+    facts.extend(about(joints, amplitude));
+    facts.push(advice(
+        bound,
+        suggested_s,
+        "make the attached stiffness part of `bodies` in the joint file, or repeat steps from saved states until \
+         load and motion agree",
+    ));
+    Ok(CommunicationStep {
+        facts,
         details: json!({ "interface": "lap", "suggested": suggested_s, "held": seconds(bound) }),
     })
 }
@@ -219,11 +224,33 @@ fn told(bound: StepBound) -> String {
     }
 }
 
+/// The shortest of the bounds.
+fn shortest(
+    joints: &[JointFile],
+    bound: impl Fn(&JointFile) -> Result<StepBound, CouplingError>,
+) -> Result<StepBound, CliError> {
+    joints
+        .iter()
+        .try_fold(StepBound::Nothing, |shortest, file| {
+            Ok(shortest.min(bound(file).map_err(refusal)?))
+        })
+}
+
 /// What the tangent was taken at.
-fn about(file: &JointFile, amplitude: Option<&[f64]>) -> String {
-    let joint = &file.joint;
-    let is_linear =
-        joint.cubic.iter().all(|&cubic| cubic == 0.0) && !joint.has_terms_of_higher_order();
+fn about(joints: &[JointFile], amplitude: Option<&[f64]>) -> Vec<String> {
+    let mut facts = vec![about_amplitude(joints, amplitude)];
+    if joints.len() > 1 {
+        facts.push(
+            "communication step: the shortest bound over the whole table of preloads".to_owned(),
+        );
+    }
+    facts
+}
+
+fn about_amplitude(joints: &[JointFile], amplitude: Option<&[f64]>) -> String {
+    let is_linear = joints.iter().map(|file| &file.joint).all(|joint| {
+        joint.cubic.iter().all(|&cubic| cubic == 0.0) && !joint.has_terms_of_higher_order()
+    });
     match amplitude {
         _ if is_linear => {
             "communication step: the joint is linear, the bound holds for any amplitude".to_owned()

@@ -21,6 +21,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         step_size_max_s: arguments.step_size_max,
         platforms: arguments.platforms.clone(),
         preload_n_m: arguments.preload,
+        extrapolate: arguments.extrapolate,
         allow_active: arguments.allow_active,
         ..options(arguments.interface.into())?
     };
@@ -48,6 +49,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
         step_size_max_s: None,
         platforms: None,
         preload_n_m: None,
+        extrapolate: false,
         allow_active: false,
         date: Timestamp::from_environment()?,
     })

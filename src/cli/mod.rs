@@ -119,9 +119,12 @@ struct ExportArguments {
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
-    /// Preload of a joint over the preload, N·m: K, C and k3 are interpolated in its table [default: its nominal one]
+    /// Preload at which a joint over the preload is frozen, N·m [default: the FMU has the preload as an input]
     #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
     preload: Option<f64>,
+    /// Hold a joint over the preload beyond the ends of its table, where its FMU else refuses the preload
+    #[arg(long, conflicts_with = "preload")]
+    extrapolate: bool,
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
     platforms: Option<PathBuf>,

@@ -1,9 +1,9 @@
 //! Writes an FMU's `modelDescription.xml`: the hand-written one, without what the joint lacks, with the joint's values.
 
-use bolted_joint_interface::{Interface as Checked, requires_rotation};
+use bolted_joint_interface::{Dependence, Interface as Checked, dependence, requires_rotation};
 use fmi_schema::fmi3::{
-    Causality, DefaultExperiment, Fmi3ModelDescription, Fmi3Unknown, TypeDefinition, Variable,
-    VariableDependency,
+    AbstractVariableTrait as _, Causality, DefaultExperiment, DependenciesKind,
+    Fmi3ModelDescription, Fmi3Unknown, TypeDefinition, Variable, VariableDependency,
 };
 use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
@@ -22,13 +22,23 @@ pub(super) struct Description {
 }
 
 impl Description {
-    /// The interface as declared, without rotation where the joint has none.
-    pub(super) fn new(interface: Interface, dofs: DofSet) -> Result<Self, ExportError> {
+    /// The interface as declared, without rotation where the joint has none, and with what belongs to its law alone: the
+    /// parameters of a constant one, or the preload of one over the preload.
+    pub(super) fn new(
+        interface: Interface,
+        dofs: DofSet,
+        law: Dependence,
+    ) -> Result<Self, ExportError> {
         let mut tree = Fmi3ModelDescription::deserialize(interface.template())?;
-        if dofs == DofSet::Translation {
-            drop_rotation(&mut tree);
-            drop_unused_types(&mut tree);
+        drop_variables(&mut tree, |name| {
+            let of = dependence(name);
+            of != Dependence::Any && of != law
+                || dofs == DofSet::Translation && requires_rotation(name)
+        });
+        if law == Dependence::OverPreload {
+            make_factors_change(&mut tree);
         }
+        drop_unused_types(&mut tree);
         // Set last, by `finish`.
         tree.instantiation_token.clear();
         tree.generation_date_and_time = None;
@@ -80,6 +90,21 @@ impl Description {
         Ok(parameters)
     }
 
+    /// Gives the preload of a joint over the preload its start value and, where its table ends, its range; N·m.
+    pub(super) fn set_preload(&mut self, nominal_n_m: f64, range_n_m: Option<[f64; 2]>) {
+        for variable in &mut self.tree.model_variables.variables {
+            if let Variable::Float64(float64) = variable
+                && dependence(&float64.name) == Dependence::OverPreload
+                && float64.causality == Some(Causality::Input)
+            {
+                float64.start = Some(AttrList(vec![nominal_n_m]));
+                if let Some([first, last]) = range_n_m {
+                    (float64.min, float64.max) = (Some(first), Some(last));
+                }
+            }
+        }
+    }
+
     /// Name of the shared library, without extension.
     pub(super) fn model_identifier(&self) -> String {
         self.tree
@@ -120,21 +145,37 @@ pub(super) fn generation_tool() -> String {
     format!("bolted-joint {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Takes out every variable of the rotation, and every mention of one.
-fn drop_rotation(tree: &mut Fmi3ModelDescription) {
+/// Takes out every variable whose name is told to go, and every mention of one.
+fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) {
     let mut dropped = Vec::new();
     tree.model_variables.variables.retain(|variable| {
         let Variable::Float64(float64) = variable else {
             return true;
         };
-        let goes = requires_rotation(&float64.name);
+        let goes = goes(&float64.name);
         if goes {
             dropped.push(float64.value_reference);
         }
         !goes
     });
+    // what was the derivative of a state that went is no derivative any more
+    let mut no_derivatives = Vec::new();
+    for variable in &mut tree.model_variables.variables {
+        if let Variable::Float64(float64) = variable
+            && float64
+                .derivative
+                .is_some_and(|state| dropped.contains(&state))
+        {
+            float64.derivative = None;
+            no_derivatives.push(float64.value_reference);
+        }
+    }
     let unknowns = &mut tree.model_structure.unknowns;
-    unknowns.retain_mut(|unknown| !dropped.contains(&inner(unknown).value_reference));
+    unknowns.retain_mut(|unknown| {
+        let is_derivative = matches!(unknown, VariableDependency::ContinuousStateDerivative(_));
+        let reference = inner(unknown).value_reference;
+        !dropped.contains(&reference) && !(is_derivative && no_derivatives.contains(&reference))
+    });
     for unknown in unknowns {
         let unknown = inner(unknown);
         let Some(AttrList(dependencies)) = &mut unknown.dependencies else {
@@ -149,6 +190,31 @@ fn drop_rotation(tree: &mut Fmi3ModelDescription) {
             });
         }
         dependencies.retain(|known| !dropped.contains(known));
+    }
+}
+
+/// What is linear in a known with a factor that only parameters change is no longer so where the preload changes that factor.
+fn make_factors_change(tree: &mut Fmi3ModelDescription) {
+    let inputs: Vec<u32> = tree
+        .model_variables
+        .variables
+        .iter()
+        .filter_map(|variable| match variable {
+            Variable::Float64(float64) if dependence(float64.name()) == Dependence::OverPreload => {
+                (float64.causality == Some(Causality::Input)).then_some(float64.value_reference)
+            }
+            _ => None,
+        })
+        .collect();
+    for unknown in &mut tree.model_structure.unknowns {
+        let unknown = inner(unknown);
+        let on_preload = unknown
+            .dependencies
+            .as_ref()
+            .is_some_and(|AttrList(on)| on.iter().any(|known| inputs.contains(known)));
+        if let (true, Some(AttrList(kinds))) = (on_preload, &mut unknown.dependencies_kind) {
+            kinds.fill_with(|| DependenciesKind::Dependent);
+        }
     }
 }
 
@@ -289,7 +355,12 @@ mod tests {
 
     #[test]
     fn user_text_is_escaped() {
-        let mut description = Description::new(Interface::Element, DofSet::Translation).unwrap();
+        let mut description = Description::new(
+            Interface::Element,
+            DofSet::Translation,
+            Dependence::Constant,
+        )
+        .unwrap();
         let name = "M8 <\"steel\" & 'brass'> ü";
         description.set_names(name, format!("{name}: x"));
         let text = description.text().unwrap();
@@ -303,7 +374,7 @@ mod tests {
     #[test]
     fn nothing_of_the_rotation_is_left() {
         for interface in [Interface::Element, Interface::Lap] {
-            let text = Description::new(interface, DofSet::Translation)
+            let text = Description::new(interface, DofSet::Translation, Dependence::Constant)
                 .unwrap()
                 .text()
                 .unwrap();

@@ -29,6 +29,12 @@ pub enum ExportError {
     /// The joint file does not give the equations of this FMU.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// Extrapolation is asked for where there is no table in the FMU.
+    #[error(
+        "extrapolation: found no table over the preload to go beyond, expected a joint with joint.over_preload and no --preload; \
+         leave --extrapolate out"
+    )]
+    NothingToExtrapolate,
     /// The joint has no such preload.
     #[error(transparent)]
     Preload(#[from] PreloadError),

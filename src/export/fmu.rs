@@ -2,21 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use bolted_joint_dynamics::{Eigenvalue, Spectrum};
+use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum};
 
 use super::archive::{File, archive};
 use super::assets::pictures;
+use super::declared::dependence;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
 use super::reference_run::ReferenceRun;
-use super::start_file::{parameter_lines, start_file};
+use super::start_file::{parameter_lines, start_file, table_lines};
 use super::step::{Experiment, StepSize};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
-use crate::joint::{DofSet, JointFile, Passivity};
+use crate::joint::{DofSet, JointFile, OverPreload, Passivity};
 use crate::whole_file;
 
 /// What to export, and how.
@@ -30,8 +31,11 @@ pub struct ExportOptions {
     pub step_size_max_s: Option<f64>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
     pub platforms: Option<PathBuf>,
-    /// Preload at which a joint over the preload is exported, N·m; its nominal one where it is not given.
+    /// Preload (N·m) at which a joint over the preload is exported as a constant one. Where it is not given, the FMU has the
+    /// preload as an input.
     pub preload_n_m: Option<f64>,
+    /// Whether the FMU of a joint over the preload holds the ends of its table beyond them, instead of refusing such preloads.
+    pub extrapolate: bool,
     /// Whether a joint that can feed energy into a simulation is exported all the same.
     pub allow_active: bool,
     /// Date in the FMU.
@@ -109,8 +113,8 @@ pub(super) struct Mode {
     pub(super) damping_ratio: f64,
 }
 
-/// The FMU of the joint in `file`, whose very text is `source_json`. A joint over the preload is taken at one preload, and
-/// the FMU keeps its whole table beside it.
+/// The FMU of the joint in `file`, whose very text is `source_json`. A joint over the preload has it as an input, unless it is
+/// taken at one preload; the FMU then keeps the whole table beside the constant joint.
 ///
 /// The same file, options and program give the same bytes.
 ///
@@ -127,8 +131,20 @@ pub fn fmu_bytes(
     if !problems.is_empty() {
         return Err(ExportError::Invalid { problems });
     }
-    if file.joint.over_preload.is_none() && options.preload_n_m.is_none() {
-        return constant_joint(file, vec![File::text(JOINT_FILE, source_json)], options);
+    if options.extrapolate && (file.joint.over_preload.is_none() || options.preload_n_m.is_some()) {
+        return Err(ExportError::NothingToExtrapolate);
+    }
+    let source = File::text(JOINT_FILE, source_json);
+    if options.preload_n_m.is_none() {
+        // what is told of a joint over the preload by one number, or by a curve, is told at the nominal preload
+        let mut constant = file.at_preload(None)?;
+        constant.name.clone_from(&file.name);
+        let subject = Subject {
+            file: &constant,
+            over_preload: file.joint.over_preload.is_some().then_some(file),
+            has_table_beside: false,
+        };
+        return fmu(&subject, vec![source], options);
     }
     let constant = file.at_preload(options.preload_n_m)?;
     let text = constant.to_json().map_err(|_| ExportError::Invalid {
@@ -138,7 +154,12 @@ pub fn fmu_bytes(
         File::text(JOINT_FILE, text),
         File::text(TABLE_FILE, source_json),
     ];
-    constant_joint(&constant, sources, options)
+    let subject = Subject {
+        file: &constant,
+        over_preload: None,
+        has_table_beside: true,
+    };
+    fmu(&subject, sources, options)
 }
 
 /// The joint that the FMU has.
@@ -146,23 +167,45 @@ const JOINT_FILE: &str = "resources/joint.json";
 /// The joint over the preload that it was taken from.
 const TABLE_FILE: &str = "resources/joint-over-preload.json";
 
-/// The FMU of a joint that does not depend on the preload, with the files that it comes from.
-fn constant_joint(
-    file: &JointFile,
+/// What an FMU is made of.
+struct Subject<'a> {
+    /// The joint at one preload: the one that the FMU has, or that it starts with.
+    file: &'a JointFile,
+    /// The joint over the preload where the FMU has the preload as an input.
+    over_preload: Option<&'a JointFile>,
+    /// Whether the FMU keeps a table that it does not use.
+    has_table_beside: bool,
+}
+
+impl Subject<'_> {
+    /// The joint file that the FMU has.
+    fn source(&self) -> &JointFile {
+        self.over_preload.unwrap_or(self.file)
+    }
+
+    fn table(&self) -> Option<&OverPreload> {
+        self.over_preload?.joint.over_preload.as_ref()
+    }
+}
+
+/// The FMU, with the files that it comes from.
+fn fmu(
+    subject: &Subject<'_>,
     sources: Vec<File>,
     options: &ExportOptions,
 ) -> Result<Exported, ExportError> {
-    let passivity = file.passivity();
+    let file = subject.file;
+    let passivity = subject.source().passivity();
     if !passivity.is_passive() && !options.allow_active {
         return Err(ExportError::Active {
             matrices: passivity.active().cloned().collect(),
         });
     }
-    let lap = lap_facts(file, options)?;
+    let lap = lap_facts(subject, options)?;
     let step = lap.as_ref().map(|lap| lap.step);
 
     let dofs = file.joint.dofs;
-    let mut description = Description::new(options.interface, dofs)?;
+    let mut description = Description::new(options.interface, dofs, dependence(subject.source()))?;
     description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
@@ -171,15 +214,32 @@ fn constant_joint(
         description.set_experiment(experiment);
     }
     let longest_step_s = step.map(|step| step.longest_s);
-    let parameters = description.set_parameters(|name| start_value(file, longest_step_s, name))?;
+    let mut parameters =
+        description.set_parameters(|name| start_value(file, longest_step_s, name))?;
+    if let Some(table) = subject.table() {
+        let range = match (table.preload.first(), table.preload.last()) {
+            (Some(&first), Some(&last)) if !options.extrapolate => Some([first, last]),
+            _ => None,
+        };
+        description.set_preload(table.nominal, range);
+        parameters.push(("preload".to_owned(), table.nominal));
+    }
+    let table = table_lines(subject.table(), options.extrapolate);
     let library_name = description.model_identifier();
     let parameters = parameter_lines(&parameters);
-    let token = token(&[&description.text()?, &parameters]);
+    let resources = format!("{table}{parameters}");
+    let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
 
     let step_s = experiment.map(|experiment| experiment.communication_step_s);
-    let reference_run =
-        ReferenceRun::new(file, &declared, options.interface, lap.as_ref(), step_s)?;
+    let reference_run = ReferenceRun::new(
+        file,
+        subject.over_preload,
+        &declared,
+        options.interface,
+        lap.as_ref(),
+        step_s,
+    )?;
     let page = documentation::html(&Page {
         file,
         interface: options.interface,
@@ -188,7 +248,8 @@ fn constant_joint(
         lap: lap.as_ref(),
         passivity: &passivity,
         reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
-        has_table: sources.len() > 1,
+        over_preload: subject.table(),
+        has_table_beside: subject.has_table_beside,
         token: &token,
         date: options.date,
     });
@@ -196,7 +257,7 @@ fn constant_joint(
         File::text(description::FILE, xml),
         File::text(
             "resources/start.txt",
-            start_file(options.interface, dofs, &token, &parameters),
+            start_file(options.interface, dofs, &token, &table, &parameters),
         ),
     ];
     files.extend(sources);
@@ -240,31 +301,57 @@ fn constant_joint(
 }
 
 /// `None` for the element.
-fn lap_facts(file: &JointFile, options: &ExportOptions) -> Result<Option<LapFacts>, ExportError> {
-    match (options.interface, file.joint.dofs) {
+fn lap_facts(
+    subject: &Subject<'_>,
+    options: &ExportOptions,
+) -> Result<Option<LapFacts>, ExportError> {
+    match (options.interface, subject.file.joint.dofs) {
         (Interface::Element, _) => match options.step_size_max_s {
             Some(found_s) => Err(ExportError::StepOfElement { found_s }),
             None => Ok(None),
         },
-        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(file, options).map(Some),
+        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(subject, options).map(Some),
         (Interface::Lap, DofSet::TranslationRotation) => {
-            sized_lap_facts::<2>(file, options).map(Some)
+            sized_lap_facts::<2>(subject, options).map(Some)
         }
     }
 }
 
 fn sized_lap_facts<const D: usize>(
-    file: &JointFile,
+    subject: &Subject<'_>,
     options: &ExportOptions,
 ) -> Result<LapFacts, ExportError> {
-    let lap = file.lap::<D>()?;
-    let step = StepSize::choose(&file.tangent_laps::<D>()?, options.step_size_max_s)?;
+    let lap = subject.file.lap::<D>()?;
+    // of a joint over the preload, the bolt may come to any preload of the table
+    let joints = subject.source().over_its_preloads()?;
+    let laps = joints
+        .iter()
+        .map(JointFile::lap)
+        .collect::<Result<Vec<Lap<D>>, _>>()?;
+    let tangents = joints
+        .iter()
+        .map(JointFile::tangent_laps)
+        .collect::<Result<Vec<Vec<Lap<D>>>, _>>()?;
+    let mut step = StepSize::choose(&tangents.concat(), options.step_size_max_s)?;
+    if subject.over_preload.is_some() {
+        step = step.for_energy();
+    }
     let spectrum = lap.spectrum();
+    let least = |one: Option<f64>, other: Option<f64>| match (one, other) {
+        (Some(one), Some(other)) => Some(f64::min(one, other)),
+        (amplitude, None) | (None, amplitude) => amplitude,
+    };
+    let mut escape_amplitude = vec![None; D];
+    for lap in &laps {
+        for (all, own) in escape_amplitude.iter_mut().zip(lap.escape_amplitude()) {
+            *all = least(*all, own);
+        }
+    }
     Ok(LapFacts {
         step,
         experiment: Experiment::of_lap(spectrum.as_ref(), &step),
         modes: spectrum.as_ref().map(modes).unwrap_or_default(),
-        escape_amplitude: lap.escape_amplitude().to_vec(),
+        escape_amplitude,
     })
 }
 

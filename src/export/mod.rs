@@ -31,6 +31,6 @@ pub use interface::Interface;
 pub(crate) use parameters::start_value;
 pub(crate) use platforms::EMBEDDED_PLATFORM;
 pub use platforms::{Library, LibrarySource};
-pub(crate) use start_file::{StartFile, parameter_lines};
+pub(crate) use start_file::{StartFile, parameter_lines, table_lines};
 pub use step::{StepChoice, StepSize};
 pub use timestamp::Timestamp;

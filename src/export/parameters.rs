@@ -2,7 +2,7 @@
 
 use crate::joint::{Body, HigherTerms, JointFile};
 
-/// Start value of the parameter `name`, or `None` where the joint file has no such number.
+/// Start value of the parameter `name`, or of the preload, or `None` where the joint file has no such number.
 ///
 /// A cubic stiffness or a term of higher order that the file leaves out is zero.
 pub(crate) fn start_value(
@@ -40,6 +40,7 @@ pub(crate) fn start_value(
         "joint.c4_y" => higher(|terms| &terms.damping_quartic, 0),
         "joint.c4_theta" => higher(|terms| &terms.damping_quartic, 1),
         "step_size_max" => longest_step_s,
+        "preload" => joint.over_preload.as_ref().map(|table| table.nominal),
         _ => {
             let (side, quantity) = name.split_once('.')?;
             let bodies = file.bodies.as_ref()?;

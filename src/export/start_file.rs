@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Interface;
-use crate::joint::DofSet;
+use crate::joint::{DofSet, OverPreload};
 
 /// First line of the file.
 const HEADER: &str = "bolted-joint-start/1";
@@ -18,15 +18,45 @@ pub(crate) fn parameter_lines(parameters: &[(String, f64)]) -> String {
     text
 }
 
+/// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K
+/// and C row by row, and k3; empty for a constant joint.
+pub(crate) fn table_lines(table: Option<&OverPreload>, extrapolate: bool) -> String {
+    let Some(table) = table else {
+        return String::new();
+    };
+    let beyond = if extrapolate { "held" } else { "refused" };
+    let mut text = format!("table {} {beyond}\n", table.preload.len());
+    for (place, preload) in table.preload.iter().enumerate() {
+        let mut numbers = vec![*preload];
+        let mut order = 0;
+        for matrices in [&table.stiffness, &table.damping] {
+            let rows = matrices.get(place).map_or(&[][..], Vec::as_slice);
+            order = rows.len();
+            for (i, row) in rows.iter().enumerate() {
+                numbers.extend(row.iter().skip(i));
+            }
+        }
+        match table.cubic.get(place) {
+            Some(cubic) => numbers.extend(cubic),
+            None => numbers.extend(std::iter::repeat_n(0.0, order)),
+        }
+        let words: Vec<String> = numbers.iter().map(|number| format!("{number:?}")).collect();
+        text += &words.join(" ");
+        text.push('\n');
+    }
+    text
+}
+
 /// The whole file.
 pub(super) fn start_file(
     interface: Interface,
     dofs: DofSet,
     token: &str,
+    table_lines: &str,
     parameter_lines: &str,
 ) -> String {
     format!(
-        "{HEADER}\nmodel {interface}\ndofs {}\ntoken {token}\n{parameter_lines}",
+        "{HEADER}\nmodel {interface}\ndofs {}\ntoken {token}\n{table_lines}{parameter_lines}",
         dofs.count()
     )
 }
@@ -37,6 +67,8 @@ pub(crate) struct StartFile {
     pub(crate) interface: Interface,
     pub(crate) dof_count: usize,
     pub(crate) token: String,
+    /// Heading and lines of the table over the preload; empty for a constant joint.
+    pub(crate) table: String,
     pub(crate) parameters: Vec<(String, f64)>,
 }
 
@@ -55,6 +87,17 @@ impl StartFile {
         };
         let dof_count = field("dofs")?.parse().ok()?;
         let token = field("token")?.to_owned();
+        let mut lines = lines.peekable();
+        let mut table = String::new();
+        if let Some(heading) = lines.next_if(|line| line.starts_with("table ")) {
+            let count = heading.split(' ').nth(1)?.parse::<usize>().ok()?;
+            let mut all = vec![heading];
+            all.extend(lines.by_ref().take(count));
+            for line in all {
+                table += line;
+                table.push('\n');
+            }
+        }
         let parameters = lines
             .map(|line| {
                 let (name, value) = line.split_once(' ')?;
@@ -65,8 +108,15 @@ impl StartFile {
             interface,
             dof_count,
             token,
+            table,
             parameters,
         })
+    }
+
+    /// Whether the joint is one over the preload that is held beyond its table.
+    pub(crate) fn extrapolates(&self) -> bool {
+        let heading = self.table.lines().next();
+        heading.is_some_and(|heading| heading.ends_with(" held"))
     }
 
     /// Start value of the parameter `name`.
@@ -90,6 +140,7 @@ mod tests {
             Interface::Lap,
             DofSet::Translation,
             "0123",
+            "",
             &parameter_lines(&parameters),
         );
         assert_eq!(

@@ -1,10 +1,11 @@
 //! A joint over the bolt's preload, taken at one preload.
 
+use bolted_joint_dynamics::Beyond;
 use thiserror::Error;
 
 use super::{
-    FreeEstimate, Intervals, Joint, JointFile, OverPreload, Problem, StandardDeviation,
-    Uncertainty, UncertaintyAtPreload,
+    DofSet, FreeEstimate, Intervals, Joint, JointFile, LawError, OverPreload, Problem,
+    StandardDeviation, Uncertainty, UncertaintyAtPreload,
 };
 
 /// Why a joint cannot be taken at a preload.
@@ -32,6 +33,9 @@ pub enum PreloadError {
         /// Highest preload of the table, N·m.
         last_n_m: f64,
     },
+    /// The table gives no joint.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// The joint file contradicts itself.
     #[error("the joint file is not valid: {}", problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n  "))]
     Invalid {
@@ -88,14 +92,6 @@ impl Place {
         (1.0 - self.share) * low + self.share * high
     }
 
-    fn list(self, lists: &[Vec<f64>]) -> Vec<f64> {
-        let (Some(low), Some(high)) = (lists.get(self.lower), lists.get(self.lower + 1)) else {
-            return Vec::new();
-        };
-        let pairs = low.iter().zip(high);
-        pairs.map(|(&low, &high)| self.between(low, high)).collect()
-    }
-
     fn matrix(self, low: &[Vec<f64>], high: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let rows = low.iter().zip(high);
         let row = |(low, high): (&Vec<f64>, &Vec<f64>)| {
@@ -118,12 +114,11 @@ impl Place {
 }
 
 impl JointFile {
-    /// The file of this joint at one preload (N·m), its nominal one unless another is given: K, C and k₃ by linear
-    /// interpolation between the table's preloads, which keeps K and C positive semidefinite. A joint that does not depend
-    /// on the preload is as it was.
+    /// The file of this joint at one preload (N·m), its nominal one unless another is given: K, C and k₃ as
+    /// [`bolted_joint_dynamics::JointOverPreload`] has them between the table's preloads. A joint that does not depend on the
+    /// preload is as it was.
     ///
-    /// Standard deviations are interpolated too, which is what they are at most, whatever the correlation of the two
-    /// preloads' errors. Name, validity and notes tell the preload.
+    /// Standard deviations are interpolated linearly. Name, validity and notes tell the preload.
     ///
     /// # Errors
     ///
@@ -141,18 +136,14 @@ impl JointFile {
         }
         let preload_n_m = preload_n_m.unwrap_or(table.nominal);
         let place = Place::of(preload_n_m, table)?;
-        let of = |matrices: &[Vec<Vec<f64>>]| {
-            place.matrix(&matrices[place.lower], &matrices[place.lower + 1])
-        };
         let mut file = self.clone();
-        file.joint = Joint {
-            dofs: self.joint.dofs,
-            stiffness: of(&table.stiffness),
-            damping: of(&table.damping),
-            cubic: place.list(&table.cubic),
-            higher: None,
-            over_preload: None,
+        file.joint = match self.joint.dofs {
+            DofSet::Translation => self.joint.constant::<1>(preload_n_m)?,
+            DofSet::TranslationRotation => self.joint.constant::<2>(preload_n_m)?,
         };
+        if table.cubic.is_empty() {
+            file.joint.cubic = Vec::new();
+        }
         file.name = format!("{}, at {preload_n_m} N·m", self.name);
         file.uncertainty = self
             .uncertainty
@@ -172,11 +163,59 @@ impl JointFile {
             provenance.notes.push(match place.entry() {
                 Some(_) => format!("The joint at a preload of {preload_n_m} N·m."),
                 None => format!(
-                    "The joint at a preload of {preload_n_m} N·m, interpolated linearly between {low} and {high} N·m."
+                    "The joint at a preload of {preload_n_m} N·m, interpolated between {low} and {high} N·m."
                 ),
             });
         }
         Ok(file)
+    }
+}
+
+/// Preloads in each gap of a table at which a joint is judged, beside those of the table.
+const JUDGED_BETWEEN: u32 = 3;
+
+impl JointFile {
+    /// The joint at every preload of its table and at some between, each as a file of its own; a joint that does not depend
+    /// on the preload alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`JointFile::at_preload`].
+    pub fn over_its_preloads(&self) -> Result<Vec<Self>, PreloadError> {
+        if self.joint.over_preload.is_none() {
+            return Ok(vec![self.clone()]);
+        }
+        let samples: Vec<f64> = match self.joint.dofs {
+            DofSet::Translation => self.joint.samples_n_m::<1>()?,
+            DofSet::TranslationRotation => self.joint.samples_n_m::<2>()?,
+        };
+        let taken = samples.into_iter();
+        taken
+            .map(|preload_n_m| self.at_preload(Some(preload_n_m)))
+            .collect()
+    }
+}
+
+impl Joint {
+    fn samples_n_m<const D: usize>(&self) -> Result<Vec<f64>, LawError> {
+        let table = self.law_over_preload::<D>(Beyond::Refused)?;
+        Ok(table.samples_n_m(JUDGED_BETWEEN).collect())
+    }
+
+    /// The joint at a preload (N·m) of its table.
+    fn constant<const D: usize>(&self, preload_n_m: f64) -> Result<Self, LawError> {
+        let law = self
+            .law_over_preload::<D>(Beyond::Refused)?
+            .law(preload_n_m);
+        let rows = |matrix: [[f64; D]; D]| matrix.map(|row| row.to_vec()).to_vec();
+        Ok(Self {
+            dofs: self.dofs,
+            stiffness: rows(law.stiffness),
+            damping: rows(law.damping),
+            cubic: law.cubic.to_vec(),
+            higher: None,
+            over_preload: None,
+        })
     }
 }
 
@@ -210,8 +249,8 @@ impl Uncertainty {
         Some(Self {
             standard_deviation: deviation(place, low, high),
             basis: format!(
-                "{}; between {} and {} N·m interpolated, which is the most that they can be there; the error of the \
-                 interpolation itself is not in them",
+                "{}; between {} and {} N·m interpolated linearly; the error of the interpolation of the joint itself is not in \
+                 them",
                 self.basis, low.preload, high.preload
             ),
             correlation: None,

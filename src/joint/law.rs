@@ -22,6 +22,12 @@ pub enum LawError {
          take it at one preload"
     )]
     OverPreload,
+    /// The table over the preload gives no joint.
+    #[error("joint.over_preload: {0}")]
+    Table(dynamics::TableDefect),
+    /// The joint does not depend on the preload.
+    #[error("joint.over_preload: not found, expected a table over the preload")]
+    NoTable,
     /// The two bodies of the lap model are not there.
     #[error(
         "bodies: not found, expected the inertia, stiffness and damping of both bodies a and b; \
@@ -103,6 +109,35 @@ impl Joint {
             damping_quadratic: or_zero("joint.higher.damping_quadratic", &terms.damping_quadratic)?,
             damping_quartic: or_zero("joint.higher.damping_quartic", &terms.damping_quartic)?,
         })
+    }
+}
+
+impl Joint {
+    /// The load law over the preload of a joint with `D` DOFs a side.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError`] where the joint has not `D` DOFs, does not depend on the preload, or is malformed.
+    pub fn law_over_preload<const D: usize>(
+        &self,
+        beyond: dynamics::Beyond,
+    ) -> Result<dynamics::JointOverPreload<D>, LawError> {
+        let table = self.over_preload.as_ref().ok_or(LawError::NoTable)?;
+        let entries = (0..table.preload.len())
+            .map(|place| {
+                let own = |list: &[Vec<Vec<f64>>]| list.get(place).cloned().unwrap_or_default();
+                let joint = Self {
+                    dofs: self.dofs,
+                    stiffness: own(&table.stiffness),
+                    damping: own(&table.damping),
+                    cubic: table.cubic.get(place).cloned().unwrap_or_default(),
+                    higher: None,
+                    over_preload: None,
+                };
+                Ok((table.preload[place], joint.law()?))
+            })
+            .collect::<Result<Vec<_>, LawError>>()?;
+        dynamics::JointOverPreload::new(&entries, beyond).map_err(LawError::Table)
     }
 }
 

@@ -45,12 +45,61 @@ fn a_joint_over_preload_needs_a_preload_of_its_table() {
     let bench = bench(&format!(
         r#"{{ "format": "bolted-joint/1", "name": "M8", "joint": {{ "dofs": ["y"], {preload} }} }}"#
     ));
+    let member = |name: &str| {
+        let file = std::fs::File::open(bench.path("o.fmu")).unwrap();
+        let mut archive = zip::ZipArchive::new(file).unwrap();
+        let mut member = archive.by_name(name).unwrap();
+        let mut text = String::new();
+        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
+        text
+    };
+    // without one it has the preload as an input, which starts at the nominal one and ends with the table
     let outcome = bench.done(&export(&[]));
+    assert!(
+        outcome.stdout.contains("model: M8, bolted joint"),
+        "{}",
+        outcome.stdout
+    );
+    let start = member("resources/start.txt");
+    let lines = "\ntable 2 refused\n10.0 600000.0 12.0 0.0\n25.0 900000.0 8.0 0.0\npreload 10.0\n";
+    assert!(start.ends_with(lines), "{start}");
+    let description = member("modelDescription.xml");
+    assert!(description.contains("name=\"preload\""));
+    assert!(
+        description.contains("start=\"10\" min=\"10\" max=\"25\""),
+        "{description}"
+    );
+    assert!(!description.contains("joint.k_yy") && !description.contains("energy.dissipated"));
+    let checked = bench.done(&["check", "o.fmu"]);
+    assert!(
+        checked.stdout.contains("no problem found"),
+        "{}",
+        checked.stdout
+    );
+    // told to extrapolate, it does not end there
+    bench.done(&export(&["--extrapolate"]));
+    assert!(member("resources/start.txt").contains("\ntable 2 held\n"));
+    assert!(!member("modelDescription.xml").contains("max=\"25\""));
+    let checked = bench.done(&["check", "o.fmu"]);
+    assert!(
+        checked.stdout.contains("no problem found"),
+        "{}",
+        checked.stdout
+    );
+    assert_eq!(
+        bench
+            .run(&export(&["--extrapolate", "--preload", "12"]))
+            .code,
+        2
+    );
+    // with one it is constant
+    let outcome = bench.done(&export(&["--preload", "10"]));
     assert!(
         outcome.stdout.contains("model: M8, at 10 N·m"),
         "{}",
         outcome.stdout
     );
+    assert!(member("modelDescription.xml").contains("joint.k_yy"));
     bench.refused(
         &export(&["--preload", "30"]),
         &[

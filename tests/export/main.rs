@@ -38,6 +38,7 @@ fn options(interface: Interface) -> Result<ExportOptions, ExportError> {
         step_size_max_s: None,
         platforms: None,
         preload_n_m: None,
+        extrapolate: false,
         allow_active: false,
         date: Timestamp::from_epoch_text("1260282802")?,
     })

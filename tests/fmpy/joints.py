@@ -56,6 +56,35 @@ HIGHER_2["joint"]["higher"] = {
     "amplitude": [2e-3, 0.05],
 }
 
+def over_preload(dofs, preload, nominal, stiffness, damping, cubic, bodies, name="test joint over the preload"):
+    table = {"preload": preload, "nominal": nominal, "stiffness": stiffness, "damping": damping, "cubic": cubic}
+    return {
+        "format": "bolted-joint/1",
+        "name": name,
+        "joint": {"dofs": dofs, "over_preload": table},
+        "bodies": bodies,
+    }
+
+
+# Pirdayr, Table 3, all torques; the cubic terms are made large enough to matter.
+LOOSENING_1 = over_preload(
+    ["y"], [2, 4, 6, 8], 8, [[[2.6e6]], [[3.0e6]], [[3.3e6]], [[3.6e6]]], [[[34.0]], [[38.0]], [[54.0]], [[69.0]]],
+    [[4e12], [2e12], [2e12], [-1e12]], ONE_DOF_BODIES,
+)
+# The direction of K turns so much that the slopes of its entries have to be made smaller.
+LOOSENING_2 = over_preload(
+    ["y", "theta"], [10, 15, 20, 30], 25,
+    [
+        [[1e5, 1e3], [1e3, 9e2]],
+        [[3.0e5, 1.6e4], [1.6e4, 9.2e2]],
+        [[5.73e5, 1.8e4], [1.8e4, 1.29e3]],
+        [[5.9e5, 1.9e4], [1.9e4, 1.6e3]],
+    ],
+    [[[15.0, -0.2], [-0.2, 0.1]], [[12.0, -0.6], [-0.6, 0.09]], [TOL_C[0], TOL_C[1]], [[9.0, -0.7], [-0.7, 0.08]]],
+    [[5e11, 4e5], [1e11, 3e5], [0.0, 3e5], [0.0, 0.0]], TWO_DOF_BODIES,
+)
+LOOSENING = {"loosening-1": LOOSENING_1, "loosening-2": LOOSENING_2}
+
 LAPS = {
     "linear-1": LINEAR_1,
     "hardening-1": HARDENING_1,

@@ -10,12 +10,13 @@
 //! | 1 | FMI version: 2 or 3 |
 //! | 1 | kind: 0 element, 1 lap |
 //! | 1 | degrees of freedom |
+//! | 1 | joint: 0 constant, 1 over the preload |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
-//! | 4 + 8 n | number of value references, and the values |
-//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by value reference |
+//! | 4 + 8 n | number of values, and the values by value reference, then what is remembered beside the variables |
+//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
@@ -23,19 +24,19 @@ use std::{fmt, sync::Arc};
 use crate::{
     abi::Abi,
     input_course::InputCourse,
-    interface::{Dofs, InterfaceType, Kind, REFERENCE_COUNT, Values, Variables},
+    interface::{Dependence, Dofs, InterfaceType, Kind, VALUE_COUNT, Values, Variables},
     mode::Mode,
     pace::Pace,
     refusal::Refusal,
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Identity {
-    /// Kind and degrees of freedom.
+    /// Kind, degrees of freedom, and whether the joint is one over the preload.
     pub(crate) variables: Variables,
     /// FMI version.
     pub(crate) abi: Abi,
@@ -47,10 +48,18 @@ pub(crate) struct Identity {
 
 impl fmt::Display for Identity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Variables { kind, dofs } = self.variables;
+        let Variables {
+            kind,
+            dofs,
+            dependence,
+        } = self.variables;
+        let preload = match dependence {
+            Dependence::OverPreload => " over the preload",
+            Dependence::Any | Dependence::Constant => "",
+        };
         write!(
             f,
-            "{} with {} DOF a side for {} of {}, token {}",
+            "{} with {} DOF a side{preload} for {} of {}, token {}",
             kind.name(),
             dofs.count(),
             self.interface_type.name(),
@@ -117,8 +126,8 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 5;
-        header + 1 + 8 + Pace::SIZE + 4 + 8 * REFERENCE_COUNT + InputCourse::SIZE + 8
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 6;
+        header + 1 + 8 + Pace::SIZE + 4 + 8 * VALUE_COUNT + InputCourse::SIZE + 8
     }
 
     /// The state in bytes.
@@ -140,6 +149,7 @@ impl Snapshot {
         });
         bytes.push(kind_number(variables.kind));
         bytes.push(variables.dofs.count());
+        bytes.push(u8::from(variables.dependence == Dependence::OverPreload));
         bytes.push(match interface_type {
             InterfaceType::CoSimulation => 0,
             InterfaceType::ModelExchange => 1,
@@ -148,7 +158,7 @@ impl Snapshot {
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
         bytes.extend(self.pace.to_bytes());
-        bytes.extend((REFERENCE_COUNT as u32).to_le_bytes());
+        bytes.extend((VALUE_COUNT as u32).to_le_bytes());
         for value in self.values {
             bytes.extend(value.to_le_bytes());
         }
@@ -205,6 +215,11 @@ impl Snapshot {
                 .into());
             }
         };
+        let dependence = match reader.u8()? {
+            0 => Dependence::Constant,
+            1 => Dependence::OverPreload,
+            _ => return Err(Damage::Field { name: "joint" }.into()),
+        };
         let interface_type = match reader.u8()? {
             0 => InterfaceType::CoSimulation,
             1 => InterfaceType::ModelExchange,
@@ -216,7 +231,11 @@ impl Snapshot {
             }
         };
         let found = Identity {
-            variables: Variables { kind, dofs },
+            variables: Variables {
+                kind,
+                dofs,
+                dependence,
+            },
             abi,
             interface_type,
             token,
@@ -238,13 +257,13 @@ impl Snapshot {
         let pace = Pace::from_bytes(reader.array()?).ok_or(Damage::Field {
             name: "communication step",
         })?;
-        if reader.u32()? as usize != REFERENCE_COUNT {
+        if reader.u32()? as usize != VALUE_COUNT {
             return Err(Damage::Field {
                 name: "number of variables",
             }
             .into());
         }
-        let mut values = [0.0; REFERENCE_COUNT];
+        let mut values = [0.0; VALUE_COUNT];
         for (reference, value) in values.iter_mut().enumerate() {
             *value = reader.f64()?;
             if !value.is_finite() {

@@ -1,6 +1,20 @@
 //! How the inputs go on from the present point: the derivatives with respect to time that the importer has given.
 
-use crate::interface::INPUT_REFERENCE_COUNT;
+use crate::interface::{INPUT_REFERENCES, REFERENCE_COUNT};
+
+/// Number of inputs of either FMU.
+const INPUT_COUNT: usize = INPUT_REFERENCES.len();
+
+/// Place of each input among them, by value reference; past the last one for what is none.
+const PLACES: [usize; REFERENCE_COUNT] = {
+    let mut places = [INPUT_COUNT; REFERENCE_COUNT];
+    let mut place = 0;
+    while place < INPUT_COUNT {
+        places[INPUT_REFERENCES[place]] = place;
+        place += 1;
+    }
+    places
+};
 
 /// Highest order of an input's derivative.
 pub(crate) const ORDER_MAX: usize = 3;
@@ -12,8 +26,8 @@ pub(crate) const ORDER_MAX: usize = 3;
 /// that are held, unless new derivatives are given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct InputCourse {
-    /// Derivatives of first to third order, by value reference of the input.
-    derivatives: [[f64; ORDER_MAX]; INPUT_REFERENCE_COUNT],
+    /// Derivatives of first to third order, by the input's place in the order of value references.
+    derivatives: [[f64; ORDER_MAX]; INPUT_COUNT],
     /// One bit for each input whose derivatives the importer has given, be they zero.
     given: u16,
     phase: Phase,
@@ -32,22 +46,19 @@ enum Phase {
     Past,
 }
 
-const _: () = assert!(
-    INPUT_REFERENCE_COUNT < u16::BITS as usize,
-    "an input has no bit"
-);
+const _: () = assert!(INPUT_COUNT < u16::BITS as usize, "an input has no bit");
 
 impl InputCourse {
     /// All inputs held.
     pub(crate) const HELD: Self = Self {
-        derivatives: [[0.0; ORDER_MAX]; INPUT_REFERENCE_COUNT],
+        derivatives: [[0.0; ORDER_MAX]; INPUT_COUNT],
         given: 0,
         phase: Phase::None,
         moves: false,
     };
 
     /// Number of bytes of a serialised course.
-    pub(crate) const SIZE: usize = 3 + 8 * ORDER_MAX * INPUT_REFERENCE_COUNT;
+    pub(crate) const SIZE: usize = 3 + 8 * ORDER_MAX * INPUT_COUNT;
 
     /// Whether the inputs are held over the step that comes next.
     #[inline]
@@ -72,7 +83,7 @@ impl InputCourse {
         if self.is_past() {
             *self = Self::HELD;
         }
-        let of_input = self.derivatives.get_mut(input);
+        let of_input = self.derivatives.get_mut(place(input));
         if let Some(stored) = of_input.and_then(|orders| orders.get_mut(order.checked_sub(1)?)) {
             *stored = derivative;
             self.given |= Self::bit(input);
@@ -83,7 +94,7 @@ impl InputCourse {
 
     /// Lets an input go from `start` at present through `middle` and `end` after half of `interval_s` (s) and all of it.
     pub(crate) fn fit(&mut self, input: usize, [start, middle, end]: [f64; 3], interval_s: f64) {
-        if let Some(derivatives) = self.derivatives.get_mut(input) {
+        if let Some(derivatives) = self.derivatives.get_mut(place(input)) {
             // u̇ = (−3 u₀ + 4 u₁ − u₂)/h, ü = 4 (u₀ − 2 u₁ + u₂)/h², from the differences so that a held input stays so
             let (first, second) = (middle - start, end - middle);
             *derivatives = [
@@ -98,7 +109,7 @@ impl InputCourse {
 
     /// Forgets what an input did in the step that was taken, because it has jumped since.
     pub(crate) fn forget(&mut self, input: usize) {
-        if let Some(derivatives) = self.derivatives.get_mut(input) {
+        if let Some(derivatives) = self.derivatives.get_mut(place(input)) {
             *derivatives = [0.0; ORDER_MAX];
             self.given &= !Self::bit(input);
         }
@@ -117,6 +128,20 @@ impl InputCourse {
         let [first, ..] = self.of(input);
         let known = self.given & Self::bit(input) != 0 || first != 0.0;
         known.then_some(first)
+    }
+
+    /// Second derivative of an input at present.
+    pub(crate) fn acceleration(&self, input: usize) -> f64 {
+        let [_, second, _] = self.of(input);
+        second
+    }
+
+    /// First derivative of an input `after_s` (s) from now.
+    #[inline]
+    pub(crate) fn rate_after(&self, input: usize, after_s: f64) -> f64 {
+        let [first, second, third] = self.of(input);
+        // u̇(t + τ) = u̇ + τ (ü + τ/2 u⃛)
+        first + after_s * (second + after_s / 2.0 * third)
     }
 
     /// The course `after_s` (s) from now, still within the step that it is for.
@@ -146,11 +171,17 @@ impl InputCourse {
     }
 
     fn of(&self, input: usize) -> [f64; ORDER_MAX] {
-        self.derivatives.get(input).copied().unwrap_or_default()
+        self.derivatives
+            .get(place(input))
+            .copied()
+            .unwrap_or_default()
     }
 
     fn bit(input: usize) -> u16 {
-        1_u16.unbounded_shl(input as u32)
+        match place(input) {
+            place if place < INPUT_COUNT => 1 << place,
+            _ => 0,
+        }
     }
 
     fn any_moves(&self) -> bool {
@@ -195,7 +226,13 @@ impl InputCourse {
         course.moves = course.any_moves();
         let finite = course.derivatives.iter().flatten().all(|x| x.is_finite());
         let consistent = !course.is_none() || (course.given == 0 && !course.moves);
-        let known = course.given >> INPUT_REFERENCE_COUNT == 0;
+        let known = course.given >> INPUT_COUNT == 0;
         (finite && consistent && known).then_some(course)
     }
+}
+
+/// Place of the input with this value reference.
+#[inline]
+fn place(input: usize) -> usize {
+    PLACES.get(input).copied().unwrap_or(INPUT_COUNT)
 }

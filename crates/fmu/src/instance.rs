@@ -56,6 +56,7 @@ impl Instance {
             variables,
             token: expected,
             values,
+            table,
         } = file;
         if token != expected {
             return Err(Refusal::Token {
@@ -72,7 +73,7 @@ impl Instance {
                 token: expected,
             }),
             roles: variables.roles(),
-            model: models::model(variables),
+            model: models::model(variables, table),
             start: values,
             values,
             inputs: InputCourse::HELD,
@@ -127,6 +128,8 @@ impl Instance {
         self.require(&[Mode::Initialization])?;
         let active = self.prepare_model()?;
         self.parameters_changed = false;
+        self.model.begin(&mut self.values);
+        self.outputs_stale = true;
         self.mode = match self.interface_type() {
             InterfaceType::CoSimulation if self.event_mode_used => Mode::Event,
             InterfaceType::CoSimulation => Mode::Step,

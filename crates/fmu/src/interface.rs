@@ -17,6 +17,8 @@ pub(crate) struct Variable {
     pub(crate) start: f64,
     /// Whether it exists only where the joint rotates.
     pub(crate) rotational: bool,
+    /// Of which joints it is.
+    pub(crate) dependence: Dependence,
     /// Whether the importer may access it inside a communication step.
     pub(crate) intermediate: bool,
 }
@@ -30,6 +32,17 @@ pub(crate) struct ContinuousState {
     pub(crate) derivative: usize,
     /// Typical magnitude, in the state's unit.
     pub(crate) nominal: f64,
+}
+
+/// Of which joints a variable is, and which of them the joint of an FMU is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dependence {
+    /// Of every joint.
+    Any,
+    /// Of a joint whose law is given by parameters.
+    Constant,
+    /// Of a joint whose law follows from the preload.
+    OverPreload,
 }
 
 /// What a variable is to the library; each role is one bit of a [`Roles`] set.
@@ -74,6 +87,9 @@ impl Roles {
     /// No role at all.
     pub(crate) const NONE: Self = Self(0);
 
+    /// An input that does not take every number, beside its role.
+    pub(crate) const LIMITED: Self = Self(128);
+
     /// The set of these roles.
     pub(crate) const fn of(roles: &[Role]) -> Self {
         let mut bits = 0;
@@ -85,6 +101,17 @@ impl Roles {
         Self(bits)
     }
 
+    /// Both sets together.
+    pub(crate) const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether this is just that set.
+    #[inline]
+    pub(crate) const fn is(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+
     /// Whether the sets have a role in common.
     #[inline]
     pub(crate) const fn intersects(self, other: Self) -> bool {
@@ -92,8 +119,25 @@ impl Roles {
     }
 }
 
-/// Values of all variables of an FMU, by value reference.
-pub(crate) type Values = [f64; REFERENCE_COUNT];
+/// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
+pub(crate) type Values = [f64; VALUE_COUNT];
+
+/// Number of values.
+pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 4;
+
+/// What is remembered of a joint over the preload beside its variables, as indices.
+pub(crate) mod memory {
+    use super::REFERENCE_COUNT;
+
+    /// Preload (N·m) up to which the work of the changing stiffness was counted.
+    pub(crate) const COUNTED_PRELOAD: usize = REFERENCE_COUNT;
+    /// That work, J.
+    pub(crate) const PRELOAD_WORK: usize = REFERENCE_COUNT + 1;
+    /// Stored energy from which the balance starts, J.
+    pub(crate) const FIRST_ENERGY: usize = REFERENCE_COUNT + 2;
+    /// Rate of the preload at present, N·m/s, as far as it is known; not remembered, but calculated from the inputs' course.
+    pub(crate) const PRELOAD_RATE: usize = REFERENCE_COUNT + 3;
+}
 
 /// Who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,13 +196,16 @@ impl Dofs {
     }
 }
 
-/// Variables that one FMU has: a table of its kind, without the rotational ones for a joint that only translates.
+/// Variables that one FMU has: a table of its kind, without the rotational ones for a joint that only translates, and without
+/// those that only joints of the other dependence have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variables {
     /// Which of the two FMUs.
     pub(crate) kind: Kind,
     /// Degrees of freedom of its joint.
     pub(crate) dofs: Dofs,
+    /// Whether its joint's law is constant or follows from the preload.
+    pub(crate) dependence: Dependence,
 }
 
 impl Variables {
@@ -172,6 +219,9 @@ impl Variables {
             .get(reference)?
             .as_ref()
             .filter(|variable| self.dofs == Dofs::Two || !variable.rotational)
+            .filter(|variable| {
+                variable.dependence == Dependence::Any || variable.dependence == self.dependence
+            })
     }
 
     /// All variables with their value references, in ascending order.
@@ -198,9 +248,14 @@ impl Variables {
 
     /// Role of each value reference.
     pub(crate) fn roles(self) -> [Roles; REFERENCE_COUNT] {
-        std::array::from_fn(|reference| {
-            self.get(reference)
-                .map_or(Roles::NONE, |variable| Roles::of(&[variable.role]))
+        std::array::from_fn(|index| {
+            self.get(index).map_or(Roles::NONE, |variable| {
+                let role = Roles::of(&[variable.role]);
+                match index {
+                    reference::PRELOAD => role.with(Roles::LIMITED),
+                    _ => role,
+                }
+            })
         })
     }
 

@@ -17,6 +17,7 @@ mod logging;
 mod mode;
 mod models;
 mod pace;
+mod preload_table;
 mod refusal;
 mod resources;
 mod start_file;

@@ -73,6 +73,13 @@ pub(crate) enum Refusal {
         unit: &'static str,
         time_s: f64,
     },
+    /// There is no joint at this preload; `time_s` where the simulation has come to it within a step.
+    Preload {
+        found_n_m: f64,
+        first_n_m: f64,
+        last_n_m: f64,
+        time_s: Option<f64>,
+    },
     /// A derivative with respect to time is asked of a variable that has none to give.
     NoOutputDerivative { name: &'static str, role: Role },
     /// A derivative with respect to time is given for a variable that is no input.
@@ -229,7 +236,9 @@ impl Refusal {
     pub(crate) const fn is_discarded(&self, solver_at_work: bool) -> bool {
         match self {
             Self::NoStatus { .. } => true,
-            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. } => solver_at_work,
+            Self::ValueNotFinite { .. } | Self::OutputNotFinite { .. } | Self::Preload { .. } => {
+                solver_at_work
+            }
             _ => false,
         }
     }

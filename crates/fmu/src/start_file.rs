@@ -2,7 +2,12 @@
 
 use std::{fmt, str::Lines};
 
-use crate::interface::{Dofs, Kind, Role, Values, Variables};
+use bolted_joint_dynamics::{Beyond, TableDefect};
+
+use crate::{
+    interface::{Dependence, Dofs, Kind, Role, Values, Variables, reference},
+    preload_table::PreloadTable,
+};
 
 /// First line of every start-value file.
 pub(crate) const HEADER: &str = "bolted-joint-start/1";
@@ -14,8 +19,10 @@ pub(crate) struct StartFile {
     pub(crate) variables: Variables,
     /// Token that the importer has to give at instantiation.
     pub(crate) token: String,
-    /// Start values of all variables: parameters from the file, the rest from the model description.
+    /// Start values of all variables: parameters and preload from the file, the rest from the model description.
     pub(crate) values: Values,
+    /// The joint over the preload, where it is one.
+    pub(crate) table: Option<PreloadTable>,
 }
 
 /// Why a start-value file is refused. Line numbers start at 1.
@@ -47,6 +54,16 @@ pub(crate) enum Fault {
     NotFinite { name: &'static str, found: String },
     /// The file ends without this parameter.
     Missing { name: &'static str },
+    /// A line of the table has not the numbers that it must have.
+    NotARow { found: String, columns: usize },
+    /// The table gives no joint.
+    Table(TableDefect),
+    /// The preload at the start is not one of the table.
+    Preload {
+        found_n_m: f64,
+        first_n_m: f64,
+        last_n_m: f64,
+    },
 }
 
 impl fmt::Display for StartFileError {
@@ -73,6 +90,19 @@ impl fmt::Display for StartFileError {
                 )?;
             }
             Fault::Missing { name } => write!(f, "the file ends without parameter {name}")?,
+            Fault::NotARow { found, columns } => write!(
+                f,
+                "found \"{found}\", expected a line of the table: {columns} finite numbers, separated by spaces"
+            )?,
+            Fault::Table(defect) => write!(f, "{defect}")?,
+            Fault::Preload {
+                found_n_m,
+                first_n_m,
+                last_n_m,
+            } => write!(
+                f,
+                "preload is {found_n_m} N.m, expected {first_n_m} to {last_n_m} N.m, as in the table"
+            )?,
         }
         f.write_str("; export the FMU again")
     }
@@ -102,12 +132,37 @@ impl StartFile {
         let token = header.next("token ", "\"token\" and the instantiation token", |found| {
             (!found.trim().is_empty()).then(|| found.to_owned())
         })?;
-        let variables = Variables { kind, dofs };
+        let table = header.table(dofs)?;
+        let dependence = match table {
+            Some(_) => Dependence::OverPreload,
+            None => Dependence::Constant,
+        };
+        let variables = Variables {
+            kind,
+            dofs,
+            dependence,
+        };
+        let last = header.line;
         let values = parse_parameters(header, variables)?;
+        if let Some(table) = &table
+            && !table.covers(values[reference::PRELOAD])
+        {
+            let [first_n_m, last_n_m] = table.range_n_m();
+            return Err(StartFileError {
+                path: path.to_owned(),
+                line: last + 1,
+                fault: Fault::Preload {
+                    found_n_m: values[reference::PRELOAD],
+                    first_n_m,
+                    last_n_m,
+                },
+            });
+        }
         Ok(Self {
             variables,
             token,
             values,
+            table,
         })
     }
 }
@@ -142,6 +197,56 @@ impl Header<'_> {
     }
 }
 
+impl Header<'_> {
+    /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, and the lines.
+    fn table(&mut self, dofs: Dofs) -> Result<Option<PreloadTable>, StartFileError> {
+        const EXPECTED: &str = "\"table\", the number of its lines, and \"refused\" or \"held\"";
+        let is_there = self.lines.clone().next();
+        if !is_there.is_some_and(|line| line.starts_with("table ")) {
+            return Ok(None);
+        }
+        let (count, beyond) = self.next("table ", EXPECTED, |found| {
+            let (count, beyond) = found.split_once(' ')?;
+            let beyond = match beyond {
+                "refused" => Beyond::Refused,
+                "held" => Beyond::Held,
+                _ => return None,
+            };
+            Some((count.parse::<u32>().ok()?, beyond))
+        })?;
+        let heading = self.line;
+        let columns = PreloadTable::columns(dofs);
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for _ in 0..count {
+            self.line += 1;
+            let line = self.lines.next().unwrap_or("");
+            let numbers: Option<Vec<f64>> = line
+                .split(' ')
+                .map(|number| number.parse().ok().filter(|value: &f64| value.is_finite()))
+                .collect();
+            match numbers {
+                Some(row) if row.len() == columns => rows.push(row),
+                _ => {
+                    let found = shortened(line);
+                    return Err(self.refuse(self.line, Fault::NotARow { found, columns }));
+                }
+            }
+        }
+        let table = PreloadTable::new(dofs, &rows, beyond);
+        table
+            .map(Some)
+            .map_err(|defect| self.refuse(heading, Fault::Table(defect)))
+    }
+
+    fn refuse(&self, line: usize, fault: Fault) -> StartFileError {
+        StartFileError {
+            path: self.path.to_owned(),
+            line,
+            fault,
+        }
+    }
+}
+
 fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, StartFileError> {
     let Header {
         path,
@@ -155,7 +260,9 @@ fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, 
     };
     let parameters: Vec<(usize, &'static str)> = variables
         .iter()
-        .filter(|(_, variable)| variable.role == Role::Parameter)
+        .filter(|(index, variable)| {
+            variable.role == Role::Parameter || *index == reference::PRELOAD
+        })
         .map(|(reference, variable)| (reference, variable.name))
         .collect();
     let mut values = variables.start();

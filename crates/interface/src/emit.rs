@@ -10,7 +10,7 @@ use crate::{
 impl Interfaces {
     /// Rust source of the tables: value references as constants, one array of variables for each FMU.
     ///
-    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here) and `Role`.
+    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here), `Role` and `Dependence`.
     #[must_use]
     pub fn to_rust(&self) -> String {
         let mut source = String::from(
@@ -24,12 +24,15 @@ impl Interfaces {
         );
         line(
             &mut source,
-            "/// Number of value references up to that of the last input.",
+            "/// Value references of the inputs of either FMU, ascending.",
         );
-        let inputs = self.input_reference_count();
+        let inputs = self.input_references();
         line(
             &mut source,
-            &format!("pub(crate) const INPUT_REFERENCE_COUNT: usize = {inputs};"),
+            &format!(
+                "pub(crate) const INPUT_REFERENCES: [usize; {}] = {inputs:?};",
+                inputs.len()
+            ),
         );
         line(&mut source, "/// Names of the log categories.");
         line(
@@ -92,12 +95,13 @@ fn table(source: &mut String, name: &str, interface: &Interface, count: usize) {
             Some(variable) => line(
                 source,
                 &format!(
-                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rotational: {}, intermediate: {} }}),",
+                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rotational: {}, dependence: Dependence::{:?}, intermediate: {} }}),",
                     variable.name,
                     variable.unit,
                     variable.role,
                     variable.start.unwrap_or(0.0),
                     variable.requires_rotation(),
+                    variable.dependence(),
                     variable.intermediate_update,
                 ),
             ),

@@ -155,16 +155,18 @@ impl Interfaces {
             .unwrap_or(0)
     }
 
-    /// Number of value references up to that of the last input: one more than the largest of an input.
+    /// Value references of the inputs of either FMU, ascending.
     #[must_use]
-    pub fn input_reference_count(&self) -> usize {
-        [&self.element, &self.lap]
+    pub fn input_references(&self) -> Vec<u32> {
+        let mut references: Vec<u32> = [&self.element, &self.lap]
             .iter()
             .flat_map(|interface| &interface.variables)
             .filter(|variable| variable.role == Role::Input)
-            .map(|variable| variable.reference as usize + 1)
-            .max()
-            .unwrap_or(0)
+            .map(|variable| variable.reference)
+            .collect();
+        references.sort_unstable();
+        references.dedup();
+        references
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod agreement;
 mod combination;
+mod dependence;
 mod emit;
 mod error;
 mod interface;
@@ -14,6 +15,7 @@ mod structure;
 mod units;
 mod variable;
 
+pub use dependence::{Dependence, dependence};
 pub use error::{
     AgreementProblem, InterfaceError, Problem, StructureProblem, UnitProblem, VariableProblem,
 };

@@ -4,6 +4,7 @@ use fmi_schema::fmi3::{Causality, Float64Type, FmiFloat64, Initial, Variability}
 
 use crate::{
     combination::{effective_initial, is_allowed},
+    dependence::{Dependence, dependence},
     error::VariableProblem,
     rotation::requires_rotation,
 };
@@ -55,6 +56,12 @@ impl Variable {
     #[must_use]
     pub fn requires_rotation(&self) -> bool {
         requires_rotation(&self.name)
+    }
+
+    /// Of which joints the variable is: whether their law is constant or follows from the preload.
+    #[must_use]
+    pub fn dependence(&self) -> Dependence {
+        dependence(&self.name)
     }
 
     /// Checks one `<Float64>` on its own, against its type.

@@ -146,7 +146,7 @@ refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dep
     Problem::Structure(StructureProblem::MissingUnknown { element: "Output", variable }) if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "Output", variable }) if variable == "a.F");
-refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49"/>"# => "",
+refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52"/>"# => "",
     Problem::Structure(StructureProblem::MissingUnknown { element: "InitialUnknown", variable }) if variable == "power.dissipated");
 refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "InitialUnknown", variable }) if variable == "a.y");
@@ -162,7 +162,7 @@ refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" d
     Problem::Structure(StructureProblem::DuplicateDependency { element: "Output", variable, dependency }) if variable == "a.y" && dependency == "a.F");
 refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
     Problem::Structure(StructureProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 }) if variable == "a.y");
-refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49"/>"#
+refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52"/>"#
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
     Problem::Structure(StructureProblem::InitialKind { variable }) if variable == "power.dissipated");
 
@@ -225,7 +225,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="52""#,
+        r#"name="step_size_max" valueReference="58""#,
     );
     assert_eq!(
         problem,
@@ -308,9 +308,9 @@ fn missing_file_is_named() {
 fn intact_descriptions_are_accepted() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription");
     let interfaces = Interfaces::read(&folder).unwrap();
-    assert_eq!(interfaces.element.variables.len(), 35);
-    assert_eq!(interfaces.lap.variables.len(), 52);
-    assert_eq!(interfaces.reference_count(), 52);
+    assert_eq!(interfaces.element.variables.len(), 37);
+    assert_eq!(interfaces.lap.variables.len(), 58);
+    assert_eq!(interfaces.reference_count(), 58);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
@@ -318,6 +318,12 @@ fn intact_descriptions_are_accepted() {
     assert_eq!(
         role(&interfaces.lap, "joint.escape_amplitude_y"),
         Some(Role::CalculatedParameter)
+    );
+    assert_eq!(role(&interfaces.lap, "preload"), Some(Role::Input));
+    assert_eq!(role(&interfaces.lap, "energy.supplied"), Some(Role::State));
+    assert_eq!(
+        interfaces.input_references(),
+        [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 52]
     );
     assert_eq!(
         role(&interfaces.lap, "a.acceleration"),
@@ -340,7 +346,9 @@ fn intact_descriptions_are_accepted() {
             (5, 7),
             (6, 8),
             (7, 40),
-            (8, 41)
+            (8, 41),
+            (55, 54),
+            (56, 16)
         ]
     );
     let rotational = |interface: &Interface| {

@@ -93,7 +93,11 @@ impl RunReport {
 ///
 /// [`RunError`] if the run cannot be tried; what the FMU does wrong is in the findings.
 pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunReport, RunError> {
-    let joint = &inspection.joint.joint;
+    // a joint over the preload is run at its nominal one
+    let Ok(constant) = inspection.joint.at_preload(None) else {
+        return Ok(RunReport::without_run(RunVerdict::NoVariables));
+    };
+    let joint = &constant.joint;
     let Some((described, references)) = inspection.described.as_ref().and_then(|described| {
         let references = References::of(described, joint.dofs.count())?;
         Some((described, references))
@@ -116,11 +120,7 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
         return Ok(report);
     }
 
-    let excitation = Excitation::of(
-        &inspection.joint,
-        inspection.interface,
-        inspection.step_size_max_s,
-    );
+    let excitation = Excitation::of(&constant, inspection.interface, inspection.step_size_max_s);
     let mut findings = Vec::new();
     let comparison = match ReferenceRun::read(&mut archive)
         .and_then(|run| run.map(|run| Comparison::new(run, described)).transpose())
@@ -159,7 +159,7 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
             report.verdict = RunVerdict::Failed;
             report.findings.push(format!("run: {failure}"));
         }
-        None => plan.judge(inspection, &ran.values, &mut report),
+        None => plan.judge(inspection, joint, &ran.values, &mut report),
     }
     Ok(report)
 }

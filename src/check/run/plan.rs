@@ -9,6 +9,7 @@ use super::{RunReport, judge};
 use crate::check::Inspection;
 use crate::check::described::Described;
 use crate::export::Interface;
+use crate::joint::Joint;
 
 /// Steps in a span of the coarser and of the finer run.
 const STEPS: [usize; 2] = [Integral::SPAN, 2 * Integral::SPAN];
@@ -111,10 +112,10 @@ impl Plan {
     pub(super) fn judge(
         &self,
         inspection: &Inspection,
+        joint: &Joint,
         values: &[Vec<f64>],
         report: &mut RunReport,
     ) {
-        let joint = &inspection.joint.joint;
         let mut rest = values;
         let mut balances = Vec::new();
         for steps in STEPS {

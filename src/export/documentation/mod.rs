@@ -4,6 +4,7 @@ mod curves;
 mod licences;
 mod model;
 mod origin;
+mod over_preload;
 mod parameters;
 mod running;
 mod variables;
@@ -14,7 +15,7 @@ use super::description::generation_tool;
 use super::fmu::LapFacts;
 use super::{FmiVersion, Interface, Timestamp};
 use crate::html::{self, escaped};
-use crate::joint::{JointFile, Passivity};
+use crate::joint::{JointFile, OverPreload, Passivity};
 
 pub(super) use licences::licences;
 
@@ -29,8 +30,10 @@ pub(super) struct Page<'a> {
     pub(super) passivity: &'a Passivity,
     /// How closely the reference run is to be met; `None` if there is none.
     pub(super) reference_tolerance: Option<f64>,
+    /// The table of a joint over the preload where the preload is an input; `file` is then that joint at its nominal preload.
+    pub(super) over_preload: Option<&'a OverPreload>,
     /// Whether the FMU also has the joint over the preload that it was taken from.
-    pub(super) has_table: bool,
+    pub(super) has_table_beside: bool,
     pub(super) token: &'a str,
     pub(super) date: Timestamp,
 }
@@ -41,6 +44,7 @@ pub(super) fn html(page: &Page<'_>) -> String {
     let sections = [
         model::section(page),
         parameters::section(page),
+        over_preload::section(page),
         curves::section(page),
         running::section(page),
         variables::section(page),

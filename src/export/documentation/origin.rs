@@ -13,7 +13,7 @@ pub(super) fn section(page: &Page<'_>) -> String {
         Some(residual) => deviation(residual),
         None => String::new(),
     };
-    let table = if page.has_table {
+    let table = if page.has_table_beside {
         "The joint file it was taken from, with the joint over the preload: \
          <a href=\"../resources/joint-over-preload.json\">resources/joint-over-preload.json</a>."
     } else {

@@ -47,10 +47,19 @@ pub(super) fn section(page: &Page<'_>) -> String {
         _ => String::new(),
     };
     format!(
-        "<h2>Values of the joint</h2>\n<h3>Stiffness <i>K</i></h3>\n{stiffness}<h3>Damping <i>C</i></h3>\n{damping}\
-         {basis}{}{}{bodies}<p>All of these are tunable parameters of the FMU; the values here are those it starts with.</p>\n",
+        "<h2>Values of the joint{at}</h2>\n<h3>Stiffness <i>K</i></h3>\n{stiffness}<h3>Damping <i>C</i></h3>\n{damping}\
+         {basis}{}{}{bodies}<p>{role}; the values here are those it starts with.</p>\n",
         cubic(joint),
         higher(joint),
+        at = page
+            .over_preload
+            .map(|table| format!(" at {} N·m", number(table.nominal)))
+            .unwrap_or_default(),
+        role = match page.over_preload {
+            Some(_) =>
+                "Those of the joint follow the input <code>preload</code>, those of the bodies are tunable parameters",
+            None => "All of these are tunable parameters of the FMU",
+        },
     )
 }
 

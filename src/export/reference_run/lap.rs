@@ -2,11 +2,14 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{Lap, LapIntegrator, LapLoads, LapState, substeps};
+use bolted_joint_dynamics::{
+    CountedState, JointLaw, Lap, LapConditions, LapIntegrator, LapLoads, LapState, PassedEnergy,
+    substeps,
+};
 
 use super::super::fmu::LapFacts;
 use super::super::step::rounded_down;
-use super::{Names, ReferenceRun, entry, stimulus, table};
+use super::{Laws, Names, ReferenceRun, entry, stimulus, table};
 
 const COMMUNICATION_STEPS: usize = 200;
 /// Communication steps at each level of load.
@@ -38,30 +41,40 @@ const FIRST_PART: f64 = 0.1;
 
 pub(super) fn run<const D: usize>(
     lap: &Lap<D>,
+    laws: &Laws<D>,
     facts: &LapFacts,
     names: Names,
 ) -> Option<ReferenceRun> {
     let plan = Plan::new(facts)?;
-    let integrator = LapIntegrator::new(lap);
-    let levels = plan.levels(lap, &integrator)?;
-    let of_fmu = plan.states(&integrator, &levels, NonZeroU32::MIN)?;
-    let states = plan.states(&integrator, &levels, REFINEMENT)?;
+    let system = System { lap, laws };
+    let levels = plan.levels(&system)?;
+    let of_fmu = plan.states(&system, &levels, NonZeroU32::MIN)?;
+    let states = plan.states(&system, &levels, REFINEMENT)?;
 
     let time = |step: usize| step as f64 * plan.step_s;
     let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {
         // Constant from one level's beginning to the next.
         [level, level + 1].map(move |edge| {
-            (time(STEPS_A_LEVEL * edge), move |name: &str| {
-                input(loads, name)
+            (time(STEPS_A_LEVEL * edge), move |name: &str| match name {
+                "preload" => laws.preload_n_m(level),
+                _ => input(loads, name),
             })
         })
     });
-    let outputs = |states: Vec<LapState<D>>| {
-        let rows = states.into_iter().enumerate();
-        table(
-            names.outputs.clone(),
-            rows.map(|(step, state)| (time(step), move |name: &str| output(lap, &state, name))),
-        )
+    let outputs = |states: Vec<CountedState<D>>| {
+        let levels = &levels;
+        let rows = states
+            .into_iter()
+            .enumerate()
+            .filter(|(step, _)| laws.tells(*step))
+            .map(|(step, counted)| {
+                let level = step.saturating_sub(1) / STEPS_A_LEVEL;
+                let conditions = system.conditions(level, &levels[level]);
+                (time(step), move |name: &str| {
+                    output(&conditions, &counted, name)
+                })
+            });
+        table(names.outputs.clone(), rows)
     };
     let (found, reference) = (outputs(of_fmu), outputs(states));
     let deviation = (0..names.outputs.len())
@@ -84,6 +97,74 @@ pub(super) fn run<const D: usize>(
     })
 }
 
+impl<const D: usize> Laws<D> {
+    /// Whether the outputs at this communication point can be compared: where a level begins, importers differ in whether they
+    /// read before or after they set the inputs, and with the preload the outputs jump.
+    fn tells(&self, step: usize) -> bool {
+        matches!(self, Self::Constant(_)) || !step.is_multiple_of(STEPS_A_LEVEL)
+    }
+}
+
+/// What is integrated.
+struct System<'a, const D: usize> {
+    lap: &'a Lap<D>,
+    laws: &'a Laws<D>,
+}
+
+impl<const D: usize> System<'_, D> {
+    /// What acts at a level.
+    fn conditions(&self, level: usize, loads: &LapLoads<D>) -> LapConditions<D> {
+        LapConditions {
+            lap: Lap {
+                joint: self.laws.at(level),
+                ..*self.lap
+            },
+            law_rate: JointLaw::NONE,
+            loads: *loads,
+        }
+    }
+
+    /// From communication point to communication point, from rest.
+    fn states(
+        &self,
+        levels: &[LapLoads<D>],
+        step_s: f64,
+        substeps: NonZeroU32,
+    ) -> Vec<CountedState<D>> {
+        let mut counted = CountedState {
+            state: LapState::REST,
+            passed: PassedEnergy::default(),
+        };
+        let mut states = vec![counted];
+        let plain = LapIntegrator::new(self.lap);
+        for (level, loads) in levels.iter().enumerate() {
+            let conditions = self.conditions(level, loads);
+            if let Some(before) = level.checked_sub(1) {
+                // the preload jumps: U(r; p⁺) − U(r; p⁻)
+                let r = counted.state.a.relative_to(&counted.state.b).displacement;
+                let law = &conditions.lap.joint;
+                counted.passed.preload +=
+                    law.stored_energy(&r) - self.laws.at(before).stored_energy(&r);
+            }
+            for _ in 0..STEPS_A_LEVEL {
+                match self.laws {
+                    Laws::Constant(_) => {
+                        counted.state = plain.advance(&counted.state, loads, step_s, substeps);
+                    }
+                    Laws::Table { .. } => {
+                        let length_s = step_s / f64::from(substeps.get());
+                        for _ in 0..substeps.get() {
+                            counted = LapConditions::step([&conditions; 3], &counted, length_s);
+                        }
+                    }
+                }
+                states.push(counted);
+            }
+        }
+        states
+    }
+}
+
 /// Communication steps of the run.
 struct Plan {
     step_s: f64,
@@ -104,20 +185,17 @@ impl Plan {
     }
 
     /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
-    fn levels<const D: usize>(
-        &self,
-        lap: &Lap<D>,
-        integrator: &LapIntegrator<D>,
-    ) -> Option<Vec<LapLoads<D>>> {
-        let wanted = stimulus::relative_motion(&lap.joint);
+    fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
+        let joint = &system.lap.joint;
+        let wanted = stimulus::relative_motion(joint);
         let mut amplitude: [f64; D] = std::array::from_fn(|i| {
-            let load = FIRST_PART * lap.joint.stiffness[i][i] * wanted[i];
+            let load = FIRST_PART * joint.stiffness[i][i] * wanted[i];
             if load > 0.0 { load } else { wanted[i] }
         });
         for _ in 0..SCALINGS {
             let levels = levels_of(&amplitude);
             let opening = self
-                .states(integrator, &levels, NonZeroU32::MIN)
+                .states(system, &levels, NonZeroU32::MIN)
                 .map(|states| opening(&states, &wanted));
             let factor = match opening {
                 Some(opening) if (1.0 / EXCESS..=EXCESS).contains(&opening) => return Some(levels),
@@ -133,20 +211,14 @@ impl Plan {
     /// States at the communication points, from rest; `None` if they do not stay finite.
     fn states<const D: usize>(
         &self,
-        integrator: &LapIntegrator<D>,
+        system: &System<'_, D>,
         levels: &[LapLoads<D>],
         refinement: NonZeroU32,
-    ) -> Option<Vec<LapState<D>>> {
+    ) -> Option<Vec<CountedState<D>>> {
         let substeps = self.substeps.checked_mul(refinement)?;
-        let mut states = vec![LapState::REST];
-        let mut state = LapState::REST;
-        for loads in levels {
-            for _ in 0..STEPS_A_LEVEL {
-                state = integrator.advance(&state, loads, self.step_s, substeps);
-                states.push(state);
-            }
-        }
-        let finite = [state.a, state.b].iter().all(|motion| {
+        let states = system.states(levels, self.step_s, substeps);
+        let last = states.last()?.state;
+        let finite = [last.a, last.b].iter().all(|motion| {
             let mut values = motion.displacement.iter().chain(&motion.velocity);
             values.all(|value| value.is_finite())
         });
@@ -175,11 +247,11 @@ fn levels_of<const D: usize>(amplitude: &[f64; D]) -> Vec<LapLoads<D>> {
 }
 
 /// Largest relative motion as a part of what is wanted.
-fn opening<const D: usize>(states: &[LapState<D>], wanted: &[f64; D]) -> f64 {
+fn opening<const D: usize>(states: &[CountedState<D>], wanted: &[f64; D]) -> f64 {
     states
         .iter()
-        .flat_map(|state| {
-            let relative = state.a.relative_to(&state.b);
+        .flat_map(|counted| {
+            let relative = counted.state.a.relative_to(&counted.state.b);
             std::array::from_fn::<f64, D, _>(|i| relative.displacement[i].abs() / wanted[i])
         })
         .fold(0.0, f64::max)
@@ -192,11 +264,23 @@ fn input<const D: usize>(loads: &LapLoads<D>, name: &str) -> f64 {
         .unwrap_or_default()
 }
 
-fn output<const D: usize>(lap: &Lap<D>, state: &LapState<D>, name: &str) -> f64 {
+fn output<const D: usize>(
+    conditions: &LapConditions<D>,
+    counted: &CountedState<D>,
+    name: &str,
+) -> f64 {
+    let LapConditions { lap, .. } = conditions;
+    let CountedState { state, passed } = counted;
     let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
     match name {
         "energy.stored" => lap.stored_energy(state),
+        "energy.supplied" => passed.supplied,
+        "energy.dissipated" => passed.dissipated,
+        "energy.preload" => passed.preload,
         "power.dissipated" => lap.dissipated_power(state),
+        "power.supplied" => conditions.powers(state).supplied,
+        // the preload is held
+        "power.preload" => 0.0,
         _ => [("a", &state.a), ("b", &state.b)]
             .iter()
             .find_map(|(side, motion)| {

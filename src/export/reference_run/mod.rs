@@ -8,12 +8,13 @@ mod files;
 mod lap;
 mod stimulus;
 
+use bolted_joint_dynamics::{Beyond, JointLaw, JointOverPreload};
 use bolted_joint_interface::{Interface as Declared, Role};
 
 use super::archive::File;
 use super::fmu::LapFacts;
 use super::{ExportError, Interface};
-use crate::joint::{DofSet, JointFile};
+use crate::joint::{DofSet, JointFile, LawError};
 
 /// A run from rest: what goes in, what comes out.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,9 +39,10 @@ struct Table {
 }
 
 impl ReferenceRun {
-    /// Of the joint in `file`; `None` if its outputs do not stay finite.
+    /// Of the joint in `file`, over the preload of `over_preload` where that is given; `None` if its outputs do not stay finite.
     pub(super) fn new(
         file: &JointFile,
+        over_preload: Option<&JointFile>,
         declared: &Declared,
         interface: Interface,
         facts: Option<&LapFacts>,
@@ -48,20 +50,26 @@ impl ReferenceRun {
     ) -> Result<Option<Self>, ExportError> {
         let names = Names::of(declared);
         Ok(match (interface, file.joint.dofs, facts) {
-            (Interface::Lap, DofSet::Translation, Some(facts)) => {
-                lap::run(&file.lap::<1>()?, facts, names)
-            }
-            (Interface::Lap, DofSet::TranslationRotation, Some(facts)) => {
-                lap::run(&file.lap::<2>()?, facts, names)
-            }
+            (Interface::Lap, DofSet::Translation, Some(facts)) => lap::run(
+                &file.lap::<1>()?,
+                &Laws::of(file, over_preload)?,
+                facts,
+                names,
+            ),
+            (Interface::Lap, DofSet::TranslationRotation, Some(facts)) => lap::run(
+                &file.lap::<2>()?,
+                &Laws::of(file, over_preload)?,
+                facts,
+                names,
+            ),
             (Interface::Lap, _, None) => None,
             (Interface::Element, DofSet::Translation, _) => Some(element::run(
-                &file.joint.law::<1>()?,
+                &Laws::<1>::of(file, over_preload)?,
                 step_of_element_s,
                 names,
             )),
             (Interface::Element, DofSet::TranslationRotation, _) => Some(element::run(
-                &file.joint.law::<2>()?,
+                &Laws::<2>::of(file, over_preload)?,
                 step_of_element_s,
                 names,
             )),
@@ -80,6 +88,57 @@ impl ReferenceRun {
 
     fn stop_s(&self) -> f64 {
         self.steps as f64 * self.step_s
+    }
+}
+
+/// The joint's law at each level of the run.
+enum Laws<const D: usize> {
+    /// One law for all.
+    Constant(JointLaw<D>),
+    /// The law at the preload of the level.
+    Table {
+        nominal: JointLaw<D>,
+        table: JointOverPreload<D>,
+    },
+}
+
+impl<const D: usize> Laws<D> {
+    fn of(file: &JointFile, over_preload: Option<&JointFile>) -> Result<Self, LawError> {
+        let nominal = file.joint.law()?;
+        match over_preload {
+            None => Ok(Self::Constant(nominal)),
+            Some(file) => Ok(Self::Table {
+                nominal,
+                table: file.joint.law_over_preload(Beyond::Refused)?,
+            }),
+        }
+    }
+
+    /// The law whose cubic term sets how far the joint is opened.
+    fn nominal(&self) -> &JointLaw<D> {
+        match self {
+            Self::Constant(nominal) | Self::Table { nominal, .. } => nominal,
+        }
+    }
+
+    /// Preload of a level, N·m; zero where the joint does not depend on it.
+    fn preload_n_m(&self, level: usize) -> f64 {
+        match self {
+            Self::Constant(_) => 0.0,
+            Self::Table { table, .. } => {
+                let [first, last] = table.range_n_m();
+                let (share, _) = stimulus::shape(1, true, (level + 1) as f64);
+                stimulus::rounded(0.5 * (first + last) + 0.45 * share * (last - first))
+            }
+        }
+    }
+
+    /// Law of a level.
+    fn at(&self, level: usize) -> JointLaw<D> {
+        match self {
+            Self::Constant(law) => *law,
+            Self::Table { table, .. } => table.law(self.preload_n_m(level)),
+        }
     }
 }
 

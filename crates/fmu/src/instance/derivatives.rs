@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
-    interface::{REFERENCE_COUNT, Role, Roles, Values},
+    interface::{Role, Roles, VALUE_COUNT, Values, memory},
     refusal::Refusal,
 };
 
@@ -17,14 +17,14 @@ impl Instance {
         sensitivity: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
         self.check_derivative(unknowns, knowns)?;
-        let mut change = [0.0; REFERENCE_COUNT];
+        let mut change = [0.0; VALUE_COUNT];
         for (&known, &seed) in knowns.iter().zip(seed) {
             let (index, _) = self.known(known)?;
             self.check_seed(index, seed)?;
             // a known that is listed twice counts twice
             change[index] += seed;
         }
-        self.differentiate(unknowns, &mut change)?;
+        self.differentiate(&self.present(), unknowns, &mut change)?;
         for (&unknown, sensitivity) in unknowns.iter().zip(sensitivity) {
             let (index, _) = self.known(unknown)?;
             sensitivity.write(self.finite(index, change[index])?);
@@ -44,12 +44,13 @@ impl Instance {
             let (index, _) = self.known(unknown)?;
             self.check_seed(index, seed)?;
         }
+        let values = self.present();
         for (&known, sensitivity) in knowns.iter().zip(sensitivity) {
             let (known, _) = self.known(known)?;
             // one column of the Jacobian
-            let mut column: Values = [0.0; REFERENCE_COUNT];
+            let mut column: Values = [0.0; VALUE_COUNT];
             column[known] = 1.0;
-            self.differentiate(unknowns, &mut column)?;
+            self.differentiate(&values, unknowns, &mut column)?;
             let mut sum = 0.0;
             for (&unknown, &seed) in unknowns.iter().zip(seed) {
                 let (unknown, _) = self.known(unknown)?;
@@ -60,13 +61,26 @@ impl Instance {
         Ok(())
     }
 
-    /// Turns a direction into the change of all that is calculated; of calculated parameters only where they are asked for.
-    fn differentiate(&self, unknowns: &[u32], change: &mut Values) -> Result<(), Refusal> {
-        self.model.differentiate_outputs(&self.values, change);
+    /// The present point, with the rate of the preload.
+    fn present(&self) -> Values {
+        let mut values = self.values;
+        values[memory::PRELOAD_RATE] = self.preload_rate();
+        values
+    }
+
+    /// Turns a direction from the point `values` into the change of all that is calculated; of calculated parameters only
+    /// where they are asked for.
+    fn differentiate(
+        &self,
+        values: &Values,
+        unknowns: &[u32],
+        change: &mut Values,
+    ) -> Result<(), Refusal> {
+        self.model.differentiate_outputs(values, change);
         for &unknown in unknowns {
             let (_, roles) = self.known(unknown)?;
             if roles.intersects(CALCULATED_PARAMETERS) {
-                self.model.differentiate_parameters(&self.values, change);
+                self.model.differentiate_parameters(values, change);
                 break;
             }
         }

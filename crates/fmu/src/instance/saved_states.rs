@@ -6,15 +6,20 @@ use super::{
     Instance,
     variables::{CALCULATED, CALCULATED_PARAMETERS},
 };
-use crate::{fmu_state::Snapshot, refusal::Refusal};
+use crate::{fmu_state::Snapshot, interface::memory, refusal::Refusal};
 
 impl Instance {
     /// Everything that this instance has to remember.
     pub(crate) fn snapshot(&self) -> Snapshot {
         // what is calculated is no part of the state: it follows from the rest, and may not even be finite
         let values = std::array::from_fn(|index| {
-            let roles = self.roles[index];
-            if roles.intersects(CALCULATED) || roles.intersects(CALCULATED_PARAMETERS) {
+            let is_calculated = match self.roles.get(index) {
+                Some(&roles) => {
+                    roles.intersects(CALCULATED) || roles.intersects(CALCULATED_PARAMETERS)
+                }
+                None => index == memory::PRELOAD_RATE,
+            };
+            if is_calculated {
                 0.0
             } else {
                 self.values[index]

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use super::Instance;
 use crate::{
     input_course::ORDER_MAX,
-    interface::{InterfaceType, REFERENCE_COUNT, Role, Roles, Values},
+    interface::{InterfaceType, Role, Roles, VALUE_COUNT, Values, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
 };
@@ -44,6 +44,8 @@ impl Instance {
             inputs.give(index, order, value);
         }
         self.inputs = inputs;
+        // the power of the changing preload follows from its rate
+        self.outputs_stale = true;
         Ok(())
     }
 
@@ -83,12 +85,15 @@ impl Instance {
     /// Derivatives of inputs, states and outputs with respect to time.
     fn rates(&self) -> Values {
         let mut values = self.values;
+        values[memory::PRELOAD_RATE] = self.preload_rate();
         if self.outputs_stale {
             self.model.calculate_outputs(&mut values);
         }
         // ẏ = ∂y/∂x ẋ + ∂y/∂u u̇
-        let mut rates = [0.0; REFERENCE_COUNT];
+        let mut rates = [0.0; VALUE_COUNT];
         self.model.rates(&values, &self.inputs, &mut rates);
+        rates[PRELOAD] = self.preload_rate();
+        rates[memory::PRELOAD_RATE] = self.inputs.acceleration(PRELOAD);
         self.model.differentiate_outputs(&values, &mut rates);
         rates
     }

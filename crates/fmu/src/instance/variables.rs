@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    interface::{Role, Roles},
+    interface::{Role, Roles, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
 };
@@ -18,7 +18,7 @@ pub(super) const CALCULATED_PARAMETERS: Roles = Roles::of(&[Role::CalculatedPara
 /// Roles whose values are always there.
 const AT_HAND: Roles = Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
 
-/// What may be set in every Step Mode.
+/// What may be set in every Step Mode, to every number.
 const INPUTS: Roles = Roles::of(&[Role::Input]);
 
 /// Parameters, after a change of which the model has to be prepared again.
@@ -84,6 +84,9 @@ impl Instance {
                     value,
                 });
             }
+            if roles.intersects(Roles::LIMITED) {
+                self.model.check_input(index, value)?;
+            }
         }
         if self.mode == Mode::IntermediateUpdate {
             self.check_settable(references)?;
@@ -111,7 +114,7 @@ impl Instance {
         }
         for (&reference, value) in references.iter().zip(values) {
             let roles = self.roles.get(reference as usize);
-            if !(roles.is_some_and(|roles| roles.intersects(INPUTS)) && value.is_finite()) {
+            if !(roles.is_some_and(|roles| roles.is(INPUTS)) && value.is_finite()) {
                 return false;
             }
         }
@@ -157,9 +160,22 @@ impl Instance {
     #[inline]
     pub(super) fn calculate_outputs(&mut self) {
         if self.outputs_stale {
+            if matches!(self.mode, Mode::Instantiated | Mode::Initialization) {
+                self.model.begin(&mut self.values);
+            }
+            self.values[memory::PRELOAD_RATE] = self.preload_rate();
             self.model.calculate_outputs(&mut self.values);
             self.outputs_stale = false;
         }
+    }
+
+    /// Rate of the preload (N·m/s), as far as the importer has told it; zero where the preload is held.
+    #[inline]
+    pub(super) fn preload_rate(&self) -> f64 {
+        if self.inputs.is_none() {
+            return 0.0;
+        }
+        self.inputs.rate(PRELOAD).unwrap_or(0.0)
     }
 
     /// A calculated variable that is not finite.

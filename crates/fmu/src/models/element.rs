@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::Motion;
+use bolted_joint_dynamics::{JointLaw, Motion};
 
 use crate::{
     input_course::InputCourse,
@@ -103,49 +103,74 @@ impl<const D: usize> Model for Element<D> {
         set_escape_amplitude(change, &law.escape_amplitude_tangent(&law_change));
     }
 
-    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
-        for side in [A, B] {
-            let Motion { velocity, .. } = side.motion::<D>(values);
-            let [displacements, velocities] = side.motion_references::<D>();
-            // the velocity that is put in is the displacement's derivative, unless another one was given
-            side.set_motion(
-                rates,
-                &Motion {
-                    displacement: std::array::from_fn(|dof| {
-                        inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
-                    }),
-                    velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
-                },
-            );
-        }
+    fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
+        rates::<D>(values, inputs, change);
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
         let law = joint_law::<D>(values);
-        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
-        let on_b = law.load_on_b(&relative);
-        // 0 − F is −F but for F = 0, which stays without a sign
-        A.set_load(values, &on_b.map(|load| 0.0 - load));
-        B.set_load(values, &on_b);
-        set_joint_load(values, &on_b);
-        values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+        set_outputs(values, &law);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let [law, law_change] = [values, &*change].map(joint_law::<D>);
-        let [relative, relative_change] =
-            [values, &*change].map(|values| A.motion::<D>(values).relative_to(&B.motion(values)));
-        let on_b = law.load_on_b_tangent(&law_change, &relative, &relative_change);
-        A.set_load(change, &on_b.map(|load| -load));
-        B.set_load(change, &on_b);
-        set_joint_load(change, &on_b);
-        change[vr::ENERGY_STORED] = law.stored_energy_tangent(
-            &law_change,
-            &relative.displacement,
-            &relative_change.displacement,
-        );
-        change[vr::POWER_DISSIPATED] =
-            law.dissipated_power_tangent(&law_change, &relative, &relative_change);
+        differentiate([&law, &law_change], values, change);
     }
+}
+
+/// Derivatives of the motions with respect to time.
+pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates: &mut Values) {
+    for side in [A, B] {
+        let Motion { velocity, .. } = side.motion::<D>(values);
+        let [displacements, velocities] = side.motion_references::<D>();
+        // the velocity that is put in is the displacement's derivative, unless another one was given
+        side.set_motion(
+            rates,
+            &Motion {
+                displacement: std::array::from_fn(|dof| {
+                    inputs.rate(displacements[dof]).unwrap_or(velocity[dof])
+                }),
+                velocity: velocities.map(|input| inputs.rate(input).unwrap_or(0.0)),
+            },
+        );
+    }
+}
+
+/// Writes what is calculated from the law and the motions.
+#[inline]
+pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
+    let relative = relative::<D>(values);
+    let on_b = law.load_on_b(&relative);
+    // 0 − F is −F but for F = 0, which stays without a sign
+    A.set_load(values, &on_b.map(|load| 0.0 - load));
+    B.set_load(values, &on_b);
+    set_joint_load(values, &on_b);
+    values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
+    values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+}
+
+/// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
+pub(super) fn differentiate<const D: usize>(
+    [law, law_change]: [&JointLaw<D>; 2],
+    values: &Values,
+    change: &mut Values,
+) {
+    let [relative, relative_change] = [values, &*change].map(relative::<D>);
+    let on_b = law.load_on_b_tangent(law_change, &relative, &relative_change);
+    A.set_load(change, &on_b.map(|load| -load));
+    B.set_load(change, &on_b);
+    set_joint_load(change, &on_b);
+    change[vr::ENERGY_STORED] = law.stored_energy_tangent(
+        law_change,
+        &relative.displacement,
+        &relative_change.displacement,
+    );
+    change[vr::POWER_DISSIPATED] =
+        law.dissipated_power_tangent(law_change, &relative, &relative_change);
+}
+
+/// Motion of side a as seen from side b.
+#[inline]
+pub(super) fn relative<const D: usize>(values: &Values) -> Motion<D> {
+    A.motion::<D>(values).relative_to(&B.motion(values))
 }

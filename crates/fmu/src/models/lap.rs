@@ -1,8 +1,8 @@
 //! The lap FMU: two supported bodies and the joint between them, loads in, motion out, integrated by RK4.
 
-mod faults;
-mod loads;
-mod prepared;
+pub(super) mod faults;
+pub(super) mod loads;
+pub(super) mod prepared;
 
 pub(crate) use prepared::SUBSTEPS_MAX;
 
@@ -137,57 +137,76 @@ impl<const D: usize> Model for LapModel<D> {
         set_escape_amplitude(change, &lap.escape_amplitude_tangent(&lap_change));
     }
 
-    fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
-        for side in [A, B] {
-            // ẋ = v, v̇ as calculated from the equations of motion
-            let Motion { velocity, .. } = side.motion::<D>(values);
-            side.set_motion(
-                rates,
-                &Motion {
-                    displacement: velocity,
-                    velocity: side.acceleration(values),
-                },
-            );
-            let of_loads = side.load_references::<D>();
-            side.set_load(
-                rates,
-                &of_loads.map(|load| inputs.rate(load).unwrap_or(0.0)),
-            );
-        }
+    fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
+        rates::<D>(values, inputs, change);
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
         let lap = lap::<D>(values);
         let state = state::<D>(values);
-        let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
-        set_joint_load(values, &on_b);
-        values[vr::ENERGY_STORED] = lap.stored_energy(&state);
-        values[vr::POWER_DISSIPATED] = lap.dissipated_power(&state);
-        let [of_a, of_b] = lap.accelerations(&state, &loads(values));
-        A.set_acceleration(values, &of_a);
-        B.set_acceleration(values, &of_b);
+        set_outputs(values, &lap, &state);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let [lap, lap_change] = [values, &*change].map(lap::<D>);
-        let [state, state_change] = [values, &*change].map(state::<D>);
-        let [relative, relative_change] =
-            [&state, &state_change].map(|state| state.a.relative_to(&state.b));
-        let on_b = lap
-            .joint
-            .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
-        set_joint_load(change, &on_b);
-        change[vr::ENERGY_STORED] = lap.stored_energy_tangent(&lap_change, &state, &state_change);
-        change[vr::POWER_DISSIPATED] =
-            lap.dissipated_power_tangent(&lap_change, &state, &state_change);
-        let [of_a, of_b] = lap.accelerations_tangent(
-            &lap_change,
-            [&state, &state_change],
-            [&loads(values), &loads(change)],
-        );
-        A.set_acceleration(change, &of_a);
-        B.set_acceleration(change, &of_b);
+        differentiate([&lap, &lap_change], values, change);
     }
+}
+
+/// Derivatives of states and loads with respect to time, of which the accelerations are among `values`.
+pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates: &mut Values) {
+    for side in [A, B] {
+        // ẋ = v, v̇ as calculated from the equations of motion
+        let Motion { velocity, .. } = side.motion::<D>(values);
+        side.set_motion(
+            rates,
+            &Motion {
+                displacement: velocity,
+                velocity: side.acceleration(values),
+            },
+        );
+        let of_loads = side.load_references::<D>();
+        side.set_load(
+            rates,
+            &of_loads.map(|load| inputs.rate(load).unwrap_or(0.0)),
+        );
+    }
+}
+
+/// Writes what is calculated from the bodies, the joint and their state.
+#[inline]
+pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
+    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
+    set_joint_load(values, &on_b);
+    values[vr::ENERGY_STORED] = lap.stored_energy(state);
+    values[vr::POWER_DISSIPATED] = lap.dissipated_power(state);
+    let [of_a, of_b] = lap.accelerations(state, &loads(values));
+    A.set_acceleration(values, &of_a);
+    B.set_acceleration(values, &of_b);
+}
+
+/// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
+pub(super) fn differentiate<const D: usize>(
+    [lap, lap_change]: [&Lap<D>; 2],
+    values: &Values,
+    change: &mut Values,
+) {
+    let [state, state_change] = [values, &*change].map(state::<D>);
+    let [relative, relative_change] =
+        [&state, &state_change].map(|state| state.a.relative_to(&state.b));
+    let on_b = lap
+        .joint
+        .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
+    set_joint_load(change, &on_b);
+    change[vr::ENERGY_STORED] = lap.stored_energy_tangent(lap_change, &state, &state_change);
+    change[vr::POWER_DISSIPATED] = lap.dissipated_power_tangent(lap_change, &state, &state_change);
+    let [of_a, of_b] = lap.accelerations_tangent(
+        lap_change,
+        [&state, &state_change],
+        [&loads(values), &loads(change)],
+    );
+    A.set_acceleration(change, &of_a);
+    B.set_acceleration(change, &of_b);
 }
 
 fn lap<const D: usize>(values: &Values) -> Lap<D> {
@@ -199,7 +218,7 @@ fn lap<const D: usize>(values: &Values) -> Lap<D> {
 }
 
 #[inline]
-fn state<const D: usize>(values: &Values) -> LapState<D> {
+pub(super) fn state<const D: usize>(values: &Values) -> LapState<D> {
     LapState {
         a: A.motion(values),
         b: B.motion(values),
@@ -207,7 +226,7 @@ fn state<const D: usize>(values: &Values) -> LapState<D> {
 }
 
 #[inline]
-fn loads<const D: usize>(values: &Values) -> LapLoads<D> {
+pub(super) fn loads<const D: usize>(values: &Values) -> LapLoads<D> {
     LapLoads {
         a: A.load(values),
         b: B.load(values),

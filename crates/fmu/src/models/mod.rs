@@ -2,16 +2,20 @@
 
 mod element;
 mod lap;
+mod loosening;
 mod sides;
 mod watch;
 
 pub(crate) use lap::SUBSTEPS_MAX;
+
+use loosening::{LooseningElement, LooseningLap};
 
 use std::num::NonZeroU32;
 
 use crate::{
     input_course::InputCourse,
     interface::{Dofs, InterfaceType, Kind, Values, Variables},
+    preload_table::PreloadTable,
     refusal::{Active, Reached, Refusal},
 };
 
@@ -27,6 +31,14 @@ pub(crate) trait Model: Send {
         values: &Values,
         interface_type: InterfaceType,
     ) -> Result<Option<Active>, Refusal>;
+
+    /// Begins to keep account of the energy at the present point, where initialisation ends.
+    fn begin(&self, _: &mut Values) {}
+
+    /// Whether an input that is limited can have this value.
+    fn check_input(&self, _: usize, _: f64) -> Result<(), Refusal> {
+        Ok(())
+    }
 
     /// Whether the states in `values` are such that the simulation can go on, and whether they have reached what the user
     /// should know of.
@@ -87,12 +99,18 @@ pub(crate) const MODEL_SIZE_MAX: usize = 2048;
 
 const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
 
-/// The model of an FMU.
-pub(crate) fn model(variables: Variables) -> Box<dyn Model> {
-    match (variables.kind, variables.dofs) {
-        (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
-        (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),
-        (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
-        (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+/// The model of an FMU, with the table that it has if its joint is one over the preload.
+pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
+    match (variables.kind, table) {
+        (Kind::Element, Some(PreloadTable::One(table))) => Box::new(LooseningElement::new(table)),
+        (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(table)),
+        (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
+        (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
+        (kind, None) => match (kind, variables.dofs) {
+            (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
+            (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),
+            (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
+            (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+        },
     }
 }

@@ -2,7 +2,7 @@
 
 use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
 
-use crate::interface::{Dofs, Kind, Values, Variable, Variables, reference as vr};
+use crate::interface::{Dependence, Dofs, Kind, Values, Variable, Variables, reference as vr};
 
 /// Value references of one side, translation first, then rotation.
 pub(super) struct Side {
@@ -158,6 +158,7 @@ fn variable(reference: usize) -> Option<&'static Variable> {
     Variables {
         kind: Kind::Lap,
         dofs: Dofs::Two,
+        dependence: Dependence::Constant,
     }
     .get(reference)
 }

@@ -75,6 +75,22 @@ impl fmt::Display for Refusal {
                 f,
                 "variable {name} overflows at t = {time_s} s: its inputs and parameters give no finite number in {unit}"
             ),
+            Self::Preload {
+                found_n_m,
+                first_n_m,
+                last_n_m,
+                time_s,
+            } => {
+                write!(f, "preload is {found_n_m} N.m")?;
+                if let Some(time_s) = time_s {
+                    write!(f, " at t = {time_s} s")?;
+                }
+                write!(
+                    f,
+                    ", expected {first_n_m} to {last_n_m} N.m: the table of the joint says nothing beyond; export the FMU with \
+                     --extrapolate to hold its ends"
+                )
+            }
             Self::NoOutputDerivative { name, role } => write!(
                 f,
                 "variable {name} is {role} and no output; ask for the derivative of an output"

@@ -210,12 +210,12 @@ fn every_damaged_byte_is_noticed() {
     assert_eq!(instance.deserialize(&longer), Err(c::ERROR));
     instance.error();
     let mut newer = bytes.clone();
-    newer[8] = 4;
+    newer[8] = 5;
     assert_eq!(instance.deserialize(&newer), Err(c::ERROR));
     assert!(
         instance
             .error()
-            .contains("it has layout 4, this library reads layout 3")
+            .contains("it has layout 5, this library reads layout 4")
     );
     assert_eq!(
         instance.deserialize(b"something else altogether, and long enough"),
@@ -235,7 +235,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let bytes = instance.serialize(saved);
     instance.free_state(saved);
     // before the checksum there are the derivatives of 13 inputs, before them the values; step_size_max comes before
-    // fourteen others
+    // 24 others
     let forge = |position: usize, content: &[u8]| {
         let mut forged = bytes.clone();
         forged[position..position + content.len()].copy_from_slice(content);
@@ -249,7 +249,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         forged
     };
     let inputs = bytes.len() - 8 - (3 + 8 * 3 * 13);
-    let step_size_max = inputs - 8 * 15;
+    let step_size_max = inputs - 8 * 25;
     assert!(
         instance
             .deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()))
@@ -265,7 +265,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
             .error()
             .contains("its value of step_size_max is impossible")
     );
-    let mode = 8 + 4 + 4 + TOKEN.len() + 4;
+    let mode = 8 + 4 + 4 + TOKEN.len() + 5;
     assert_eq!(instance.deserialize(&forge(mode, &[9])), Err(c::ERROR));
     assert!(instance.error().contains("its mode is impossible"));
     let steps_in_a_row = mode + 1 + 1 + 8 + 8;

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Whether the parameters give equations of motion.
-pub(super) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Result<(), Refusal> {
+pub(in crate::models) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Result<(), Refusal> {
     match lap.defect() {
         Some(Defect::Inertia { on_a, dof, value }) => {
             let side = if on_a { A } else { B };
@@ -31,7 +31,7 @@ pub(super) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Result<(), Refus
 }
 
 /// Whether Runge–Kutta steps of this length follow the lap.
-pub(super) fn check_step<const D: usize>(
+pub(in crate::models) fn check_step<const D: usize>(
     lap: &Lap<D>,
     step_size_max_s: f64,
 ) -> Result<(), Refusal> {
@@ -80,35 +80,44 @@ impl<const D: usize> Prepared<D> {
 
     /// What is wrong with this state.
     pub(super) fn fault(&self, state: &LapState<D>, time_s: f64) -> Refusal {
-        for (side, motion) in [(A, &state.a), (B, &state.b)] {
-            let numbers = motion.displacement.iter().chain(&motion.velocity);
-            let references = side.motion_references::<D>();
-            for (&reference, number) in references.iter().flatten().zip(numbers) {
-                if !number.is_finite() {
-                    return Refusal::StateNotFinite {
-                        name: name(reference),
-                        time_s,
-                    };
-                }
-            }
-        }
-        let relative = state.a.relative_to(&state.b);
-        for dof in 0..D {
-            if relative.displacement[dof].abs() > self.amplitude[dof] {
-                return Refusal::Escape {
-                    a: name(A.displacement[dof]),
-                    b: name(B.displacement[dof]),
-                    unit: unit(A.displacement[dof]),
-                    relative: relative.displacement[dof],
-                    amplitude: self.amplitude[dof],
+        fault(state, &self.amplitude, time_s)
+    }
+}
+
+/// What is wrong with this state of a joint that holds up to this relative displacement.
+pub(in crate::models) fn fault<const D: usize>(
+    state: &LapState<D>,
+    amplitude: &[f64; D],
+    time_s: f64,
+) -> Refusal {
+    for (side, motion) in [(A, &state.a), (B, &state.b)] {
+        let numbers = motion.displacement.iter().chain(&motion.velocity);
+        let references = side.motion_references::<D>();
+        for (&reference, number) in references.iter().flatten().zip(numbers) {
+            if !number.is_finite() {
+                return Refusal::StateNotFinite {
+                    name: name(reference),
                     time_s,
                 };
             }
         }
-        // only a sum overflowed, or rounding hid the fault from the single steps
-        Refusal::StateNotFinite {
-            name: name(A.displacement[0]),
-            time_s,
+    }
+    let relative = state.a.relative_to(&state.b);
+    for dof in 0..D {
+        if relative.displacement[dof].abs() > amplitude[dof] {
+            return Refusal::Escape {
+                a: name(A.displacement[dof]),
+                b: name(B.displacement[dof]),
+                unit: unit(A.displacement[dof]),
+                relative: relative.displacement[dof],
+                amplitude: amplitude[dof],
+                time_s,
+            };
         }
+    }
+    // only a sum overflowed, or rounding hid the fault from the single steps
+    Refusal::StateNotFinite {
+        name: name(A.displacement[0]),
+        time_s,
     }
 }

@@ -8,16 +8,16 @@ use crate::{
 };
 
 /// The loads over a step.
-pub(super) struct Loads<'a, const D: usize> {
+pub(in crate::models) struct Loads<'a, const D: usize> {
     /// At its beginning.
-    pub(super) start: LapLoads<D>,
+    pub(in crate::models) start: LapLoads<D>,
     /// How they go on.
-    pub(super) course: &'a InputCourse,
+    pub(in crate::models) course: &'a InputCourse,
 }
 
 impl<const D: usize> Loads<'_, D> {
     /// Loads `after_s` (s) from the beginning.
-    fn after(&self, after_s: f64) -> LapLoads<D> {
+    pub(in crate::models) fn after(&self, after_s: f64) -> LapLoads<D> {
         let of_side = |side: Side, start: &[f64; D]| {
             let inputs = side.load_references::<D>();
             std::array::from_fn(|dof| self.course.value(inputs[dof], start[dof], after_s))

@@ -225,7 +225,7 @@ impl<const D: usize> Prepared<D> {
 
 /// Whether the state is finite and its relative displacements are within the limits.
 #[inline]
-fn is_within<const D: usize>(limits: &[f64; D], state: &LapState<D>) -> bool {
+pub(in crate::models) fn is_within<const D: usize>(limits: &[f64; D], state: &LapState<D>) -> bool {
     let relative = state.a.relative_to(&state.b);
     let mut sum = 0.0;
     let mut holds = true;
@@ -252,7 +252,10 @@ fn stepped<const D: usize>(
 
 /// Number of Runge–Kutta steps in a communication step.
 #[cold]
-fn count(interval_s: f64, step_size_max_s: f64) -> Result<NonZeroU32, Refusal> {
+pub(in crate::models) fn count(
+    interval_s: f64,
+    step_size_max_s: f64,
+) -> Result<NonZeroU32, Refusal> {
     // n = ⌈H/h_max⌉
     substeps(interval_s, step_size_max_s)
         .filter(|count| count.get() <= SUBSTEPS_MAX)

@@ -1,0 +1,147 @@
+//! The element FMU of a joint over the preload.
+
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::{JointLaw, JointOverPreload};
+
+use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
+use crate::{
+    input_course::InputCourse,
+    interface::{InterfaceType, Values, reference as vr},
+    models::{
+        CommunicationStep, Model,
+        element::{differentiate, rates, relative, set_outputs},
+        sides::{is_active, set_escape_amplitude},
+        watch::{Watch, finite},
+    },
+    refusal::{Active, Reached, Refusal},
+};
+
+/// The joint alone, with `D` degrees of freedom.
+#[derive(Clone, Debug)]
+pub(in crate::models) struct LooseningElement<const D: usize> {
+    table: JointOverPreload<D>,
+    watch: Watch<D>,
+    /// Preload (N·m) whose limits the watch has; `None` before it has any.
+    watched_n_m: Option<f64>,
+}
+
+impl<const D: usize> LooseningElement<D> {
+    pub(in crate::models) fn new(table: JointOverPreload<D>) -> Self {
+        Self {
+            table,
+            watch: Watch::default(),
+            watched_n_m: None,
+        }
+    }
+
+    fn law(&self, values: &Values) -> JointLaw<D> {
+        self.table.law(values[vr::PRELOAD])
+    }
+
+    /// What there is to tell of the inputs at `time_s` (s).
+    fn look(&mut self, values: &Values, time_s: f64) -> Option<Reached> {
+        let preload_n_m = values[vr::PRELOAD];
+        if self.watched_n_m != Some(preload_n_m) {
+            let law = self.law(values);
+            self.watch.set(&law, finite(law.escape_amplitude()));
+            self.watched_n_m = Some(preload_n_m);
+        }
+        let displacement = relative::<D>(values).displacement;
+        let quiet = self.watch.quiet();
+        if (0..D).all(|dof| displacement[dof].abs() <= quiet[dof]) {
+            return None;
+        }
+        self.watch.look(&displacement, time_s)
+    }
+}
+
+impl<const D: usize> Model for LooseningElement<D> {
+    fn prepare(&mut self, _: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
+        let [mut joint_stiffness, mut joint_damping] = [false; 2];
+        for preload_n_m in self.table.samples_n_m(CHECKED_BETWEEN) {
+            let [stiffness, damping] = is_active(&self.table.law(preload_n_m));
+            joint_stiffness |= stiffness;
+            joint_damping |= damping;
+        }
+        Ok(Active {
+            joint_stiffness,
+            joint_damping,
+            supports: false,
+        }
+        .warning())
+    }
+
+    fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
+        if input == vr::PRELOAD {
+            check_preload(&self.table, value, None)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+        Ok(self.look(values, values[vr::TIME]))
+    }
+
+    fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
+        Ok(NonZeroU32::MIN)
+    }
+
+    fn advance(
+        &mut self,
+        values: &mut Values,
+        step: CommunicationStep,
+        inputs: &InputCourse,
+    ) -> Result<Option<Reached>, Refusal> {
+        if !inputs.is_held() {
+            let end_n_m = inputs.value(vr::PRELOAD, values[vr::PRELOAD], step.interval_s);
+            check_preload(&self.table, end_n_m, Some(step.time_s + step.interval_s))?;
+        }
+        Ok(self.look(values, step.time_s))
+    }
+
+    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
+        false
+    }
+
+    fn reset(&mut self) {
+        self.watch.forget();
+    }
+
+    fn calculate_parameters(&self, values: &mut Values) {
+        let samples = self.table.samples_n_m(CHECKED_BETWEEN);
+        let amplitude = samples.fold([f64::MAX; D], |least, preload_n_m| {
+            smaller(
+                least,
+                finite(self.table.law(preload_n_m).escape_amplitude()),
+            )
+        });
+        set_escape_amplitude(values, &amplitude);
+    }
+
+    fn differentiate_parameters(&self, _: &Values, change: &mut Values) {
+        // the table is what it is
+        set_escape_amplitude(change, &[0.0; D]);
+    }
+
+    fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
+        rates::<D>(values, inputs, change);
+    }
+
+    fn calculate_outputs(&self, values: &mut Values) {
+        let law = self.law(values);
+        set_outputs(values, &law);
+        let r = relative::<D>(values).displacement;
+        values[vr::POWER_PRELOAD] = preload_power(&self.table, values, &r);
+    }
+
+    fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
+        let slope = self.table.slope(values[vr::PRELOAD]);
+        let law_change = slope.times(change[vr::PRELOAD]);
+        differentiate([&self.law(values), &law_change], values, change);
+        let [r, r_change] = [values, &*change].map(|values| relative::<D>(values).displacement);
+        change[vr::POWER_PRELOAD] =
+            preload_power_change(&self.table, [values, &*change], [&r, &r_change]);
+    }
+}

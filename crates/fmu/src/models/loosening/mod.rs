@@ -1,0 +1,70 @@
+//! Joints over the preload: their law follows the input `preload`.
+
+mod element;
+mod lap;
+
+pub(super) use element::LooseningElement;
+pub(super) use lap::LooseningLap;
+
+use bolted_joint_dynamics::JointOverPreload;
+
+use crate::{
+    interface::{Values, memory, reference as vr},
+    refusal::Refusal,
+};
+
+/// Preloads in each gap of the table at which what could go wrong is looked for, beside those of the table.
+const CHECKED_BETWEEN: u32 = 3;
+
+/// How far beyond its table, as a part of its range, a course of the preload may come by rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Refuses a preload (N·m) at which there is no joint; `time_s` (s) where the simulation has come to it by itself.
+fn check_preload<const D: usize>(
+    table: &JointOverPreload<D>,
+    found_n_m: f64,
+    time_s: Option<f64>,
+) -> Result<(), Refusal> {
+    let [first_n_m, last_n_m] = table.range_n_m();
+    // a course that ends where the table does may pass it by rounding
+    let rounding_n_m = time_s.map_or(0.0, |_| ROUNDING * (last_n_m - first_n_m));
+    let is_rounding = (first_n_m - rounding_n_m..=last_n_m + rounding_n_m).contains(&found_n_m);
+    if table.covers(found_n_m) || is_rounding {
+        return Ok(());
+    }
+    Err(Refusal::Preload {
+        found_n_m,
+        first_n_m,
+        last_n_m,
+        time_s,
+    })
+}
+
+/// Power (W) that the springs take up at the relative displacement r because their law changes at the present rate.
+fn preload_power<const D: usize>(
+    table: &JointOverPreload<D>,
+    values: &Values,
+    r: &[f64; D],
+) -> f64 {
+    // ∂U/∂p ṗ
+    values[memory::PRELOAD_RATE] * table.slope(values[vr::PRELOAD]).stored_energy(r)
+}
+
+/// First-order change of [`preload_power`] along the direction `change`.
+fn preload_power_change<const D: usize>(
+    table: &JointOverPreload<D>,
+    [values, change]: [&Values; 2],
+    [r, r_change]: [&[f64; D]; 2],
+) -> f64 {
+    let preload_n_m = values[vr::PRELOAD];
+    let slope = table.slope(preload_n_m);
+    let slope_change = table.curvature(preload_n_m).times(change[vr::PRELOAD]);
+    // d(∂U/∂p ṗ) = ∂U/∂p dṗ + ṗ (∂²U/∂p² dp + ∂²U/∂p∂r dr)
+    change[memory::PRELOAD_RATE] * slope.stored_energy(r)
+        + values[memory::PRELOAD_RATE] * slope.stored_energy_tangent(&slope_change, r, r_change)
+}
+
+/// The smaller of two amplitudes in each DOF.
+fn smaller<const D: usize>(one: [f64; D], other: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|dof| one[dof].min(other[dof]))
+}

@@ -13,7 +13,7 @@ mod start_file;
 
 use std::{error::Error, time::Duration};
 
-use bolted_joint_dynamics::{Body, JointLaw, Lap};
+use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Lap};
 use criterion::Criterion;
 
 use crate::{
@@ -109,6 +109,7 @@ fn translational_lap() -> Lap<1> {
             stiffness: [[4.56e6]],
             damping: [[10.0]],
             cubic: [5e12],
+            higher: HigherTerms::NONE,
         },
         a: body,
         b: body,
@@ -127,6 +128,7 @@ fn rotational_lap() -> Lap<2> {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[10.83, -0.83], [-0.83, 0.083]],
             cubic: [5e12, 1e6],
+            higher: HigherTerms::NONE,
         },
         a: body,
         b: body,
@@ -137,6 +139,7 @@ fn rotational_lap() -> Lap<2> {
 fn without_cubic<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     let joint = JointLaw {
         cubic: [0.0; D],
+        higher: HigherTerms::NONE,
         ..lap.joint
     };
     Lap { joint, ..*lap }

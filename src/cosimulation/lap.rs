@@ -1,7 +1,7 @@
 //! The lap model under loads that an importer computes from its motion and holds over the step.
 
 use bolted_joint_dynamics::{
-    Body, JointLaw, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps,
+    Body, HigherTerms, JointLaw, Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps,
 };
 use nalgebra::DMatrix;
 
@@ -103,6 +103,7 @@ fn restrained<const D: usize>(lap: &Lap<D>, restraints: [&Restraint; 2]) -> Lap<
     Lap {
         joint: JointLaw {
             cubic: [0.0; D],
+            higher: HigherTerms::NONE,
             ..lap.joint
         },
         a: with(&lap.a, restraints[0]),

@@ -98,8 +98,8 @@ fn escape_squared(own: Spring, other: Spring, coupling: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::joint::JointLaw;
     use crate::lap::{Body, Lap};
+    use crate::{higher::HigherTerms, joint::JointLaw};
 
     #[test]
     fn the_symmetric_lap_escapes_where_the_theory_says() {
@@ -114,6 +114,7 @@ mod tests {
                 stiffness: [[k12]],
                 damping: [[0.54]],
                 cubic: [cubic],
+                higher: HigherTerms::NONE,
             },
             a: body,
             b: body,
@@ -134,6 +135,7 @@ mod tests {
             stiffness: [[1e6]],
             damping: [[0.0]],
             cubic: [1e9],
+            higher: HigherTerms::NONE,
         };
         let lap = Lap {
             joint,
@@ -154,6 +156,7 @@ mod tests {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[0.0; 2]; 2],
             cubic,
+            higher: HigherTerms::NONE,
         };
         Lap {
             joint,

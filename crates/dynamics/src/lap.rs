@@ -62,7 +62,7 @@ pub enum Defect {
         /// Value found, kg or kg·m².
         value: f64,
     },
-    /// A stiffness, damping or cubic coefficient is NaN or infinite.
+    /// A coefficient of a spring or damper is NaN or infinite.
     NotFinite,
 }
 
@@ -83,12 +83,17 @@ impl<const D: usize> Lap<D> {
             .iter()
             .chain(&self.joint.damping)
             .flatten();
+        let higher = &self.joint.higher;
         let bodies = [&self.a, &self.b];
         let supports = bodies
             .iter()
             .flat_map(|body| body.stiffness.iter().chain(&body.damping));
         let finite = coefficients
             .chain(&self.joint.cubic)
+            .chain(&higher.quintic)
+            .chain(&higher.septic)
+            .chain(&higher.damping_quadratic)
+            .chain(&higher.damping_quartic)
             .chain(supports)
             .all(|value| value.is_finite());
         (!finite).then_some(Defect::NotFinite)
@@ -111,7 +116,7 @@ impl<const D: usize> Lap<D> {
         let relative = state.a.relative_to(&state.b);
         body_dissipation(&self.a, &state.a)
             + body_dissipation(&self.b, &state.b)
-            + self.joint.dissipated_power(&relative.velocity)
+            + self.joint.dissipated_power(&relative)
     }
 }
 

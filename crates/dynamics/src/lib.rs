@@ -9,6 +9,7 @@ mod definiteness;
 mod eigenvalues;
 mod elementary;
 mod escape;
+mod higher;
 mod integrator;
 mod joint;
 mod lap;
@@ -20,6 +21,7 @@ mod tangent;
 mod vector;
 
 pub use definiteness::is_positive_semidefinite;
+pub use higher::HigherTerms;
 pub use integrator::LapIntegrator;
 pub use joint::{JointLaw, Motion};
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};

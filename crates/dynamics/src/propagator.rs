@@ -225,6 +225,7 @@ fn of_two<const D: usize>(columns: [&[LapState<D>; D]; 2], numbers: [&[f64; D]; 
 mod tests {
     use super::*;
     use crate::{
+        higher::HigherTerms,
         joint::JointLaw,
         lap::{Body, Lap},
     };
@@ -282,6 +283,7 @@ mod tests {
                 stiffness: matrix([1e6, 1e3]),
                 damping: matrix([10.0, 1e-2]),
                 cubic: [0.0; D],
+                higher: HigherTerms::NONE,
             };
             Lap {
                 joint,
@@ -373,6 +375,7 @@ mod tests {
                 stiffness: [[1e4]],
                 damping: [[1.0]],
                 cubic: [0.0],
+                higher: HigherTerms::NONE,
             },
             a: body,
             b: body,

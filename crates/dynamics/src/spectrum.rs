@@ -138,8 +138,8 @@ impl<const D: usize> Lap<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::joint::JointLaw;
     use crate::lap::Body;
+    use crate::{higher::HigherTerms, joint::JointLaw};
 
     fn pirdayr(k: f64, c: f64, m: f64, k12: f64, c12: f64) -> Lap<1> {
         let body = Body {
@@ -152,6 +152,7 @@ mod tests {
                 stiffness: [[k12]],
                 damping: [[c12]],
                 cubic: [0.0],
+                higher: HigherTerms::NONE,
             },
             a: body,
             b: body,

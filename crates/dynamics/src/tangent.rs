@@ -19,14 +19,25 @@ impl<const D: usize> JointLaw<D> {
         relative: &Motion<D>,
         relative_change: &Motion<D>,
     ) -> [f64; D] {
-        // dF = dK r + K dr + dC ṙ + C dṙ + dk3 ∘ r³ + 3 k3 ∘ r² ∘ dr
+        // dF = dK r + K dr + dC ṙ + C dṙ + dk3 ∘ r³ + 3 k3 ∘ r² ∘ dr, and the same of the terms of higher order
         let by_law = law_change.load_on_b(relative);
         let elastic = product(&self.stiffness, &relative_change.displacement);
         let viscous = product(&self.damping, &relative_change.velocity);
-        std::array::from_fn(|i| {
+        let change = std::array::from_fn(|i| {
             let r = relative.displacement[i];
             let cubic = 3.0 * self.cubic[i] * r * r * relative_change.displacement[i];
             by_law[i] + elastic[i] + viscous[i] + cubic
+        });
+        if self.higher.are_none() {
+            return change;
+        }
+        std::array::from_fn(|i| {
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            let spring = self.higher.tangent_stiffness(i, r, velocity);
+            let damper = self.higher.damping(i, r);
+            change[i]
+                + spring * relative_change.displacement[i]
+                + damper * relative_change.velocity[i]
         })
     }
 
@@ -38,23 +49,35 @@ impl<const D: usize> JointLaw<D> {
         r: &[f64; D],
         displacement_change: &[f64; D],
     ) -> f64 {
-        // dU = ½ rᵀdK r + ¼ Σ dk3ᵢ rᵢ⁴ + drᵀ(K r + k3 ∘ r³), K symmetric
-        let elastic = product(&self.stiffness, r);
-        let spring = std::array::from_fn(|i| elastic[i] + self.cubic[i] * r[i] * r[i] * r[i]);
-        law_change.stored_energy(r) + dot(displacement_change, &spring)
+        // dU = dU/dlaw + drᵀ(K r + k3 ∘ r³ + k5 ∘ r⁵ + k7 ∘ r⁷), K symmetric: the springs' load at rest
+        let at_rest = Motion {
+            displacement: *r,
+            velocity: [0.0; D],
+        };
+        law_change.stored_energy(r) + dot(displacement_change, &self.load_on_b(&at_rest))
     }
 
-    /// Change of [`JointLaw::dissipated_power`] with the law and the relative velocity.
+    /// Change of [`JointLaw::dissipated_power`] with the law and the relative motion.
     #[must_use]
     pub fn dissipated_power_tangent(
         &self,
         law_change: &Self,
-        velocity: &[f64; D],
-        velocity_change: &[f64; D],
+        relative: &Motion<D>,
+        relative_change: &Motion<D>,
     ) -> f64 {
         // dP = ṙᵀ dC ṙ + 2 dṙᵀC ṙ, C symmetric
-        law_change.dissipated_power(velocity)
-            + 2.0 * dot(velocity_change, &product(&self.damping, velocity))
+        let (velocity, velocity_change) = (&relative.velocity, &relative_change.velocity);
+        let change = law_change.dissipated_power(relative)
+            + 2.0 * dot(velocity_change, &product(&self.damping, velocity));
+        if self.higher.are_none() {
+            return change;
+        }
+        // and Σ c(r) 2 ṙ dṙ + c'(r) ṙ² dr with c(r) = c2 r² + c4 r⁴
+        (0..D).fold(change, |sum, i| {
+            let (r, v) = (relative.displacement[i], velocity[i]);
+            sum + 2.0 * self.higher.damping(i, r) * v * velocity_change[i]
+                + self.higher.tangent_damping(i, r) * v * v * relative_change.displacement[i]
+        })
     }
 }
 
@@ -112,11 +135,9 @@ impl<const D: usize> Lap<D> {
         by_bodies.dissipated_power(state)
             + of_body(&self.a, &state.a, &state_change.a)
             + of_body(&self.b, &state.b, &state_change.b)
-            + self.joint.dissipated_power_tangent(
-                &lap_change.joint,
-                &relative.velocity,
-                &relative_change.velocity,
-            )
+            + self
+                .joint
+                .dissipated_power_tangent(&lap_change.joint, &relative, &relative_change)
     }
 
     /// Accelerations of body a and of body b: m/s², rad/s².

@@ -213,7 +213,7 @@ mod tests {
                 let mut all = values;
                 all.extend([-on_b[0], -on_b[1], on_b[0], on_b[1], on_b[0], on_b[1]]);
                 all.push(factors[0] * law.stored_energy(&relative.displacement));
-                all.push(factors[1] * law.dissipated_power(&relative.velocity));
+                all.push(factors[1] * law.dissipated_power(&relative));
                 all
             })
             .collect()

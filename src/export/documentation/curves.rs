@@ -284,7 +284,7 @@ fn spread(from: f64, to: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bolted_joint_dynamics::Body;
+    use bolted_joint_dynamics::{Body, HigherTerms};
 
     #[test]
     fn the_impedance_is_that_of_two_oscillators() {
@@ -299,6 +299,7 @@ mod tests {
                 stiffness: [[4.56e6]],
                 damping: [[0.54]],
                 cubic: [0.0],
+                higher: HigherTerms::NONE,
             },
             a: body,
             b: body,

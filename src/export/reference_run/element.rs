@@ -66,7 +66,7 @@ pub(super) fn run<const D: usize>(
         let on_a = on_b.map(|load| -load);
         (middle, move |name: &str| match name {
             "energy.stored" => law.stored_energy(&relative.displacement),
-            "power.dissipated" => law.dissipated_power(&relative.velocity),
+            "power.dissipated" => law.dissipated_power(&relative),
             _ => [("a", &on_a), ("b", &on_b), ("joint", &on_b)]
                 .iter()
                 .find_map(|(side, load)| entry(name, side, [("F", "M", load), ("F", "M", load)]))

@@ -76,7 +76,7 @@ impl<const D: usize> Model for Element<D> {
         B.set_load(values, &on_b);
         set_joint_load(values, &on_b);
         values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative.velocity);
+        values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -92,10 +92,7 @@ impl<const D: usize> Model for Element<D> {
             &relative.displacement,
             &relative_change.displacement,
         );
-        change[vr::POWER_DISSIPATED] = law.dissipated_power_tangent(
-            &law_change,
-            &relative.velocity,
-            &relative_change.velocity,
-        );
+        change[vr::POWER_DISSIPATED] =
+            law.dissipated_power_tangent(&law_change, &relative, &relative_change);
     }
 }

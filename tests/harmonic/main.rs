@@ -1,0 +1,12 @@
+//! Harmonic balance against formulas, against shooting, against time integration, and against differences of its own results.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+mod derivatives;
+mod duffing;
+mod laps;

@@ -7,6 +7,8 @@
     reason = "helpers of tests fail as the tests do"
 )]
 
+mod curves;
 mod derivatives;
 mod duffing;
+mod in_time;
 mod laps;

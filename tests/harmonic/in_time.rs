@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bolted_joint::harmonic::{
-    CurveOptions, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Side, Solution,
+    CurveOptions, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Side, Solution, Steps,
 };
 use bolted_joint_dynamics::{Lap, LapIntegrator, LapState};
 use num_complex::Complex64;
@@ -143,12 +143,15 @@ fn rk4_ends_on_the_stable_branches_and_leaves_the_unstable_one() {
         let balance = HarmonicBalance::new(&lap, Harmonics::odd(21).unwrap()).unwrap();
         let loads = HarmonicLoads::opposed(force);
         let options = CurveOptions {
+            steps: Steps {
+                longest: 0.03,
+                ..Steps::default()
+            },
             with_stability: true,
-            ..CurveOptions::default()
         };
         let curve = balance.forced_curve([3.0, 12.0], &loads, &options).unwrap();
         let mut unstable = 0;
-        for point in curve.iter().step_by(3) {
+        for (n, point) in curve.iter().enumerate() {
             let omega = point.solution.omega_rad_s();
             let periodic = balance.state_at(&point.solution, 0.0);
             let mut state = periodic;
@@ -156,7 +159,7 @@ fn rk4_ends_on_the_stable_branches_and_leaves_the_unstable_one() {
             // 2π ζ for a period, ζ = 0.024: thirteen periods a decade
             let after = |periods| integrated(&lap, state, &loads, omega, [periods, 600], |_, _| {});
             let multiplier = point.stability.as_ref().unwrap().multipliers[0].norm();
-            if multiplier < 0.98 {
+            if multiplier < 0.98 && n % 12 == 0 {
                 let end = difference(&after(400), &periodic, omega);
                 assert!(end < 1e-6, "{omega} {multiplier}: {end}");
             } else if multiplier > 1.05 {
@@ -165,7 +168,7 @@ fn rk4_ends_on_the_stable_branches_and_leaves_the_unstable_one() {
                 assert!(end > 0.05, "{omega} {multiplier}: {end}");
             }
         }
-        assert!(unstable > 0, "no motion of the curve is unstable");
+        assert!(unstable > 0, "no motion of the curve is unstable enough");
     }
 }
 

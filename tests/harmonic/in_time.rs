@@ -149,7 +149,7 @@ fn rk4_ends_on_the_stable_branches_and_leaves_the_unstable_one() {
             },
             with_stability: true,
         };
-        let curve = balance.forced_curve([3.0, 12.0], &loads, &options).unwrap();
+        let curve = balance.forced_curve([3.0, 20.0], &loads, &options).unwrap();
         let mut unstable = 0;
         for (n, point) in curve.iter().enumerate() {
             let omega = point.solution.omega_rad_s();

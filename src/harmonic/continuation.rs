@@ -8,7 +8,7 @@
 use nalgebra::DVector;
 
 use super::system::{Closing, Scale, System};
-use super::{HarmonicError, Solution};
+use super::{HarmonicError, Observed, Side, Solution};
 
 /// How a curve is followed. Lengths are relative changes of the motion; a tenth of the frequency range counts as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,8 @@ const USUAL_ITERATIONS: f64 = 3.0;
 const MOST_ITERATIONS: usize = 8;
 /// Smallest cosine of the angle between the tangents of neighbouring points.
 const SMALLEST_COSINE: f64 = 0.95;
+/// Relative change of the bodies' common motion in one step, in longest steps.
+const CARRIED: f64 = 2.0;
 /// Part of a step within which a fold is located, and the most trials for that.
 const FOLD_WITHIN: f64 = 1e-10;
 const MOST_TRIALS: usize = 60;
@@ -99,6 +101,12 @@ impl<const D: usize> System<'_, D> {
                 }
                 continue;
             };
+            // A mode in which the joint does not move is not in the unknowns, but it is in what sensors on the bodies see.
+            let carried = self.carried(&place.unknowns, &next.unknowns) / (CARRIED * steps.longest);
+            if carried > 1.0 && length > steps.shortest {
+                length = (length * (0.8 / carried).max(0.1)).max(steps.shortest);
+                continue;
+            }
             let value = monitor(self, &next.unknowns);
             let omega = self.balance.size();
             // The tangent at the fold has no share along the frequency.
@@ -140,6 +148,7 @@ impl<const D: usize> System<'_, D> {
                 is_fold: false,
             });
             let faster = (USUAL_ITERATIONS / iterations as f64).clamp(0.5, 1.5);
+            let faster = faster.min((0.8 / carried).max(0.2));
             length = (length * faster).clamp(steps.shortest, steps.longest);
             place = next;
         }
@@ -147,6 +156,25 @@ impl<const D: usize> System<'_, D> {
             frequency_hz: self.frequency_hz(&place),
             points: points.len(),
         })
+    }
+
+    /// Largest relative change of the bodies' common motion, x_a + x_b at the fundamental, between two points.
+    fn carried(&self, from: &[f64], to: &[f64]) -> f64 {
+        let common = |unknowns: &[f64], dof: usize| {
+            let sides = [Side::A, Side::B].map(|side| Observed::Body(side, dof));
+            let [a, b] = sides.map(|observed| self.observe(observed, unknowns).value);
+            a + b
+        };
+        let change = |dof: usize| {
+            let (from, to) = (common(from, dof), common(to, dof));
+            let size = from.norm().max(to.norm());
+            if size > 0.0 {
+                (to - from).norm() / size
+            } else {
+                0.0
+            }
+        };
+        (0..D).map(change).fold(0.0, f64::max)
     }
 
     fn frequency_hz(&self, place: &Place) -> f64 {

@@ -72,7 +72,9 @@ impl ResponseFigure<'_> {
             let Some(frequency) = axis(panel.across.1, points().map(|point| point.0)) else {
                 continue;
             };
-            let value: Option<Axis> = axis(panel.up.1, points().map(|point| point.1));
+            let power = panel.power();
+            let factor = 10_f64.powi(-power);
+            let value: Option<Axis> = axis(panel.up.1, points().map(|point| factor * point.1));
             let entries = panel.entries(room);
             let lines = entries.last().map_or(0, |entry| entry.line + 1);
             let title = usize::from(!panel.title.is_empty());
@@ -88,7 +90,7 @@ impl ResponseFigure<'_> {
                 value,
             };
             top += PANEL_HEIGHT + LABELS_BELOW;
-            laid_out.push((panel, strip, entries, begin));
+            laid_out.push((panel, strip, entries, begin, power));
         }
         if laid_out.is_empty() {
             return None;
@@ -101,8 +103,8 @@ impl ResponseFigure<'_> {
             .empty();
         svg.element("g").word("font-family", FONTS).open();
         self.draw_title(room, &mut svg);
-        for (panel, strip, entries, begin) in &laid_out {
-            panel.draw(strip, entries, *begin, &mut svg);
+        for (panel, strip, entries, begin, power) in &laid_out {
+            panel.draw(strip, entries, *begin, *power, &mut svg);
         }
         Some(svg.finish())
     }
@@ -166,7 +168,28 @@ impl ResponsePanel {
         entries
     }
 
-    fn draw(&self, strip: &Strip, entries: &[Entry<'_>], begin: f64, svg: &mut Svg) {
+    /// Power of ten, a multiple of three, that is taken out of a linear ordinate so that its labels are short.
+    fn power(&self) -> i32 {
+        if self.up.1 == Scale::Logarithmic {
+            return 0;
+        }
+        let values = self.curves.iter().flat_map(|curve| &curve.points);
+        let largest = values
+            .map(|point| point.1.abs())
+            .filter(|value| value.is_finite())
+            .fold(0.0, f64::max);
+        if largest == 0.0 || (1e-2..1e4).contains(&largest) {
+            return 0;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the exponent of a double is a small number"
+        )]
+        let thousands = (largest.log10() / 3.0).floor() as i32;
+        3 * thousands
+    }
+
+    fn draw(&self, strip: &Strip, entries: &[Entry<'_>], begin: f64, power: i32, svg: &mut Svg) {
         let mut key = begin;
         if !self.title.is_empty() {
             svg.element("text")
@@ -196,14 +219,40 @@ impl ResponsePanel {
         for (n, drawn) in self.curves.iter().enumerate() {
             for (look, piece) in drawn.pieces(colour(n)) {
                 let mut path = PathData::default();
-                let points = piece.iter().map(|&point| strip.place(point));
+                let factor = 10_f64.powi(-power);
+                let points = piece.iter().map(|&(x, y)| strip.place((x, factor * y)));
                 curve::line_within(points, strip.height, 0.1, &mut path);
                 look.draw(&path, svg);
             }
         }
         strip.draw_frame(svg);
-        strip.draw_value_labels(&self.up.0, svg);
+        strip.draw_value_labels(&with_power(&self.up.0, power), svg);
         strip.draw_labels_below(&self.across.0, svg);
+    }
+}
+
+/// A quantity's name with the power of ten before its unit: `y, m` becomes `y, 10⁻⁶ m`.
+fn with_power(label: &str, power: i32) -> String {
+    if power == 0 {
+        return label.to_owned();
+    }
+    let raised: String = power
+        .to_string()
+        .chars()
+        .map(|character| match character {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => digit
+                .to_digit(10)
+                .and_then(|digit| char::from_u32(0x2070 + digit))
+                .unwrap_or(digit),
+        })
+        .collect();
+    match label.split_once(", ") {
+        Some((name, unit)) => format!("{name}, 10{raised} {unit}"),
+        None => format!("{label}, 10{raised}"),
     }
 }
 
@@ -270,6 +319,25 @@ mod tests {
         let svg = figure(points, is_dashed).expect("drawable");
         assert_eq!(svg.matches("stroke-dasharray").count(), 1);
         assert!(svg.contains(">M8 &amp; M10</text>") && svg.contains(">5 N</text>"));
+    }
+
+    #[test]
+    fn small_ordinates_are_shown_in_powers_of_ten() {
+        assert_eq!(with_power("b.y, m", -6), "b.y, 10⁻⁶ m");
+        assert_eq!(with_power("damping ratio", -12), "damping ratio, 10⁻¹²");
+        let panel = |largest: f64| ResponsePanel {
+            title: String::new(),
+            across: (String::new(), Scale::Linear),
+            up: (String::new(), Scale::Linear),
+            curves: vec![ResponseCurve {
+                name: String::new(),
+                points: vec![(0.0, -largest), (1.0, 0.0)],
+                is_dashed: Vec::new(),
+            }],
+        };
+        for (largest, power) in [(2.4e-4, -6), (7e-6, -6), (5.0, 0), (3e7, 6), (0.0, 0)] {
+            assert_eq!(panel(largest).power(), power);
+        }
     }
 
     #[test]

@@ -41,6 +41,8 @@ const MOST_ITERATIONS: usize = 8;
 const SMALLEST_COSINE: f64 = 0.95;
 /// Relative change of the bodies' common motion in one step, in longest steps.
 const CARRIED: f64 = 2.0;
+/// Common motion below this part of the relative one is of no account.
+const OF_RELATIVE: f64 = 1e-3;
 /// Part of a step within which a fold is located, and the most trials for that.
 const FOLD_WITHIN: f64 = 1e-10;
 const MOST_TRIALS: usize = 60;
@@ -165,9 +167,10 @@ impl<const D: usize> System<'_, D> {
             let [a, b] = sides.map(|observed| self.observe(observed, unknowns).value);
             a + b
         };
+        let relative = |dof: usize| self.observe(Observed::Relative(dof), to).value.norm();
         let change = |dof: usize| {
             let (from, to) = (common(from, dof), common(to, dof));
-            let size = from.norm().max(to.norm());
+            let size = from.norm().max(to.norm()).max(OF_RELATIVE * relative(dof));
             if size > 0.0 {
                 (to - from).norm() / size
             } else {

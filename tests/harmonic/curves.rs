@@ -299,3 +299,22 @@ fn constant_amplitude_passes_where_constant_force_folds() {
     assert!(least >= resonance.load_factor() * (1.0 - 1e-6));
     assert!(least < resonance.load_factor() * 1.05);
 }
+
+#[test]
+fn the_first_mode_of_like_bodies_is_followed_although_the_joint_does_not_move() {
+    let lap = pirdayr(1e12);
+    let balance = HarmonicBalance::new(&lap, Harmonics::odd(3).unwrap()).unwrap();
+    let loads = HarmonicLoads::on_b(1.0);
+    let curve = balance
+        .forced_curve([600.0, 750.0], &loads, &CurveOptions::default())
+        .unwrap();
+    let on_b = Observed::Body(bolted_joint::harmonic::Side::B, 0);
+    let found = curve
+        .iter()
+        .map(|point| balance.amplitude_of(&point.solution, on_b, 1).norm())
+        .fold(0.0, f64::max);
+    // x_a + x_b is linear and takes F, x_a − x_b is far below its resonance: at the peak x_b = F/(2 c ω) and little more.
+    let (k, c, m): (f64, f64, f64) = (10.56e5, 1.39, 2.35);
+    let expected = 1.0 / (2.0 * c * (k / m).sqrt());
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+}

@@ -12,6 +12,7 @@ mod output;
 mod progress;
 mod reproduce;
 mod respond;
+mod respond_lap;
 mod table;
 
 use std::path::PathBuf;
@@ -47,7 +48,7 @@ enum Command {
     /// Run the library of an FMU for `check`, in a process of its own
     #[command(name = check::RUN_LIBRARY, hide = true)]
     RunLibrary(RunLibraryArguments),
-    /// Compute what a test of a study's assembly would measure, with or without noise
+    /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
     /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
@@ -163,22 +164,21 @@ struct RunLibraryArguments {
 /// `respond`
 #[derive(Debug, Args)]
 struct RespondArguments {
-    /// The study that the test is for (TOML); the file of its assembly need not exist yet
+    /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, or of method `respond`, which names
+    /// laps and what is done to them
     study: PathBuf,
     /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
-    joint: PathBuf,
-    /// File to write: a table or a universal file
+    joint: Option<PathBuf>,
+    /// File to write: a table or, of an assembly, a universal file
     #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
     output: PathBuf,
-    /// Distance between the lines, Hz
-    #[arg(
-        long,
-        value_name = "HZ",
-        default_value_t = 0.25,
-        allow_hyphen_values = true
-    )]
-    step: f64,
+    /// Distance between the lines of an assembly, Hz [default: 0.25]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
+    step: Option<f64>,
+    /// Also draw the response of laps
+    #[arg(long, value_name = "NAME.svg|NAME.html")]
+    report: Option<PathBuf>,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,

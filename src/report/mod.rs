@@ -12,6 +12,7 @@ mod line_figure;
 mod look;
 mod page;
 mod resonance_labels;
+mod response_figure;
 mod strip;
 mod svg;
 mod text;
@@ -19,6 +20,7 @@ mod text;
 pub use frf_figure::{FrfFigure, FrfPanel};
 pub(crate) use line_figure::{Line, LineFigure, Scale};
 pub use page::IdentificationReport;
+pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,352 @@
+//! `respond` with studies of laps: the examples, what they must show, and what is refused.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/pirdayr");
+
+/// m, c, k, k12, c12 of Table 3.
+const TABLE_3: [(&str, [f64; 5]); 4] = [
+    ("Ex.01, 2 N·m", [1.41, 0.78, 8.24e5, 4.14e6, 0.34]),
+    ("Ex.02, 4 N·m", [1.89, 1.24, 8.82e5, 4.23e6, 0.38]),
+    ("Ex.03, 6 N·m", [2.35, 1.39, 10.56e5, 4.56e6, 0.54]),
+    ("Ex.04, 8 N·m", [2.38, 1.54, 11.86e5, 4.07e6, 0.69]),
+];
+
+fn respond(arguments: &[&Path]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bolted-joint"))
+        .arg("respond")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Rows by lap, each by the name of its column without the unit.
+type Table = Vec<(String, BTreeMap<String, f64>)>;
+
+fn table(text: &str) -> Table {
+    let mut lines = text.lines();
+    let names: Vec<String> = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|name| name.split(" [").next().unwrap().to_owned())
+        .collect();
+    lines
+        .map(|line| {
+            // names of laps may be quoted
+            let (lap, rest) = match line.strip_prefix('"') {
+                Some(rest) => rest.split_once("\",").unwrap(),
+                None => line.split_once(',').unwrap(),
+            };
+            let numbers = rest.split(',').map(|n| n.parse().unwrap_or(f64::NAN));
+            (
+                lap.to_owned(),
+                names[1..].iter().cloned().zip(numbers).collect(),
+            )
+        })
+        .collect()
+}
+
+fn example(name: &str) -> Table {
+    let folder = tempfile::tempdir().unwrap();
+    let (csv, svg) = (folder.path().join("out.csv"), folder.path().join("out.svg"));
+    let study = PathBuf::from(EXAMPLES).join(name);
+    let done = respond(&[&study, Path::new("-o"), &csv, Path::new("--report"), &svg]);
+    assert!(
+        done.status.success(),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    let drawing = fs::read_to_string(svg).unwrap();
+    assert!(drawing.starts_with("<svg") && drawing.trim_end().ends_with("</svg>"));
+    roxmltree::Document::parse(&drawing).unwrap();
+    table(&fs::read_to_string(csv).unwrap())
+}
+
+#[test]
+fn receptances_are_those_of_two_coupled_oscillators() {
+    let table = example("figures-7-to-9-frf.toml");
+    for (lap, row) in table.iter().step_by(97) {
+        let (_, [m, c, k, k12, c12]) = TABLE_3.iter().find(|(name, _)| name == lap).unwrap();
+        let omega = TAU * row["frequency"];
+        let one = num_complex::Complex64::new(k - omega * omega * m, omega * c);
+        let other = one + 2.0 * num_complex::Complex64::new(*k12, omega * c12);
+        // x_b = F/2 (1/z₁ + 1/z₂), acceleration −ω² x_b
+        let expected = -0.5 * omega * omega * (one.inv() + other.inv());
+        let found = num_complex::Complex64::new(row["b.y real"], row["b.y imaginary"]);
+        assert!(
+            (found - expected).norm() < 1e-9 * expected.norm(),
+            "{lap} {omega}"
+        );
+    }
+}
+
+#[test]
+fn figure_10_is_the_same_at_every_load_and_stable() {
+    let table = example("figure-10.toml");
+    for (lap, [m, c, k, ..]) in TABLE_3 {
+        for level in [1.0, 10.0, 100.0] {
+            let rows: Vec<_> = table
+                .iter()
+                .filter(|(name, row)| name == lap && row["level"] == level)
+                .collect();
+            let highest = rows
+                .iter()
+                .max_by(|(_, one), (_, other)| {
+                    one["b.y amplitude"].total_cmp(&other["b.y amplitude"])
+                })
+                .map(|(_, row)| row)
+                .unwrap();
+            assert!(
+                rows.iter()
+                    .all(|(_, row)| row["stable"] == 1.0 && row["fold"] == 0.0)
+            );
+            let omega = (k / m).sqrt();
+            assert!((TAU * highest["frequency"] / omega - 1.0).abs() < 1e-3);
+            let expected = level / (2.0 * c * omega);
+            assert!(
+                (highest["b.y amplitude"] / expected - 1.0).abs() < 0.02,
+                "{lap} {level}"
+            );
+        }
+    }
+}
+
+#[test]
+fn free_vibration_is_the_sum_of_its_two_decaying_modes() {
+    let table = example("figure-12.toml");
+    for (lap, row) in table.iter().step_by(31) {
+        let (_, [m, c, k, k12, c12]) = *TABLE_3.iter().find(|(name, _)| name == lap).unwrap();
+        let time = row["time"];
+        // ẋ_b(0) = v: half of it in each mode, x = v/2 Σ e^{−σt} sin ω_d t/ω_d
+        let mode = |k: f64, c: f64| {
+            let decay = c / (2.0 * m);
+            let omega = (k / m - decay * decay).sqrt();
+            0.05 * (-decay * time).exp() * (omega * time).sin() / omega
+        };
+        let expected = mode(k, c) + mode(k + 2.0 * k12, c + 2.0 * c12);
+        // The step of an FMU errs by 10⁻⁶ rad a period of the fastest mode, some 1600 of them in 4 s.
+        assert!((row["b.y"] - expected).abs() < 4e-7, "{lap} {time}");
+    }
+}
+
+#[test]
+fn a_softening_lap_stepped_down_jumps_where_its_curve_folds() {
+    let curves = example("softening-levels.toml");
+    let is_05 = |row: &&(String, BTreeMap<String, f64>)| row.1["level"] == 0.5;
+    let folds: Vec<f64> = curves
+        .iter()
+        .filter(is_05)
+        .filter(|(_, row)| row["fold"] == 1.0)
+        .map(|(_, row)| row["frequency"])
+        .collect();
+    let stepped = example("softening-stepped.toml");
+    for (_, row) in &stepped {
+        let hz = row["frequency"];
+        if folds.iter().any(|fold| (fold - hz).abs() < 0.3) {
+            continue;
+        }
+        let near = curves
+            .windows(2)
+            .filter(|pair| pair[0].1["level"] == 0.5 && pair[1].1["level"] == 0.5)
+            .filter(|pair| pair[0].1["stable"] == 1.0)
+            .any(|pair| {
+                let [one, other] = [0, 1].map(|n| pair[n].1["frequency"]);
+                let share = (hz - one) / (other - one);
+                let at = |n: usize| pair[n].1["relative.y amplitude"];
+                let expected = at(0) + share * (at(1) - at(0));
+                (0.0..=1.0).contains(&share)
+                    && (row["relative.y amplitude"] / expected - 1.0).abs() < 0.01
+            });
+        assert!(near, "{hz}");
+    }
+}
+
+#[test]
+fn every_example_can_be_run_and_drawn() {
+    for name in [
+        "figures-7-to-9-decay.toml",
+        "figure-11a.toml",
+        "figure-11b.toml",
+        "figure-11c.toml",
+        "softening-backbone.toml",
+    ] {
+        assert!(!example(name).is_empty(), "{name}");
+    }
+}
+
+/// A study with its joint files in a folder of its own.
+struct Studies {
+    folder: TempDir,
+}
+
+impl Studies {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["ex02", "softening"] {
+            let file = format!("{name}.joint.json");
+            fs::copy(Path::new(EXAMPLES).join(&file), folder.path().join(&file)).unwrap();
+        }
+        Self { folder }
+    }
+
+    fn run(&self, text: &str) -> Output {
+        let study = self.folder.path().join("study.toml");
+        fs::write(&study, text).unwrap();
+        let output = self.folder.path().join("out.csv");
+        let done = respond(&[&study, Path::new("-o"), &output]);
+        assert_eq!(output.exists(), done.status.success());
+        done
+    }
+
+    fn refused(&self, text: &str, fragments: &[&str]) {
+        let done = self.run(text);
+        let message = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{text}: {message}");
+        assert!(message.starts_with("error: "), "{message}");
+        for fragment in fragments {
+            assert!(
+                message.contains(fragment),
+                "expected {fragment:?} in: {message}"
+            );
+        }
+    }
+}
+
+fn study(kind: &str, rest: &str) -> String {
+    format!(
+        "method = \"respond\"\nkind = \"{kind}\"\nname = \"x\"\n{rest}\n[[lap]]\njoint = \"ex02.joint.json\"\n"
+    )
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_file_and_key() {
+    let studies = Studies::new();
+    let band = "[frequency]\nfrom = 300\nto = 400\n";
+    let balance = |rest: &str| study("harmonic-balance", rest);
+    for (text, fragments) in [
+        (balance(band), ["study.toml", "`load`"]),
+        (
+            balance(&format!("{band}[load]\non = \"b\"\n")),
+            ["`load.amplitude`", "found nothing"],
+        ),
+        (
+            balance(&format!("{band}[load]\namplitude = [1, -2]\n")),
+            ["`load.amplitude`", "-2"],
+        ),
+        (
+            balance("[frequency]\nfrom = 400\nto = 300\n[load]\namplitude = 1\n"),
+            ["`frequency.to`: found 300 Hz", "direction = \"down\""],
+        ),
+        (
+            balance(&format!(
+                "{band}[load]\namplitude = 1\n[harmonics]\nhighest = 0\n"
+            )),
+            ["`harmonics.highest`: found 0", "1 to"],
+        ),
+        (
+            balance(&format!("{band}lines = 10\n[load]\namplitude = 1\n")),
+            ["`frequency.lines`", "chooses its own points"],
+        ),
+        (
+            balance(&format!("{band}[load]\namplitude = 1\ndof = \"theta\"\n")),
+            ["`load.dof`", "theta"],
+        ),
+        (
+            balance(&format!(
+                "{band}[load]\namplitude = 1\n[start]\n\"a.y\" = 1\n"
+            )),
+            ["`start`", "no use for it"],
+        ),
+        (
+            format!(
+                "motions = [\"c.y\"]\n{}",
+                balance(&format!("{band}[load]\namplitude = 1\n"))
+            ),
+            ["`motions`", "\"c.y\""],
+        ),
+        (balance("frequencies = 3"), ["unknown field", "frequencies"]),
+        (study("harmonics", ""), ["study.toml", "unknown variant"]),
+        (
+            study("backbone", "[response]\nfrom = 1e-3\nto = 1e-4\n"),
+            ["`response.to`", "more than `response.from`"],
+        ),
+        (
+            study(
+                "constant-amplitude",
+                &format!("{band}[load]\non = \"b\"\n[response]\nof = \"b.y\"\n"),
+            ),
+            ["`response.amplitude`", "found nothing"],
+        ),
+        (
+            study(
+                "free-decay",
+                "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"b.omega\" = 1\n",
+            ),
+            ["`start`", "b.omega"],
+        ),
+        (
+            study("free-decay", "[time]\nduration = 1\n[start]\n\"b.v\" = 1\n"),
+            ["`time.interval`", "found nothing"],
+        ),
+        (
+            study(
+                "dwell",
+                &format!("{band}[load]\namplitude = 1\n[time]\nduration = 1\ninterval = 1\n"),
+            ),
+            ["`frequency`", "`at` alone"],
+        ),
+    ] {
+        studies.refused(&text, &fragments);
+    }
+    let text = study("linear", "[frequency]\nfrom = 1\nto = 2\n");
+    studies.refused(
+        &text.replace("ex02", "ex99"),
+        &["ex99.joint.json", "cannot be read"],
+    );
+    studies.refused(
+        &text.replace("[[lap]]\njoint", "# "),
+        &["`lap`", "at least one"],
+    );
+}
+
+#[test]
+fn a_softening_joint_that_lets_go_is_said_with_the_time() {
+    let text = study(
+        "free-decay",
+        "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"a.y\" = 0.05\n",
+    );
+    let text = text.replace("ex02", "softening");
+    Studies::new().refused(&text, &["not finite any more at", "softening"]);
+}
+
+#[test]
+fn what_belongs_to_assemblies_is_refused_beside_laps() {
+    let studies = Studies::new();
+    let path = studies.folder.path().join("study.toml");
+    fs::write(&path, study("linear", "[frequency]\nfrom = 1\nto = 2\n")).unwrap();
+    let output = studies.folder.path().join("out.csv");
+    for (more, fragment) in [
+        (vec!["--joint", "x.joint.json"], "--joint"),
+        (vec!["--step", "1"], "--step"),
+        (vec!["--report", "x.pdf"], "--report"),
+    ] {
+        let mut arguments = vec![path.as_path(), Path::new("-o"), &output];
+        arguments.extend(more.iter().map(Path::new));
+        let done = respond(&arguments);
+        assert_eq!(done.status.code(), Some(1));
+        assert!(String::from_utf8_lossy(&done.stderr).contains(fragment));
+    }
+}

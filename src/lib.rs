@@ -10,6 +10,7 @@ pub mod cli;
 pub mod cosimulation;
 pub mod export;
 pub mod frf;
+pub mod harmonic;
 mod html;
 pub mod identify;
 pub mod joint;

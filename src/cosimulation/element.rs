@@ -319,6 +319,7 @@ mod tests {
             stiffness: rows(stiffness),
             damping: rows(damping),
             cubic: cubic.to_vec(),
+            higher: None,
             over_preload: None,
         }
     }

@@ -1,10 +1,10 @@
 //! Which number of the joint file each parameter of an FMU starts with.
 
-use crate::joint::{Body, JointFile};
+use crate::joint::{Body, HigherTerms, JointFile};
 
 /// Start value of the parameter `name`, or `None` where the joint file has no such number.
 ///
-/// A cubic stiffness that the file leaves out is zero.
+/// A cubic stiffness or a term of higher order that the file leaves out is zero.
 pub(crate) fn start_value(
     file: &JointFile,
     longest_step_s: Option<f64>,
@@ -12,12 +12,15 @@ pub(crate) fn start_value(
 ) -> Option<f64> {
     let joint = &file.joint;
     let entry = |matrix: &[Vec<f64>], i: usize, j: usize| matrix.get(i)?.get(j).copied();
-    let cubic = |i: usize| {
-        if joint.cubic.is_empty() {
+    let or_zero = |list: &[f64], i: usize| {
+        if list.is_empty() {
             Some(0.0)
         } else {
-            joint.cubic.get(i).copied()
+            list.get(i).copied()
         }
+    };
+    let higher = |terms: fn(&HigherTerms) -> &[f64], i: usize| {
+        or_zero(joint.higher.as_ref().map_or(&[], terms), i)
     };
     match name {
         "joint.k_yy" => entry(&joint.stiffness, 0, 0),
@@ -26,8 +29,16 @@ pub(crate) fn start_value(
         "joint.c_yy" => entry(&joint.damping, 0, 0),
         "joint.c_ytheta" => entry(&joint.damping, 0, 1),
         "joint.c_thetatheta" => entry(&joint.damping, 1, 1),
-        "joint.k3_y" => cubic(0),
-        "joint.k3_theta" => cubic(1),
+        "joint.k3_y" => or_zero(&joint.cubic, 0),
+        "joint.k3_theta" => or_zero(&joint.cubic, 1),
+        "joint.k5_y" => higher(|terms| &terms.quintic, 0),
+        "joint.k5_theta" => higher(|terms| &terms.quintic, 1),
+        "joint.k7_y" => higher(|terms| &terms.septic, 0),
+        "joint.k7_theta" => higher(|terms| &terms.septic, 1),
+        "joint.c2_y" => higher(|terms| &terms.damping_quadratic, 0),
+        "joint.c2_theta" => higher(|terms| &terms.damping_quadratic, 1),
+        "joint.c4_y" => higher(|terms| &terms.damping_quartic, 0),
+        "joint.c4_theta" => higher(|terms| &terms.damping_quartic, 1),
         "step_size_max" => longest_step_s,
         _ => {
             let (side, quantity) = name.split_once('.')?;

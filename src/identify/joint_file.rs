@@ -62,6 +62,7 @@ impl Identification {
             stiffness: rows(&joint.stiffness),
             damping: rows(&joint.damping),
             cubic: vec![0.0; self.model.dofs()],
+            higher: None,
             over_preload: None,
         };
         let joints = self.ascending();

@@ -150,6 +150,7 @@ impl JointFile {
             stiffness: of(&table.stiffness),
             damping: of(&table.damping),
             cubic: place.list(&table.cubic),
+            higher: None,
             over_preload: None,
         };
         file.name = format!("{}, at {preload_n_m} N·m", self.name);

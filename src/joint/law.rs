@@ -65,7 +65,29 @@ impl Joint {
             stiffness: matrix("joint.stiffness", &self.stiffness)?,
             damping: matrix("joint.damping", &self.damping)?,
             cubic,
-            higher: dynamics::HigherTerms::NONE,
+            higher: self.higher_terms()?,
+        })
+    }
+}
+
+impl Joint {
+    /// The terms of higher order, zero where they are left out.
+    fn higher_terms<const D: usize>(&self) -> Result<dynamics::HigherTerms<D>, LawError> {
+        let Some(terms) = &self.higher else {
+            return Ok(dynamics::HigherTerms::NONE);
+        };
+        let or_zero = |path, entries: &[f64]| {
+            if entries.is_empty() {
+                Ok([0.0; D])
+            } else {
+                list(path, entries)
+            }
+        };
+        Ok(dynamics::HigherTerms {
+            quintic: or_zero("joint.higher.quintic", &terms.quintic)?,
+            septic: or_zero("joint.higher.septic", &terms.septic)?,
+            damping_quadratic: or_zero("joint.higher.damping_quadratic", &terms.damping_quadratic)?,
+            damping_quartic: or_zero("joint.higher.damping_quartic", &terms.damping_quartic)?,
         })
     }
 }

@@ -23,7 +23,7 @@ pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
     BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
-    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
-    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    FreeEstimate, FromModesRecord, FunctionResidual, HigherTerms, InputFile, Intervals, Joint,
+    JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };

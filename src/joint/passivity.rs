@@ -165,6 +165,7 @@ mod tests {
             stiffness: rows(stiffness),
             damping: rows(damping),
             cubic: Vec::new(),
+            higher: None,
             over_preload: None,
         }
     }

@@ -29,6 +29,20 @@ pub enum Problem {
         /// DOFs of the joint.
         dofs: DofSet,
     },
+    /// Terms of higher order beside a table over the preload.
+    #[error(
+        "joint.higher: found beside joint.over_preload, expected one of the two: the terms of higher order are not known \
+         over the preload; take one of them out"
+    )]
+    HigherOverPreload,
+    /// An amplitude that is not positive.
+    #[error("{path}: found {found:?}, expected an amplitude greater than zero")]
+    Amplitude {
+        /// Path of the number.
+        path: String,
+        /// The number, m or rad.
+        found: f64,
+    },
     /// A list has not one entry for each entry of another.
     #[error("{path}: found {found} entries, expected {expected}, one for each of {of}")]
     TableLength {

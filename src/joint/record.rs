@@ -15,7 +15,7 @@ pub struct JointFile {
     /// Name of the joint, one line.
     #[schemars(length(min = 1))]
     pub name: String,
-    /// The joint itself: stiffness, damping, cubic stiffness.
+    /// The joint itself: stiffness and damping, linear and beyond.
     pub joint: Joint,
     /// The two bodies of a lap model that the joint connects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -48,9 +48,11 @@ impl Format {
     pub const NAME: &'static str = "bolted-joint/1";
 }
 
-/// The massless joint: load on side b = K (x_a - x_b) + C d/dt(x_a - x_b) + k3 (x_a - x_b)^3, on side a the opposite.
+/// The massless joint: load on side b = K (x_a - x_b) + C d/dt(x_a - x_b) + k3 (x_a - x_b)^3 and the terms of `higher`, on
+/// side a the opposite.
 ///
-/// `stiffness` and `damping` are required unless `over_preload` is there, which replaces all three.
+/// `stiffness` and `damping` are required unless `over_preload` is there, which replaces them and `cubic`; `higher` cannot
+/// be combined with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
@@ -69,9 +71,40 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(min = 1, max = 2))]
     pub cubic: Vec<f64>,
-    /// The same three over the bolt's preload, in their place.
+    /// Terms of higher order on each relative DOF. Left out, there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub higher: Option<HigherTerms>,
+    /// Stiffness, damping and cubic stiffness over the bolt's preload, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_preload: Option<OverPreload>,
+}
+
+/// Terms of higher order on each relative DOF r = x_a - x_b: load on side b k5 r^5 + k7 r^7 + (c2 r^2 + c4 r^4) dr/dt. What is
+/// left out is zero.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HigherTerms {
+    /// k5, N/m⁵ and N·m/rad⁵.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2))]
+    pub quintic: Vec<f64>,
+    /// k7, N/m⁷ and N·m/rad⁷.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2))]
+    pub septic: Vec<f64>,
+    /// c2, N·s/m³ and N·m·s/rad³.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2))]
+    pub damping_quadratic: Vec<f64>,
+    /// c4, N·s/m⁵ and N·m·s/rad⁵.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2))]
+    pub damping_quartic: Vec<f64>,
+    /// Largest relative displacement, m and rad, that the joint was observed at and its terms hold up to. Within it the joint
+    /// must take energy; left out, it must at every displacement.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
+    pub amplitude: Vec<f64>,
 }
 
 /// Stiffness, damping and cubic stiffness at several preloads of the bolt.

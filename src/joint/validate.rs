@@ -1,8 +1,8 @@
 //! Checks that the records of a joint file agree with each other: sizes, symmetry, signs.
 
 use super::{
-    Body, Correlation, DofSet, Joint, JointFile, OverPreload, Problem, StandardDeviation,
-    UncertaintyOverPreload,
+    Body, Correlation, DofSet, HigherTerms, Joint, JointFile, OverPreload, Problem,
+    StandardDeviation, UncertaintyOverPreload,
 };
 
 impl JointFile {
@@ -90,8 +90,34 @@ impl Check {
         if !joint.cubic.is_empty() {
             self.list("joint.cubic", &joint.cubic);
         }
+        if let Some(terms) = &joint.higher {
+            self.higher(terms);
+        }
         if let Some(table) = &joint.over_preload {
+            if joint.higher.is_some() {
+                self.problems.push(Problem::HigherOverPreload);
+            }
             self.over_preload(table);
+        }
+    }
+
+    fn higher(&mut self, terms: &HigherTerms) {
+        for (key, entries) in [
+            ("quintic", &terms.quintic),
+            ("septic", &terms.septic),
+            ("damping_quadratic", &terms.damping_quadratic),
+            ("damping_quartic", &terms.damping_quartic),
+            ("amplitude", &terms.amplitude),
+        ] {
+            if !entries.is_empty() {
+                self.list(&format!("joint.higher.{key}"), entries);
+            }
+        }
+        for (i, &found) in terms.amplitude.iter().enumerate() {
+            if found <= 0.0 {
+                let path = format!("joint.higher.amplitude[{i}]");
+                self.problems.push(Problem::Amplitude { path, found });
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! Time integration of the lap model, under held loads and under loads that change within a step.
 
+mod higher;
+
 use std::{array::from_fn, num::NonZeroU32};
 
 use crate::{
@@ -7,6 +9,7 @@ use crate::{
     lap::{Body, Lap, LapLoads, LapState},
     pair::Pair,
 };
+use higher::Higher;
 
 /// The lap model made ready for stepping: all coefficients are divided by the inertias once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +23,8 @@ pub struct LapIntegrator<const D: usize> {
     /// k3/m of the joint.
     cubic: [Pair; D],
     damping: Damping<D>,
+    /// The joint's terms of higher order; `None` where it has none, so that nothing is spent on them.
+    higher: Option<Higher<D>>,
 }
 
 /// The dampers of supports and joint, as a linear map of velocities to accelerations.
@@ -62,14 +67,15 @@ impl<const D: usize> LapIntegrator<D> {
                 support: of_bodies(|body, i| body.damping[i]),
                 joint: of_joint(&law.damping),
             },
+            higher: (!law.higher.are_none()).then(|| Higher::new(lap)),
         }
     }
 
-    /// Whether the joint has no cubic term, so that the equations of motion are linear.
+    /// Whether the joint has no cubic and no higher term, so that the equations of motion are linear.
     #[inline]
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
+        self.higher.is_none() && self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
     }
 
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
@@ -82,6 +88,10 @@ impl<const D: usize> LapIntegrator<D> {
         interval_s: f64,
         substeps: NonZeroU32,
     ) -> LapState<D> {
+        if let Some(higher) = &self.higher {
+            let (x, v) = self.take_many_higher(higher, state, loads, interval_s, substeps);
+            return join(&x, &v);
+        }
         // A single step in place spares the way through memory; with one DOF the bodies then fall apart into single
         // numbers, which costs more than that way.
         let (x, v) = if D > 1 && substeps == NonZeroU32::MIN {
@@ -125,7 +135,10 @@ impl<const D: usize> LapIntegrator<D> {
     ) -> LapState<D> {
         let loads = loads.each_ref().map(|loads| self.accelerations_by(loads));
         let (x, v) = split(state);
-        let (x, v) = self.take(&self.step(step_s), &x, &v, loads.each_ref());
+        let (x, v) = match &self.higher {
+            None => self.take(&self.step(step_s), &x, &v, loads.each_ref()),
+            Some(higher) => self.take_higher(higher, step_s, &x, &v, loads.each_ref()),
+        };
         join(&x, &v)
     }
 
@@ -136,7 +149,11 @@ impl<const D: usize> LapIntegrator<D> {
         // ẍ = M⁻¹ (F − k x − c ẋ ∓ F_joint)   (Pirdayr's equations of motion)
         let (x, v) = split(state);
         let load = self.accelerations_by(loads);
-        join(&v, &self.less_springs(&self.damping.less(&load, &v), &x))
+        let acceleration = match &self.higher {
+            None => self.less_springs(&self.damping.less(&load, &v), &x),
+            Some(higher) => self.less_all(higher, &load, &x, &v),
+        };
+        join(&v, &acceleration)
     }
 
     /// M⁻¹ F

@@ -141,10 +141,20 @@ fn textbook_rate(lap: &Lap<2>, x: &[f64; 8], loads: &LapLoads<2>) -> [f64; 8] {
     let r: [f64; 2] = from_fn(|i| x[i] - x[2 + i]);
     let s: [f64; 2] = from_fn(|i| x[4 + i] - x[6 + i]);
     let (stiffness, damping, cubic) = (&lap.joint.stiffness, &lap.joint.damping, &lap.joint.cubic);
+    let HigherTerms {
+        quintic,
+        septic,
+        damping_quadratic,
+        damping_quartic,
+    } = &lap.joint.higher;
     let mut rate = [0.0; 8];
     rate[..4].copy_from_slice(&x[4..]);
     for i in 0..2 {
-        let mut joint = cubic[i] * r[i].powi(3);
+        let mut joint = cubic[i] * r[i].powi(3)
+            + quintic[i] * r[i].powi(5)
+            + septic[i] * r[i].powi(7)
+            + damping_quadratic[i] * r[i].powi(2) * s[i]
+            + damping_quartic[i] * r[i].powi(4) * s[i];
         for j in 0..2 {
             joint += stiffness[i][j] * r[j] + damping[i][j] * s[j];
         }
@@ -160,6 +170,32 @@ fn textbook_rate(lap: &Lap<2>, x: &[f64; 8], loads: &LapLoads<2>) -> [f64; 8] {
 
 #[test]
 fn a_step_is_the_textbook_s_four_stages() {
+    follows_the_textbook(HigherTerms::NONE);
+}
+
+#[test]
+fn terms_of_higher_order_are_part_of_every_stage() {
+    // at r = 1 mm, 0.1 rad each is some per cent of the linear stiffness or damping
+    let terms = HigherTerms {
+        quintic: [1e17, -8e5],
+        septic: [-3e22, 3e7],
+        damping_quadratic: [4e7, 0.5],
+        damping_quartic: [-6e12, 9.0],
+    };
+    follows_the_textbook(terms);
+    let one = |change: fn(&mut HigherTerms<2>)| {
+        let mut alone = HigherTerms::NONE;
+        change(&mut alone);
+        follows_the_textbook(alone);
+    };
+    one(|terms| terms.quintic = [1e17, 0.0]);
+    one(|terms| terms.septic = [0.0, 3e7]);
+    one(|terms| terms.damping_quadratic = [4e7, 0.0]);
+    one(|terms| terms.damping_quartic = [0.0, 9.0]);
+}
+
+/// Two hundred steps with these terms of higher order.
+fn follows_the_textbook(higher: HigherTerms<2>) {
     let body = |scale: f64| Body {
         inertia: [1.41 * scale, 1e-3 / scale],
         stiffness: [8.24e5, 1e3 * scale],
@@ -170,7 +206,7 @@ fn a_step_is_the_textbook_s_four_stages() {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[108.3, -0.83], [-0.83, 0.083]],
             cubic: [5e12, 1e6],
-            higher: HigherTerms::NONE,
+            higher,
         },
         a: body(1.0),
         b: body(2.5),
@@ -216,12 +252,22 @@ fn a_step_is_the_textbook_s_four_stages() {
 
 #[test]
 fn many_steps_at_once_are_as_many_single_steps() {
+    agree_with_single_steps(HigherTerms::NONE);
+    agree_with_single_steps(HigherTerms {
+        quintic: [-3e12],
+        septic: [2e18],
+        damping_quadratic: [1e4],
+        damping_quartic: [-1e8],
+    });
+}
+
+fn agree_with_single_steps(higher: HigherTerms<1>) {
     let mut lap = decoupled(2e4, 3.0);
     lap.joint = JointLaw {
         stiffness: [[7e3]],
         damping: [[0.3]],
         cubic: [1e9],
-        higher: HigherTerms::NONE,
+        higher,
     };
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
@@ -235,4 +281,48 @@ fn many_steps_at_once_are_as_many_single_steps() {
         state = integrator.advance(&state, &loads, 64e-3 / 64.0, NonZeroU32::MIN);
     }
     assert_eq!(at_once, state);
+    let stepped = (0..64).fold(LapState::REST, |state, _| {
+        integrator.step_with_loads(&state, &[loads; 3], 64e-3 / 64.0)
+    });
+    assert_eq!(at_once, stepped);
+    assert!(at_once.a.displacement[0] > 0.0);
+}
+
+/// ẍ = −ω² x with damping that depends on the amplitude: the energy that is lost is the power dissipated.
+#[test]
+fn what_the_dampers_take_is_missing_from_the_energy() {
+    let mut lap = decoupled(2e4, 0.0);
+    lap.joint = JointLaw {
+        stiffness: [[7e3]],
+        damping: [[0.3]],
+        cubic: [-1e8],
+        higher: HigherTerms {
+            quintic: [4e12],
+            septic: [2e17],
+            damping_quadratic: [2e5],
+            damping_quartic: [1e10],
+        },
+    };
+    let integrator = LapIntegrator::new(&lap);
+    let loads = LapLoads { a: [0.0], b: [0.0] };
+    let mut state = LapState::REST;
+    state.a.displacement[0] = 5e-3;
+    let start_j = lap.stored_energy(&state);
+    let step_s = 1e-5;
+    let mut lost_j = 0.0;
+    for _ in 0..20_000 {
+        // Boole's rule over one step, from five states
+        let mut power = [0.0; 5];
+        power[0] = lap.dissipated_power(&state);
+        for watt in &mut power[1..] {
+            state = integrator.advance(&state, &loads, step_s / 4.0, NonZeroU32::MIN);
+            *watt = lap.dissipated_power(&state);
+        }
+        let weighted = 7.0 * (power[0] + power[4]) + 32.0 * (power[1] + power[3]) + 12.0 * power[2];
+        lost_j += step_s * weighted / 90.0;
+    }
+    let end_j = lap.stored_energy(&state);
+    assert!(lost_j > 0.1 * start_j, "{lost_j} of {start_j}");
+    let balance = (start_j - end_j - lost_j) / start_j;
+    assert!(balance.abs() < 1e-11, "{balance:e}");
 }

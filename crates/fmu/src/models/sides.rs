@@ -106,11 +106,20 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
         [vr::JOINT_C_YTHETA, vr::JOINT_C_THETATHETA],
     ];
     const CUBIC: [usize; 2] = [vr::JOINT_K3_Y, vr::JOINT_K3_THETA];
+    const QUINTIC: [usize; 2] = [vr::JOINT_K5_Y, vr::JOINT_K5_THETA];
+    const SEPTIC: [usize; 2] = [vr::JOINT_K7_Y, vr::JOINT_K7_THETA];
+    const DAMPING_QUADRATIC: [usize; 2] = [vr::JOINT_C2_Y, vr::JOINT_C2_THETA];
+    const DAMPING_QUARTIC: [usize; 2] = [vr::JOINT_C4_Y, vr::JOINT_C4_THETA];
     JointLaw {
         stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
         damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
         cubic: gather(values, &CUBIC),
-        higher: HigherTerms::NONE,
+        higher: HigherTerms {
+            quintic: gather(values, &QUINTIC),
+            septic: gather(values, &SEPTIC),
+            damping_quadratic: gather(values, &DAMPING_QUADRATIC),
+            damping_quartic: gather(values, &DAMPING_QUARTIC),
+        },
     }
 }
 

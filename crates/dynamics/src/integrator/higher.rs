@@ -1,0 +1,121 @@
+//! Steps of a lap whose joint has terms of higher order. Its damping depends on the displacement, so that the stages
+//! cannot share the dampers' part as those of a cubic joint do; these steps are apart, and cost the others nothing.
+
+use std::{array::from_fn, num::NonZeroU32};
+
+use super::{LapIntegrator, moved, split};
+use crate::{
+    lap::{Lap, LapLoads, LapState},
+    pair::Pair,
+};
+
+/// The joint's terms of higher order over the inertias.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Higher<const D: usize> {
+    /// k5/m
+    quintic: [Pair; D],
+    /// k7/m
+    septic: [Pair; D],
+    /// c2/m
+    damping_quadratic: [Pair; D],
+    /// c4/m
+    damping_quartic: [Pair; D],
+}
+
+impl<const D: usize> Higher<D> {
+    pub(super) fn new(lap: &Lap<D>) -> Self {
+        let of_bodies = |list: &[f64; D]| {
+            from_fn(|i| Pair::new(list[i] / lap.a.inertia[i], list[i] / lap.b.inertia[i]))
+        };
+        let terms = &lap.joint.higher;
+        Self {
+            quintic: of_bodies(&terms.quintic),
+            septic: of_bodies(&terms.septic),
+            damping_quadratic: of_bodies(&terms.damping_quadratic),
+            damping_quartic: of_bodies(&terms.damping_quartic),
+        }
+    }
+
+    /// What is left of `acceleration` after these terms have taken their share.
+    #[inline]
+    fn less(&self, acceleration: &[Pair; D], x: &[Pair; D], v: &[Pair; D]) -> [Pair; D] {
+        // − M⁻¹ (k5 ∘ r⁵ + k7 ∘ r⁷ + (c2 ∘ r² + c4 ∘ r⁴) ∘ ṙ), each body's r as seen from the other
+        from_fn(|i| {
+            let (r, velocity) = (x[i].relative(), v[i].relative());
+            let squared = r * r;
+            let spring = (self.quintic[i] + self.septic[i] * squared) * (squared * squared) * r;
+            let damper = (self.damping_quadratic[i] + self.damping_quartic[i] * squared) * squared;
+            acceleration[i] - spring - damper * velocity
+        })
+    }
+}
+
+impl<const D: usize> LapIntegrator<D> {
+    /// What is left of `acceleration` after all springs and dampers have taken their share.
+    #[inline]
+    pub(super) fn less_all(
+        &self,
+        higher: &Higher<D>,
+        acceleration: &[Pair; D],
+        x: &[Pair; D],
+        v: &[Pair; D],
+    ) -> [Pair; D] {
+        let left = self.less_springs(&self.damping.less(acceleration, v), x);
+        higher.less(&left, x, v)
+    }
+
+    /// Equal steps under held loads.
+    #[inline(never)]
+    pub(super) fn take_many_higher(
+        &self,
+        higher: &Higher<D>,
+        state: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        count: NonZeroU32,
+    ) -> ([Pair; D], [Pair; D]) {
+        let length_s = interval_s / f64::from(count.get());
+        let load = self.accelerations_by(loads);
+        let (mut x, mut v) = split(state);
+        for _ in 0..count.get() {
+            (x, v) = self.take_higher(higher, length_s, &x, &v, [&load; 3]);
+        }
+        (x, v)
+    }
+
+    /// One RK4 step, with the accelerations that the loads give at its start, middle and end.
+    #[inline]
+    pub(super) fn take_higher(
+        &self,
+        higher: &Higher<D>,
+        h: f64,
+        x: &[Pair; D],
+        v: &[Pair; D],
+        [start, middle, end]: [&[Pair; D]; 3],
+    ) -> ([Pair; D], [Pair; D]) {
+        let (half, sixth) = (0.5 * h, (1.0 / 6.0) * h);
+        // The four stages of ẋ = v, v̇ = f(t, x, v):
+        // a₁ = f(t, x, v)
+        let a1 = self.less_all(higher, start, x, v);
+        // a₂ = f(t + h/2, x + h/2 v, v + h/2 a₁)
+        let x2 = moved(x, half, v);
+        let v2 = moved(v, half, &a1);
+        let a2 = self.less_all(higher, middle, &x2, &v2);
+        // a₃ = f(t + h/2, x + h/2 v + h²/4 a₁, v + h/2 a₂)
+        let x3 = moved(&x2, half * half, &a1);
+        let v3 = moved(v, half, &a2);
+        let a3 = self.less_all(higher, middle, &x3, &v3);
+        // a₄ = f(t + h, x + h v + h²/2 a₂, v + h a₃)
+        let x1 = moved(x, h, v);
+        let x4 = moved(&x1, half * h, &a2);
+        let v4 = moved(v, h, &a3);
+        let a4 = self.less_all(higher, end, &x4, &v4);
+        // x(t+h) = x + h v + h²/6 (a₁ + a₂ + a₃),  v(t+h) = v + h/6 (a₁ + 2a₂ + 2a₃ + a₄)
+        let inner: [Pair; D] = from_fn(|i| a1[i] + a2[i] + a3[i]);
+        let outer: [Pair; D] = from_fn(|i| inner[i] + a2[i] + a3[i]);
+        (
+            moved(&x1, h * sixth, &inner),
+            moved(&moved(v, sixth, &outer), sixth, &a4),
+        )
+    }
+}

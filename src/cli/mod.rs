@@ -8,6 +8,7 @@ mod error;
 mod export;
 mod identified_from;
 mod identify;
+mod lap;
 mod output;
 mod progress;
 mod reproduce;

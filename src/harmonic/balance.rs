@@ -220,7 +220,8 @@ impl<const D: usize> HarmonicBalance<D> {
                 let mut by_omega = z.by_omega * r - p.by_omega;
                 let by_released = z.by_released * r - p.by_released;
                 for j in 0..D {
-                    let joint = Complex64::new(law.stiffness[i][j], h * at.omega * law.damping[i][j]);
+                    let joint =
+                        Complex64::new(law.stiffness[i][j], h * at.omega * law.damping[i][j]);
                     let other = self.amplitude(coefficients, j, harmonic);
                     value += joint * other;
                     by_omega += Complex64::new(0.0, h * law.damping[i][j]) * other;
@@ -275,7 +276,8 @@ impl<const D: usize> HarmonicBalance<D> {
                 result.damping_force[n] = result.damping[n] * result.rate[n];
             }
             add(&result.damping_force, &mut result.by_omega);
-            self.sampling.spectrum(&result.damping, &mut result.spectrum);
+            self.sampling
+                .spectrum(&result.damping, &mut result.spectrum);
             self.add_products(&result.spectrum, Some(omega), from, &mut result.jacobian);
         }
     }

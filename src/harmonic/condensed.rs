@@ -155,9 +155,10 @@ impl Condensed {
             BodyNumber::Stiffness => Complex64::ONE,
             BodyNumber::Damping => Complex64::new(0.0, omega),
             // −Ω² − jΩ 2ζω
-            BodyNumber::Inertia => {
-                -Complex64::new(omega * omega, omega * 2.0 * self.at.released * self.at.omega)
-            }
+            BodyNumber::Inertia => -Complex64::new(
+                omega * omega,
+                omega * 2.0 * self.at.released * self.at.omega,
+            ),
         }
     }
 
@@ -212,12 +213,7 @@ impl Condensed {
     }
 
     /// How x of both bodies changes with a number of body `of` at fixed r.
-    pub(super) fn body_by_number(
-        &self,
-        of: Side,
-        number: BodyNumber,
-        r: Complex64,
-    ) -> Complex64 {
+    pub(super) fn body_by_number(&self, of: Side, number: BodyNumber, r: Complex64) -> Complex64 {
         let d = self.own_by_number(number);
         match of {
             Side::A => self.body_change(d, Complex64::ZERO, r),
@@ -242,7 +238,12 @@ impl Varying {
     };
 }
 
-fn stiffness<const D: usize>(body: &Body<D>, dof: usize, order: usize, at: Circumstances) -> Varying {
+fn stiffness<const D: usize>(
+    body: &Body<D>,
+    dof: usize,
+    order: usize,
+    at: Circumstances,
+) -> Varying {
     let (m, c, k) = (body.inertia[dof], body.damping[dof], body.stiffness[dof]);
     let h = order as f64;
     let omega = h * at.omega;

@@ -112,10 +112,20 @@ impl<const D: usize> System<'_, D> {
                 });
             }
             if !(range.low..=range.high).contains(&value) {
-                let end = if value > range.high { range.high } else { range.low };
+                let end = if value > range.high {
+                    range.high
+                } else {
+                    range.low
+                };
                 let mut unknowns = next.unknowns;
                 if self
-                    .correct(&mut unknowns, &close(end), &next.scale, MOST_ITERATIONS, true)
+                    .correct(
+                        &mut unknowns,
+                        &close(end),
+                        &next.scale,
+                        MOST_ITERATIONS,
+                        true,
+                    )
                     .is_some()
                 {
                     points.push(Followed {
@@ -193,13 +203,8 @@ impl<const D: usize> System<'_, D> {
             through: &predicted,
             across: &place.tangent,
         };
-        let (iterations, factors) = self.correct(
-            &mut unknowns,
-            &closing,
-            &place.scale,
-            MOST_ITERATIONS,
-            true,
-        )?;
+        let (iterations, factors) =
+            self.correct(&mut unknowns, &closing, &place.scale, MOST_ITERATIONS, true)?;
         let mut tangent = factors.solve(&last_unit(self.size()))?;
         let norm = tangent.norm();
         tangent /= norm;

@@ -131,7 +131,9 @@ impl<const D: usize> HarmonicBalance<D> {
             &move |_, unknowns| unknowns[place],
             &Closing::LoadFactor,
         )?;
-        let end = points.last().filter(|end| end.solution.at.load_factor == 1.0);
+        let end = points
+            .last()
+            .filter(|end| end.solution.at.load_factor == 1.0);
         let mut solution = end.ok_or_else(refuse)?.solution.clone();
         solution.regime = Regime::Forced;
         Ok(solution)
@@ -193,8 +195,7 @@ impl<const D: usize> System<'_, D> {
             &move |amplitude| Closing::Amplitude(at(target, amplitude)),
         )?;
         let options = CurveOptions {
-            with_stability: options.with_stability
-                && matches!(self.regime, Regime::Resonance(_)),
+            with_stability: options.with_stability && matches!(self.regime, Regime::Resonance(_)),
             ..*options
         };
         self.balance.finished(points, &options)

@@ -96,10 +96,7 @@ mod tests {
         assert_eq!(harmonics.slots(), 6);
         assert!(harmonics.are_odd());
         let all = Harmonics::all(3).unwrap();
-        assert_eq!(
-            all.places().collect::<Vec<_>>(),
-            [(1, 1), (2, 3), (3, 5)]
-        );
+        assert_eq!(all.places().collect::<Vec<_>>(), [(1, 1), (2, 3), (3, 5)]);
         assert!(!all.are_odd());
     }
 

@@ -88,7 +88,11 @@ impl<const D: usize> HarmonicLoads<D> {
     pub(super) fn largest(&self) -> Complex64 {
         let loads = self.a.iter().chain(&self.b);
         loads.fold(Complex64::ZERO, |largest, &load| {
-            if load.norm() > largest.norm() { load } else { largest }
+            if load.norm() > largest.norm() {
+                load
+            } else {
+                largest
+            }
         })
     }
 }

@@ -256,7 +256,11 @@ impl<const D: usize> HarmonicBalance<D> {
                     .filter(|change| change.iter().all(|value| value.is_finite()))
                     .ok_or_else(|| not_found(solution.at.omega, 1))?;
                 let of = |n: usize| -scale.unknown[n] * change[n];
-                let second = if system.size() > size + 1 { of(size + 1) } else { 0.0 };
+                let second = if system.size() > size + 1 {
+                    of(size + 1)
+                } else {
+                    0.0
+                };
                 let is_free = matches!(solution.regime, Regime::Free(_));
                 Ok(Sensitivity {
                     parameter,
@@ -359,8 +363,7 @@ impl<const D: usize> HarmonicBalance<D> {
             for dof in 0..D {
                 for (order, _) in self.all_places() {
                     let omega = order as f64 * solution.at.omega;
-                    let amplitude =
-                        self.amplitude_of(solution, Observed::Body(side, dof), order);
+                    let amplitude = self.amplitude_of(solution, Observed::Body(side, dof), order);
                     let now = amplitude * Complex64::cis(order as f64 * phase_rad);
                     motion.displacement[dof] += now.re;
                     // Re(jΩ X e^{jΩt})

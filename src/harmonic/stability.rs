@@ -86,8 +86,7 @@ impl<const D: usize> HarmonicBalance<D> {
             return Err(refuse());
         }
         let schur = Schur::try_new(monodromy, f64::EPSILON, MOST_ITERATIONS).ok_or_else(refuse)?;
-        let mut multipliers: Vec<Complex64> =
-            schur.complex_eigenvalues().iter().copied().collect();
+        let mut multipliers: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
         multipliers.sort_by(|one, other| other.norm().total_cmp(&one.norm()));
         Ok(Stability { multipliers })
     }
@@ -133,7 +132,9 @@ impl<const D: usize> HarmonicBalance<D> {
     fn fastest(&self, solution: &Solution<D>) -> f64 {
         let tangents = self.tangents(solution, 4 * self.harmonics.highest() + 4);
         let stiffest: [f64; D] = std::array::from_fn(|dof| {
-            tangents.iter().fold(0.0, |most: f64, at| most.max(at[0][dof].abs()))
+            tangents
+                .iter()
+                .fold(0.0, |most: f64, at| most.max(at[0][dof].abs()))
         });
         let bodies = [&self.lap.a, &self.lap.b];
         let mut most: f64 = 0.0;
@@ -180,7 +181,11 @@ impl<const D: usize> Deviation<D> {
 
     fn entry(&self, n: usize) -> f64 {
         let (side, dof) = (n / D % 2, n % D);
-        if n < 2 * D { self.x[side][dof] } else { self.rate[side][dof] }
+        if n < 2 * D {
+            self.x[side][dof]
+        } else {
+            self.rate[side][dof]
+        }
     }
 
     /// `self + factor · by`

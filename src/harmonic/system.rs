@@ -258,20 +258,15 @@ impl<'a, const D: usize> System<'a, D> {
         }
     }
 
-    fn close(
-        &self,
-        unknowns: &[f64],
-        closing: &Closing<'_>,
-        scale: &Scale,
-    ) -> (f64, Vec<f64>) {
+    fn close(&self, unknowns: &[f64], closing: &Closing<'_>, scale: &Scale) -> (f64, Vec<f64>) {
         match closing {
             Closing::Frequency(omega) => self.held(self.balance.size(), *omega, unknowns),
             Closing::LoadFactor(factor) => self.held(self.balance.size() + 1, *factor, unknowns),
             Closing::Amplitude(target) => self.of_target(target, unknowns),
             Closing::Plane { through, across } => {
                 let sizes = &scale.unknown;
-                let parts = (0..self.size())
-                    .map(|n| across[n] * (unknowns[n] - through[n]) / sizes[n]);
+                let parts =
+                    (0..self.size()).map(|n| across[n] * (unknowns[n] - through[n]) / sizes[n]);
                 let derivatives = across.iter().zip(sizes).map(|(across, size)| across / size);
                 (parts.sum(), derivatives.collect())
             }

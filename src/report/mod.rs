@@ -7,6 +7,7 @@ mod curve;
 mod frf_column;
 mod frf_figure;
 mod interval_figure;
+mod lap;
 mod legend;
 mod line_figure;
 mod look;
@@ -17,6 +18,8 @@ mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
+pub use lap::LapUpdateReport;
+pub(crate) use lap::convergence_figure;
 pub(crate) use line_figure::{Line, LineFigure, Scale};
 pub use page::IdentificationReport;
 

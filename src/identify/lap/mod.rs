@@ -11,6 +11,6 @@ mod update;
 pub use method::StudyMethod;
 pub use parameter::{LapParameter, LapParameters};
 pub use update::{
-    Firefly, FireflyResult, Knowledge, LapUpdate, LapUpdateStudy, Range, TorqueData, TorqueUpdate,
-    UpdateProblem, fireflies, least_squares,
+    Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,
+    Range, TorqueData, TorqueUpdate, UpdateProblem, fireflies, least_squares,
 };

@@ -57,6 +57,7 @@ impl LapUpdate {
                 stiffness: vec![vec![torque.file_value(LapParameter::JointStiffness)]],
                 damping: vec![vec![torque.file_value(LapParameter::JointDamping)]],
                 cubic: vec![torque.file_value(LapParameter::JointCubic)],
+                higher: None,
                 over_preload: None,
             },
             bodies: Some(torque.bodies()),

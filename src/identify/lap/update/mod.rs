@@ -7,6 +7,7 @@ mod identifiability;
 mod least_squares;
 mod problem;
 mod study;
+mod warnings;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -60,6 +60,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     match StudyMethod::read(&arguments.study)? {
         StudyMethod::FrfDecoupling => {}
         StudyMethod::LapUpdate => return lap::update(arguments),
+        StudyMethod::LapResponse => return lap::response(arguments),
     }
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),

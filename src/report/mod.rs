@@ -18,8 +18,8 @@ mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
-pub use lap::LapUpdateReport;
-pub(crate) use lap::convergence_figure;
+pub use lap::{LapResponseReport, LapUpdateReport};
+pub(crate) use lap::{convergence_figure, response_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale};
 pub use page::IdentificationReport;
 

@@ -1,5 +1,6 @@
 //! `identify` for studies of lap models.
 
+mod response;
 mod update;
 
 use std::path::{Path, PathBuf};
@@ -7,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::IdentifyArguments;
 use super::error::CliError;
 
+pub(super) use response::run as response;
 pub(super) use update::run as update;
 
 /// What every page and picture of a lap model is written to.

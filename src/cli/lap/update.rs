@@ -138,10 +138,15 @@ fn parameters(torque: &TorqueUpdate) -> String {
     ]);
     for parameter in LapParameter::ALL {
         let knowledge = torque.knowledge(parameter);
+        // In brackets: no result, but one of many values.
+        let shown = |value: f64| match knowledge.is_known() {
+            true => number(value, 5),
+            false => format!("({})", number(value, 5)),
+        };
         table.row(vec![
             parameter.symbol().to_owned(),
-            number(torque.solution.of(parameter), 5),
-            number(torque.firefly.parameters.of(parameter), 5),
+            shown(torque.solution.of(parameter)),
+            shown(torque.firefly.parameters.of(parameter)),
             parameter.unit().to_owned(),
             knowledge.words().to_owned(),
         ]);

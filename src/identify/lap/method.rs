@@ -16,6 +16,8 @@ pub enum StudyMethod {
     FrfDecoupling,
     /// The lap model from natural frequencies.
     LapUpdate,
+    /// The lap model from responses at several levels.
+    LapResponse,
 }
 
 #[derive(Deserialize)]

@@ -6,10 +6,16 @@
 mod input;
 mod method;
 mod parameter;
+mod response;
 mod update;
 
 pub use method::StudyMethod;
 pub use parameter::{LapParameter, LapParameters};
+pub use response::{
+    BackboneLine, BackboneRun, Estimate, Fit, FitError, LapResponse, LapResponseStudy, Model,
+    ModelComparison, Noise, Place, Prediction, Resonance, ResponseDataError, ResponseUnknown,
+    SineLine, SineRun, Term, TermSet, Use, Values, measured_resonance, predicted_resonance,
+};
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,
     Range, TorqueData, TorqueUpdate, UpdateProblem, fireflies, least_squares,

@@ -1,7 +1,10 @@
 //! Reports of identified lap models.
 
+mod response;
 mod update;
 
+pub use response::LapResponseReport;
+pub(crate) use response::response_figure;
 pub use update::LapUpdateReport;
 pub(crate) use update::convergence_figure;
 

@@ -21,6 +21,8 @@ pub enum Knowledge {
     Together,
     /// It was driven to a bound of its range, which its value is.
     AtBound,
+    /// It follows from the frequencies and from the bounds that others are held at.
+    FromBounds,
     /// The frequencies do not depend on it: its value is its prior.
     NoInfluence,
 }
@@ -34,6 +36,7 @@ impl Knowledge {
             Self::Determined => "determined",
             Self::Together => "not determined by itself, nearest to its prior",
             Self::AtBound => "at its bound",
+            Self::FromBounds => "follows from the others' bounds",
             Self::NoInfluence => "not identifiable, at its prior",
         }
     }
@@ -90,6 +93,7 @@ impl Identifiability {
             sensitivity[i][inner[j]]
         });
         let known = known_share(&jacobian);
+        let any_bound = inner.len() < free.len();
         let of = |parameter: LapParameter| {
             if let Range::Known(_) = problem.ranges[parameter.index()] {
                 return Knowledge::Stated;
@@ -100,12 +104,12 @@ impl Identifiability {
             let place = inner.iter().position(|&j| free[j] == parameter);
             match place.map(|place| known[place]) {
                 None | Some(0.0) => Knowledge::NoInfluence,
+                Some(share) if share > 1.0 - 1e-9 && any_bound => Knowledge::FromBounds,
                 Some(share) if share > 1.0 - 1e-9 => Knowledge::Determined,
                 Some(_) => Knowledge::Together,
             }
         };
         let parameters = LapParameter::ALL.map(of);
-        let any_bound = parameters.contains(&Knowledge::AtBound);
         let deviation = relative_deviation
             .filter(|_| !any_bound)
             .and_then(|relative| deviations(&jacobian, relative));

@@ -14,7 +14,8 @@ pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     BackboneLine, BackboneRun, Estimate, Fit, FitError, LapResponse, LapResponseStudy, Model,
     ModelComparison, Noise, Place, Prediction, Resonance, ResponseDataError, ResponseUnknown,
-    SineLine, SineRun, Term, TermSet, Use, Values, measured_resonance, predicted_resonance,
+    SineLine, SineRun, Term, TermSet, Use, Values, fit_responses, measured_resonance,
+    predicted_resonance,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

@@ -27,5 +27,6 @@ pub use fit::{Fit, FitError};
 pub use model::{Model, ResponseUnknown, Values};
 pub use prediction::{Prediction, Resonance, measured_resonance, predicted_resonance};
 pub use result::{Estimate, LapResponse};
+pub use start::fit_responses;
 pub use study::{LapResponseStudy, Noise, Place};
 pub use terms::{Term, TermSet};

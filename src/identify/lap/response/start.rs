@@ -57,6 +57,20 @@ pub(super) fn best(
     Ok((best, tried, agreeing))
 }
 
+/// Fits a model to runs from the starts that the data suggest. `known` holds the values of what is not among the model's unknowns.
+///
+/// # Errors
+/// [`FitError`] if there are too few lines or no start leads anywhere.
+pub fn fit_responses(
+    model: &Model,
+    runs: &[SineRun],
+    noise: &Noise,
+    known: &Values,
+) -> Result<Fit, FitError> {
+    let runs: Vec<&SineRun> = runs.iter().collect();
+    best(model, &runs, &[], noise, known).map(|(fit, ..)| fit)
+}
+
 fn starts(
     model: &Model,
     runs: &[&SineRun],
@@ -208,19 +222,22 @@ fn two_resonances(
         .iter()
         .map(|line| line.displacement_m / line.force_n)
         .collect();
-    let mut peaks: Vec<usize> = (1..lines.len().saturating_sub(1))
-        .filter(|&i| {
-            let from = i.saturating_sub(4);
-            let to = (i + 5).min(size.len());
-            size[from..to].iter().all(|other| *other <= size[i])
-        })
-        .collect();
-    peaks.sort_by(|&a, &b| size[b].total_cmp(&size[a]));
-    let mut omegas: Vec<f64> = peaks.iter().take(2).map(|&i| lines[i].omega).collect();
-    omegas.sort_by(f64::total_cmp);
-    let [first, second] = omegas[..] else {
-        return None;
+    let highest = (0..size.len()).max_by(|&a, &b| size[a].total_cmp(&size[b]))?;
+    // The other resonance is the line that stands highest above the lowest point between it and the first.
+    let prominence = |place: usize| {
+        let between = place.min(highest)..=place.max(highest);
+        let valley = size[between].iter().copied().fold(f64::INFINITY, f64::min);
+        size[place] / valley
     };
+    let other = (0..size.len())
+        .filter(|&place| place != highest)
+        .max_by(|&a, &b| prominence(a).total_cmp(&prominence(b)))?;
+    let mut omegas = [highest, other].map(|place| lines[place].omega);
+    omegas.sort_by(f64::total_cmp);
+    let [first, second] = omegas;
+    if first >= second {
+        return None;
+    }
     let with = |mass: f64, ratios: (f64, f64)| Values {
         mass,
         support_stiffness: mass * first * first,

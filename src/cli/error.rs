@@ -12,7 +12,7 @@ use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::{JointFileError, PreloadError};
 use crate::reproduce::ReproduceError;
-use crate::respond::PollutionError;
+use crate::respond::{PollutionError, RespondError};
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
@@ -23,6 +23,8 @@ pub(super) enum CliError {
     Reproduce(#[from] ReproduceError),
     #[error(transparent)]
     Pollution(#[from] PollutionError),
+    #[error(transparent)]
+    Respond(Box<RespondError>),
     #[error(transparent)]
     Frf(#[from] FrfError),
     #[error(transparent)]
@@ -60,6 +62,12 @@ pub(super) enum CliError {
 impl From<IdentifyError> for CliError {
     fn from(error: IdentifyError) -> Self {
         Self::Identify(Box::new(error))
+    }
+}
+
+impl From<RespondError> for CliError {
+    fn from(error: RespondError) -> Self {
+        Self::Respond(Box::new(error))
     }
 }
 

@@ -12,7 +12,9 @@ mod lap;
 mod output;
 mod progress;
 mod reproduce;
+mod reproduce_pirdayr;
 mod respond;
+mod respond_lap;
 mod table;
 
 use std::path::PathBuf;
@@ -21,7 +23,6 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{self as fmu, Interface};
-use crate::reproduce::PublishedTable;
 
 /// Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #[derive(Debug, Parser)]
@@ -48,9 +49,9 @@ enum Command {
     /// Run the library of an FMU for `check`, in a process of its own
     #[command(name = check::RUN_LIBRARY, hide = true)]
     RunLibrary(RunLibraryArguments),
-    /// Compute what a test of a study's assembly would measure, with or without noise
+    /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
+    /// Compute the published tables of Tol's thesis or of Pirdayr's paper anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -161,22 +162,21 @@ struct RunLibraryArguments {
 /// `respond`
 #[derive(Debug, Args)]
 struct RespondArguments {
-    /// The study that the test is for (TOML); the file of its assembly need not exist yet
+    /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, or of method `respond`, which names
+    /// laps and what is done to them
     study: PathBuf,
     /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
-    joint: PathBuf,
-    /// File to write: a table or a universal file
+    joint: Option<PathBuf>,
+    /// File to write: a table or, of an assembly, a universal file
     #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
     output: PathBuf,
-    /// Distance between the lines, Hz
-    #[arg(
-        long,
-        value_name = "HZ",
-        default_value_t = 0.25,
-        allow_hyphen_values = true
-    )]
-    step: f64,
+    /// Distance between the lines of an assembly, Hz [default: 0.25]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
+    step: Option<f64>,
+    /// Also draw the response of laps
+    #[arg(long, value_name = "NAME.svg|NAME.html")]
+    report: Option<PathBuf>,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
@@ -223,8 +223,8 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
-    tables: Vec<PublishedTable>,
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper
+    tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
     draws: u32,

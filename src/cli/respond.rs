@@ -9,12 +9,12 @@ use serde_json::json;
 use crate::frf::write_uff58;
 use crate::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
 use crate::joint::JointFile;
-use crate::respond::{Pollution, to_csv, with_noise};
+use crate::respond::{Pollution, RespondStudy, to_csv, with_noise};
 
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::output::{check_output, print, write_file};
-use super::{NoiseArguments, NoiseProcedure, RespondArguments, RespondNoise};
+use super::{NoiseArguments, NoiseProcedure, RespondArguments, RespondNoise, respond_lap};
 
 /// More lines than any analyser has.
 const MOST_LINES: f64 = 1e7;
@@ -25,16 +25,39 @@ enum Format {
     Universal,
 }
 
+/// Distance between lines where none is given, Hz.
+const STEP_HZ: f64 = 0.25;
+
 pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
+    if RespondStudy::is_meant(&arguments.study)? {
+        return respond_lap::run(arguments);
+    }
+    let refuse = |option, found: &str, expected| CliError::Option {
+        option,
+        found: found.to_owned(),
+        expected,
+    };
+    let Some(joint) = &arguments.joint else {
+        return Err(refuse(
+            "--joint",
+            "nothing",
+            "the joint file that the assembly is to have, or a study of method \"respond\", which names its own",
+        ));
+    };
+    if let Some(report) = &arguments.report {
+        let expected =
+            "none: the functions of an assembly are not drawn here, `identify --report` draws them";
+        return Err(refuse("--report", &report.display().to_string(), expected));
+    }
     let format = format(&arguments.output)?;
-    check_output(&arguments.output, &[&arguments.study, &arguments.joint])?;
+    check_output(&arguments.output, &[&arguments.study, joint])?;
     let noise = match &arguments.noise {
         Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
         None => None,
     };
     let study = Study::read(&arguments.study)?;
-    let frequency_hz = lines(&study, arguments.step)?;
-    let joints = joints(&arguments.joint, &study)?;
+    let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
+    let joints = joints(joint, &study)?;
     let exact = predict_assembly(&study, &joints, &frequency_hz)?;
     let measured = match noise {
         Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,

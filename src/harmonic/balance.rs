@@ -263,7 +263,7 @@ impl<const D: usize> HarmonicBalance<D> {
             result.stiffness[n] = tangent.stiffness;
             result.damping[n] = tangent.damping;
         }
-        let mut add = |samples: &[f64], list: &mut [f64]| {
+        let add = |samples: &[f64], list: &mut [f64]| {
             self.sampling
                 .add_harmonics(&self.harmonics, samples, &mut list[from..from + slots]);
         };
@@ -349,16 +349,24 @@ impl<const D: usize> HarmonicBalance<D> {
         at: Circumstances,
     ) -> Vec<f64> {
         let mut result = vec![0.0; self.size()];
-        let whole = |result: &mut Vec<f64>, take: fn(&Evaluation) -> &[f64]| {
-            let mut evaluation = self.room();
-            self.evaluate(coefficients, loads, at, &mut evaluation);
-            result.copy_from_slice(take(&evaluation));
-        };
         match parameter {
-            Parameter::LoadFactor => whole(&mut result, |evaluation| &evaluation.by_factor),
-            Parameter::AngularFrequency => whole(&mut result, |evaluation| &evaluation.by_omega),
-            Parameter::Cubic(dof) => {
-                self.add_term(Term::Cubic, dof, coefficients, at.omega, &mut result);
+            // The frequency is an unknown of the equations, and changes with them.
+            Parameter::AngularFrequency => {}
+            Parameter::LoadFactor => {
+                let mut evaluation = self.room();
+                self.evaluate(coefficients, loads, at, &mut evaluation);
+                for (result, by_factor) in result.iter_mut().zip(&evaluation.by_factor) {
+                    *result = at.load_factor * by_factor;
+                }
+            }
+            Parameter::Cubic(dof)
+            | Parameter::Quintic(dof)
+            | Parameter::Septic(dof)
+            | Parameter::DampingQuadratic(dof)
+            | Parameter::DampingQuartic(dof) => {
+                if let Some(term) = parameter.term() {
+                    self.add_term(term, dof, coefficients, at.omega, &mut result);
+                }
             }
             Parameter::JointStiffness(row, column) => {
                 let unit = |_| Complex64::ONE;
@@ -416,20 +424,17 @@ impl<const D: usize> HarmonicBalance<D> {
     ) {
         let slots = self.harmonics.slots();
         let own = dof * slots..(dof + 1) * slots;
-        let mut r = vec![0.0; self.sampling.count()];
+        // The term may be of a higher degree than those that the joint has.
+        let sampling = Sampling::new(&self.harmonics, term.degree());
+        let mut r = vec![0.0; sampling.count()];
         let mut rate = r.clone();
-        self.sampling.motion(
-            &self.harmonics,
-            &coefficients[own.clone()],
-            &mut r,
-            &mut rate,
-        );
+        let motion = &coefficients[own.clone()];
+        sampling.motion(&self.harmonics, motion, &mut r, &mut rate);
         let (of_r, of_rate) = term.powers();
         for (r, rate) in r.iter_mut().zip(&rate) {
             *r = r.powi(of_r) * (omega * rate).powi(of_rate);
         }
-        self.sampling
-            .add_harmonics(&self.harmonics, &r, &mut result[own]);
+        sampling.add_harmonics(&self.harmonics, &r, &mut result[own]);
     }
 }
 
@@ -440,6 +445,17 @@ impl Parameter {
             Self::Inertia(side, dof) => Some((side, BodyNumber::Inertia, dof)),
             Self::SupportStiffness(side, dof) => Some((side, BodyNumber::Stiffness, dof)),
             Self::SupportDamping(side, dof) => Some((side, BodyNumber::Damping, dof)),
+            _ => None,
+        }
+    }
+
+    fn term(self) -> Option<Term> {
+        match self {
+            Self::Cubic(_) => Some(Term::Cubic),
+            Self::Quintic(_) => Some(Term::Quintic),
+            Self::Septic(_) => Some(Term::Septic),
+            Self::DampingQuadratic(_) => Some(Term::DampingQuadratic),
+            Self::DampingQuartic(_) => Some(Term::DampingQuartic),
             _ => None,
         }
     }

@@ -3,12 +3,20 @@
 use super::balance::HarmonicBalance;
 use super::condensed::Circumstances;
 use super::continuation::Followed;
+use super::solution::{SMALL, not_found};
 use super::stability::Stability;
 use super::system::{Closing, Regime, System};
 use super::{HarmonicError, HarmonicLoads, Solution, Steps, Target};
 
 /// Part of the range of frequencies that counts as much as the motion's change by itself.
 const OF_RANGE: f64 = 0.1;
+/// Steps from small amplitudes to larger ones, of which only the last is wanted.
+const GROWING: Steps = Steps {
+    first: 0.5,
+    shortest: 1e-9,
+    longest: 1.0,
+    most: 2000,
+};
 
 /// A point of a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,36 +114,40 @@ impl<const D: usize> HarmonicBalance<D> {
         loads: &HarmonicLoads<D>,
     ) -> Result<Solution<D>, HarmonicError> {
         let mut system = System::new(self, loads, Regime::Level(omega));
-        let factor = 1e-3;
         let begin = Circumstances {
             omega,
-            load_factor: factor,
+            load_factor: SMALL,
             released: 0.0,
         };
-        let mut unknowns = system.unknowns(&vec![0.0; self.size()], begin);
-        let scale = system.scale(&unknowns);
-        let closing = Closing::LoadFactor(factor);
-        let refuse = || super::solution::not_found(omega, 1);
-        let _ = system
-            .correct(&mut unknowns, &closing, &scale, 60, false)
-            .ok_or_else(refuse)?;
+        let unknowns = system.unknowns(&vec![0.0; self.size()], begin);
+        let start = system.closed(unknowns, &Closing::LoadFactor(SMALL))?;
         let place = self.size() + 1;
         let points = system.follow(
-            unknowns,
+            system.unknowns(&start.coefficients, start.at),
             [0.0, 1.0],
-            &Steps {
-                longest: 0.5,
-                first: 0.5,
-                ..Steps::default()
-            },
+            &GROWING,
             &move |_, unknowns| unknowns[place],
             &Closing::LoadFactor,
         )?;
-        let end = points
-            .last()
-            .filter(|end| end.solution.at.load_factor == 1.0);
-        let mut solution = end.ok_or_else(refuse)?.solution.clone();
+        let end = points.into_iter().next_back();
+        let end = end.filter(|end| (end.solution.at.load_factor - 1.0).abs() < 1e-9);
+        let mut solution = end.ok_or_else(|| not_found(omega, 1))?.solution;
         solution.regime = Regime::Forced;
+        solution.at.load_factor = 1.0;
+        Ok(solution)
+    }
+
+    /// The response of an amplitude at a frequency that grows with the loads out of rest.
+    pub(super) fn controlled_from_rest(
+        &self,
+        omega: f64,
+        loads: &HarmonicLoads<D>,
+        target: Target,
+    ) -> Result<Solution<D>, HarmonicError> {
+        let linear = self.linear(omega, loads, &target.times(SMALL))?;
+        let mut system = System::new(self, loads, Regime::Level(omega));
+        let mut solution = system.grown_to(&linear, target)?;
+        solution.regime = Regime::Controlled(target);
         Ok(solution)
     }
 
@@ -160,6 +172,31 @@ impl<const D: usize> HarmonicBalance<D> {
 }
 
 impl<const D: usize> System<'_, D> {
+    /// The motion of an amplitude that grows out of a small one.
+    pub(super) fn grown_to(
+        &mut self,
+        small: &Solution<D>,
+        target: Target,
+    ) -> Result<Solution<D>, HarmonicError> {
+        let from = target.times(SMALL);
+        let unknowns = self.unknowns(&small.coefficients, small.at);
+        let start = self.closed(unknowns, &Closing::Amplitude(from))?;
+        let options = CurveOptions {
+            steps: GROWING,
+            with_stability: false,
+        };
+        let ends = [from.amplitude, target.amplitude];
+        let points = self.along_amplitude(&start, ends, target, &options)?;
+        let end = points.into_iter().next_back().map(|end| end.solution);
+        let is_there = |end: &Solution<D>| {
+            let unknowns = self.unknowns(&end.coefficients, end.at);
+            let reached = self.target_amplitude(&target, &unknowns);
+            (reached / target.amplitude - 1.0).abs() < 1e-9
+        };
+        let end = end.filter(is_there);
+        end.ok_or_else(|| not_found(start.at.omega, 1))
+    }
+
     fn along_frequency(
         &mut self,
         start: &Solution<D>,

@@ -64,4 +64,12 @@ impl Target {
             amplitude,
         }
     }
+
+    /// The same of another amplitude.
+    pub(super) fn times(self, factor: f64) -> Self {
+        Self {
+            amplitude: factor * self.amplitude,
+            ..self
+        }
+    }
 }

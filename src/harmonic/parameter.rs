@@ -28,7 +28,15 @@ pub enum Parameter {
     JointDamping(usize, usize),
     /// k3 of a relative DOF.
     Cubic(usize),
-    /// Factor of the harmonic loads.
+    /// k5 of a relative DOF.
+    Quintic(usize),
+    /// k7 of a relative DOF.
+    Septic(usize),
+    /// c2 of a relative DOF.
+    DampingQuadratic(usize),
+    /// c4 of a relative DOF.
+    DampingQuartic(usize),
+    /// Factor by which all harmonic loads are changed, 1 as they are.
     LoadFactor,
     /// Angular frequency of the loads, rad/s.
     AngularFrequency,

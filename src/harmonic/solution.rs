@@ -10,6 +10,8 @@ use super::condensed::{Circumstances, Condensed};
 use super::system::{Closing, Regime, Scale, System};
 use super::{Derivative, HarmonicError, HarmonicLoads, Observed, Parameter, Side, Target};
 
+/// Part of an amplitude at which a lap is still nearly linear, where growing begins.
+pub(super) const SMALL: f64 = 1e-3;
 /// Iterations from a start that may be far.
 const MOST_ITERATIONS: usize = 60;
 
@@ -137,13 +139,8 @@ impl<const D: usize> HarmonicBalance<D> {
     ) -> Result<Solution<D>, HarmonicError> {
         self.check(omega_rad_s, loads)?;
         self.check_target(&target, loads)?;
-        let linear;
-        let start = match start {
-            Some(start) => start,
-            None => {
-                linear = self.linear(omega_rad_s, loads, &target)?;
-                &linear
-            }
+        let Some(start) = start else {
+            return self.controlled_from_rest(omega_rad_s, loads, target);
         };
         let mut system = System::new(self, loads, Regime::Controlled(target));
         let at = Circumstances {
@@ -167,16 +164,13 @@ impl<const D: usize> HarmonicBalance<D> {
     ) -> Result<Solution<D>, HarmonicError> {
         self.check_loads(loads)?;
         self.check_target(&target, loads)?;
-        let linear;
-        let start = match start {
-            Some(start) => start,
-            None => {
-                let omega = self.natural_omega(target.observed)?;
-                linear = self.linear(omega, loads, &target)?;
-                &linear
-            }
-        };
         let mut system = System::new(self, loads, Regime::Resonance(target.observed));
+        let Some(start) = start else {
+            let omega = self.natural_omega(target.observed)?;
+            let small = target.times(SMALL);
+            let linear = self.linear(omega, loads, &small)?;
+            return system.grown_to(&linear, target);
+        };
         let unknowns = system.unknowns(&start.coefficients, start.at);
         system.closed(unknowns, &Closing::Amplitude(target))
     }
@@ -196,15 +190,11 @@ impl<const D: usize> HarmonicBalance<D> {
     ) -> Result<Solution<D>, HarmonicError> {
         self.check_amplitude(&target)?;
         let loads = HarmonicLoads::NONE;
-        let linear;
-        let start = match start {
-            Some(start) => start,
-            None => {
-                linear = self.linear_mode(&target)?;
-                &linear
-            }
-        };
         let mut system = System::new(self, &loads, Regime::Free(target.observed));
+        let Some(start) = start else {
+            let linear = self.linear_mode(&target.times(SMALL))?;
+            return system.grown_to(&linear, target);
+        };
         let unknowns = system.unknowns(&start.coefficients, start.at);
         system.closed(unknowns, &Closing::Amplitude(target))
     }
@@ -350,7 +340,9 @@ impl<const D: usize> HarmonicBalance<D> {
         let bodies = Condensed::new(&self.lap, loads, dof, order, at);
         match parameter.of_body() {
             Some((of, number, own)) if own == dof => bodies.body_by_number(of, number, r),
-            None if parameter == Parameter::LoadFactor => bodies.body_by_factor(loads, dof),
+            None if parameter == Parameter::LoadFactor => {
+                bodies.body_by_factor(loads, dof) * at.load_factor
+            }
             _ => Complex64::ZERO,
         }
     }
@@ -439,7 +431,7 @@ impl<const D: usize> HarmonicBalance<D> {
     }
 
     /// The response of the linear lap at a frequency, its loads adjusted to the target.
-    fn linear(
+    pub(super) fn linear(
         &self,
         omega: f64,
         loads: &HarmonicLoads<D>,
@@ -483,7 +475,7 @@ impl<const D: usize> System<'_, D> {
     }
 
     /// The solution that Newton's method finds from here.
-    fn closed(
+    pub(super) fn closed(
         &mut self,
         mut unknowns: Vec<f64>,
         closing: &Closing<'_>,
@@ -548,7 +540,11 @@ impl Parameter {
             Self::Inertia(_, dof)
             | Self::SupportStiffness(_, dof)
             | Self::SupportDamping(_, dof)
-            | Self::Cubic(dof) => [dof; 2],
+            | Self::Cubic(dof)
+            | Self::Quintic(dof)
+            | Self::Septic(dof)
+            | Self::DampingQuadratic(dof)
+            | Self::DampingQuartic(dof) => [dof; 2],
             Self::JointStiffness(row, column) | Self::JointDamping(row, column) => [row, column],
             Self::LoadFactor | Self::AngularFrequency => [0; 2],
         }

@@ -6,16 +6,36 @@ use bolted_joint_dynamics::JointLaw;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Term {
     Cubic,
+    Quintic,
+    Septic,
+    DampingQuadratic,
+    DampingQuartic,
 }
 
 impl Term {
-    pub(super) const ALL: [Self; 1] = [Self::Cubic];
+    pub(super) const ALL: [Self; 5] = [
+        Self::Cubic,
+        Self::Quintic,
+        Self::Septic,
+        Self::DampingQuadratic,
+        Self::DampingQuartic,
+    ];
 
     /// Powers of r and of ṙ.
     pub(super) fn powers(self) -> (i32, i32) {
         match self {
             Self::Cubic => (3, 0),
+            Self::Quintic => (5, 0),
+            Self::Septic => (7, 0),
+            Self::DampingQuadratic => (2, 1),
+            Self::DampingQuartic => (4, 1),
         }
+    }
+
+    /// Degree in r and ṙ together.
+    pub(super) fn degree(self) -> usize {
+        let (r, velocity) = self.powers();
+        (r + velocity).unsigned_abs() as usize
     }
 }
 
@@ -42,39 +62,43 @@ impl Terms {
         Self {
             coefficients: Term::ALL.map(|term| match term {
                 Term::Cubic => law.cubic[dof],
+                Term::Quintic => law.higher.quintic[dof],
+                Term::Septic => law.higher.septic[dof],
+                Term::DampingQuadratic => law.higher.damping_quadratic[dof],
+                Term::DampingQuartic => law.higher.damping_quartic[dof],
             }),
         }
     }
 
+    fn there(&self) -> impl Iterator<Item = Term> {
+        let all = Term::ALL.into_iter().zip(self.coefficients);
+        all.filter(|&(_, coefficient)| coefficient != 0.0)
+            .map(|(term, _)| term)
+    }
+
     /// Degree of the highest term there is; at least that of the cubic one.
     pub(super) fn degree(&self) -> usize {
-        let there = Term::ALL.iter().zip(self.coefficients);
-        there
-            .filter(|&(_, coefficient)| coefficient != 0.0)
-            .map(|(term, _)| {
-                let (r, v) = term.powers();
-                (r + v).unsigned_abs() as usize
-            })
-            .fold(3, usize::max)
+        self.there()
+            .map(Term::degree)
+            .fold(Term::Cubic.degree(), usize::max)
     }
 
     /// Whether the force depends on the velocity.
     pub(super) fn has_damping(&self) -> bool {
-        let there = Term::ALL.iter().zip(self.coefficients);
-        there
-            .into_iter()
-            .any(|(term, coefficient)| term.powers().1 > 0 && coefficient != 0.0)
+        self.there().any(|term| term.powers().1 > 0)
     }
 
     #[inline]
-    pub(super) fn tangent(&self, r: f64, _velocity: f64) -> Tangent {
-        // f = k3 r³
-        let [k3] = self.coefficients;
+    pub(super) fn tangent(&self, r: f64, velocity: f64) -> Tangent {
+        // f = k3 r³ + k5 r⁵ + k7 r⁷ + (c2 r² + c4 r⁴) ṙ
+        let [k3, k5, k7, c2, c4] = self.coefficients;
         let squared = r * r;
+        let damping = squared * (c2 + squared * c4);
         Tangent {
-            force: k3 * squared * r,
-            stiffness: 3.0 * k3 * squared,
-            damping: 0.0,
+            force: r * squared * (k3 + squared * (k5 + squared * k7)) + damping * velocity,
+            stiffness: squared * (3.0 * k3 + squared * (5.0 * k5 + squared * (7.0 * k7)))
+                + r * (2.0 * c2 + 4.0 * c4 * squared) * velocity,
+            damping,
         }
     }
 }

@@ -118,7 +118,7 @@ impl LineFigure<'_> {
     }
 }
 
-fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Axis> {
+pub(super) fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Axis> {
     match scale {
         Scale::Linear => Some(Axis::linear(values)),
         Scale::Logarithmic => Axis::logarithmic(values, DECADES),

@@ -13,15 +13,17 @@ mod line_figure;
 mod look;
 mod page;
 mod resonance_labels;
+mod response_figure;
 mod strip;
 mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
 pub use lap::{LapResponseReport, LapUpdateReport};
-pub(crate) use lap::{convergence_figure, response_figure};
+pub(crate) use lap::{convergence_figure, level_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale};
 pub use page::IdentificationReport;
+pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 
 #[cfg(test)]
 mod tests;

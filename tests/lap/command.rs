@@ -75,3 +75,12 @@ fn each_torque_with_its_own_bodies_gets_a_file_that_exports() {
     );
     assert_eq!(refused.status.code(), Some(1));
 }
+
+#[test]
+fn the_document_is_what_the_command_writes() {
+    let output = run(&["reproduce", "pirdayr", "--markdown"], Path::new("."));
+    assert!(output.status.success());
+    let written = String::from_utf8(output.stdout).unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pirdayr.md");
+    assert_eq!(written, std::fs::read_to_string(document).unwrap());
+}

@@ -45,6 +45,7 @@ fn model() -> Model {
         response: Place::B,
         terms: TermSet::of(&[Term::Cubic]),
         unknowns: UNKNOWNS.to_vec(),
+        harmonics: 1,
     }
 }
 
@@ -188,6 +189,98 @@ fn exact_responses_give_the_exact_model() {
             }
         }
     }
+}
+
+/// A strong cubic spring integrated in time by Runge and Kutta until it is periodic: many harmonics are needed to find it again.
+#[test]
+fn many_harmonics_find_what_time_integration_gives() {
+    let truth = Values {
+        mass: 2.0,
+        joint_stiffness: 1e4,
+        joint_damping: 4.0,
+        terms: [4e9, 0.0, 0.0, 3e5, 0.0],
+        ..Values::default()
+    };
+    let runs = [4.0, 12.0].map(|force_n| SineRun {
+        name: String::new(),
+        path: PathBuf::new(),
+        used_for: Use::Fit,
+        lines: [40.0, 60.0, 80.0, 130.0, 150.0, 180.0, 220.0]
+            .map(|omega| {
+                let (displacement_m, phase_rad) = steady_state(&truth, omega, force_n).to_polar();
+                SineLine {
+                    omega,
+                    force_n,
+                    displacement_m,
+                    phase_rad,
+                }
+            })
+            .to_vec(),
+    });
+    let terms = [Term::Cubic, Term::DampingQuadratic];
+    let unknowns = [
+        ResponseUnknown::Mass,
+        ResponseUnknown::JointStiffness,
+        ResponseUnknown::JointDamping,
+    ];
+    let error_of = |harmonics: usize| {
+        let model = Model {
+            drive: Place::Relative,
+            response: Place::Relative,
+            terms: TermSet::of(&terms),
+            unknowns: unknowns
+                .into_iter()
+                .chain(terms.map(ResponseUnknown::Term))
+                .collect(),
+            harmonics,
+        };
+        let fit = fit_responses(
+            &model,
+            &runs,
+            &Noise::stated(1e-3, 1e-3),
+            &Values::default(),
+        )
+        .unwrap();
+        let errors = model
+            .unknowns
+            .iter()
+            .map(|&unknown| (fit.values.of(unknown) / truth.of(unknown) - 1.0).abs());
+        errors.fold(0.0, f64::max)
+    };
+    let (one, many) = (error_of(1), error_of(21));
+    println!("largest relative error with one harmonic {one:.1e}, with 21 {many:.1e}");
+    assert!(many < 1e-5 && one > 1e3 * many, "{one} {many}");
+}
+
+/// Fundamental of r of (m/2) r̈ + c12 ṙ + k12 r + k3 r³ + c2 r² ṙ = F cos ωt.
+fn steady_state(values: &Values, omega: f64, force: f64) -> Complex64 {
+    const STEPS: usize = 1000;
+    let rate = |t: f64, [r, v]: [f64; 2]| {
+        let load = force * (omega * t).cos();
+        let spring = values.joint_stiffness * r + values.terms[0] * r.powi(3);
+        let damper = (values.joint_damping + values.terms[3] * r * r) * v;
+        [v, (load - spring - damper) / (0.5 * values.mass)]
+    };
+    let h = std::f64::consts::TAU / omega / STEPS as f64;
+    let mut state = [0.0; 2];
+    let mut sum = Complex64::ZERO;
+    // Damping forgets the start: e^(−c t/m) with c/m above 2 1/s after 25 s.
+    let periods = (25.0 * omega / std::f64::consts::TAU).ceil() as usize;
+    for n in 0..periods * STEPS {
+        let t = n as f64 * h;
+        if n >= (periods - 1) * STEPS {
+            sum += 2.0 * state[0] * Complex64::from_polar(1.0, -omega * t) / STEPS as f64;
+        }
+        let moved = |by: f64, k: [f64; 2]| [state[0] + by * k[0], state[1] + by * k[1]];
+        let k1 = rate(t, state);
+        let k2 = rate(t + 0.5 * h, moved(0.5 * h, k1));
+        let k3 = rate(t + 0.5 * h, moved(0.5 * h, k2));
+        let k4 = rate(t + h, moved(h, k3));
+        for i in 0..2 {
+            state[i] += h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+        }
+    }
+    sum
 }
 
 /// The covariance is the bound where the noise is stated: the information matrix against the independent one.

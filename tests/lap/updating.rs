@@ -24,12 +24,12 @@ fn example(name: &str) -> LapUpdate {
     LapUpdate::of(&study, &silent).unwrap()
 }
 
-/// `scipy.optimize.least_squares` (SciPy 1.16) in the same logarithms and bounds, best of ten starts: the objective (4), and m.
+/// `scipy.optimize.least_squares` (SciPy 1.17) in the same logarithms and bounds, best of ten starts: the objective (4), and m.
 const SCIPY: [(f64, f64); 4] = [
     (0.003_985_833_810_766_084, 2.694_259),
     (0.000_401_680_113_858_995_2, 2.481_998_5),
     (0.001_440_880_299_960_921_4, 2.273_517_41),
-    (0.000_262_913_433_543_093_3, 2.143_754_54),
+    (0.000_262_913_435_543_093_3, 2.143_754_54),
 ];
 
 #[test]

@@ -42,7 +42,7 @@ pub(in super::super) fn run(arguments: &IdentifyArguments) -> Result<(), CliErro
         write_file(path, page.to_html().as_bytes())?;
     }
     if let Some(path) = &arguments.figure {
-        let drawing = crate::report::response_figure(&study, &found);
+        let drawing = crate::report::level_figure(&study, &found);
         write_file(path, drawing.unwrap_or_default().as_bytes())?;
     }
     for warning in &warnings {

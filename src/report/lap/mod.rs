@@ -4,7 +4,7 @@ mod response;
 mod update;
 
 pub use response::LapResponseReport;
-pub(crate) use response::response_figure;
+pub(crate) use response::level_figure;
 pub use update::LapUpdateReport;
 pub(crate) use update::convergence_figure;
 

@@ -277,7 +277,7 @@ fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
 }
 
 /// Receptances regenerated of up to four runs, of the lowest to the highest level.
-pub(crate) fn response_figure(study: &LapResponseStudy, found: &LapResponse) -> Option<String> {
+pub(crate) fn level_figure(study: &LapResponseStudy, found: &LapResponse) -> Option<String> {
     let mut runs: Vec<&SineRun> = study.sines.iter().collect();
     runs.sort_by(|a, b| a.amplitude_m().total_cmp(&b.amplitude_m()));
     let stride = runs.len().div_ceil(4).max(1);

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use super::data::{RESPONSE, ResponseDataError, Use};
-use super::dynamic_stiffness::DynamicStiffness;
+use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
@@ -53,7 +53,7 @@ impl BackboneLine {
         values: &Values,
         noise: &Noise,
     ) -> Vec<(f64, Vec<f64>)> {
-        let z = DynamicStiffness::of(values, self.amplitude_m, self.omega);
+        let z = RelativeMotion::fundamental(values).stiffness(self.amplitude_m, self.omega);
         // K = k/2 + k₁₂ + …, M = m/2, C = c/2 + c₁₂ + …
         let mass = 0.5 * values.mass;
         let stiffness = z.value.re + mass * self.omega * self.omega;

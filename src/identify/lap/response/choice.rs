@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::super::super::error::IdentifyError;
 use super::backbone::BackboneLine;
-use super::data::{SineRun, Use};
-use super::fit::{Fit, FitError};
+use super::data::{SineLine, SineRun, Use};
+use super::fit::{Data, Fit, FitError, fit};
+use super::model::Model;
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
@@ -71,11 +72,36 @@ pub(super) fn choose(
         None => candidate.bic == least,
     });
     match chosen {
-        Some(chosen) => Ok((chosen, comparison)),
+        Some(chosen) => Ok((refined(study, chosen, &runs, &backbone), comparison)),
         None => Err(IdentifyError::LapFit {
             path: study.path.clone(),
             source: failure.unwrap_or(FitError::NoEstimate),
         }),
+    }
+}
+
+/// The candidate with all harmonics that the study asks for.
+fn refined(
+    study: &LapResponseStudy,
+    candidate: Candidate,
+    runs: &[&SineRun],
+    backbone: &[BackboneLine],
+) -> Candidate {
+    let model = study.model(&candidate.terms);
+    let lines: Vec<SineLine> = runs
+        .iter()
+        .flat_map(|run| run.lines.iter().copied())
+        .collect();
+    if model.harmonics == 1 || lines.is_empty() {
+        return candidate;
+    }
+    let data = Data {
+        lines: &lines,
+        backbone,
+    };
+    match fit(&model, data, &study.noise, &candidate.fit.values) {
+        Ok(fit) => Candidate { fit, ..candidate },
+        Err(_) => candidate,
     }
 }
 
@@ -94,7 +120,11 @@ fn candidate(
     backbone: &[BackboneLine],
     terms: TermSet,
 ) -> Result<Candidate, FitError> {
-    let model = study.model(&terms);
+    // All models are compared in the closed form of one harmonic.
+    let model = Model {
+        harmonics: 1,
+        ..study.model(&terms)
+    };
     let (fit, tried, agreeing) =
         start::best(&model, runs, backbone, &study.noise, &study.known_values())?;
     let unknowns = fit.information.nrows();

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::backbone::BackboneLine;
 use super::data::SineLine;
+use super::dynamic_stiffness::RelativeMotion;
 use super::model::{LineResidual, Model, Values};
 use super::study::Noise;
 
@@ -34,6 +35,10 @@ const STEPS: usize = 200;
 const AT_REST: f64 = 1e-13;
 /// Longest step of the logarithm of an amplitude.
 const LONGEST: f64 = 0.5;
+/// Iterations of one line's amplitude, shortened steps in each, and the step that is none.
+const SETTLING: usize = 12;
+const HALVINGS: usize = 4;
+const SETTLED: f64 = 1e-9;
 const DAMPING: f64 = 1e-4;
 const MOST_DAMPING: f64 = 1e12;
 
@@ -84,10 +89,14 @@ impl State {
         values: Values,
         log_amplitudes: Vec<f64>,
     ) -> Self {
-        let pairs = data.lines.iter().zip(&log_amplitudes);
-        let lines: Vec<LineResidual> = pairs
-            .map(|(line, &log_amplitude)| model.residual(&values, line, log_amplitude, noise))
-            .collect();
+        let motion = RelativeMotion::new(&values, model.harmonics);
+        let pairs = data.lines.iter().zip(log_amplitudes);
+        let settled = pairs.map(|(line, log_amplitude)| {
+            settled(log_amplitude, |log_amplitude| {
+                model.residual(&values, &motion, line, log_amplitude, noise)
+            })
+        });
+        let (log_amplitudes, lines): (Vec<f64>, Vec<LineResidual>) = settled.unzip();
         let backbone: Vec<(f64, Vec<f64>)> = data
             .backbone
             .iter()
@@ -103,6 +112,38 @@ impl State {
             lines,
         }
     }
+}
+
+/// The amplitude that fits one line best, near a first guess: a force without error, which fixes it, would otherwise hold up every
+/// step of the model.
+fn settled(mut log_amplitude: f64, residual: impl Fn(f64) -> LineResidual) -> (f64, LineResidual) {
+    let cost = |line: &LineResidual| dot(&line.residual, &line.residual);
+    let mut line = residual(log_amplitude);
+    for _ in 0..SETTLING {
+        let (direction, length) = unit(line.by_log_amplitude);
+        if length == 0.0 {
+            break;
+        }
+        let mut step = (-dot(&line.residual, &direction) / length).clamp(-LONGEST, LONGEST);
+        let mut is_better = false;
+        for _ in 0..HALVINGS {
+            if step.abs() < SETTLED {
+                break;
+            }
+            let trial = residual(log_amplitude + step);
+            if cost(&trial) < cost(&line) {
+                log_amplitude += step;
+                line = trial;
+                is_better = true;
+                break;
+            }
+            step *= 0.25;
+        }
+        if !is_better {
+            break;
+        }
+    }
+    (log_amplitude, line)
 }
 
 /// Fits the model from a start.
@@ -126,14 +167,6 @@ pub(super) fn fit(
             .ln()
     });
     let mut state = State::new(model, data, noise, *start, amplitudes.collect());
-    // Settle the amplitudes first.
-    for _ in 0..20 {
-        let trial = moved(model, data, noise, &state, &DVector::zeros(unknowns));
-        if !(trial.chi_squared < state.chi_squared) {
-            break;
-        }
-        state = trial;
-    }
     if !state.chi_squared.is_finite() {
         return Err(FitError::NoEstimate);
     }

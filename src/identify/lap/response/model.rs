@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use serde::Serialize;
 
 use super::data::{SineLine, wrapped};
-use super::dynamic_stiffness::DynamicStiffness;
+use super::dynamic_stiffness::RelativeMotion;
 use super::study::{Noise, Place};
 use super::terms::{Term, TermSet};
 
@@ -84,6 +84,18 @@ impl Values {
         self.terms[term as usize]
     }
 
+    /// K = k/2 + k12: linear stiffness of the relative motion, N/m.
+    #[must_use]
+    pub fn relative_stiffness(&self) -> f64 {
+        0.5 * self.support_stiffness + self.joint_stiffness
+    }
+
+    /// C = c/2 + c12: viscous damping of the relative motion, N·s/m.
+    #[must_use]
+    pub fn relative_damping(&self) -> f64 {
+        0.5 * self.support_damping + self.joint_damping
+    }
+
     /// The value of an unknown.
     #[must_use]
     pub fn of(&self, unknown: ResponseUnknown) -> f64 {
@@ -116,6 +128,8 @@ pub struct Model {
     pub terms: TermSet,
     /// What is unknown.
     pub unknowns: Vec<ResponseUnknown>,
+    /// Highest harmonic of the relative motion, odd; one is the closed form of describing functions.
+    pub harmonics: usize,
 }
 
 /// One line's residuals in standard deviations (force, response, phase), with their derivatives.
@@ -178,7 +192,9 @@ impl Model {
     /// Receptance and force (N) at an amplitude of the relative motion (m).
     #[must_use]
     pub fn receptance(&self, values: &Values, amplitude_m: f64, omega: f64) -> (Complex64, f64) {
-        let stiffness = DynamicStiffness::of(values, amplitude_m, omega).value;
+        let stiffness = RelativeMotion::new(values, self.harmonics)
+            .stiffness(amplitude_m, omega)
+            .value;
         let ((difference, sum), (of_sum, of_relative)) = (self.loads(), self.shares());
         let mut receptance = of_relative * difference / stiffness
             + Complex64::new(values.other_modes[0], values.other_modes[1]);
@@ -194,7 +210,10 @@ impl Model {
     /// K: stiffness of the relative motion at an amplitude (m), N/m.
     #[must_use]
     pub fn equivalent_stiffness(&self, values: &Values, amplitude_m: f64) -> f64 {
-        DynamicStiffness::of(values, amplitude_m, 0.0).value.re
+        RelativeMotion::fundamental(values)
+            .stiffness(amplitude_m, 0.0)
+            .value
+            .re
     }
 
     /// A first guess of a line's relative amplitude, m: what of the response the linear parts do not explain.
@@ -207,7 +226,10 @@ impl Model {
             rest -= of_sum * sum / Self::sum_stiffness(values, line.omega);
         }
         let by_rest = rest.norm() * line.force_n / of_relative.abs();
-        let linear = DynamicStiffness::of(values, 0.0, line.omega).value.norm();
+        let linear = RelativeMotion::fundamental(values)
+            .stiffness(0.0, line.omega)
+            .value
+            .norm();
         let by_force = difference.abs() * line.force_n / linear;
         // Away from the relative mode's resonance the rest is a small difference of large numbers.
         let smaller_cost = [by_rest, by_force].map(|amplitude| {
@@ -226,13 +248,14 @@ impl Model {
     pub(super) fn residual(
         &self,
         values: &Values,
+        motion: &RelativeMotion<'_>,
         line: &SineLine,
         log_amplitude: f64,
         noise: &Noise,
     ) -> LineResidual {
         let amplitude = log_amplitude.exp();
         let omega = line.omega;
-        let z = DynamicStiffness::of(values, amplitude, omega);
+        let z = motion.stiffness(amplitude, omega);
         let ((difference, sum), (of_sum, of_relative)) = (self.loads(), self.shares());
         let sum_stiffness = Self::sum_stiffness(values, omega);
         let (from_sum, by_sum) = if self.sees_sum() {
@@ -261,14 +284,11 @@ impl Model {
         let by_unknown = self.unknowns.iter().map(|unknown| {
             let j_omega = Complex64::new(0.0, omega);
             let (dz_r, dz_s): (Complex64, Complex64) = match *unknown {
-                ResponseUnknown::Mass => {
-                    let inertia = Complex64::from(-omega * omega);
-                    (0.5 * inertia, inertia)
-                }
-                ResponseUnknown::SupportStiffness => (0.5.into(), 1.0.into()),
-                ResponseUnknown::SupportDamping => (0.5 * j_omega, j_omega),
-                ResponseUnknown::JointStiffness => (1.0.into(), Complex64::ZERO),
-                ResponseUnknown::JointDamping => (j_omega, Complex64::ZERO),
+                ResponseUnknown::Mass => (z.by_mass, (-omega * omega).into()),
+                ResponseUnknown::SupportStiffness => (0.5 * z.by_stiffness, Complex64::ONE),
+                ResponseUnknown::SupportDamping => (0.5 * z.by_damping, j_omega),
+                ResponseUnknown::JointStiffness => (z.by_stiffness, Complex64::ZERO),
+                ResponseUnknown::JointDamping => (z.by_damping, Complex64::ZERO),
                 ResponseUnknown::Term(term) => (z.by_term[term as usize], Complex64::ZERO),
                 ResponseUnknown::OtherModesReal => {
                     return rows(Complex64::ZERO, Complex64::ONE, 0.0);

@@ -68,7 +68,24 @@ pub fn fit_responses(
     known: &Values,
 ) -> Result<Fit, FitError> {
     let runs: Vec<&SineRun> = runs.iter().collect();
-    best(model, &runs, &[], noise, known).map(|(fit, ..)| fit)
+    // The closed form of one harmonic finds the place, all harmonics refine it.
+    let closed = Model {
+        harmonics: 1,
+        ..model.clone()
+    };
+    let (found, ..) = best(&closed, &runs, &[], noise, known)?;
+    if model.harmonics == 1 {
+        return Ok(found);
+    }
+    let lines: Vec<SineLine> = runs
+        .iter()
+        .flat_map(|run| run.lines.iter().copied())
+        .collect();
+    let data = Data {
+        lines: &lines,
+        backbone: &[],
+    };
+    fit(model, data, noise, &found.values)
 }
 
 fn starts(

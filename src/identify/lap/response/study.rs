@@ -65,6 +65,10 @@ impl Noise {
     }
 }
 
+/// Highest harmonic where the study names none, and the highest that it may name.
+const HARMONICS: usize = 3;
+const MOST_HARMONICS: usize = 99;
+
 /// A force without error counts as one with this part of the response's.
 const EXACT: f64 = 1e-4;
 
@@ -94,6 +98,8 @@ pub struct LapResponseStudy {
     pub response: Place,
     /// The terms of the model; `None` leaves the choice to the data.
     pub terms: Option<TermSet>,
+    /// Highest harmonic of the relative motion.
+    pub harmonics: usize,
     /// Whether other modes may add a constant to the receptance.
     pub other_modes: bool,
     /// What is known of k, m, c, k12, c12; the others are unknown.
@@ -139,6 +145,7 @@ struct ModelTable {
     drive: Place,
     response: Place,
     terms: Option<Vec<Term>>,
+    harmonics: Option<usize>,
     #[serde(default)]
     other_modes: bool,
 }
@@ -236,6 +243,17 @@ impl LapResponseStudy {
         {
             return refuse(path, "torque", torque.to_string(), "N·m, not negative");
         }
+        let harmonics = file.model.harmonics.unwrap_or(HARMONICS);
+        if harmonics % 2 == 0 || harmonics > MOST_HARMONICS {
+            return refuse(
+                path,
+                "model.harmonics",
+                harmonics.to_string(),
+                format!(
+                    "an odd number up to {MOST_HARMONICS}: the joint's law is odd, so the even harmonics vanish"
+                ),
+            );
+        }
         let range_hz = [
             file.frequency.from.unwrap_or(f64::MIN_POSITIVE),
             file.frequency.to.unwrap_or(f64::MAX),
@@ -307,6 +325,7 @@ impl LapResponseStudy {
             drive: file.model.drive,
             response: file.model.response,
             terms: file.model.terms.map(|terms| TermSet::of(&terms)),
+            harmonics,
             other_modes: file.model.other_modes,
             known,
             noise,
@@ -335,6 +354,7 @@ impl LapResponseStudy {
             response: self.response,
             terms: terms.clone(),
             unknowns: Vec::new(),
+            harmonics: self.harmonics,
         };
         let linear = [
             ResponseUnknown::Mass,

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use serde_json::json;
 
 use crate::export::Timestamp;
+use crate::identify::lap::StudyMethod;
 use crate::identify::{
     Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
 };
@@ -18,6 +19,7 @@ use super::IdentifyArguments;
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
+use super::lap;
 use super::output::{check_output, message, print, write_file};
 use super::progress::Progress;
 use super::table::{Table, number};
@@ -54,6 +56,11 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         }
         check_output(path, &taken)?;
         taken.push(path);
+    }
+    match StudyMethod::read(&arguments.study)? {
+        StudyMethod::FrfDecoupling => {}
+        StudyMethod::LapUpdate => return lap::update(arguments),
+        StudyMethod::LapResponse => return lap::response(arguments),
     }
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),

@@ -8,9 +8,11 @@ mod error;
 mod export;
 mod identified_from;
 mod identify;
+mod lap;
 mod output;
 mod progress;
 mod reproduce;
+mod reproduce_pirdayr;
 mod respond;
 mod respond_lap;
 mod table;
@@ -21,7 +23,6 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{self as fmu, Interface};
-use crate::reproduce::PublishedTable;
 
 /// Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 #[derive(Debug, Parser)]
@@ -50,7 +51,7 @@ enum Command {
     RunLibrary(RunLibraryArguments),
     /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis anew, published and obtained values side by side
+    /// Compute the published tables of Tol's thesis or of Pirdayr's paper anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -225,8 +226,8 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]
-    tables: Vec<PublishedTable>,
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper
+    tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
     draws: u32,

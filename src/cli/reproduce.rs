@@ -1,16 +1,54 @@
 //! `reproduce`: the tables of Tol's thesis computed anew.
 
 use std::fmt::Write as _;
+use std::str::FromStr;
 
-use crate::reproduce::{Draws, PublishedTable, Reproduction, Row, reproduce};
+use crate::reproduce::{Draws, PublishedTable, Reproduction, Row, UnknownTable, reproduce};
 
-use super::ReproduceArguments;
 use super::error::CliError;
 use super::output::print;
 use super::progress::Progress;
 use super::table::{Table, number};
+use super::{ReproduceArguments, reproduce_pirdayr};
+
+/// What is computed anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Source {
+    /// A table of Tol's thesis.
+    Tol(PublishedTable),
+    /// Tables 3 and 4 of Pirdayr's paper.
+    Pirdayr,
+}
+
+impl FromStr for Source {
+    type Err = UnknownTable;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            PIRDAYR => Ok(Self::Pirdayr),
+            table => table.parse().map(Self::Tol),
+        }
+    }
+}
+
+const PIRDAYR: &str = "pirdayr";
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
+    if arguments.tables.contains(&Source::Pirdayr) {
+        return match arguments.tables.as_slice() {
+            [Source::Pirdayr] => reproduce_pirdayr::run(arguments),
+            others => Err(CliError::Option {
+                option: PIRDAYR,
+                found: format!("{} tables beside it", others.len() - 1),
+                expected: "it alone: it has a table of another form",
+            }),
+        };
+    }
+    let wanted = arguments.tables.iter().filter_map(|source| match source {
+        Source::Tol(table) => Some(*table),
+        Source::Pirdayr => None,
+    });
+    let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
         return Err(CliError::Option {
             option: "--draws",
@@ -23,10 +61,10 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         seed: arguments.seed,
         samples: arguments.samples.clone(),
     };
-    let tables = if arguments.tables.is_empty() {
+    let tables = if wanted.is_empty() {
         PublishedTable::ALL.to_vec()
     } else {
-        arguments.tables.clone()
+        wanted
     };
     let cases: usize = tables
         .iter()
@@ -55,6 +93,10 @@ pub(super) fn names() -> String {
         let names = [&[table.key()], table.aliases()].concat().join(", ");
         let _ = writeln!(text, "  {names:<18}{table}");
     }
+    let _ = writeln!(
+        text,
+        "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"
+    );
     text.trim_end().to_owned()
 }
 

@@ -8,6 +8,7 @@ use crate::frf::FrfError;
 use crate::structure::{BeamError, CouplingError, ModalError};
 use crate::text_file::TextFileError;
 
+use super::lap::{FitError, ResponseDataError};
 use super::model::JointModel;
 
 /// Why a joint cannot be identified.
@@ -133,5 +134,16 @@ pub enum IdentifyError {
         starts: usize,
         /// The points.
         points: String,
+    },
+    /// A table of responses cannot be used.
+    #[error(transparent)]
+    Response(#[from] ResponseDataError),
+    /// A lap model cannot be fitted to responses.
+    #[error("{}: {source}", path.display())]
+    LapFit {
+        /// The study.
+        path: PathBuf,
+        /// Why not.
+        source: FitError,
     },
 }

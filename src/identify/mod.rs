@@ -24,6 +24,7 @@ mod joint_estimate;
 mod joint_file;
 mod kernel;
 mod lanes;
+pub mod lap;
 mod layout;
 mod level;
 mod line;

@@ -133,7 +133,7 @@ fn name_in(folder: &Path, path: &Path) -> String {
         .to_string()
 }
 
-fn input(
+pub(super) fn input(
     role: &str,
     path: &Path,
     folder: &Path,

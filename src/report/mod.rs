@@ -7,6 +7,7 @@ mod curve;
 mod frf_column;
 mod frf_figure;
 mod interval_figure;
+mod lap;
 mod legend;
 mod line_figure;
 mod look;
@@ -18,6 +19,8 @@ mod svg;
 mod text;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
+pub use lap::{LapResponseReport, LapUpdateReport};
+pub(crate) use lap::{convergence_figure, level_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale};
 pub use page::IdentificationReport;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};

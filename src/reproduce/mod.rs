@@ -1,4 +1,4 @@
-//! The case studies of Tol's thesis computed anew, published and obtained values side by side.
+//! The case studies of Tol's thesis computed anew, and the tables of Pirdayr's paper: published and obtained values side by side.
 
 mod approaches;
 mod beams;
@@ -7,12 +7,14 @@ mod draws;
 mod error;
 mod lumped;
 mod outcome;
+mod pirdayr;
 mod published;
 mod receptances;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
 pub use outcome::{Reproduction, Row, Spread};
+pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
 
 use draws::Repetition;

@@ -280,6 +280,7 @@ impl Study {
             message: error.to_string().trim_end().to_owned(),
         })?;
         let check = Checker { path };
+        check.method(file.method)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let model = file.joint.model;
         let bolts = check.bolts(&file.a.joint.0, file.joint.bolts)?;

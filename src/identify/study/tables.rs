@@ -13,6 +13,7 @@ use crate::joint::Bodies;
 use crate::structure::{Boundary, Difference};
 
 use super::super::bands::{BandChoice, BandChoices};
+use super::super::lap::StudyMethod;
 use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
 use super::super::torque::TorqueDependence;
@@ -20,11 +21,7 @@ use super::super::torque::TorqueDependence;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
-    #[expect(
-        dead_code,
-        reason = "the only method there is so far; others are refused when it is read"
-    )]
-    pub(super) method: Method,
+    pub(super) method: StudyMethod,
     pub(super) name: String,
     pub(super) a: SubstructureTable,
     pub(super) b: SubstructureTable,
@@ -39,12 +36,6 @@ pub(super) struct StudyFile {
     pub(super) bodies: Option<Bodies>,
     #[serde(default)]
     pub(super) notes: Vec<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Method {
-    FrfDecoupling,
 }
 
 #[derive(Deserialize)]

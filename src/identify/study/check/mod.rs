@@ -11,6 +11,7 @@ mod torque;
 use std::path::Path;
 
 use super::super::error::IdentifyError;
+use super::super::lap::StudyMethod;
 
 /// Makes errors that name the study's file.
 pub(super) struct Checker<'a> {
@@ -30,6 +31,18 @@ impl Checker<'_> {
             found: found.into(),
             expected: expected.into(),
         })
+    }
+
+    /// This reader's own method; the others have readers of their own.
+    pub(super) fn method(&self, method: StudyMethod) -> Result<(), IdentifyError> {
+        match method {
+            StudyMethod::FrfDecoupling => Ok(()),
+            other => self.refuse(
+                "method",
+                format!("{other:?}"),
+                "\"frf-decoupling\", whose study this command needs",
+            ),
+        }
     }
 
     pub(super) fn name(&self, name: &str) -> Result<(), IdentifyError> {

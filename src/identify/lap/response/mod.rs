@@ -1,0 +1,32 @@
+//! The lap model from responses at several levels: stepped sines with force, response and phase, by maximum likelihood through
+//! harmonic balance.
+//!
+//! Phase and amplitude and nothing else of the bodies' sum x₁ + x₂ are linear, and the relative motion r = x₁ − x₂ is an
+//! oscillator by itself. Taken as a function of its own amplitude it never folds, so that lines beyond a fold and runs with
+//! controlled response are as good as any.
+
+mod backbone;
+mod choice;
+mod data;
+mod dynamic_stiffness;
+mod file;
+mod fit;
+mod model;
+mod prediction;
+mod result;
+mod start;
+mod study;
+mod table;
+mod terms;
+mod warnings;
+
+pub use backbone::{BackboneLine, BackboneRun};
+pub use choice::ModelComparison;
+pub use data::{ResponseDataError, SineLine, SineRun, Use};
+pub use fit::{Fit, FitError};
+pub use model::{Model, ResponseUnknown, Values};
+pub use prediction::{Prediction, Resonance, measured_resonance, predicted_resonance};
+pub use result::{Estimate, LapResponse};
+pub use start::fit_responses;
+pub use study::{LapResponseStudy, Noise, Place};
+pub use terms::{Term, TermSet};

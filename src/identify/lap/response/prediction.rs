@@ -1,0 +1,127 @@
+//! Phase resonance of a run, measured and predicted at the force that was measured there.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use nalgebra::{Matrix2, Vector2};
+use serde::Serialize;
+
+use super::data::{SineRun, Use, wrapped};
+use super::model::{Model, Values};
+
+const ITERATIONS: usize = 100;
+/// Step of the numerical derivatives and relative accuracy of the result.
+const STEP: f64 = 1e-7;
+const ACCURACY: f64 = 1e-10;
+
+/// A phase resonance: displacement a quarter of a period behind the force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Resonance {
+    /// Hz
+    pub frequency_hz: f64,
+    /// Amplitude of the force, N.
+    pub force_n: f64,
+    /// Amplitude of the displacement, m.
+    pub displacement_m: f64,
+}
+
+/// A run's resonance beside the model's.
+#[derive(Clone, Debug, Serialize)]
+pub struct Prediction {
+    /// The run.
+    pub run: String,
+    /// Whether the run was left out of the estimate.
+    pub left_out: bool,
+    /// Measured.
+    pub measured: Resonance,
+    /// Of the model at the same force; `None` if it has none there.
+    pub predicted: Option<Resonance>,
+}
+
+impl Prediction {
+    pub(super) fn of(model: &Model, values: &Values, run: &SineRun) -> Option<Self> {
+        let measured = measured_resonance(run)?;
+        Some(Self {
+            run: run.name.clone(),
+            left_out: run.used_for == Use::Predict,
+            measured,
+            predicted: predicted_resonance(model, values, &measured),
+        })
+    }
+
+    /// Error of the frequency, Hz.
+    #[must_use]
+    pub fn frequency_error_hz(&self) -> Option<f64> {
+        Some(self.predicted?.frequency_hz - self.measured.frequency_hz)
+    }
+
+    /// Relative error of the acceleration's amplitude.
+    #[must_use]
+    pub fn amplitude_error(&self) -> Option<f64> {
+        let acceleration = |at: &Resonance| at.displacement_m * at.frequency_hz.powi(2);
+        Some(acceleration(&self.predicted?) / acceleration(&self.measured) - 1.0)
+    }
+}
+
+/// Where the measured phase passes −90°, by linear interpolation between the lines.
+#[must_use]
+pub fn measured_resonance(run: &SineRun) -> Option<Resonance> {
+    run.lines.windows(2).find_map(|pair| {
+        let [before, after] = [pair[0], pair[1]];
+        let (from, to) = (before.phase_rad + FRAC_PI_2, after.phase_rad + FRAC_PI_2);
+        if !(from > 0.0 && to <= 0.0 && from - to < FRAC_PI_2 * 2.0) {
+            return None;
+        }
+        let share = from / (from - to);
+        let between = |from: f64, to: f64| from + share * (to - from);
+        Some(Resonance {
+            frequency_hz: between(before.omega, after.omega) / TAU,
+            force_n: between(before.force_n, after.force_n),
+            displacement_m: between(before.displacement_m, after.displacement_m),
+        })
+    })
+}
+
+/// The model's resonance at the force of `near`, by Newton's method on frequency and amplitude from there.
+#[must_use]
+pub fn predicted_resonance(model: &Model, values: &Values, near: &Resonance) -> Option<Resonance> {
+    let share = model.relative_share().abs();
+    let scale_omega = TAU * near.frequency_hz;
+    let equations = |place: &Vector2<f64>| {
+        let omega = scale_omega * place[0].exp();
+        let (receptance, force) =
+            model.receptance(values, near.displacement_m / share * place[1].exp(), omega);
+        // arg h = −90°, |F| = F
+        Vector2::new(
+            wrapped(receptance.arg() + FRAC_PI_2),
+            (force / near.force_n).ln(),
+        )
+    };
+    let mut place = Vector2::zeros();
+    for _ in 0..ITERATIONS {
+        let value = equations(&place);
+        let column = |axis: usize| {
+            let mut moved = place;
+            moved[axis] += STEP;
+            (equations(&moved) - value) / STEP
+        };
+        let jacobian = Matrix2::from_columns(&[column(0), column(1)]);
+        let step = jacobian.lu().solve(&-value)?;
+        // The phase turns within the width of the resonance: no step is wider than a few.
+        let longest = (step[0].abs() / 2e-3).max(step[1].abs() / 0.3).max(1.0);
+        place += step / longest;
+        if !place.iter().all(|entry| entry.is_finite()) {
+            return None;
+        }
+        if step.amax() < ACCURACY {
+            let omega = scale_omega * place[0].exp();
+            let (receptance, force) =
+                model.receptance(values, near.displacement_m / share * place[1].exp(), omega);
+            return Some(Resonance {
+                frequency_hz: omega / TAU,
+                force_n: near.force_n,
+                displacement_m: receptance.norm() * force,
+            });
+        }
+    }
+    None
+}

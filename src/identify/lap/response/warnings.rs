@@ -1,0 +1,65 @@
+//! What the reader of a lap model identified from responses should know before using it.
+
+use super::result::LapResponse;
+use super::study::LapResponseStudy;
+
+/// χ² per degree of freedom from which on a stated noise does not explain the residual.
+const TOO_LARGE: f64 = 1.5;
+/// Difference of Schwarz's criterion that is strong evidence.
+const STRONG: f64 = 10.0;
+/// Errors of the resonance of a run left out that are worth a word: frequency in Hz, relative amplitude.
+const FREQUENCY_HZ: f64 = 0.1;
+const AMPLITUDE: f64 = 0.1;
+
+impl LapResponse {
+    /// The warnings.
+    #[must_use]
+    pub fn warnings(&self, study: &LapResponseStudy) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let open = self.not_identified();
+        if !open.is_empty() {
+            warnings.push(format!(
+                "{} cannot be identified from these data",
+                open.join(", ")
+            ));
+        }
+        let reduced = self.fit.chi_squared / self.fit.degrees_of_freedom.max(1) as f64;
+        if study.noise.is_stated && reduced > TOO_LARGE {
+            warnings.push(format!(
+                "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
+            ));
+        }
+        let own = self
+            .comparison
+            .iter()
+            .find(|model| model.terms == self.model.terms);
+        let best = self
+            .comparison
+            .iter()
+            .find(|model| model.bic_difference == 0.0);
+        if let (Some(own), Some(best)) = (own, best)
+            && own.bic_difference > STRONG
+        {
+            warnings.push(format!(
+                "the terms \"{}\" explain the data better than \"{}\": BIC {:.1} lower",
+                best.terms, own.terms, own.bic_difference
+            ));
+        }
+        for row in self.predictions.iter().filter(|row| row.left_out) {
+            let missed_frequency = row
+                .frequency_error_hz()
+                .is_none_or(|error| error.abs() > FREQUENCY_HZ);
+            let missed_amplitude = row
+                .amplitude_error()
+                .is_none_or(|error| error.abs() > AMPLITUDE);
+            if missed_frequency || missed_amplitude {
+                warnings.push(format!(
+                    "the resonance of {}, which was left out, is missed by more than {FREQUENCY_HZ} Hz or {} %",
+                    row.run,
+                    100.0 * AMPLITUDE
+                ));
+            }
+        }
+        warnings
+    }
+}

@@ -1,0 +1,14 @@
+//! The lap model from natural frequencies and from responses, against closed forms, SciPy and independent models.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests fail as the tests do"
+)]
+
+mod brake_reuss;
+mod command;
+mod oscillator;
+mod refusals;
+mod responses;
+mod updating;

@@ -61,7 +61,7 @@ impl<const D: usize> HarmonicBalance<D> {
         let omega = solution.at.omega;
         let fastest = self.fastest(solution);
         let steps = (TAU * STEPS_PER_RADIAN * (fastest / omega).max(1.0)).ceil();
-        if !(steps < 1e7) {
+        if steps.is_nan() || steps >= 1e7 {
             return Err(refuse());
         }
         let steps = steps as usize;

@@ -258,7 +258,7 @@ impl Checker<'_> {
     fn steps(&self, table: Option<&TimeTable>) -> Result<Option<f64>, RespondError> {
         match table.and_then(|table| table.steps_per_period) {
             None => Ok(None),
-            Some(steps) if steps >= 4.0 && steps <= 1e6 => Ok(Some(steps)),
+            Some(steps) if (4.0..=1e6).contains(&steps) => Ok(Some(steps)),
             Some(steps) => Err(self.refuse("time.steps_per_period", steps, "4 to 1000000")),
         }
     }

@@ -54,7 +54,13 @@ fn checked(bench: &Bench, file: &str) -> Outcome {
 #[test]
 fn sound_fmus_run_and_their_energy_is_balanced() {
     let cubic = replaced(JOINT, "\"cubic\": [0, 0]", "\"cubic\": [3e10, -2e4]");
-    for joint in [JOINT, &cubic] {
+    let higher = replaced(
+        JOINT,
+        "\"cubic\": [0, 0]",
+        "\"cubic\": [-3e9, 2e3], \"higher\": { \"quintic\": [8e13, -3e3], \"septic\": [-2e17, 4e4], \
+         \"damping_quadratic\": [2e5, 1], \"damping_quartic\": [5e9, -10], \"amplitude\": [3e-3, 0.05] }",
+    );
+    for joint in [JOINT, &cubic, &higher] {
         for interface in ["element", "lap"] {
             for version in ["2", "3"] {
                 let outcome = checked(&bench(interface, version, joint), "x.fmu");

@@ -38,6 +38,23 @@ LINEAR_2 = joint(["y", "theta"], TOL_K, TOL_C, [0.0, 0.0], TWO_DOF_BODIES)
 HARDENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [5e11, 4e5], TWO_DOF_BODIES)
 SOFTENING_2 = joint(["y", "theta"], TOL_K, TOL_C, [-2e10, -1e5], TWO_DOF_BODIES)
 
+# A joint that softens first and stiffens further out, and whose damping grows; and one that does all at once.
+HIGHER_1 = joint(["y"], [[4.56e6]], [[54.0]], [-2e12], ONE_DOF_BODIES)
+HIGHER_1["joint"]["higher"] = {
+    "quintic": [1e18],
+    "septic": [2e23],
+    "damping_quadratic": [5e7],
+    "damping_quartic": [2e13],
+    "amplitude": [1.2e-3],
+}
+HIGHER_2 = joint(["y", "theta"], TOL_K, TOL_C, [2e11, -1e5], TWO_DOF_BODIES)
+HIGHER_2["joint"]["higher"] = {
+    "quintic": [1e17, 5e8],
+    "septic": [-2e22, 1e11],
+    "damping_quadratic": [5e6, 20.0],
+    "damping_quartic": [-1e12, 3e4],
+    "amplitude": [2e-3, 0.05],
+}
 
 def over_preload(dofs, preload, nominal, stiffness, damping, cubic, bodies, name="test joint over the preload"):
     table = {"preload": preload, "nominal": nominal, "stiffness": stiffness, "damping": damping, "cubic": cubic}
@@ -75,6 +92,8 @@ LAPS = {
     "linear-2": LINEAR_2,
     "hardening-2": HARDENING_2,
     "softening-2": SOFTENING_2,
+    "higher-1": HIGHER_1,
+    "higher-2": HIGHER_2,
 }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from instances import both_versions
 from joints import LAPS
-from reference import Joint, Lap
+from reference import HIGHER, Joint, Lap
 
 STEP = 1e-30  # imaginary: no difference is taken, so that nothing cancels
 CASES = [case for case in LAPS if not case.startswith("linear")]
@@ -36,6 +36,10 @@ def with_joint_parameters(file, value_of):
                 file["joint"][key][i][j] = value_of(name, file["joint"][key][i][j])
     for i, dof in enumerate(dofs):
         file["joint"]["cubic"][i] = value_of(f"joint.k3_{dof}", file["joint"]["cubic"][i])
+    higher = file["joint"].setdefault("higher", {})
+    for key, letter in zip(HIGHER, ("k5", "k7", "c2", "c4")):
+        given = higher.get(key, [0.0] * len(dofs))
+        higher[key] = [value_of(f"joint.{letter}_{dof}", entry) for dof, entry in zip(dofs, given)]
     for side, body in file.get("bodies", {}).items():
         for i, dof in enumerate(dofs):
             for key, name in (("inertia", "mJ"[i]), ("stiffness", f"k_{dof}"), ("damping", f"c_{dof}")):
@@ -99,7 +103,7 @@ def test_element(slave, case):
             state = values + np.array([change(name) for name in motion])
             r, v = state[:n] - state[n : 2 * n], state[2 * n : 3 * n] - state[3 * n :]
             load = joint.load_on_b(r, v)
-            return np.concatenate([-load, load, load, [joint.energy(r), joint.power(v)]])
+            return np.concatenate([-load, load, load, [joint.energy(r), joint.power(r, v)]])
 
         instance.set(dict(zip(motion, values)))
         assert_equal(found_jacobian(instance, unknowns, knowns), jacobian(outputs, knowns))

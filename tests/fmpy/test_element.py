@@ -31,7 +31,7 @@ def test_loads_energy_and_power(slave, case):
             found = np.array(instance.get(*names[:n]))
             assert (np.abs(found - sign * load) <= 1e-12 * scale).all(), names
         assert instance.get("energy.stored", "power.dissipated") == pytest.approx(
-            [joint.energy(x_a - x_b), joint.power(v_a - v_b)], rel=1e-12
+            [joint.energy(x_a - x_b), joint.power(x_a - x_b, v_a - v_b)], rel=1e-12
         )
 
 

@@ -1,10 +1,11 @@
 """Trajectories of lap FMUs against SciPy's DOP853."""
 
+import fmpy
 import numpy as np
 import pytest
-from instances import both_versions
-from joints import LAPS
-from reference import Lap
+from instances import Slave, both_versions
+from joints import LAPS, changed
+from reference import HIGHER, Lap
 from scipy.integrate import trapezoid
 
 STEP = 1e-4
@@ -50,7 +51,8 @@ def test_trajectory(slave, case):
 
 
 @pytest.mark.parametrize("pair", [("linear-1", "hardening-1"), ("linear-1", "softening-1"),
-                                  ("linear-2", "hardening-2"), ("linear-2", "softening-2")])
+                                  ("linear-2", "hardening-2"), ("linear-2", "softening-2"),
+                                  ("linear-1", "higher-1"), ("linear-2", "higher-2")])
 def test_the_loads_make_the_cubic_term_matter(pair):
     """Otherwise the trajectories above would not tell a wrong cubic term."""
     linear, cubic = (Lap(LAPS[case]) for case in pair)
@@ -58,6 +60,30 @@ def test_the_loads_make_the_cubic_term_matter(pair):
     applied = loads(linear)
     difference = linear.held(start, applied, STEP) - cubic.held(start, applied, STEP)
     assert np.abs(difference).max() > 1e-3 * np.abs(cubic.held(start, applied, STEP)).max()
+
+
+@pytest.mark.parametrize("key", HIGHER)
+@pytest.mark.parametrize("case", ["higher-1", "higher-2"])
+def test_the_loads_make_every_term_of_higher_order_matter(case, key):
+    full = LAPS[case]
+    without = {name: terms for name, terms in full["joint"]["higher"].items() if name != key}
+    laps = [Lap(full), Lap(changed(full, higher=without))]
+    found = [lap.held(np.zeros(4 * lap.n), loads(lap), STEP) for lap in laps]
+    assert np.abs(found[0] - found[1]).max() > 1e-4 * np.abs(found[0]).max()
+
+
+@pytest.mark.parametrize("case", ["higher-1", "higher-2"])
+def test_both_versions_give_the_same_bits(export, tmp_path, case):
+    lap = Lap(LAPS[case])
+    found = []
+    for fmi in ("2", "3"):
+        folder = tmp_path / fmi
+        fmpy.extract(str(export(LAPS[case], "lap", fmi=fmi)), str(folder))
+        instance = Slave(folder)
+        instance.initialise()
+        found.append(simulated(instance, lap, loads(lap)))
+        instance.close()
+    assert (found[0] == found[1]).all() and np.abs(found[0]).max() > 0
 
 
 @both_versions

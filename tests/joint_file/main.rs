@@ -6,6 +6,7 @@
 )]
 
 mod contents;
+mod higher;
 mod preload;
 mod text;
 

@@ -3,7 +3,7 @@
 use super::super::Interface;
 use super::Page;
 use crate::html::{cell, escaped, number, number_cell, spread, table};
-use crate::joint::{Body, DofSet};
+use crate::joint::{Body, DofSet, Joint};
 
 /// Symbols and load symbols of the DOFs, in the order of the matrices' rows.
 const MOTIONS: [&str; 2] = ["y", "θ"];
@@ -48,8 +48,9 @@ pub(super) fn section(page: &Page<'_>) -> String {
     };
     format!(
         "<h2>Values of the joint{at}</h2>\n<h3>Stiffness <i>K</i></h3>\n{stiffness}<h3>Damping <i>C</i></h3>\n{damping}\
-         {basis}{}{bodies}<p>{role}; the values here are those it starts with.</p>\n",
-        cubic(&joint.cubic),
+         {basis}{}{}{bodies}<p>{role}; the values here are those it starts with.</p>\n",
+        cubic(joint),
+        higher(joint),
         at = page
             .over_preload
             .map(|table| format!(" at {} N·m", number(table.nominal)))
@@ -97,8 +98,12 @@ fn matrix(
     table(&all, &rows)
 }
 
-fn cubic(entries: &[f64]) -> String {
+fn cubic(joint: &Joint) -> String {
+    let entries = &joint.cubic;
     if entries.iter().all(|entry| *entry == 0.0) {
+        if joint.has_terms_of_higher_order() {
+            return String::new();
+        }
         return "<p>The joint is linear: its cubic stiffness <i>k</i><sub>3</sub> is zero.</p>\n"
             .to_owned();
     }
@@ -122,6 +127,65 @@ fn cubic(entries: &[f64]) -> String {
     format!(
         "<h3>Cubic stiffness <i>k</i><sub>3</sub></h3>\n{}",
         table(&["", "per cube of the relative motion", ""], &rows)
+    )
+}
+
+/// The terms of higher order, a row for each that is not zero.
+fn higher(joint: &Joint) -> String {
+    let Some(terms) = joint
+        .higher
+        .as_ref()
+        .filter(|_| joint.has_terms_of_higher_order())
+    else {
+        return String::new();
+    };
+    // symbol, what it multiplies, and units of the DOFs
+    let kinds = [
+        (&terms.quintic, ("k", 5), "<i>r</i>⁵", ["N/m⁵", "N·m/rad⁵"]),
+        (&terms.septic, ("k", 7), "<i>r</i>⁷", ["N/m⁷", "N·m/rad⁷"]),
+        (
+            &terms.damping_quadratic,
+            ("c", 2),
+            "<i>r</i>² d<i>r</i>/d<i>t</i>",
+            ["N·s/m³", "N·m·s/rad³"],
+        ),
+        (
+            &terms.damping_quartic,
+            ("c", 4),
+            "<i>r</i>⁴ d<i>r</i>/d<i>t</i>",
+            ["N·s/m⁵", "N·m·s/rad⁵"],
+        ),
+    ];
+    let mut rows = Vec::new();
+    for (list, (letter, order), factor, units) in kinds {
+        for (i, &term) in list.iter().enumerate().filter(|(_, term)| **term != 0.0) {
+            rows.push(format!(
+                "<th><i>{letter}</i><sub>{order}</sub> of <i>{}</i></th>{}{}",
+                LOADS[i.min(1)],
+                number_cell(&format!("{} {}", number(term), units[i.min(1)])),
+                cell(&format!("times {factor}"))
+            ));
+        }
+    }
+    let range = terms
+        .amplitude
+        .iter()
+        .zip(MOTIONS.iter().zip(["m", "rad"]))
+        .map(|(amplitude, (motion, unit))| {
+            format!("<i>{motion}</i> up to {} {unit}", number(*amplitude))
+        })
+        .collect::<Vec<_>>();
+    let range = if range.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "<p>They hold for a relative motion {}.</p>\n",
+            range.join(", ")
+        )
+    };
+    format!(
+        "<h3>Terms of higher order</h3>\n{}{range}",
+        table(&["", "", "of the relative motion <i>r</i>"], &rows)
     )
 }
 

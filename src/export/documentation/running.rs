@@ -155,7 +155,7 @@ fn escape(lap: &LapFacts) -> String {
     }
     format!(
         "<p class=\"warning\">The joint softens. Beyond {} nothing holds the bodies together any more and the \
-         simulation stops with an error.</p>\n",
+         simulation stops with an error; the FMU warns once at 80 % of that, and has it as a calculated parameter.</p>\n",
         limits.join(" or ")
     )
 }

@@ -114,7 +114,7 @@ impl fmt::Display for Reached {
         match self.limit {
             Limit::Escape { parameter } => write!(
                 f,
-                "is past 80 % of {parameter} = {amplitude:e} {unit}, beyond which the softening joint no longer holds"
+                "is past 80 per cent of {parameter} = {amplitude:e} {unit}, beyond which the softening joint no longer holds"
             ),
             Limit::ActiveDamping => write!(
                 f,

@@ -138,7 +138,7 @@ fn a_lap_warns_once_at_eighty_per_cent_and_fails_beyond() {
             assert!(
                 warnings[0].starts_with("fmi3DoStep: a.y - b.y = ")
                     && warnings[0].contains(&format!(
-                        "is past 80 % of joint.escape_amplitude_y = {:e} m",
+                        "is past 80 per cent of joint.escape_amplitude_y = {:e} m",
                         amplitude()
                     )),
                 "{warnings:?}"
@@ -187,7 +187,7 @@ fn an_element_warns_once_and_goes_on() {
         log.iter()
             .filter(|message| message
                 .text
-                .contains("80 % of joint.escape_amplitude_y = 2e-3 m"))
+                .contains("80 per cent of joint.escape_amplitude_y = 2e-3 m"))
             .count(),
         1,
         "{log:?}"

@@ -88,10 +88,30 @@ impl<const D: usize> LapIntegrator<D> {
         interval_s: f64,
         substeps: NonZeroU32,
     ) -> LapState<D> {
-        if let Some(higher) = &self.higher {
-            let (x, v) = self.take_many_higher(higher, state, loads, interval_s, substeps);
-            return join(&x, &v);
+        match &self.higher {
+            None => self.advance_without_higher(state, loads, interval_s, substeps),
+            Some(higher) => self.advance_higher(higher, state, loads, interval_s, substeps),
         }
+    }
+
+    /// Whether the joint has terms of higher order.
+    #[inline]
+    #[must_use]
+    pub fn has_higher(&self) -> bool {
+        self.higher.is_some()
+    }
+
+    /// What [`LapIntegrator::advance`] gives where [`LapIntegrator::has_higher`] says no, for those who have asked before;
+    /// terms of higher order are left out.
+    #[inline(always)]
+    #[must_use]
+    pub fn advance_without_higher(
+        &self,
+        state: &LapState<D>,
+        loads: &LapLoads<D>,
+        interval_s: f64,
+        substeps: NonZeroU32,
+    ) -> LapState<D> {
         // A single step in place spares the way through memory; with one DOF the bodies then fall apart into single
         // numbers, which costs more than that way.
         let (x, v) = if D > 1 && substeps == NonZeroU32::MIN {

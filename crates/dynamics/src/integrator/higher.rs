@@ -3,7 +3,7 @@
 
 use std::{array::from_fn, num::NonZeroU32};
 
-use super::{LapIntegrator, moved, split};
+use super::{LapIntegrator, join, moved, split};
 use crate::{
     lap::{Lap, LapLoads, LapState},
     pair::Pair,
@@ -64,23 +64,24 @@ impl<const D: usize> LapIntegrator<D> {
         higher.less(&left, x, v)
     }
 
-    /// Equal steps under held loads.
+    /// Equal steps under held loads. Out of the way of the others, which are quicker if nothing of this is among them.
+    #[cold]
     #[inline(never)]
-    pub(super) fn take_many_higher(
+    pub(super) fn advance_higher(
         &self,
         higher: &Higher<D>,
         state: &LapState<D>,
         loads: &LapLoads<D>,
         interval_s: f64,
         count: NonZeroU32,
-    ) -> ([Pair; D], [Pair; D]) {
+    ) -> LapState<D> {
         let length_s = interval_s / f64::from(count.get());
         let load = self.accelerations_by(loads);
         let (mut x, mut v) = split(state);
         for _ in 0..count.get() {
             (x, v) = self.take_higher(higher, length_s, &x, &v, [&load; 3]);
         }
-        (x, v)
+        join(&x, &v)
     }
 
     /// One RK4 step, with the accelerations that the loads give at its start, middle and end.

@@ -54,6 +54,8 @@ enum Propagation<const D: usize> {
     Unknown,
     /// It cannot: the equations are not linear, or a mode grows past all bounds.
     Impossible,
+    /// It cannot, because the joint has terms of higher order, whose steps are others.
+    Higher,
     /// It can.
     Possible(LapPropagator<D>),
 }
@@ -158,15 +160,16 @@ impl<const D: usize> Prepared<D> {
         match &interval.propagation {
             Propagation::Unknown => None,
             Propagation::Possible(propagator) => Some(propagator.advance(start, loads)),
+            Propagation::Higher => None,
             Propagation::Impossible if self.softens && interval.count > STEPS_BETWEEN_CHECKS => {
                 None
             }
-            Propagation::Impossible => {
-                Some(
-                    self.integrator
-                        .advance(start, loads, interval_s, interval.count),
-                )
-            }
+            Propagation::Impossible => Some(self.integrator.advance_without_higher(
+                start,
+                loads,
+                interval_s,
+                interval.count,
+            )),
         }
     }
 
@@ -271,6 +274,9 @@ fn propagation<const D: usize>(
     interval_s: f64,
     count: NonZeroU32,
 ) -> Propagation<D> {
+    if integrator.has_higher() {
+        return Propagation::Higher;
+    }
     LapPropagator::new(integrator, interval_s, count)
         .map_or(Propagation::Impossible, Propagation::Possible)
 }

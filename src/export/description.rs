@@ -174,7 +174,9 @@ fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) 
     unknowns.retain_mut(|unknown| {
         let is_derivative = matches!(unknown, VariableDependency::ContinuousStateDerivative(_));
         let reference = inner(unknown).value_reference;
-        !dropped.contains(&reference) && !(is_derivative && no_derivatives.contains(&reference))
+        let goes =
+            dropped.contains(&reference) || is_derivative && no_derivatives.contains(&reference);
+        !goes
     });
     for unknown in unknowns {
         let unknown = inner(unknown);

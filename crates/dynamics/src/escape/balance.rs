@@ -226,7 +226,7 @@ impl Balance {
 
     /// What may end the balance between `low` and `high`; `None` if it is proven to last.
     fn ends_within(&self, low: f64, high: f64) -> Option<End> {
-        let is_held = |load: f64| (!(load > 0.0)).then_some(End::Unheld);
+        let is_held = |load: f64| (load.is_nan() || load <= 0.0).then_some(End::Unheld);
         let Some(Other {
             spring, coupling, ..
         }) = &self.other

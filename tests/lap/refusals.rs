@@ -95,7 +95,7 @@ fn damaged_tables_are_refused_by_their_line() {
     let row = "80,1,1e-4,-1.5\n81,1,1e-4,-2\n";
     for (table, parts) in [
         (
-            format!("frequency_hz,force_n,displacement_m\n80,1,1e-4\n"),
+            "frequency_hz,force_n,displacement_m\n80,1,1e-4\n".to_owned(),
             ["line 1", "a level without phase"],
         ),
         (
@@ -112,7 +112,7 @@ fn damaged_tables_are_refused_by_their_line() {
         ),
         (format!("{HEADER}\n80,1,x,-1\n"), ["line 2", "\"x\""]),
         (
-            format!("frequency_hz,force_n,phase_rad\n80,1,-1\n"),
+            "frequency_hz,force_n,phase_rad\n80,1,-1\n".to_owned(),
             [
                 "line 1",
                 "displacement_m or velocity_m_per_s or acceleration_m_per_s2",

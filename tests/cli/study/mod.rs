@@ -227,7 +227,7 @@ fn missing_keys_and_wrong_types_are_named_with_their_line() {
         (
             "\"frf-decoupling\"",
             "\"guess\"",
-            ["line 1, column 10", "expected `frf-decoupling`"],
+            ["line 1, column 10", "`frf-decoupling`"],
         ),
         (
             "\"full\"",

@@ -32,13 +32,13 @@ pub enum FitError {
 
 const STEPS: usize = 200;
 /// Relative decrease of χ² that is none.
-const AT_REST: f64 = 1e-13;
+const AT_REST: f64 = 1e-10;
 /// Longest step of the logarithm of an amplitude.
 const LONGEST: f64 = 0.5;
 /// Iterations of one line's amplitude, shortened steps in each, and the step that is none.
 const SETTLING: usize = 12;
 const HALVINGS: usize = 4;
-const SETTLED: f64 = 1e-9;
+const SETTLED: f64 = 1e-8;
 const DAMPING: f64 = 1e-4;
 const MOST_DAMPING: f64 = 1e12;
 

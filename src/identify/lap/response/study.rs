@@ -244,7 +244,7 @@ impl LapResponseStudy {
             return refuse(path, "torque", torque.to_string(), "N·m, not negative");
         }
         let harmonics = file.model.harmonics.unwrap_or(HARMONICS);
-        if harmonics % 2 == 0 || harmonics > MOST_HARMONICS {
+        if harmonics.is_multiple_of(2) || harmonics > MOST_HARMONICS {
             return refuse(
                 path,
                 "model.harmonics",

@@ -90,7 +90,7 @@ fn a_joint_over_preload_needs_a_preload_of_its_table() {
         bench
             .run(&export(&["--extrapolate", "--preload", "12"]))
             .code,
-        2
+        Some(2)
     );
     // with one it is constant
     let outcome = bench.done(&export(&["--preload", "10"]));

@@ -103,19 +103,18 @@ pub(super) fn starts_out_of_range(found: &Described) -> Vec<String> {
 /// Where the model description and the file that the library reads do not agree.
 pub(super) fn against_start_file(found: &Described, start: &StartFile) -> Vec<String> {
     let mut findings = Vec::new();
-    let mut declared: Vec<(u32, String, f64)> = found
+    // by name, because the start-value file has the order of the model description and not of the value references
+    let mut declared: Vec<(String, f64)> = found
         .variables
         .iter()
         .filter(|variable| variable.causality == "parameter" || variable.name == "preload")
-        .filter_map(|variable| Some((variable.reference, variable.name.clone(), variable.start?)))
+        .filter_map(|variable| Some((variable.name.clone(), variable.start?)))
         .collect();
-    // the preload comes last
-    declared.sort_by_key(|(reference, name, _)| (name == "preload", *reference));
-    let declared: Vec<(String, f64)> = declared
-        .into_iter()
-        .map(|(_, name, value)| (name, value))
-        .collect();
-    if parameter_lines(&declared) != parameter_lines(&start.parameters) {
+    let mut read = start.parameters.clone();
+    for parameters in [&mut declared, &mut read] {
+        parameters.sort_by(|(one, _), (other, _)| one.cmp(other));
+    }
+    if parameter_lines(&declared) != parameter_lines(&read) {
         findings.push(
             "modelDescription.xml: the parameters' start values differ from resources/start.txt, which the library \
              reads; export the FMU again instead of editing it"

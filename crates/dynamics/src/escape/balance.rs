@@ -226,12 +226,15 @@ impl Balance {
 
     /// What may end the balance between `low` and `high`; `None` if it is proven to last.
     fn ends_within(&self, low: f64, high: f64) -> Option<End> {
-        let is_held = |load: f64| (load.is_nan() || load <= 0.0).then_some(End::Unheld);
+        // what is not a number proves nothing
+        let unless_held = |load: f64| {
+            if load > 0.0 { None } else { Some(End::Unheld) }
+        };
         let Some(Other {
             spring, coupling, ..
         }) = &self.other
         else {
-            return is_held(self.own.least(low, high));
+            return unless_held(self.own.least(low, high));
         };
         let secant = spring.least(low, high);
         if !(secant > 0.0 && spring.tangent().least(low, high) > 0.0) {
@@ -241,7 +244,7 @@ impl Balance {
             .own
             .least(self.own_squared(low), self.own_squared(high));
         // g t > 0 where both factors are positive
-        is_held(own.min(own * secant - coupling * coupling))
+        unless_held(own.min(own * secant - coupling * coupling))
     }
 
     /// Change of the amplitude with the springs and the coupling, by the implicit function theorem.

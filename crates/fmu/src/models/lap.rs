@@ -112,6 +112,9 @@ impl<const D: usize> Model for LapModel<D> {
         let Some(prepared) = &self.prepared else {
             return false;
         };
+        if D > 1 && prepared.takes_single_steps(interval_s) {
+            return take_single_step(prepared, values, interval_s);
+        }
         let (start, loads) = (state(values), loads(values));
         match prepared.steady_end(&start, &loads, interval_s) {
             Some(end) if prepared.holds_quietly(&end) => {
@@ -207,6 +210,27 @@ pub(super) fn differentiate<const D: usize>(
     );
     A.set_acceleration(change, &of_a);
     B.set_acceleration(change, &of_b);
+}
+
+/// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.
+#[inline(never)]
+fn take_single_step<const D: usize>(
+    prepared: &Prepared<D>,
+    values: &mut Values,
+    interval_s: f64,
+) -> bool {
+    let end = prepared.integrator.advance_without_higher(
+        &state(values),
+        &loads(values),
+        interval_s,
+        NonZeroU32::MIN,
+    );
+    let holds = prepared.holds_quietly(&end);
+    if holds {
+        A.set_motion(values, &end.a);
+        B.set_motion(values, &end.b);
+    }
+    holds
 }
 
 fn lap<const D: usize>(values: &Values) -> Lap<D> {

@@ -145,6 +145,16 @@ impl<const D: usize> Prepared<D> {
         state
     }
 
+    /// Whether all is prepared for one of many equal steps that is a single Runge–Kutta step without terms of higher order.
+    #[inline]
+    pub(super) fn takes_single_steps(&self, interval_s: f64) -> bool {
+        self.interval.as_ref().is_some_and(|interval| {
+            interval.length_s == interval_s
+                && interval.count == NonZeroU32::MIN
+                && matches!(interval.propagation, Propagation::Impossible)
+        })
+    }
+
     /// State at the end of one of many equal steps, if all is prepared for it.
     #[inline]
     pub(super) fn steady_end(
@@ -227,7 +237,7 @@ impl<const D: usize> Prepared<D> {
 }
 
 /// Whether the state is finite and its relative displacements are within the limits.
-#[inline]
+#[inline(always)]
 pub(in crate::models) fn is_within<const D: usize>(limits: &[f64; D], state: &LapState<D>) -> bool {
     let relative = state.a.relative_to(&state.b);
     let mut sum = 0.0;

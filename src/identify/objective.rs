@@ -110,7 +110,8 @@ impl<const N: usize> Objective<'_, N> {
         }
     }
 
-    fn no_corrections(&self) -> Corrections {
+    /// Corrections of zero.
+    pub(super) fn no_corrections(&self) -> Corrections {
         let zero = |group: &Group<N>| vec![ZERO; group.sources.len() * group.lines()];
         Arc::new(self.groups.iter().map(zero).collect())
     }

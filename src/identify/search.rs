@@ -121,8 +121,13 @@ pub(super) fn best<const N: usize>(
         groups: &data.whole,
         entries,
     };
-    let estimate = if best.has_corrections || whole.is_independent() {
+    let estimate = if best.has_corrections {
         best.estimate.clone()
+    } else if whole.is_independent() {
+        Estimate {
+            corrections: whole.no_corrections(),
+            ..best.estimate.clone()
+        }
     } else {
         let start = &best.estimate.unknowns;
         estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?

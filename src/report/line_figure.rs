@@ -17,6 +17,8 @@ const FONT: f64 = 12.5;
 const FONTS: &str = "system-ui, sans-serif";
 const SAMPLE_WIDTH: f64 = 26.0;
 const BETWEEN_ENTRIES: f64 = 24.0;
+/// Radius of a point.
+const MARK: f64 = 2.6;
 /// Decades that a logarithmic axis shows at most.
 const DECADES: i32 = 9;
 
@@ -36,10 +38,20 @@ pub(crate) enum Scale {
     Logarithmic,
 }
 
-/// A curve and its name.
+/// How the points of a line are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// Connected.
+    Curve,
+    /// One by one, as what was measured.
+    Marks,
+}
+
+/// A curve, or points, and its name.
 #[derive(Debug)]
 pub(crate) struct Line {
     pub(crate) name: String,
+    pub(crate) shape: Shape,
     /// Abscissa and ordinate, by abscissa.
     pub(crate) points: Vec<(f64, f64)>,
 }
@@ -82,10 +94,18 @@ impl LineFigure<'_> {
         self.draw_legend(&strip, &mut svg);
         strip.draw_grid(&mut svg);
         for (line, look) in self.lines.iter().zip(LOOKS) {
-            let mut path = PathData::default();
             let points = line.points.iter().map(|&point| strip.place(point));
-            curve::line(points, strip.height, &mut path);
-            draw(&path, look, &mut svg);
+            match line.shape {
+                Shape::Curve => {
+                    let mut path = PathData::default();
+                    curve::line(points, strip.height, &mut path);
+                    draw(&path, look, &mut svg);
+                }
+                Shape::Marks => points
+                    .flatten()
+                    .filter(|point| (0.0..=strip.height).contains(&point.y))
+                    .for_each(|point| draw_mark(point, look.0, &mut svg)),
+            }
         }
         strip.draw_frame(&mut svg);
         strip.draw_value_labels(self.up.0, &mut svg);
@@ -96,16 +116,23 @@ impl LineFigure<'_> {
     fn draw_legend(&self, strip: &Strip, svg: &mut Svg) {
         let (mut x, baseline) = (strip.left, LEGEND - 10.0);
         for (line, look) in self.lines.iter().zip(LOOKS) {
-            let mut sample = PathData::default();
             let y = baseline - 0.36 * FONT;
-            sample.polyline(&[
-                Point { x, y },
-                Point {
-                    x: x + SAMPLE_WIDTH,
-                    y,
-                },
-            ]);
-            draw(&sample, look, svg);
+            match line.shape {
+                Shape::Curve => {
+                    let end = x + SAMPLE_WIDTH;
+                    let mut sample = PathData::default();
+                    sample.polyline(&[Point { x, y }, Point { x: end, y }]);
+                    draw(&sample, look, svg);
+                }
+                Shape::Marks => draw_mark(
+                    Point {
+                        x: x + 0.5 * SAMPLE_WIDTH,
+                        y,
+                    },
+                    look.0,
+                    svg,
+                ),
+            }
             x += SAMPLE_WIDTH + 7.0;
             svg.element("text")
                 .number("x", x)
@@ -123,6 +150,15 @@ pub(super) fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Ax
         Scale::Linear => Some(Axis::linear(values)),
         Scale::Logarithmic => Axis::logarithmic(values, DECADES),
     }
+}
+
+fn draw_mark(point: Point, colour: &str, svg: &mut Svg) {
+    svg.element("circle")
+        .number("cx", point.x)
+        .number("cy", point.y)
+        .number("r", MARK)
+        .word("fill", colour)
+        .empty();
 }
 
 fn draw(path: &PathData, (colour, dashes): (&str, Option<&str>), svg: &mut Svg) {
@@ -154,6 +190,7 @@ mod tests {
             up: ("force, N", Scale::Linear),
             lines: vec![Line {
                 name: "F & M".to_owned(),
+                shape: Shape::Curve,
                 points,
             }],
         }
@@ -183,6 +220,25 @@ mod tests {
             (y.parse::<f64>().expect("y") - STRIP_HEIGHT).abs() < 0.01,
             "{y}"
         );
+    }
+
+    #[test]
+    fn what_was_measured_is_drawn_point_by_point() {
+        let points = vec![(1.0, 1.0), (2.0, 4.0), (3.0, 9.0)];
+        let svg = LineFigure {
+            title: "points",
+            across: ("x", Scale::Linear),
+            up: ("y", Scale::Linear),
+            lines: vec![Line {
+                name: "measured".to_owned(),
+                shape: Shape::Marks,
+                points,
+            }],
+        }
+        .to_svg()
+        .expect("drawable");
+        // Three points and the one of the legend.
+        assert_eq!(svg.matches("<circle ").count(), 4);
     }
 
     #[test]

@@ -21,7 +21,7 @@ mod text;
 pub use frf_figure::{FrfFigure, FrfPanel};
 pub use lap::{LapResponseReport, LapUpdateReport};
 pub(crate) use lap::{convergence_figure, level_figure};
-pub(crate) use line_figure::{Line, LineFigure, Scale};
+pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 

@@ -9,7 +9,7 @@ use super::super::Interface;
 use super::Page;
 use crate::html::number;
 use crate::joint::DofSet;
-use crate::report::{Line, LineFigure, Scale};
+use crate::report::{Line, LineFigure, Scale, Shape};
 
 /// Frequencies of a curve, spread evenly over the logarithmic axis, without those about the resonances.
 const SAMPLES: usize = 300;
@@ -123,6 +123,7 @@ fn receptances<const D: usize>(
         .map(|i| {
             let line = |side: &str, row: usize| Line {
                 name: format!("{} of body {side}", DOFS[i].motion),
+                shape: Shape::Curve,
                 points: solved
                     .iter()
                     .map(|(frequency, receptance)| {
@@ -183,6 +184,7 @@ fn dynamic_stiffness<const D: usize>(
             let (stiffness, damping) = (law.stiffness[i][i], law.damping[i][i]);
             let line = |name: &str, value: &dyn Fn(f64) -> f64| Line {
                 name: name.to_owned(),
+                shape: Shape::Curve,
                 points: frequencies
                     .iter()
                     .map(|&frequency| (frequency, value(std::f64::consts::TAU * frequency)))
@@ -243,6 +245,7 @@ fn load_curve<const D: usize>(
     let (unit, per_si) = dof.motion_unit;
     let line = |name: &str, load: &dyn Fn(f64) -> f64| Line {
         name: name.to_owned(),
+        shape: Shape::Curve,
         points: (-LOAD_POINTS / 2..=LOAD_POINTS / 2)
             .map(|k| {
                 let x = reach * f64::from(k) / f64::from(LOAD_POINTS / 2);

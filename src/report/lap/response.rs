@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::{Line, LineFigure, Scale};
+use super::super::{Line, LineFigure, Scale, Shape};
 use crate::export::Timestamp;
 use crate::html::{beside, cell, escaped, number_cell, provenance, shown, spread, table};
 use crate::identify::lap::{LapResponse, LapResponseStudy, SineRun, Use};
@@ -179,10 +179,12 @@ impl LapResponseReport<'_> {
             lines: vec![
                 Line {
                     name: "model without other modes".to_owned(),
+                    shape: Shape::Curve,
                     points: model,
                 },
                 Line {
                     name: "measured (−90°)".to_owned(),
+                    shape: Shape::Marks,
                     points: measured,
                 },
             ],
@@ -265,10 +267,12 @@ fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
         lines: vec![
             Line {
                 name: "measured".to_owned(),
+                shape: Shape::Marks,
                 points: points(&|n| run.lines[n].displacement_m / run.lines[n].force_n),
             },
             Line {
                 name: "regenerated".to_owned(),
+                shape: Shape::Curve,
                 points: points(&|n| regenerated[n].norm()),
             },
         ],
@@ -286,6 +290,7 @@ pub(crate) fn level_figure(study: &LapResponseStudy, found: &LapResponse) -> Opt
         let lines = run.lines.iter().zip(regenerated);
         Line {
             name: escaped(&run.name),
+            shape: Shape::Curve,
             points: lines
                 .map(|(line, value)| (line.omega / TAU, value.norm()))
                 .collect(),

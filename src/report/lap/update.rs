@@ -1,6 +1,6 @@
 //! The report of a lap model updated from natural frequencies.
 
-use super::super::{Line, LineFigure, Scale};
+use super::super::{Line, LineFigure, Scale, Shape};
 use crate::export::Timestamp;
 use crate::html::{beside, cell, escaped, number, number_cell, provenance, table};
 use crate::identify::lap::{LapParameter, LapUpdate, TorqueUpdate};
@@ -216,6 +216,7 @@ pub(crate) fn convergence_figure(found: &LapUpdate) -> Option<String> {
     let lines = found.torques.iter().take(4).map(|torque| {
         let history = torque.firefly.history.iter().enumerate();
         Line {
+            shape: Shape::Curve,
             name: torque.data.torque_n_m.map_or_else(
                 || "objective".to_owned(),
                 |torque| escaped(&format!("{torque} N·m")),

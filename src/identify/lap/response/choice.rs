@@ -29,6 +29,8 @@ pub(super) struct Candidate {
     pub(super) terms: TermSet,
     pub(super) fit: Fit,
     pub(super) starts: (usize, usize),
+    /// Highest harmonic of the relative motion in `fit`.
+    pub(super) harmonics: usize,
     bic: f64,
 }
 
@@ -100,7 +102,12 @@ fn refined(
         backbone,
     };
     match fit(&model, data, &study.noise, &candidate.fit.values) {
-        Ok(fit) => Candidate { fit, ..candidate },
+        Ok(fit) => Candidate {
+            fit,
+            harmonics: model.harmonics,
+            ..candidate
+        },
+        // That of one harmonic stands, and the user is told.
         Err(_) => candidate,
     }
 }
@@ -136,6 +143,7 @@ fn candidate(
         count * (fit.chi_squared / count).ln()
     };
     Ok(Candidate {
+        harmonics: 1,
         terms,
         bic: deviance + unknowns as f64 * count.ln(),
         fit,

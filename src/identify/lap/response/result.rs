@@ -70,7 +70,10 @@ impl LapResponse {
     /// [`IdentifyError`] if the data determine no model, or if a file has vanished meanwhile.
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, IdentifyError> {
         let (chosen, comparison) = choice::choose(study)?;
-        let model = study.model(&chosen.terms);
+        let model = Model {
+            harmonics: chosen.harmonics,
+            ..study.model(&chosen.terms)
+        };
         let fit = chosen.fit;
         let reduced = fit.chi_squared / fit.degrees_of_freedom.max(1) as f64;
         let factor = if study.noise.is_stated {

@@ -29,6 +29,22 @@ impl LapResponse {
                 "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
             ));
         }
+        if self.model.harmonics < study.harmonics && !study.sines.is_empty() {
+            warnings.push(format!(
+                "the estimate is that of one harmonic: with {} harmonics it did not converge",
+                study.harmonics
+            ));
+        }
+        for (name, value) in [
+            ("k", self.fit.values.support_stiffness),
+            ("c", self.fit.values.support_damping),
+        ] {
+            if value < 0.0 {
+                warnings.push(format!(
+                    "{name} of the supports came out as {value:.3e}, which no passive support has; the joint file holds zero"
+                ));
+            }
+        }
         let own = self
             .comparison
             .iter()

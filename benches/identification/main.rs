@@ -21,7 +21,9 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use bolted_joint::identify::{Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines};
+use bolted_joint::identify::{
+    BandChoice, BandChoices, Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines,
+};
 
 use measured::{Noisy, Rig, joint, stiff_and_soft, thesis};
 
@@ -47,7 +49,7 @@ fn main() {
     match words.as_slice() {
         ["write", file] => write(file),
         ["against", python] => against(python),
-        ["repeat", count] => drop(repeat(count.parse().unwrap())),
+        ["repeat", count] => drop(repeat(count.parse().unwrap(), BandChoice::Automatic)),
         ["table"] => table(100, ""),
         ["table", draws] => table(draws.parse().unwrap(), ""),
         ["table", draws, chosen] => table(draws.parse().unwrap(), chosen),
@@ -60,11 +62,12 @@ fn rig() -> Rig {
 }
 
 /// Seconds that each of `count` identifications of the same lines takes.
-fn repeat(count: usize) -> Vec<f64> {
+fn repeat(count: usize, bands: BandChoice) -> Vec<f64> {
     let rig = rig();
     let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
     let options = Options {
         noise: Noise::stated(ONE_PER_CENT),
+        bands: BandChoices::all(bands),
         ..Options::default()
     };
     let one = |_| {
@@ -104,11 +107,13 @@ fn repeat_in_numpy(python: &str, file: &Path, threads: Option<&str>) -> Vec<f64>
 fn against(python: &str) {
     let file = std::env::temp_dir().join(format!("identification-{}.bin", std::process::id()));
     write(file.to_str().unwrap());
-    let mut times: [Vec<f64>; 3] = Default::default();
+    let mut times: [Vec<f64>; 4] = Default::default();
     for _ in 0..TURNS {
-        times[0].extend(repeat(REPETITIONS).split_off(1));
-        times[1].extend(repeat_in_numpy(python, &file, Some("1")));
-        times[2].extend(repeat_in_numpy(python, &file, None));
+        // The script takes the median over all lines.
+        times[0].extend(repeat(REPETITIONS, BandChoice::Median).split_off(1));
+        times[1].extend(repeat(REPETITIONS, BandChoice::Automatic).split_off(1));
+        times[2].extend(repeat_in_numpy(python, &file, Some("1")));
+        times[3].extend(repeat_in_numpy(python, &file, None));
     }
     std::fs::remove_file(&file).unwrap();
     for times in &mut times {
@@ -116,6 +121,7 @@ fn against(python: &str) {
     }
     let names = [
         "this program",
+        "and with chosen bands",
         "NumPy, one BLAS thread",
         "NumPy, its own BLAS threads",
     ];

@@ -8,6 +8,7 @@
 
 mod brake_reuss;
 mod command;
+mod free_vibration;
 mod oscillator;
 mod refusals;
 mod responses;

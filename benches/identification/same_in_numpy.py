@@ -118,10 +118,31 @@ def levenberg_marquardt(data, variance, model, negligible, damping):
     return model, normal, min(damping, 1e-3)
 
 
+def follow(data, variance, model):
+    """Full steps near the minimum, the variances following each."""
+    normal = Normal(data, model, variance)
+    while True:
+        step = normal.step(1e-12)
+        promise = step @ normal.gradient / normal.cost
+        if normal.is_settled(model.theta, 1e-13):
+            return variance, model, normal, True
+        if promise >= 1e-3:
+            return variance, model, normal, False
+        following = Model(data, model.theta + step)
+        renewed = (RELATIVE * np.abs(following.computed)) ** 2
+        after = Normal(data, following, renewed)
+        if not after.step(1e-12) @ after.gradient / after.cost <= 0.1 * promise:
+            return variance, model, normal, False
+        variance, model, normal = renewed, following, after
+
+
 def estimate(data, theta):
     model, damping = Model(data, theta), 1e-3
     variance = (RELATIVE * np.abs(model.computed)) ** 2
     for renewal in range(20):
+        variance, model, normal, has_settled = follow(data, variance, model)
+        if has_settled:
+            return model.theta, normal
         before = model.theta
         negligible = 1e-6 if renewal == 0 else 1e-13
         model, normal, damping = levenberg_marquardt(data, variance, model, negligible, damping)

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use super::estimator::Estimate;
 use super::group::{Side, Source};
+use super::line::Line;
 use super::noise::{Noise, StatedLevel};
 use super::objective::{Objective, Weights};
 
@@ -85,23 +86,19 @@ pub(super) fn assess<const N: usize>(
 ) -> Option<Assessment> {
     let corrections = Some(Arc::clone(&estimate.corrections));
     let state = objective.unweighted(estimate.unknowns.clone(), corrections);
-    let mut last: Vec<Complex64> = Vec::new();
-    let mut last_group = usize::MAX;
-    let (mut product, mut power, mut pairs) = (0.0, 0.0, 0_usize);
-    let (mut relative_power, mut count) = (0.0, 0_usize);
-    objective.visit_whitened(estimate.levels, &state, |group, line| {
-        relative_power += line.relative_power;
-        count += line.residual.len();
-        power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
-        if group == last_group {
-            let both = last.iter().zip(&line.residual);
-            product += both.map(|(a, b)| (a.conj() * b).re).sum::<f64>();
-            pairs += line.residual.len();
-        }
-        last.clear();
-        last.extend_from_slice(&line.residual);
-        last_group = group;
-    })?;
+    let groups = objective.gather_whitened(estimate.levels, &state, Residuals::add)?;
+    let groups = groups.into_iter().map(|pieces| {
+        let joined = pieces.into_iter().reduce(Residuals::followed_by);
+        joined.unwrap_or_default()
+    });
+    let Residuals {
+        relative_power,
+        power,
+        count,
+        product,
+        pairs,
+        ..
+    } = groups.fold(Residuals::default(), |all, group| all.beside(&group));
     let line_correlation = if power > 0.0 { product / power } else { 0.0 };
     // The real part of a product of two complex circular residuals has half the variance.
     let deviation = (2.0 * pairs.max(1) as f64).sqrt().recip();
@@ -119,6 +116,68 @@ pub(super) fn assess<const N: usize>(
         has_power: lines >= FEWEST_LINES,
         is_exact: relative_power / (count.max(1) as f64) < ROUNDING_POWER,
     })
+}
+
+/// Sums over the whitened residuals of consecutive lines.
+#[derive(Default)]
+struct Residuals {
+    /// Σ|r|²/|H|² of the residuals as they were before.
+    relative_power: f64,
+    /// Σ|r|²
+    power: f64,
+    count: usize,
+    /// Σ Re r̄ r' over neighbouring lines.
+    product: f64,
+    pairs: usize,
+    /// Those of the first line and of the last.
+    ends: Option<[Vec<Complex64>; 2]>,
+}
+
+impl Residuals {
+    fn add<const N: usize>(&mut self, line: &Line<'_, N>) {
+        self.relative_power += line.relative_power;
+        self.count += line.residual.len();
+        self.power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
+        let Some([_, last]) = &mut self.ends else {
+            self.ends = Some([line.residual.clone(), line.residual.clone()]);
+            return;
+        };
+        self.product += product(last, &line.residual);
+        self.pairs += line.residual.len();
+        last.copy_from_slice(&line.residual);
+    }
+
+    /// The sums over both, `next` being those of the lines that follow.
+    fn followed_by(self, next: Self) -> Self {
+        let both = self.beside(&next);
+        let (Some([first, last]), Some([next_first, next_last])) = (self.ends, next.ends) else {
+            return both;
+        };
+        Self {
+            product: both.product + product(&last, &next_first),
+            pairs: both.pairs + last.len(),
+            ends: Some([first, next_last]),
+            ..both
+        }
+    }
+
+    /// The sums over both, which have no neighbours among each other.
+    fn beside(&self, other: &Self) -> Self {
+        Self {
+            relative_power: self.relative_power + other.relative_power,
+            power: self.power + other.power,
+            count: self.count + other.count,
+            product: self.product + other.product,
+            pairs: self.pairs + other.pairs,
+            ends: None,
+        }
+    }
+}
+
+/// Σ Re r̄ r'
+fn product(one: &[Complex64], other: &[Complex64]) -> f64 {
+    let both = one.iter().zip(other);
+    both.map(|(a, b)| (a.conj() * b).re).sum()
 }
 
 /// Whether no variance depends on a level that is estimated.

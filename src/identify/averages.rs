@@ -5,7 +5,6 @@ use crate::structure::ComplexMatrix;
 use super::band_choice;
 use super::bands::{self, BandChoices, Bands, UsedBands};
 use super::block::Block;
-use super::decoupling;
 use super::layout::Layout;
 use super::lines::Lines;
 use super::model::JointMatrices;
@@ -23,31 +22,23 @@ pub(super) fn band_averages(
     layout: &Layout,
     bands: &[Vec<UsedBands>],
 ) -> Option<Vec<JointMatrices>> {
+    let lines: Vec<(&[f64], &[Option<ComplexMatrix>])> = all
+        .iter()
+        .map(|assembly| (assembly.lines.frequency_hz.as_slice(), assembly.values))
+        .collect();
+    let dofs = layout.model().dofs();
     let average = |joint: usize| {
-        let (mut frequency_hz, mut values) = (Vec::new(), Vec::new());
-        for bolt in layout.bolts_with(joint) {
-            for assembly in all {
-                frequency_hz.extend(&assembly.lines.frequency_hz);
-                values.extend(decoupling::of_bolt(
-                    assembly.values,
-                    bolt,
-                    layout.model().dofs(),
-                ));
-            }
-        }
+        let bolts = layout.bolts_with(joint);
+        let starts: Vec<usize> = bolts.map(|bolt| bolt * dofs).collect();
         let bands = Bands::of_used(&bands[joint]);
-        bands::band_average(layout.model(), &frequency_hz, &values, &bands)
+        bands::average_of_blocks(layout.model(), &lines, &starts, &bands)
     };
     (0..layout.joints()).map(average).collect()
 }
 
-/// The averages before there is an estimate to choose bands at: over the bands that are given, else the median over all lines.
-pub(super) fn first_averages(
-    all: &[Decoupled<'_>],
-    layout: &Layout,
-    choices: &BandChoices,
-) -> Option<Vec<JointMatrices>> {
-    band_averages(all, layout, &band_choice::used(layout, choices, None))
+/// The bands before there is an estimate to choose them at: those that are given, else none, for the median over all lines.
+pub(super) fn first_bands(layout: &Layout, choices: &BandChoices) -> Vec<Vec<UsedBands>> {
+    band_choice::used(layout, choices, None)
 }
 
 /// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at the estimate.

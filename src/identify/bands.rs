@@ -1,9 +1,7 @@
 //! Averages of the decoupled stiffness over bands: the classical estimate, and the start of the refined one.
 
-use nalgebra::DMatrix;
-use num_complex::Complex64;
-
 use crate::structure::ComplexMatrix;
+use nalgebra::DMatrix;
 
 use super::model::{JointMatrices, JointModel};
 
@@ -165,6 +163,17 @@ pub fn band_average(
     decoupled: &[Option<ComplexMatrix>],
     bands: &Bands,
 ) -> Option<JointMatrices> {
+    let bolt = [(frequency_hz, decoupled)];
+    average_of_blocks(model, &bolt, &[0], bands)
+}
+
+/// The same of the blocks that begin on one of `starts` on the diagonals, of the lines of several assemblies.
+pub(super) fn average_of_blocks(
+    model: JointModel,
+    all: &[(&[f64], &[Option<ComplexMatrix>])],
+    starts: &[usize],
+    bands: &Bands,
+) -> Option<JointMatrices> {
     let size = model.dofs();
     let mut average = JointMatrices {
         stiffness: DMatrix::zeros(size, size),
@@ -174,23 +183,22 @@ pub fn band_average(
         let bands = bands.of_entry((row, column));
         let within =
             |hz: f64| bands.is_empty() || bands.iter().any(|b| (b[0]..=b[1]).contains(&hz));
-        // k = Re K*, c = Im K*/ω; the two off-diagonal entries of a symmetric joint are one number.
-        let values: Vec<Complex64> = frequency_hz
-            .iter()
-            .zip(decoupled)
-            .filter(|&(&hz, _)| within(hz))
-            .filter_map(|(&hz, stiffness)| {
-                let stiffness = stiffness.as_ref()?;
-                let entry = 0.5 * (stiffness[(row, column)] + stiffness[(column, row)]);
-                Some(Complex64::new(
-                    entry.re,
-                    entry.im / (std::f64::consts::TAU * hz),
-                ))
-            })
-            .collect();
+        let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
+        for &start in starts {
+            let (row, column) = (start + row, start + column);
+            for (frequency_hz, decoupled) in all {
+                let lines = frequency_hz.iter().zip(*decoupled);
+                for (&hz, whole) in lines.filter(|&(&hz, _)| within(hz)) {
+                    let Some(whole) = whole else { continue };
+                    // k = Re K*, c = Im K*/ω; the two off-diagonal entries of a symmetric joint are one number.
+                    let entry = 0.5 * (whole[(row, column)] + whole[(column, row)]);
+                    stiffness.push(entry.re);
+                    damping.push(entry.im / (std::f64::consts::TAU * hz));
+                }
+            }
+        }
         let summary = if bands.is_empty() { median } else { mean };
-        let k = summary(values.iter().map(|value| value.re).collect())?;
-        let c = summary(values.iter().map(|value| value.im).collect())?;
+        let (k, c) = (summary(stiffness)?, summary(damping)?);
         for place in [(row, column), (column, row)] {
             average.stiffness[place] = k;
             average.damping[place] = c;
@@ -227,6 +235,8 @@ pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use num_complex::Complex64;
+
     use super::*;
 
     #[test]

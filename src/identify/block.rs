@@ -112,16 +112,16 @@ impl<const N: usize> Block<N> {
 
     fn push_substructures(&mut self, lines: &Lines, line: usize) {
         let (a, b) = (lines.a.at(line), lines.b.at(line));
-        let symmetric = |matrix: &ComplexMatrix, i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+        let (a, b) = (Columns::of(&a), Columns::of(&b));
         self.free.push(std::array::from_fn(|i| {
-            std::array::from_fn(|j| symmetric(&a, i, j) + symmetric(&b, i, j))
+            std::array::from_fn(|j| a.symmetric(i, j) + b.symmetric(i, j))
         }));
         let points = N..N + self.points;
         self.transfer
-            .extend(points.map(|point| std::array::from_fn(|i| symmetric(&b, i, point))));
+            .extend(points.map(|point| std::array::from_fn(|i| b.symmetric(i, point))));
         let own = self.entries.iter();
         self.own
-            .extend(own.map(|entry| symmetric(&b, N + entry.row, N + entry.column)));
+            .extend(own.map(|entry| b.symmetric(N + entry.row, N + entry.column)));
     }
 
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
@@ -175,6 +175,27 @@ impl<const N: usize> Block<N> {
 
     pub(super) fn lines(&self) -> usize {
         self.omega.len()
+    }
+}
+
+/// A square matrix as it is stored, column by column: there are many to go through.
+struct Columns<'m> {
+    values: &'m [Complex64],
+    size: usize,
+}
+
+impl<'m> Columns<'m> {
+    fn of(matrix: &'m ComplexMatrix) -> Self {
+        Self {
+            values: matrix.as_slice(),
+            size: matrix.nrows(),
+        }
+    }
+
+    /// Mean of the entry and its transpose.
+    #[inline(always)]
+    fn symmetric(&self, i: usize, j: usize) -> Complex64 {
+        (self.values[i + j * self.size] + self.values[j + i * self.size]) * 0.5
     }
 }
 

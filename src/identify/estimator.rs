@@ -36,6 +36,16 @@ impl Chart for Free {
     }
 }
 
+impl State {
+    /// Its normal equations by the coordinates.
+    fn normal_in(&self, chart: &impl Chart, coordinates: &DVector<f64>) -> Normal {
+        match chart.derivative(coordinates) {
+            Some(derivative) => self.normal.in_chart(&derivative),
+            None => self.normal.clone(),
+        }
+    }
+}
+
 /// Where the estimator came to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Estimate {
@@ -83,6 +93,10 @@ const HIDDEN_GAIN: f64 = 1e-12;
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
 const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
+/// Promised gain below which the weights follow each step, as long as the promise falls with each …
+const NEAR: f64 = 1e-3;
+/// … to this part, at least.
+const FALL: f64 = 0.1;
 /// Gain that is enough while the variances are not yet those of the errors.
 const GAIN_WHILE_EASING: f64 = 1e-3;
 
@@ -109,6 +123,14 @@ pub(super) fn estimate<const N: usize>(
     let mut converged = false;
     let mut damping = FIRST_DAMPING;
     for round in 0..MAX_REWEIGHTINGS {
+        if objective.is_independent() && !estimates_level {
+            let near = follow(objective, levels, chart, (coordinates, weights, state))?;
+            (coordinates, weights, state) = near.point;
+            if near.has_settled {
+                converged = true;
+                break;
+            }
+        }
         let gain = if round == 0 {
             GAIN_BEFORE_RENEWAL
         } else {
@@ -169,6 +191,46 @@ pub(super) fn estimate<const N: usize>(
         converged,
         corrections: state.corrections,
     })
+}
+
+/// A point with the weights that it gives itself.
+type Weighted = (DVector<f64>, Vec<Weights>, State);
+
+/// Where weights that follow each step led.
+struct Near {
+    point: Weighted,
+    has_settled: bool,
+}
+
+/// Full steps from a point near the minimum, each with the weights of the point before it: there the promise falls with each,
+/// whatever the weights do, and no step has to be tried with weights that are held. Far from it the point stays where it is.
+fn follow<const N: usize>(
+    objective: &Objective<'_, N>,
+    levels: Levels,
+    chart: &impl Chart,
+    mut point: Weighted,
+) -> Option<Near> {
+    let settled = |point, has_settled| Some(Near { point, has_settled });
+    let mut normal = point.2.normal_in(chart, &point.0);
+    loop {
+        if normal.is_settled(&point.0, NEGLIGIBLE_GAIN) {
+            return settled(point, true);
+        }
+        let promise = normal.promise().filter(|promise| *promise < NEAR);
+        let (Some(promise), Some(step)) = (promise, normal.step(1e-12)) else {
+            return settled(point, false);
+        };
+        let coordinates = &point.0 + step;
+        let next = objective.renewed(levels, chart.unknowns(&coordinates), None);
+        let Some((weights, state)) = next else {
+            return settled(point, false);
+        };
+        normal = state.normal_in(chart, &coordinates);
+        if !normal.promise().is_some_and(|next| next <= FALL * promise) {
+            return settled(point, false);
+        }
+        point = (coordinates, weights, state);
+    }
 }
 
 /// Σ ln σ² over measurements beyond the first of each entry.
@@ -314,13 +376,7 @@ fn levenberg_marquardt<const N: usize>(
     (negligible_gain, first_damping): (f64, f64),
 ) -> Rest {
     let mut coordinates = start.clone();
-    let in_chart = |state: &State, coordinates: &DVector<f64>| -> Normal {
-        match chart.derivative(coordinates) {
-            Some(derivative) => state.normal.in_chart(&derivative),
-            None => state.normal.clone(),
-        }
-    };
-    let mut normal = in_chart(&state, &coordinates);
+    let mut normal = state.normal_in(chart, &coordinates);
     let mut damping = first_damping;
     let mut settled = false;
     for _ in 0..MAX_ITERATIONS {
@@ -337,7 +393,7 @@ fn levenberg_marquardt<const N: usize>(
         if let (Some(trial), Some(next)) = (trial, improved) {
             coordinates = trial;
             state = next;
-            normal = in_chart(&state, &coordinates);
+            normal = state.normal_in(chart, &coordinates);
             damping = (damping * 0.01).max(1e-15);
         } else {
             damping *= 10.0;

@@ -1,6 +1,8 @@
 //! Lines whose entries all have errors of their own, as where no measured substructure has: they need no corrections and no
 //! covariance matrix, so several of them are computed side by side.
 
+use std::ops::Range;
+
 use num_complex::Complex64;
 
 use super::block::Block;
@@ -16,7 +18,7 @@ use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
 /// processors there are.
-const PIECE: usize = 1024;
+pub(super) const PIECE: usize = 1024;
 
 /// Adds all lines of `group` to the normal equations, with variances that are held.
 pub(super) fn accumulate<const N: usize>(
@@ -149,22 +151,23 @@ fn renew_rows<const N: usize, const E: usize>(
     Some(weights)
 }
 
-/// H^C of one assembly, line by line and entry by entry.
+/// H^C of one assembly at some of its lines, line by line and entry by entry.
 pub(super) fn computed<const N: usize>(
     block: &Block<N>,
     entries: &[Place],
     unknowns: &[f64],
+    lines: Range<usize>,
 ) -> Option<Vec<Complex64>> {
     let count = block.entries.len();
     let unknowns = unknowns.get(block.unknowns(entries))?;
-    let mut computed = vec![Complex64::ZERO; count * block.lines()];
+    let mut computed = vec![Complex64::ZERO; count * lines.len()];
     let mut strip = Strip::new(block);
     for (number, values) in computed.chunks_mut(count * LANES).enumerate() {
-        strip.solve(number * LANES, entries, unknowns)?;
+        strip.solve(lines.start + number * LANES, entries, unknowns)?;
         for (e, &entry) in block.entries.iter().enumerate() {
             let value = strip.computed(e, entry);
-            for lane in 0..strip.count {
-                values[lane * count + e] = value.lane(lane);
+            for (lane, values) in values.chunks_exact_mut(count).enumerate() {
+                values[e] = value.lane(lane);
             }
         }
     }

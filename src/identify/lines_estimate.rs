@@ -6,7 +6,7 @@ use crate::frf::Dof;
 use crate::structure::{ComplexMatrix, CouplingError};
 
 use super::assessment::Assessment;
-use super::averages::{Decoupled, band_averages, first_averages, used_bands};
+use super::averages::{Decoupled, band_averages, first_bands, used_bands};
 use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
@@ -297,11 +297,13 @@ fn identify_with<const N: usize>(
             .map(|((lines, values), _)| Decoupled { lines, values })
             .collect()
     };
-    let starts: Vec<Vec<DVector<f64>>> = (0..count)
-        .map(|joint| {
-            let averages = first_averages(&decoupled_of(joint), &layout, &options.bands);
-            starts(&layout, options.start.as_ref(), averages.as_deref())
-        })
+    let first_bands = first_bands(&layout, &options.bands);
+    let first_averages: Vec<Option<Vec<JointMatrices>>> = (0..count)
+        .map(|joint| band_averages(&decoupled_of(joint), &layout, &first_bands))
+        .collect();
+    let starts: Vec<Vec<DVector<f64>>> = first_averages
+        .iter()
+        .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
     let found = problem
         .best(&layout, &starts, Effort::Whole)
@@ -330,7 +332,11 @@ fn identify_with<const N: usize>(
         let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
         JointEstimate {
             torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
-            band_averages: band_averages(&data, &layout, &bands),
+            band_averages: if bands == first_bands {
+                first_averages[joint].clone()
+            } else {
+                band_averages(&data, &layout, &bands)
+            },
             bands,
             covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
             bootstrap: draws

@@ -67,6 +67,11 @@ impl Normal {
         Some(factor.solve(&gradient).component_mul(&scale))
     }
 
+    /// Gain that the full step promises in the linearised model, as a fraction of the cost.
+    pub(super) fn promise(&self) -> Option<f64> {
+        Some(self.step(1e-12)?.dot(&self.gradient) / self.cost)
+    }
+
     /// Whether the full step would change nothing: no unknown moves, or the gain it promises is that fraction of the
     /// cost. A step that is short because it is damped proves nothing; the full one is damped only as far as a singular
     /// JᵀJ needs it.

@@ -8,6 +8,7 @@
 //! θ holds the unknowns of one torque after the other; each assembly has one of them. Where assemblies with different joints
 //! share a substructure, δ couples these.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -243,7 +244,8 @@ impl<const N: usize> Objective<'_, N> {
             let weights = weights.map(|weights| &weights[number]);
             if group.sources.is_empty() {
                 let held = weights.map_or(Whitening::None, Whitening::Held);
-                self.visit_independent(group, held, state, |line| visit(number, line))?;
+                let all = 0..group.lines();
+                self.visit_independent(group, held, state, all, |line| visit(number, line))?;
             } else {
                 self.visit_linearised(number, weights, state, |line| visit(number, line))?;
             }
@@ -251,22 +253,36 @@ impl<const N: usize> Objective<'_, N> {
         Some(())
     }
 
-    /// The same, whitened by the variances that `levels` give there.
-    pub(super) fn visit_whitened(
+    /// What `visit` gathers of each group's lines as they are at `state`, whitened by the variances that `levels` give there. It begins with
+    /// nothing gathered for each piece of consecutive lines.
+    pub(super) fn gather_whitened<T: Default + Send>(
         &self,
         levels: Levels,
         state: &State,
-        mut visit: impl FnMut(usize, &Line<'_, N>),
-    ) -> Option<()> {
+        visit: impl Fn(&mut T, &Line<'_, N>) + Sync,
+    ) -> Option<Vec<Vec<T>>> {
         if !self.is_independent() {
             let weights = self.weights(levels, state)?;
-            return self.visit(Some(&weights), state, visit);
+            let mut gathered: Vec<Vec<T>> =
+                self.groups.iter().map(|_| vec![T::default()]).collect();
+            self.visit(Some(&weights), state, |group, line| {
+                visit(&mut gathered[group][0], line);
+            })?;
+            return Some(gathered);
         }
-        for (number, group) in self.groups.iter().enumerate() {
-            let own = Whitening::Renewed(levels.assembly);
-            self.visit_independent(group, own, state, |line| visit(number, line))?;
-        }
-        Some(())
+        let own = Whitening::Renewed(levels.assembly);
+        let of_group = |group: &Group<N>| {
+            let pieces = parallel::pieces(group.lines(), independent::PIECE);
+            let of_piece = |lines: &Range<usize>| {
+                let mut gathered = T::default();
+                self.visit_independent(group, own, state, lines.clone(), |line| {
+                    visit(&mut gathered, line);
+                })?;
+                Some(gathered)
+            };
+            parallel::map(&pieces, of_piece).into_iter().collect()
+        };
+        self.groups.iter().map(of_group).collect()
     }
 
     /// The same, whitened, with the derivatives by the joint.
@@ -287,17 +303,19 @@ impl<const N: usize> Objective<'_, N> {
         group: &Group<N>,
         whitening: Whitening<'_>,
         state: &State,
+        lines: Range<usize>,
         mut visit: impl FnMut(&Line<'_, N>),
     ) -> Option<()> {
         let unknowns = state.unknowns.as_slice();
         let blocks = group.blocks.iter();
         let computed: Option<Vec<Vec<Complex64>>> = blocks
-            .map(|block| independent::computed(block, self.entries, unknowns))
+            .map(|block| independent::computed(block, self.entries, unknowns, lines.clone()))
             .collect();
         let computed = computed?;
         let mut line = Line::new(group, self.entries);
-        for index in 0..group.lines() {
-            line.take(index, &computed);
+        let first = lines.start;
+        for index in lines {
+            line.take(index, first, &computed);
             match whitening {
                 Whitening::None => {}
                 Whitening::Held(weights) => {

@@ -92,14 +92,15 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 
     /// H^C of one line as computed before, and the residual.
-    pub(super) fn take(&mut self, index: usize, computed: &[Vec<Complex64>]) {
+    pub(super) fn take(&mut self, index: usize, first: usize, computed: &[Vec<Complex64>]) {
         self.index = index;
         let mut at = 0;
         for (block, computed) in self.group.blocks.iter().zip(computed) {
             let count = block.entries.len();
-            let place = index * count..(index + 1) * count;
-            self.computed[at..at + count].copy_from_slice(&computed[place.clone()]);
-            for (e, measured) in (at..).zip(&block.measured[place]) {
+            let among = (index - first) * count..(index - first + 1) * count;
+            self.computed[at..at + count].copy_from_slice(&computed[among]);
+            let measured = &block.measured[index * count..(index + 1) * count];
+            for (e, measured) in (at..).zip(measured) {
                 self.residual[e] = measured - self.computed[e];
             }
             at += count;

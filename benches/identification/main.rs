@@ -5,7 +5,7 @@
 //! one BLAS thread and with as many as it takes by itself, and prints the ratios.
 //! `-- write FILE` writes the data that the script reads, `-- repeat COUNT` identifies them so many times, for a profiler.
 //! `-- table [DRAWS [CASE]]` prints the errors of stiff and soft joints with light and heavy damping over many draws of
-//! noise, of the cases whose names hold CASE.
+//! noise, of the cases whose names hold the words CASE.
 
 #![expect(
     clippy::unwrap_used,
@@ -180,12 +180,24 @@ fn time() {
     println!("1000 bootstrap draws of {LINES} lines: {elapsed:.2} s, {converged} converged");
 }
 
+/// Whether the words stand in `text` one after the other.
+fn holds(text: &str, words: &str) -> bool {
+    let of = |text: &str| -> Vec<String> {
+        let words = text.split_whitespace();
+        words
+            .map(|word| word.trim_end_matches(',').to_owned())
+            .collect()
+    };
+    let (text, words) = (of(text), of(words));
+    words.is_empty() || text.windows(words.len()).any(|part| part == words)
+}
+
 fn table(draws: u64, chosen: &str) {
     for rig in stiff_and_soft() {
         for noisy in [Noisy::Assembly, Noisy::AssemblyAndA, Noisy::Everything] {
             for relative in [0.01, 0.05] {
                 let case = format!("{}, {} % on {noisy:?}", rig.name, 100.0 * relative);
-                if !case.contains(chosen) {
+                if !holds(&case, chosen) {
                     continue;
                 }
                 let level = NoiseLevel {

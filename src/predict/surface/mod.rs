@@ -1,0 +1,1 @@
+//! Fractal dimension and roughness of a surface, from measured profiles.

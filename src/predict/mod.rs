@@ -5,6 +5,7 @@
 //! field that the fasteners make, [`patch`] integrates over the interface, [`uncertain`] carries what is not known well.
 
 pub mod fractal;
+mod growth;
 pub mod layered_beam;
 mod material;
 pub mod patch;

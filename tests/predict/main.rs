@@ -7,3 +7,4 @@
 )]
 
 mod fractal;
+mod virtual_material;

@@ -7,4 +7,5 @@
 )]
 
 mod fractal;
+mod tian;
 mod virtual_material;

@@ -1,7 +1,7 @@
 //! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 //!
 //! The way of the data: [`frf`] and [`structure`] give receptances, [`identify`] finds the joint that couples them,
-//! [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`check`] tries that FMU, [`report`] draws
+//! [`predict`] finds one from physics alone, [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`check`] tries that FMU, [`report`] draws
 //! what was found. [`respond`] computes what a test would measure, [`reproduce`] repeats the published case studies.
 #![forbid(unsafe_code)]
 
@@ -14,6 +14,7 @@ pub mod harmonic;
 mod html;
 pub mod identify;
 pub mod joint;
+pub mod predict;
 pub mod report;
 pub mod reproduce;
 pub mod respond;

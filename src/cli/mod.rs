@@ -13,6 +13,7 @@ mod output;
 mod progress;
 mod reproduce;
 mod reproduce_pirdayr;
+mod reproduce_tian;
 mod respond;
 mod respond_lap;
 mod table;
@@ -51,7 +52,7 @@ enum Command {
     RunLibrary(RunLibraryArguments),
     /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis or of Pirdayr's paper anew, published and obtained values side by side
+    /// Compute the published tables of Tol's thesis, of Pirdayr's or of Tian's paper anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -226,7 +227,7 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` or `tian` for the tables of their papers
     tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]

@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::output::print;
 use super::progress::Progress;
 use super::table::{Table, number};
-use super::{ReproduceArguments, reproduce_pirdayr};
+use super::{ReproduceArguments, reproduce_pirdayr, reproduce_tian};
 
 /// What is computed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) enum Source {
     Tol(PublishedTable),
     /// Tables 3 and 4 of Pirdayr's paper.
     Pirdayr,
+    /// Table I of Tian's paper.
+    Tian,
 }
 
 impl FromStr for Source {
@@ -26,27 +28,24 @@ impl FromStr for Source {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
             PIRDAYR => Ok(Self::Pirdayr),
+            TIAN => Ok(Self::Tian),
             table => table.parse().map(Self::Tol),
         }
     }
 }
 
 const PIRDAYR: &str = "pirdayr";
+const TIAN: &str = "tian";
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
-    if arguments.tables.contains(&Source::Pirdayr) {
-        return match arguments.tables.as_slice() {
-            [Source::Pirdayr] => reproduce_pirdayr::run(arguments),
-            others => Err(CliError::Option {
-                option: PIRDAYR,
-                found: format!("{} tables beside it", others.len() - 1),
-                expected: "it alone: it has a table of another form",
-            }),
-        };
+    for (source, name) in [(Source::Pirdayr, PIRDAYR), (Source::Tian, TIAN)] {
+        if arguments.tables.contains(&source) {
+            return alone(source, name, arguments);
+        }
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
         Source::Tol(table) => Some(*table),
-        Source::Pirdayr => None,
+        Source::Pirdayr | Source::Tian => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
@@ -86,6 +85,25 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     print(&texts.join("\n"))
 }
 
+/// A source whose table has another form than those of Tol.
+fn alone(
+    source: Source,
+    name: &'static str,
+    arguments: &ReproduceArguments,
+) -> Result<(), CliError> {
+    if arguments.tables.len() > 1 {
+        return Err(CliError::Option {
+            option: name,
+            found: format!("{} tables beside it", arguments.tables.len() - 1),
+            expected: "it alone: it has a table of another form",
+        });
+    }
+    match source {
+        Source::Tian => reproduce_tian::run(arguments),
+        Source::Pirdayr | Source::Tol(_) => reproduce_pirdayr::run(arguments),
+    }
+}
+
 /// What the tables are called, for `--help`.
 pub(super) fn names() -> String {
     let mut text = "Tables:\n".to_owned();
@@ -96,6 +114,10 @@ pub(super) fn names() -> String {
     let _ = writeln!(
         text,
         "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"
+    );
+    let _ = writeln!(
+        text,
+        "  {TIAN:<18}Tian, Table I: layers that stand for a joint, and the surfaces that would give them"
     );
     text.trim_end().to_owned()
 }

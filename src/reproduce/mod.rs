@@ -1,4 +1,4 @@
-//! The case studies of Tol's thesis computed anew, and the tables of Pirdayr's paper: published and obtained values side by side.
+//! The case studies of Tol's thesis computed anew, and the tables of Pirdayr's and Tian's papers: published and obtained values side by side.
 
 mod approaches;
 mod beams;
@@ -10,12 +10,14 @@ mod outcome;
 mod pirdayr;
 mod published;
 mod receptances;
+mod tian;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
 pub use outcome::{Reproduction, Row, Spread};
 pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
+pub use tian::{TianFit, TianLayer, TianReproduction, tian};
 
 use draws::Repetition;
 

@@ -1,0 +1,1 @@
+//! Beams of layers held together by rivets or bolts, whose interfaces slip a little and so damp (Kavi).

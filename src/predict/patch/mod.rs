@@ -1,0 +1,1 @@
+//! Stiffness and damping of a whole interface, from those of its points.

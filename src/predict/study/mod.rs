@@ -1,0 +1,1 @@
+//! The study of a prediction: what its file says, validated.

@@ -1,0 +1,4 @@
+//! Joints from physics: surfaces and pressure.
+
+mod pressure;
+mod surface;

@@ -6,7 +6,8 @@ use bolted_joint::predict::surface::{
     Detrend, FitError, FitSettings, FitWarning, Profile, ProfileError, ProfileFit, Roughness,
     Synthetic, Welch, Window,
 };
-use rayon::prelude::*;
+use proptest::prelude::*;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use tempfile::TempDir;
 
 fn surface(dimension: f64, roughness_m: f64) -> Synthetic {
@@ -442,4 +443,34 @@ fn bad_profiles_are_refused_with_their_line() {
         assert!(Roughness::new(dimension, 1e-9).is_err());
     }
     assert!(Roughness::new(1.5, 0.0).is_err());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Damaged tables are read or refused, never a panic; what is read can be fitted or is refused.
+    #[test]
+    fn damaged_tables_do_no_harm(
+        place in 0.0..1.0_f64,
+        token in prop::sample::select(vec![
+            "", "-", ",", ";", "\n", "1e308", "-1e308", "1e-320", "nan", "[", "_", "\"", "µ", "#", "\t", "\u{feff}",
+        ]),
+        removed in 0_usize..8,
+    ) {
+        let folder = TempDir::new().unwrap();
+        let path = folder.path().join("table.csv");
+        let rows = (0..40).map(|k| format!("{k},{},1,2\n", k * 7 % 11));
+        for header in ["distance_um,height_nm,a,b\n", "x_mm,y_mm,area_mm2,pressure_MPa\n"] {
+            let mut text: Vec<char> = header.chars().chain(rows.clone().collect::<String>().chars()).collect();
+            let at = (place * text.len() as f64) as usize;
+            let end = (at + removed).min(text.len());
+            text.splice(at..end, token.chars());
+            fs::write(&path, text.into_iter().collect::<String>()).unwrap();
+            let profiles = [Profile::read(&path), Profile::read_resampled(&path)];
+            for profile in profiles.into_iter().flatten() {
+                let _ = ProfileFit::new(&[profile], &FitSettings::default());
+            }
+            let _ = bolted_joint::predict::pressure::PressureField::read(&path, None);
+        }
+    }
 }

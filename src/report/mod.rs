@@ -12,8 +12,10 @@ mod legend;
 mod line_figure;
 mod look;
 mod page;
+mod pressure_figure;
 mod resonance_labels;
 mod response_figure;
+mod spectrum_figure;
 mod strip;
 mod svg;
 mod text;
@@ -23,7 +25,9 @@ pub use lap::{LapResponseReport, LapUpdateReport};
 pub(crate) use lap::{convergence_figure, level_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
+pub use pressure_figure::PressureFigure;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
+pub use spectrum_figure::spectrum_figure;
 
 #[cfg(test)]
 mod tests;

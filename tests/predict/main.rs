@@ -9,3 +9,5 @@
 mod fractal;
 mod tian;
 mod virtual_material;
+mod pressure;
+mod surface;

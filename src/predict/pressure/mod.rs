@@ -1,5 +1,23 @@
 //! The pressure between two parts that bolts hold together.
 
+mod balance;
+mod bolt;
+mod bolted;
+mod error;
 mod field;
+mod plate;
+mod radial;
+mod tightening;
+mod uniform;
+mod unilateral;
+mod zone;
 
+pub use balance::Balance;
+pub use bolt::{Bolt, bolts_in_rows, bolts_on_circle, bolts_under_moment, with_preloads};
+pub use bolted::{BoltShare, BoltedField, BoltedInterface};
+pub use error::PressureError;
 pub use field::{Element, FieldError, PressureField};
+pub use plate::Rectangle;
+pub use tightening::{ThreadFriction, Tightening, TighteningError, coarse_pitch_m};
+pub use unilateral::UnilateralField;
+pub use zone::{Cone, ConePressure, Reach, ThicknessRatio, Zone, ZoneForce};

@@ -1,1 +1,5 @@
 //! Fractal dimension and roughness of a surface, from measured profiles.
+
+mod roughness;
+
+pub use roughness::{Roughness, RoughnessError};

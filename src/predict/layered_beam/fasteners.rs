@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use super::super::pressure::{Bolt, Reach, ThicknessRatio, Zone, ZoneForce};
 use super::beam::LayeredBeam;
 use super::error::{LayeredBeamError, positive};
 use super::normal_force::{normal_force_ratio, zone_radius_ratio};
@@ -192,9 +193,23 @@ impl Fasteners {
         Ok(())
     }
 
-    /// Diameter of the widest zone of pressure, m; that of the rivets' table for bolts, too.
+    /// Diameter of the widest zone of pressure, m: 4.125 to 5.6 diameters of a rivet, 3.5 of a bolt.
     #[must_use]
     pub fn zone_diameter_m(&self, beam: &LayeredBeam) -> f64 {
+        if self.kind == FastenerKind::Bolt {
+            let zone = Zone::Polynomial {
+                thickness_ratio: ThicknessRatio::One,
+                reach: Reach::Bolts,
+                force: ZoneForce::AsPublished,
+            };
+            return 2.0
+                * zone.radius_m(&Bolt {
+                    x_m: 0.0,
+                    y_m: 0.0,
+                    diameter_m: self.diameter_m,
+                    preload_n: self.tension_n,
+                });
+        }
         let ratios = thickness_ratios(beam).into_iter();
         let widest = ratios.filter_map(zone_radius_ratio).fold(0.0, f64::max);
         widest * self.diameter_m

@@ -110,7 +110,14 @@ pub(super) fn lap_file(
         }
     };
     notes.extend(study.notes.iter().cloned());
-    let frequency = nominal.mode.frequency_hz();
+    let mode = nominal.mode.number;
+    let frequency = |number: usize| study.beam.natural_frequency_hz(number);
+    // a single mode stands for the beam between its neighbours; the middles of the gaps on a logarithmic axis
+    let below = match mode {
+        1 => 0.0,
+        _ => (frequency(mode - 1) * frequency(mode)).sqrt(),
+    };
+    let above = (frequency(mode) * frequency(mode + 1)).sqrt();
     let file = JointFile {
         format: Format::V1,
         name: study.name.clone(),
@@ -121,7 +128,7 @@ pub(super) fn lap_file(
         }),
         uncertainty: None,
         validity: Some(Validity {
-            frequency_hz: [frequency, frequency],
+            frequency_hz: [below, above],
             torque_n_m: torques(over_torque),
             level: Some(level),
         }),

@@ -32,7 +32,7 @@ pub use damping::SlipDamping;
 pub use error::LayeredBeamError;
 pub use fasteners::{FastenerKind, Fasteners, NormalForceRule, RIVET_STRESS_PA};
 pub use lap::{EquivalentDamping, EquivalentLap};
-pub use normal_force::{THICKNESS_RATIOS, normal_force_ratio, zone_radius_ratio};
+pub use normal_force::{normal_force_ratio, zone_radius_ratio};
 pub use outcome::{AmplitudeRow, ModeRow, Outcome, SlipRow};
 pub use roots::root;
 pub use shape::ModeShape;

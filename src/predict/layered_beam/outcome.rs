@@ -354,8 +354,8 @@ fn warnings(study: &Study, nominal: &SlipDamping) -> Result<Vec<String>, Layered
     let farthest = farthest.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     if farthest.abs() > 1e-9 {
         warnings.push(format!(
-            "the polynomial pressure sums up to {:+.1} % more than the fastener's tension; equilibrium asks for the same: fasteners.normal_force = \"tension\"",
-            100.0 * farthest
+            "the polynomial pressure of a fastener sums up to {:.1} % of its tension; equilibrium asks for all of it: fasteners.normal_force = \"tension\"",
+            100.0 * (1.0 + farthest)
         ));
     }
     if let Some(&smallest) = study.amplitudes_m.first() {

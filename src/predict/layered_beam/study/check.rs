@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sha2::{Digest as _, Sha256};
 
+use super::super::super::pressure::Tightening;
 use super::super::amplitude_damping::AmplitudeRange;
 use super::super::beam::{Layer, LayeredBeam};
 use super::super::beam_mode::HIGHEST_MODE;
@@ -193,8 +194,17 @@ impl Checker<'_> {
                         let factor = table.nut_factor.unwrap_or(NUT_FACTOR);
                         self.model(positive("fasteners.nut_factor", factor, ""))?;
                         self.model(positive("fasteners.diameter", table.diameter, "m"))?;
-                        // P = T/(K d)
-                        let at = |torque: f64| bolts(torque / (factor * table.diameter));
+                        let tightening = Tightening::NutFactor {
+                            factor,
+                            diameter_m: table.diameter,
+                        };
+                        let at = |torque: f64| {
+                            let preload = tightening.preload_n(torque);
+                            bolts(preload.map_err(|error| {
+                                let found = format!("{error}");
+                                self.refuse("fasteners.torque", found, "what a bolt can have")
+                            })?)
+                        };
                         let highest = torques.last().copied().unwrap_or(0.0);
                         let nominal = nominal.unwrap_or(highest);
                         let [lowest, ..] = torques.as_slice() else {

@@ -1,0 +1,3 @@
+//! Joints from physics.
+
+mod layered_beam;

@@ -12,6 +12,7 @@ mod legend;
 mod line_figure;
 mod look;
 mod page;
+mod prediction;
 mod resonance_labels;
 mod response_figure;
 mod strip;
@@ -23,6 +24,7 @@ pub use lap::{LapResponseReport, LapUpdateReport};
 pub(crate) use lap::{convergence_figure, level_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
+pub use prediction::PredictionReport;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 
 #[cfg(test)]

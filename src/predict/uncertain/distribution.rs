@@ -7,6 +7,7 @@ use super::value::Uncertain;
 /// A score keeps the drawing of all inputs alike, and their correlation simple: correlated scores give correlated values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distribution {
+    nominal: f64,
     spread: Spread,
     location: f64,
     scale: f64,
@@ -46,6 +47,7 @@ impl Distribution {
             Spread::Normal | Spread::NormalWithin { .. } => (of.value, of.standard_deviation),
         };
         Self {
+            nominal: of.value,
             spread,
             location,
             scale,
@@ -56,9 +58,29 @@ impl Distribution {
     #[must_use]
     pub fn of_logarithm(median: f64, standard_deviation_of_logarithm: f64) -> Self {
         Self {
+            nominal: median,
             spread: Spread::Lognormal,
             location: median.ln(),
             scale: standard_deviation_of_logarithm,
+        }
+    }
+
+    /// The value itself, as it was given.
+    #[must_use]
+    pub fn nominal(&self) -> f64 {
+        self.nominal
+    }
+
+    /// Standard deviation of the draws before any is refused.
+    #[must_use]
+    pub fn standard_deviation(&self) -> f64 {
+        match self.spread {
+            // s = e^(μ + σ²/2) √(e^(σ²) − 1)
+            Spread::Lognormal => {
+                let variance = self.scale * self.scale;
+                (self.location + 0.5 * variance).exp() * variance.exp_m1().sqrt()
+            }
+            Spread::Normal | Spread::NormalWithin { .. } => self.scale,
         }
     }
 

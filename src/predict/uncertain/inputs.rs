@@ -80,6 +80,21 @@ impl Inputs {
         self.varying().next().is_none()
     }
 
+    /// The values as they were given, without any draw.
+    #[must_use]
+    pub fn nominal(&self) -> Drawn {
+        let values = self.inputs.iter();
+        Drawn {
+            values: values.map(|input| input.distribution.nominal()).collect(),
+        }
+    }
+
+    /// Names and distributions of all inputs, in the order in which they were added.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Distribution)> {
+        let inputs = self.inputs.iter();
+        inputs.map(|input| (input.name.as_str(), &input.distribution))
+    }
+
     /// Places of those that vary.
     pub(super) fn varying(&self) -> impl Iterator<Item = usize> {
         let inputs = self.inputs.iter().enumerate();

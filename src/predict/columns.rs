@@ -163,7 +163,7 @@ impl Column {
     }
 
     /// SI units in one unit of a column of this name; `None` if it is another quantity, has no unit or an unknown one.
-    fn to_si(&self, name: &str) -> Option<f64> {
+    fn to_si(self, name: &str) -> Option<f64> {
         let (word, unit) = match name.strip_suffix(']').and_then(|name| name.split_once('[')) {
             Some((word, unit)) => (word.trim(), unit.trim()),
             None => name.rsplit_once('_')?,

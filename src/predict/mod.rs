@@ -6,6 +6,7 @@
 
 mod columns;
 pub mod fractal;
+mod growth;
 pub mod layered_beam;
 mod material;
 pub mod patch;

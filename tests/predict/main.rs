@@ -6,6 +6,7 @@
     reason = "helpers of tests fail as the tests do"
 )]
 
+mod fractal;
 mod layered_beam;
 mod patch;
 mod pressure;

@@ -3,9 +3,9 @@
 use std::f64::consts::{LN_2, PI, TAU};
 
 use super::domain::weight_of_contacts;
-use super::growth::{Growth, power_integral};
 use super::{FractalError, Friction, PerArea, Regime, StoredEnergy};
 use crate::predict::Pair;
+use crate::predict::growth::{Growth, power_integral};
 use crate::predict::pressure::PressureField;
 use crate::predict::surface::Roughness;
 
@@ -107,7 +107,8 @@ impl FractalContact {
             nominal_area_m2,
             critical_area_m2,
             critical_pressure_pa,
-            growth: Growth::new(d),
+            // (12): p/p_c = e^(Dx/2) (1 + [(2−D)/2] φ(3/2 − D, x))
+            growth: Growth::new(d, 0.5 * (2.0 - d)),
             exponents: [0.5 * (1.0 - d), 0.5 * (5.0 - 3.0 * d)],
             factors: Factors {
                 normal: common * normal * root,

@@ -8,7 +8,6 @@ mod contact;
 mod domain;
 mod error;
 mod friction;
-mod growth;
 mod microslip;
 mod per_area;
 

@@ -104,10 +104,7 @@ impl Geometry {
     }
 
     /// A field under the nominal preloads, which add up to `preload_n`.
-    pub(super) fn given(
-        field: &PressureField,
-        preload_n: Option<f64>,
-    ) -> Result<Self, ModelError> {
+    pub(super) fn given(field: &PressureField, preload_n: Option<f64>) -> Result<Self, ModelError> {
         Ok(Self {
             elements: field.scaled(0.0)?.elements().to_vec(),
             loading: Loading::Given {
@@ -170,6 +167,14 @@ impl Geometry {
                 pressures_pa.extend(given.iter().map(|pressure| pressure * factor));
             }
         }
+    }
+
+    /// Force of these pressures (Pa) on the elements, N.
+    pub(super) fn force_n(&self, pressures_pa: &[f64]) -> f64 {
+        let elements = self.elements.iter().zip(pressures_pa);
+        elements
+            .map(|(element, pressure_pa)| element.area_m2 * pressure_pa)
+            .sum()
     }
 
     /// The field under these bolts, and what it carries of their preloads where there are any.

@@ -13,6 +13,7 @@ mod error;
 mod field_csv;
 mod geometry;
 mod joint_file;
+mod law;
 mod method;
 mod model;
 mod origin;

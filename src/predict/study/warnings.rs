@@ -29,7 +29,9 @@ impl Prediction<'_> {
             if let Some(balance) = &state.balance
                 && balance.force_imbalance().abs() > IMBALANCE
             {
-                warnings.push(format!("{balance}{at}: the pressures belong to other preloads"));
+                warnings.push(format!(
+                    "{balance}{at}: the pressures belong to other preloads"
+                ));
             }
             let crowded = state.largest_real_area();
             if crowded > CROWDED {
@@ -49,6 +51,15 @@ impl Prediction<'_> {
                     ));
                 }
             }
+            let [normal, tangential] = [
+                state.interface.normal_loss_factor(),
+                state.interface.tangential_loss_factor(),
+            ];
+            if state.material.is_some() && normal + tangential == 0.0 {
+                warnings.push(format!(
+                    "the layer has no damping{at}: its model gives none; state layer.loss_factor"
+                ));
+            }
             if state.interface.stiffness()[2][2] == 0.0 {
                 warnings.push(format!(
                     "no contact is elastic{at}, so that there is no stiffness: the roughness is too large for this pressure and hardness"
@@ -63,7 +74,9 @@ impl Prediction<'_> {
                 .map(|(reason, count)| format!("{reason} ({count})"))
                 .collect();
             let verdict = match outcome.refused_share() > REFUSED {
-                true => "; the intervals are those of what the model covers, not of what was stated",
+                true => {
+                    "; the intervals are those of what the model covers, not of what was stated"
+                }
                 false => "",
             };
             warnings.push(format!(

@@ -26,7 +26,10 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
                 }))),
                 number_cell(&shown(1e-6 * state.largest_pressure_pa(), DIGITS)),
                 number_cell(&format!("{:.0} %", 100.0 * state.area_under_pressure())),
-                number_cell(&format!("{} %", shown(100.0 * state.largest_real_area(), 3))),
+                number_cell(&format!(
+                    "{} %",
+                    shown(100.0 * state.largest_real_area(), 3)
+                )),
                 number_cell(&shown(state.interface.normal_loss_factor(), 3)),
                 number_cell(&shown(state.interface.tangential_loss_factor(), 3)),
             ]
@@ -54,7 +57,7 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
         ),
     };
     format!(
-        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{bolts}",
+        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{bolts}{}",
         escaped(&crate::html::capitalised(&found.study.pressure)),
         table(
             &[
@@ -69,8 +72,49 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
                 "η tangential",
             ],
             &rows
-        )
+        ),
+        layer(found)
     )
+}
+
+/// The virtual layer at each torque.
+fn layer(found: &Prediction<'_>) -> String {
+    let rows: Vec<String> = found
+        .states
+        .iter()
+        .filter_map(|state| {
+            let layer = state.material.as_ref()?;
+            let torque = state.torque_n_m.map_or_else(|| "–".to_owned(), number);
+            Some(
+                [
+                    number_cell(&torque),
+                    number_cell(&number(layer.youngs_modulus_pa)),
+                    number_cell(&number(layer.shear_modulus_pa)),
+                    number_cell(&number(layer.poissons_ratio)),
+                    number_cell(&number(layer.density_kg_per_m3)),
+                    number_cell(&number(layer.thickness_m)),
+                ]
+                .concat(),
+            )
+        })
+        .collect();
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<h3>Virtual layer</h3>\n{}",
+            table(
+                &[
+                    "Torque, N·m",
+                    "E, Pa",
+                    "G, Pa",
+                    "ν",
+                    "ρ, kg/m³",
+                    "Thickness, m"
+                ],
+                &rows
+            )
+        ),
+    }
 }
 
 pub(super) fn section(found: &Prediction<'_>) -> String {
@@ -94,19 +138,13 @@ fn matrix(matrix: &Matrix6) -> String {
     if matrix.iter().flatten().all(|value| *value == 0.0) {
         return "<p>None.</p>\n".to_owned();
     }
-    let size = |i: usize| matrix[i][i].abs().sqrt();
     let rows: Vec<String> = (0..6)
         .map(|i| {
-            let cells = (0..6).map(|j| {
-                let value = matrix[i][j];
-                // what is left of sums that cancel is no stiffness
-                let is_nothing = value.abs() <= 1e-12 * size(i) * size(j);
-                number_cell(&match is_nothing {
-                    true => "0".to_owned(),
-                    false => shown(value, DIGITS),
-                })
+            let cells = matrix[i].map(|value| match value {
+                0.0 => number_cell("0"),
+                value => number_cell(&shown(value, DIGITS)),
             });
-            format!("{}{}", cell(DOFS[i]), cells.collect::<String>())
+            format!("{}{}", cell(DOFS[i]), cells.concat())
         })
         .collect();
     let headings: Vec<&str> = std::iter::once("").chain(DOFS).collect();

@@ -828,6 +828,9 @@ impl Checker<'_> {
                 "\"uniform\", \"kavi\" or \"cone\"",
             );
         };
+        if bolts.is_empty() {
+            return self.refuse("bolts", "none", "[[bolts]], which press the parts together");
+        }
         let outline = self.model("interface", Rectangle::new(x_m, y_m))?;
         let cells = table.elements.unwrap_or(ELEMENTS);
         let clearance_m = pressure.clearance.unwrap_or(0.0);

@@ -25,6 +25,7 @@ mod warnings;
 
 pub use check::InterfaceStudy;
 pub use error::{ModelError, PredictError};
+pub use geometry::Plate;
 pub use method::PredictionMethod;
 pub use model::State;
 pub use prediction::Prediction;

@@ -12,6 +12,7 @@ use super::both_surfaces::both;
 use super::check::{ContactInputs, InterfaceStudy, MaterialInputs, SurfaceInput, SurfaceInputs};
 use super::contact_curve::ContactLaw;
 use super::error::ModelError;
+use super::geometry::Plate;
 use super::law::{Law, LayerLaw, OverField};
 
 /// The joint at one torque, or at the only tightness.
@@ -62,6 +63,12 @@ impl State {
 }
 
 impl InterfaceStudy {
+    /// The rectangle that the pressure is computed on; none of a field from elsewhere.
+    #[must_use]
+    pub fn plate(&self) -> Option<Plate> {
+        self.geometry.plate()
+    }
+
     /// Torques at which there is a joint each; one `None` where there is no table.
     pub(super) fn torques(&self) -> Vec<Option<f64>> {
         match self.torques_n_m.as_slice() {

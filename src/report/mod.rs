@@ -13,8 +13,10 @@ mod line_figure;
 mod look;
 mod page;
 mod prediction;
+mod pressure_figure;
 mod resonance_labels;
 mod response_figure;
+mod spectrum_figure;
 mod strip;
 mod svg;
 mod text;
@@ -25,7 +27,9 @@ pub(crate) use lap::{convergence_figure, level_figure};
 pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
 pub use prediction::PredictionReport;
+pub use pressure_figure::PressureFigure;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
+pub use spectrum_figure::spectrum_figure;
 
 #[cfg(test)]
 mod tests;

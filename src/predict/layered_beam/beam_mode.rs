@@ -24,7 +24,7 @@ pub(super) const HIGHEST_MODE: usize = 100;
 const NODE: f64 = 1e-3;
 
 /// A sum of slopes of less than this over the length is rounding: every fastener is where the mode has no slope.
-const NO_SLOPE: f64 = 1e-6;
+const NO_SLOPE: f64 = 1e-5;
 
 /// Where a mode comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]

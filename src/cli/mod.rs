@@ -10,6 +10,7 @@ mod identified_from;
 mod identify;
 mod lap;
 mod output;
+mod predict;
 mod progress;
 mod reproduce;
 mod reproduce_kavi;
@@ -43,6 +44,8 @@ enum Command {
     Demo(DemoArguments),
     /// Identify the joint of a study and write its joint file
     Identify(IdentifyArguments),
+    /// Predict a joint from surfaces, materials and bolts, before anything is built, and write its joint file
+    Predict(PredictArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
     /// Check a joint file or an FMU, and run the FMU's library for a moment
@@ -95,6 +98,37 @@ struct IdentifyArguments {
     /// Seed of the bootstrap [default: 1]
     #[arg(long, requires = "bootstrap")]
     seed: Option<u64>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// `predict`
+#[derive(Debug, Args)]
+struct PredictArguments {
+    /// The study: surfaces, materials, bolts and the model to take (TOML)
+    study: PathBuf,
+    /// Joint file to write
+    #[arg(short, long, value_name = "NAME.joint.json")]
+    output: PathBuf,
+    /// Also write a report: one page with assumptions, surfaces, pressure, stiffness and damping
+    #[arg(long, value_name = "NAME.html")]
+    report: Option<PathBuf>,
+    /// Also write the 6×6 stiffness and damping of the interface as a table
+    #[arg(long, value_name = "NAME.csv")]
+    matrix_csv: Option<PathBuf>,
+    /// Also write them as an ANSYS macro of MATRIX27 elements between two nodes
+    #[arg(long, value_name = "NAME.mac")]
+    matrix27: Option<PathBuf>,
+    /// Also write pressure, stiffness and damping of each element of the interface
+    #[arg(long, value_name = "NAME.csv")]
+    field_csv: Option<PathBuf>,
+    /// Also write the virtual layer's material (method virtual-material): a table, or a card for Abaqus or ANSYS
+    #[arg(long, value_name = "NAME.csv|NAME.inp|NAME.mac")]
+    material_card: Option<PathBuf>,
+    /// Also write frequencies and damping over the amplitude (method layered-beam)
+    #[arg(long, value_name = "NAME.csv")]
+    damping_csv: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -293,6 +327,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
+        Command::Predict(arguments) => predict::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::RunLibrary(arguments) => check::run_library(&arguments),

@@ -23,6 +23,7 @@ mod uff;
 mod unit_label;
 
 pub use coherence::{Coherence, relative_variance};
+pub(crate) use csv::Decimal;
 pub use csv::{CsvProblem, read_csv, read_csv_from};
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;
@@ -36,7 +37,7 @@ pub use reading::{FrfReading, SkippedFunction};
 pub use resonance::{Resonance, resonances};
 pub use selection::Selection;
 pub use set::{FrfSet, Receptance};
-use shown::shown;
+pub(crate) use shown::shown;
 pub use statement::StatementProblem;
 pub use summary::{FileFormat, FileSummary, StatedBy, UnitStatement};
 pub use uff::{

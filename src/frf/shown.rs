@@ -4,7 +4,7 @@
 const SHOWN_CHARACTERS: usize = 40;
 
 /// The beginning of a text, fit for a message.
-pub(super) fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     let mut shown: String = text
         .trim()
         .chars()

@@ -164,7 +164,7 @@ pub(super) fn determined_together(
 }
 
 /// 97.5 % quantile of Student's distribution (expansion of Fisher and Cornish from three degrees of freedom on).
-pub(super) fn student_975(degrees_of_freedom: usize) -> f64 {
+pub(crate) fn student_975(degrees_of_freedom: usize) -> f64 {
     let z = NORMAL_975;
     let n = degrees_of_freedom as f64;
     match degrees_of_freedom {

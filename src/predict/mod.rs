@@ -4,7 +4,9 @@
 //! parts (Tian), and [`layered_beam`]s whose interfaces slip (Kavi). [`surface`] gives the roughness, [`pressure`] the
 //! field that the fasteners make, [`patch`] integrates over the interface, [`uncertain`] carries what is not known well.
 
+mod columns;
 pub mod fractal;
+mod growth;
 pub mod layered_beam;
 mod material;
 pub mod patch;
@@ -14,4 +16,5 @@ pub mod surface;
 pub mod uncertain;
 pub mod virtual_material;
 
+pub use columns::ColumnsError;
 pub use material::{Material, MaterialError, Pair};

@@ -14,6 +14,7 @@ mod legend;
 mod line_figure;
 mod look;
 mod page;
+mod prediction;
 mod resonance_labels;
 mod response_figure;
 mod strip;
@@ -27,6 +28,7 @@ pub(crate) use lap::{convergence_figure, level_figure};
 pub use layered_beam_figure::LayeredBeamFigure;
 pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
+pub use prediction::PredictionReport;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 
 #[cfg(test)]

@@ -8,5 +8,6 @@ mod number;
 mod problem;
 mod read;
 
+pub(crate) use number::Decimal;
 pub use problem::CsvProblem;
 pub use read::{read_csv, read_csv_from};

@@ -2,7 +2,7 @@
 
 /// How decimals are marked in a file, as far as its numbers have shown it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Decimal {
+pub(crate) enum Decimal {
     /// Whole numbers only so far, in a file whose separator leaves the comma free.
     Either,
     Point,
@@ -11,7 +11,7 @@ pub(super) enum Decimal {
 
 impl Decimal {
     /// The number, and what its file is now known to use.
-    pub(super) fn parse(self, text: &str) -> Option<(f64, Self)> {
+    pub(crate) fn parse(self, text: &str) -> Option<(f64, Self)> {
         let used = match (text.contains('.'), text.contains(',')) {
             (false, false) => self,
             (true, false) if self != Self::Comma => Self::Point,

@@ -5,6 +5,7 @@ mod bolt;
 mod bolted;
 mod error;
 mod field;
+mod file;
 mod plate;
 mod radial;
 mod tightening;
@@ -17,6 +18,7 @@ pub use bolt::{Bolt, bolts_in_rows, bolts_on_circle, bolts_under_moment, with_pr
 pub use bolted::{BoltShare, BoltedField, BoltedInterface};
 pub use error::PressureError;
 pub use field::{Element, FieldError, PressureField};
+pub use file::FieldFileError;
 pub use plate::Rectangle;
 pub use tightening::{ThreadFriction, Tightening, TighteningError, coarse_pitch_m};
 pub use unilateral::UnilateralField;

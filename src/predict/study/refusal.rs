@@ -1,0 +1,35 @@
+//! Why a draw gives no joint, in words that are the same for all draws with that reason.
+
+use super::error::ModelError;
+use crate::predict::fractal::FractalError;
+use crate::predict::pressure::PressureError;
+use crate::predict::uncertain::Refusal;
+
+impl From<ModelError> for Refusal {
+    fn from(error: ModelError) -> Self {
+        let reason = match &error {
+            ModelError::Fractal(error) => of_contact(error),
+            ModelError::Pressure(PressureError::BoltSlack { .. }) => {
+                "the moment takes a bolt's whole preload"
+            }
+            ModelError::Material(_) => "no elastic material",
+            ModelError::Roughness(_) => "no fractal surface",
+            ModelError::Tightening(_) => "no preload follows from the torque",
+            _ => "outside the model",
+        };
+        Self {
+            reason: reason.to_owned(),
+        }
+    }
+}
+
+fn of_contact(error: &FractalError) -> &'static str {
+    match error {
+        FractalError::Element { reason, .. } => of_contact(reason),
+        FractalError::FrictionRatio { .. } => "q = T/(μP) beyond the model",
+        FractalError::RealArea { .. } => "more real than nominal area",
+        FractalError::BeyondHardness { .. } => "pressure beyond the hardness",
+        FractalError::CriticalArea { .. } => "no critical contact area",
+        _ => "outside the contact model",
+    }
+}

@@ -13,6 +13,7 @@ mod output;
 mod predict;
 mod progress;
 mod reproduce;
+mod reproduce_kavi;
 mod reproduce_pirdayr;
 mod respond;
 mod respond_lap;
@@ -54,7 +55,7 @@ enum Command {
     RunLibrary(RunLibraryArguments),
     /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis or of Pirdayr's paper anew, published and obtained values side by side
+    /// Compute the published tables of Tol's thesis, of Pirdayr's paper or of Kavi's thesis anew, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -260,7 +261,8 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper,
+    /// or `kavi` for the specimens of his thesis
     tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
@@ -277,6 +279,9 @@ struct ReproduceArguments {
     /// Print the tables as a document in Markdown
     #[arg(long)]
     markdown: bool,
+    /// Also draw damping over what is varied, for `kavi`
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -1,4 +1,4 @@
-//! `reproduce`: the tables of Tol's thesis computed anew.
+//! `reproduce`: the tables of Tol's thesis, of Pirdayr's paper and of Kavi's thesis computed anew.
 
 use std::fmt::Write as _;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::output::print;
 use super::progress::Progress;
 use super::table::{Table, number};
-use super::{ReproduceArguments, reproduce_pirdayr};
+use super::{ReproduceArguments, reproduce_kavi, reproduce_pirdayr};
 
 /// What is computed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) enum Source {
     Tol(PublishedTable),
     /// Tables 3 and 4 of Pirdayr's paper.
     Pirdayr,
+    /// The specimens of Kavi's thesis.
+    Kavi,
 }
 
 impl FromStr for Source {
@@ -26,27 +28,42 @@ impl FromStr for Source {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
             PIRDAYR => Ok(Self::Pirdayr),
+            KAVI => Ok(Self::Kavi),
             table => table.parse().map(Self::Tol),
         }
     }
 }
 
 const PIRDAYR: &str = "pirdayr";
+const KAVI: &str = "kavi";
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
-    if arguments.tables.contains(&Source::Pirdayr) {
-        return match arguments.tables.as_slice() {
-            [Source::Pirdayr] => reproduce_pirdayr::run(arguments),
-            others => Err(CliError::Option {
-                option: PIRDAYR,
+    let alone = [(Source::Pirdayr, PIRDAYR), (Source::Kavi, KAVI)];
+    let named = alone
+        .iter()
+        .find(|(source, _)| arguments.tables.contains(source));
+    if let (Some(_), None | Some((Source::Pirdayr, _))) = (&arguments.figure, named) {
+        return Err(CliError::Option {
+            option: "--figure",
+            found: "other tables".to_owned(),
+            expected: "`kavi`, which is the one that has a figure",
+        });
+    }
+    match (named, arguments.tables.as_slice()) {
+        (None, _) => {}
+        (Some(_), [Source::Pirdayr]) => return reproduce_pirdayr::run(arguments),
+        (Some(_), [Source::Kavi]) => return reproduce_kavi::run(arguments),
+        (Some((_, name)), others) => {
+            return Err(CliError::Option {
+                option: name,
                 found: format!("{} tables beside it", others.len() - 1),
                 expected: "it alone: it has a table of another form",
-            }),
-        };
+            });
+        }
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
         Source::Tol(table) => Some(*table),
-        Source::Pirdayr => None,
+        Source::Pirdayr | Source::Kavi => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
@@ -96,6 +113,10 @@ pub(super) fn names() -> String {
     let _ = writeln!(
         text,
         "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"
+    );
+    let _ = writeln!(
+        text,
+        "  {KAVI:<18}Kavi, Table 5.1: riveted beams, printed numbers and statements"
     );
     text.trim_end().to_owned()
 }

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::identify::IdentifyError;
+use crate::predict::layered_beam::LayeredBeamError;
 use crate::respond::PollutionError;
 use crate::structure::{BeamError, CouplingError, ModalError, SpatialError};
 
@@ -27,6 +28,9 @@ pub enum ReproduceError {
     /// An identification.
     #[error(transparent)]
     Identify(Box<IdentifyError>),
+    /// A layered beam.
+    #[error(transparent)]
+    LayeredBeam(#[from] LayeredBeamError),
 }
 
 impl From<IdentifyError> for ReproduceError {

@@ -23,8 +23,8 @@ pub(super) const HIGHEST_MODE: usize = 100;
 /// A drive point that a mode moves by less than this part of its largest deflection is a node.
 const NODE: f64 = 1e-3;
 
-/// A sum of slopes of less than this over the length is rounding.
-const NO_SLOPE: f64 = 1e-9;
+/// A sum of slopes of less than this over the length is rounding: every fastener is where the mode has no slope.
+const NO_SLOPE: f64 = 1e-5;
 
 /// Where a mode comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -69,8 +69,8 @@ impl BeamMode {
     /// Elastic mode `number` of a beam at `drive_point_m`, or where its deflection is largest.
     ///
     /// # Errors
-    /// There is no such mode, the drive point is off the beam or a node, no fastener is where the beam has a slope, or a beam
-    /// that is held nowhere should have a static stiffness.
+    /// There is no such mode, the drive point is off the beam or a node, or a beam that is held nowhere should have a static
+    /// stiffness.
     pub fn new(
         beam: &LayeredBeam,
         fasteners: &Fasteners,
@@ -87,12 +87,12 @@ impl BeamMode {
         }
         fasteners.check_on(beam)?;
         let drive_point_m = drive_point(beam, number, drive_point_m)?;
-        let (angular_frequency, mass_kg, slopes_per_m) = match route {
+        let (angular_frequency, mass_kg, mut slopes_per_m) = match route {
             Route::Classical => classical(beam, fasteners, number, drive_point_m),
             Route::FiniteElements => finite_elements(beam, fasteners, number, drive_point_m)?,
         };
         if slopes_per_m.iter().sum::<f64>() * beam.length_m() < NO_SLOPE {
-            return Err(LayeredBeamError::NoSlip { mode: number });
+            slopes_per_m.fill(0.0);
         }
         let stiffness_n_per_m = match stored {
             // dᵀKd = ω² dᵀMd
@@ -115,6 +115,18 @@ impl BeamMode {
     #[must_use]
     pub fn slope_sum_per_m(&self) -> f64 {
         self.slopes_per_m.iter().sum()
+    }
+
+    /// Refuses a mode without a slope at any fastener.
+    ///
+    /// # Errors
+    /// [`LayeredBeamError::NoSlip`]
+    pub fn check_slip(&self) -> Result<(), LayeredBeamError> {
+        if self.slope_sum_per_m() > 0.0 {
+            Ok(())
+        } else {
+            Err(LayeredBeamError::NoSlip { mode: self.number })
+        }
     }
 
     /// Natural frequency, Hz.

@@ -45,7 +45,7 @@ impl SlipDamping {
     /// Damping of a mode whose ratio ζ was measured at one amplitude of its drive point: α′μ is what makes it so.
     ///
     /// # Errors
-    /// Ratio or amplitude are not positive, and as [`SlipDamping::new`].
+    /// Ratio or amplitude are not positive, the mode has no slope at any fastener, and as [`SlipDamping::new`].
     pub fn calibrated(
         beam: &LayeredBeam,
         fasteners: &Fasteners,
@@ -55,6 +55,7 @@ impl SlipDamping {
     ) -> Result<Self, LayeredBeamError> {
         positive("friction.calibration.damping_ratio", damping_ratio, "")?;
         positive("friction.calibration.amplitude", amplitude_m, "m")?;
+        mode.check_slip()?;
         let unit = Self::new(beam, fasteners, mode, 1.0)?;
         // α′μ = k w δ/(N (h₁ + h₂) X α)   (Kavi 3.44): ζ is proportional to α′μ
         let alpha_mu = damping_ratio / unit.damping_ratio(amplitude_m);

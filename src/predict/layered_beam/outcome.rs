@@ -135,6 +135,7 @@ impl Outcome {
             SlipDamping::new(beam, fasteners, mode, alpha_mu)
         };
         let nominal = damping_of(&study.fasteners, study.mode, study.route)?;
+        nominal.mode.check_slip()?;
         let over_torque = study.over_torque.iter();
         let over_torque: Vec<(f64, SlipDamping)> = over_torque
             .map(|(torque, fasteners)| {
@@ -143,14 +144,12 @@ impl Outcome {
             .collect::<Result<_, LayeredBeamError>>()?;
         let lap = lap_file(study, &nominal, &over_torque)?;
         let (mut modes, mut amplitudes) = (Vec::new(), Vec::new());
-        let mut not_driven = Vec::new();
+        let mut without_slip = Vec::new();
         for number in 1..=study.modes {
-            let classical = damping_of(&study.fasteners, number, Route::Classical);
-            if let Err(LayeredBeamError::NoSlip { mode }) = classical {
-                not_driven.push(mode);
-                continue;
+            let classical = damping_of(&study.fasteners, number, Route::Classical)?;
+            if classical.mode.check_slip().is_err() {
+                without_slip.push(number.to_string());
             }
-            let classical = classical?;
             let elements = damping_of(&study.fasteners, number, Route::FiniteElements)?;
             modes.push(mode_row(study, &classical, &elements));
             amplitudes.extend(
@@ -161,9 +160,10 @@ impl Outcome {
             );
         }
         let mut warnings = warnings(study, &nominal)?;
-        for mode in not_driven {
+        if !without_slip.is_empty() {
             warnings.push(format!(
-                "mode {mode} is left out: it has no slope at any fastener"
+                "mode {} has no slope at any fastener: the model gives it no damping",
+                without_slip.join(", ")
             ));
         }
         Ok(Self {

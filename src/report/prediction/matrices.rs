@@ -1,5 +1,7 @@
 //! Pressure and preloads, and the interface as a whole: its 6×6 matrices and loss factors.
 
+use super::super::PressureFigure;
+use super::super::lap::figure;
 use crate::html::{cell, escaped, number, number_cell, shown, table};
 use crate::predict::patch::Matrix6;
 use crate::predict::study::Prediction;
@@ -57,8 +59,9 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
         ),
     };
     format!(
-        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{bolts}{}",
+        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{}{bolts}{}",
         escaped(&crate::html::capitalised(&found.study.pressure)),
+        drawing(found),
         table(
             &[
                 "Torque, N·m",
@@ -75,6 +78,31 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
         ),
         layer(found)
     )
+}
+
+/// The field under the nominal preloads.
+fn drawing(found: &Prediction<'_>) -> String {
+    let state = found.nominal();
+    let plate = found.study.plate();
+    let at = state
+        .torque_n_m
+        .map(|torque| format!(" at {} N·m", number(torque)))
+        .unwrap_or_default();
+    let drawn = PressureFigure {
+        title: "Pressure on the interface",
+        field: &state.field,
+        cell_m: plate.map(|plate| plate.cell_m),
+        outline: plate.map(|plate| plate.outline),
+        bolts: &state.bolts,
+        clearance_m: plate.map_or(0.0, |plate| plate.clearance_m),
+    };
+    drawn.to_svg().map_or_else(String::new, |svg| {
+        figure(
+            "pressure",
+            &format!("<b>Pressure on the interface</b>{at}, with the bolts and their preloads."),
+            &svg,
+        )
+    })
 }
 
 /// The virtual layer at each torque.

@@ -20,7 +20,10 @@ const WORTH_NAMING: f64 = 0.05;
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     outputs::refuse(
-        &[("--damping-csv", arguments.damping_csv.as_ref())],
+        &[
+            ("--damping-csv", arguments.damping_csv.as_ref()),
+            ("--figure", arguments.figure.as_ref()),
+        ],
         "none: damping over the amplitude is of method \"layered-beam\"",
     )?;
     outputs::check(
@@ -190,7 +193,12 @@ fn shares(found: &Prediction<'_>) -> String {
                 .into_iter()
                 .map(|(input, share)| format!("{input} {:.0} %", 100.0 * share))
                 .collect();
-            let _ = writeln!(text, "  {} scatters with {}", unknown.name, named.join(", "));
+            let _ = writeln!(
+                text,
+                "  {} scatters with {}",
+                unknown.name,
+                named.join(", ")
+            );
         }
     }
     text

@@ -73,7 +73,10 @@ pub(super) fn refuse(
     asked: &[(&'static str, Option<&PathBuf>)],
     expected: &'static str,
 ) -> Result<(), CliError> {
-    match asked.iter().find_map(|(option, path)| Some((*option, (*path)?))) {
+    match asked
+        .iter()
+        .find_map(|(option, path)| Some((*option, (*path)?)))
+    {
         Some((option, path)) => Err(CliError::Option {
             option,
             found: path.display().to_string(),

@@ -33,17 +33,13 @@ pub(super) fn both(
     let mean_x = points.iter().map(|(x, _)| x).sum::<f64>() / count;
     let mean_y = points.iter().map(|(_, y)| y).sum::<f64>() / count;
     let [xx, xy] = points.iter().fold([0.0; 2], |[xx, xy], (x, y)| {
-        [
-            xx + (x - mean_x).powi(2),
-            xy + (x - mean_x) * (y - mean_y),
-        ]
+        [xx + (x - mean_x).powi(2), xy + (x - mean_x) * (y - mean_y)]
     });
     let slope = xy / xx;
     let intercept = mean_y - slope * mean_x;
     // slope 2D − 5, intercept 2(D − 1) ln G − ln(2 ln γ): (30), (31)
     let dimension = 0.5 * (5.0 + slope);
-    let log_roughness =
-        (intercept + (2.0 * FREQUENCY_RATIO.ln()).ln()) / (2.0 * (dimension - 1.0));
+    let log_roughness = (intercept + (2.0 * FREQUENCY_RATIO.ln()).ln()) / (2.0 * (dimension - 1.0));
     Roughness::new(dimension, log_roughness.exp())
 }
 

@@ -547,9 +547,7 @@ impl Checker<'_> {
 
     fn clamping(&mut self, file: &StudyFile, has_table: bool) -> Checked<Clamping> {
         let common = match file.tightening.as_ref() {
-            Some(table) if table.scatter == Some(ScatterWord::Common) => {
-                self.wrench(table, "")?
-            }
+            Some(table) if table.scatter == Some(ScatterWord::Common) => self.wrench(table, "")?,
             _ => None,
         };
         let mut bolts = Vec::with_capacity(file.bolts.len());
@@ -580,10 +578,8 @@ impl Checker<'_> {
                 );
             }
             Some([about_x, about_y]) => {
-                let mut add = |name: &str, of| {
-                    self.inputs
-                        .add(name, Distribution::new(Spread::Normal, of))
-                };
+                let mut add =
+                    |name: &str, of| self.inputs.add(name, Distribution::new(Spread::Normal, of));
                 Some([
                     add("bending moment about x", about_x),
                     add("bending moment about y", about_y),
@@ -604,11 +600,9 @@ impl Checker<'_> {
     ) -> Checked<Tightness> {
         let key = |name: &str| format!("bolts[{number}].{name}");
         match (bolt.preload, bolt.torque) {
-            (Some(_), Some(_)) => self.refuse(
-                key("preload"),
-                "a torque beside it",
-                "the one or the other",
-            ),
+            (Some(_), Some(_)) => {
+                self.refuse(key("preload"), "a torque beside it", "the one or the other")
+            }
             (Some(preload), None) => match has_table {
                 true => self.refuse(
                     key("preload"),
@@ -720,7 +714,12 @@ impl Checker<'_> {
         let table = &file.interface;
         if let Some(field) = &table.field {
             let preload_n = bolts.iter().map(|bolt| bolt.preload_n).sum();
-            return self.given(table, file.pressure.as_ref(), field, (!bolts.is_empty()).then_some(preload_n));
+            return self.given(
+                table,
+                file.pressure.as_ref(),
+                field,
+                (!bolts.is_empty()).then_some(preload_n),
+            );
         }
         let (Some(x_m), Some(y_m)) = (table.x, table.y) else {
             return self.refuse(
@@ -730,7 +729,11 @@ impl Checker<'_> {
             );
         };
         if let Some(area) = table.area {
-            return self.refuse("interface.area", area, "an area only beside a field, which it is compared with");
+            return self.refuse(
+                "interface.area",
+                area,
+                "an area only beside a field, which it is compared with",
+            );
         }
         let Some(pressure) = &file.pressure else {
             return self.refuse(
@@ -859,7 +862,10 @@ impl Checker<'_> {
     }
 
     fn joint(&self, table: &JointTable, geometry: &Geometry) -> Checked<(Planar, [f64; 3])> {
-        let planar = self.model("joint.rotation", Planar::new(table.translation, table.rotation))?;
+        let planar = self.model(
+            "joint.rotation",
+            Planar::new(table.translation, table.rotation),
+        )?;
         let reference_m = match table.reference.as_deref() {
             None => {
                 let [x_m, y_m] = geometry.centroid_m();

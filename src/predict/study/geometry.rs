@@ -104,10 +104,7 @@ impl Geometry {
     }
 
     /// A field under the nominal preloads, which add up to `preload_n`.
-    pub(super) fn given(
-        field: &PressureField,
-        preload_n: Option<f64>,
-    ) -> Result<Self, ModelError> {
+    pub(super) fn given(field: &PressureField, preload_n: Option<f64>) -> Result<Self, ModelError> {
         Ok(Self {
             elements: field.scaled(0.0)?.elements().to_vec(),
             loading: Loading::Given {

@@ -216,7 +216,10 @@ fn filled<T: Copy>(
     of: impl Fn(&Estimate) -> T,
 ) -> [Vec<Vec<T>>; 2] {
     let count = dofs.count();
-    let mut matrices = [vec![vec![empty; count]; count], vec![vec![empty; count]; count]];
+    let mut matrices = [
+        vec![vec![empty; count]; count],
+        vec![vec![empty; count]; count],
+    ];
     for (name, is_stiffness, [i, j]) in unknowns(dofs) {
         if let Some(found) = estimate(outcome, name, torque_n_m) {
             let value = of(found);

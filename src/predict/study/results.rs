@@ -99,7 +99,8 @@ impl Prediction<'_> {
         torque_n_m: Option<f64>,
         at_least: f64,
     ) -> Vec<(&str, f64)> {
-        let (Some(outcome), Some(estimate)) = (&self.outcome, self.estimate(name, torque_n_m)) else {
+        let (Some(outcome), Some(estimate)) = (&self.outcome, self.estimate(name, torque_n_m))
+        else {
             return Vec::new();
         };
         let inputs = outcome.inputs.iter().map(String::as_str);

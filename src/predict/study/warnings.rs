@@ -29,7 +29,9 @@ impl Prediction<'_> {
             if let Some(balance) = &state.balance
                 && balance.force_imbalance().abs() > IMBALANCE
             {
-                warnings.push(format!("{balance}{at}: the pressures belong to other preloads"));
+                warnings.push(format!(
+                    "{balance}{at}: the pressures belong to other preloads"
+                ));
             }
             let crowded = state.largest_real_area();
             if crowded > CROWDED {
@@ -63,7 +65,9 @@ impl Prediction<'_> {
                 .map(|(reason, count)| format!("{reason} ({count})"))
                 .collect();
             let verdict = match outcome.refused_share() > REFUSED {
-                true => "; the intervals are those of what the model covers, not of what was stated",
+                true => {
+                    "; the intervals are those of what the model covers, not of what was stated"
+                }
                 false => "",
             };
             warnings.push(format!(

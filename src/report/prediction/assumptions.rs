@@ -49,7 +49,10 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         }
     });
     taken.push(match study.normal_damping {
-        NormalDamping::Hysteretic => "Damping along the normal is hysteretic, <i>D</i> = ηK, as along the interface.".to_owned(),
+        NormalDamping::Hysteretic => {
+            "Damping along the normal is hysteretic, <i>D</i> = ηK, as along the interface."
+                .to_owned()
+        }
         NormalDamping::Viscous { mass_kg } => format!(
             "Damping along the normal is viscous, <i>C</i> = η√(<i>MK</i>) with <i>M</i> = {} kg.",
             number(mass_kg)

@@ -26,7 +26,10 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
                 }))),
                 number_cell(&shown(1e-6 * state.largest_pressure_pa(), DIGITS)),
                 number_cell(&format!("{:.0} %", 100.0 * state.area_under_pressure())),
-                number_cell(&format!("{} %", shown(100.0 * state.largest_real_area(), 3))),
+                number_cell(&format!(
+                    "{} %",
+                    shown(100.0 * state.largest_real_area(), 3)
+                )),
                 number_cell(&shown(state.interface.normal_loss_factor(), 3)),
                 number_cell(&shown(state.interface.tangential_loss_factor(), 3)),
             ]

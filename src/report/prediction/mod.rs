@@ -51,10 +51,9 @@ impl PredictionReport<'_> {
 /// A name with its index set low: `k_yy` becomes k with index yy.
 fn symbol(name: &str) -> String {
     match name.split_once('_') {
-        Some((letter, index)) => format!(
-            "<i>{letter}</i><sub>{}</sub>",
-            index.replace("theta", "θ")
-        ),
+        Some((letter, index)) => {
+            format!("<i>{letter}</i><sub>{}</sub>", index.replace("theta", "θ"))
+        }
         None => name.to_owned(),
     }
 }

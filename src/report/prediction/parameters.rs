@@ -148,7 +148,9 @@ pub(super) fn contributions(found: &Prediction<'_>) -> String {
     let rows: Vec<String> = inputs
         .iter()
         .map(|&input| {
-            let shares = estimates.iter().map(|estimate| percent(estimate.shares[input]));
+            let shares = estimates
+                .iter()
+                .map(|estimate| percent(estimate.shares[input]));
             format!(
                 "<th scope=\"row\">{}</th>{}",
                 escaped(&outcome.inputs[input]),
@@ -156,7 +158,10 @@ pub(super) fn contributions(found: &Prediction<'_>) -> String {
             )
         })
         .collect();
-    let symbols: Vec<String> = unknowns.iter().map(|unknown| symbol(unknown.name)).collect();
+    let symbols: Vec<String> = unknowns
+        .iter()
+        .map(|unknown| symbol(unknown.name))
+        .collect();
     let headings: Vec<&str> = std::iter::once("Input")
         .chain(symbols.iter().map(String::as_str))
         .collect();

@@ -10,14 +10,22 @@ fn refused(old: &str, new: &str, fragments: &[&str]) {
 
 #[test]
 fn unknown_keys_and_methods_are_told_with_their_line() {
-    refused("hardness =", "hardnes =", &["study.toml", "line 18", "hardnes"]);
+    refused(
+        "hardness =",
+        "hardnes =",
+        &["study.toml", "line 18", "hardnes"],
+    );
     refused(
         "\"fractal-contact\"",
         "\"fractals\"",
         &["line 1", "fractals", "layered-beam"],
     );
     refused("[damping]\n", "[dampening]\n", &["dampening"]);
-    refused("method = \"fractal-contact\"\n", "", &["missing field `method`"]);
+    refused(
+        "method = \"fractal-contact\"\n",
+        "",
+        &["missing field `method`"],
+    );
 }
 
 #[test]
@@ -30,7 +38,11 @@ fn materials_that_cannot_be_are_refused() {
     refused(
         "youngs_modulus = 1.5e11\npoissons_ratio = 0.28\n\n[surface]",
         "youngs_modulus = -1.5e11\npoissons_ratio = 0.28\n\n[surface]",
-        &["`materials.b.youngs_modulus`", "-150000000000", "above zero"],
+        &[
+            "`materials.b.youngs_modulus`",
+            "-150000000000",
+            "above zero",
+        ],
     );
 }
 
@@ -81,7 +93,11 @@ fn contacts_outside_the_model_are_refused_with_the_reason() {
         "hardness = 3e7",
         &["`contact`", "element", "Pa"],
     );
-    refused("friction = 0.3", "friction = 0", &["`contact.friction`", "above zero"]);
+    refused(
+        "friction = 0.3",
+        "friction = 0",
+        &["`contact.friction`", "above zero"],
+    );
 }
 
 #[test]
@@ -94,7 +110,11 @@ fn bolts_that_cannot_be_are_refused() {
     refused(
         "torque = 20\n\n[tightening]",
         "\n[tightening]",
-        &["`bolts[4].preload`", "nothing", "a preload in N, or a torque"],
+        &[
+            "`bolts[4].preload`",
+            "nothing",
+            "a preload in N, or a torque",
+        ],
     );
     refused(
         "torque = 20\n\n[tightening]",
@@ -136,8 +156,16 @@ fn tables_of_torques_that_cannot_be_are_refused() {
             &["`tightening.torques`", "ascending"],
         );
     }
-    refused("nominal = 20", "nominal = 12", &["`tightening.nominal`", "12", "one of"]);
-    let own = replaced(&over_torque(), "x = 0.04\ny = 0.02\n", "x = 0.04\ny = 0.02\ntorque = 3\n");
+    refused(
+        "nominal = 20",
+        "nominal = 12",
+        &["`tightening.nominal`", "12", "one of"],
+    );
+    let own = replaced(
+        &over_torque(),
+        "x = 0.04\ny = 0.02\n",
+        "x = 0.04\ny = 0.02\ntorque = 3\n",
+    );
     bench(&own).refused(&PREDICT, &["`bolts[4].torque`", "tightening.torques"]);
 }
 
@@ -148,13 +176,21 @@ fn joints_and_damping_that_cannot_be_are_refused() {
         "rotation = \"z\"",
         &["`joint.rotation`", "the axis of the translation"],
     );
-    refused("rotation = \"-y\"", "rotation = \"w\"", &["\"w\"", "\"x\", \"y\" or \"z\""]);
+    refused(
+        "rotation = \"-y\"",
+        "rotation = \"w\"",
+        &["\"w\"", "\"x\", \"y\" or \"z\""],
+    );
     refused(
         "rotation = \"-y\"",
         "rotation = \"-y\"\nreference = [0.1]",
         &["`joint.reference`", "[x, y]"],
     );
-    refused("frequency = 300", "frequency = 0", &["`damping.frequency`", "above zero"]);
+    refused(
+        "frequency = 300",
+        "frequency = 0",
+        &["`damping.frequency`", "above zero"],
+    );
     refused(
         "frequency = 300",
         "frequency = 300\nnormal = \"viscous\"",
@@ -199,10 +235,22 @@ fn fields_that_cannot_be_are_refused() {
         bench.write("field.csv", field);
         bench.refused(&PREDICT, fragments);
     };
-    refused("", &FIELD.replace(",3\n", ",-3\n"), &["field.csv", "-3", "pressure"]);
-    refused("", &FIELD.replace("10,0,100", "10,0,0"), &["field.csv", "area"]);
+    refused(
+        "",
+        &FIELD.replace(",3\n", ",-3\n"),
+        &["field.csv", "-3", "pressure"],
+    );
+    refused(
+        "",
+        &FIELD.replace("10,0,100", "10,0,0"),
+        &["field.csv", "area"],
+    );
     refused("area = 0.06", FIELD, &["field.csv", "0.0003", "0.06"]);
-    refused("elements = [3, 1]", FIELD, &["`interface.field`", "elements"]);
+    refused(
+        "elements = [3, 1]",
+        FIELD,
+        &["`interface.field`", "elements"],
+    );
     refused(
         "\n[pressure]\nmodel = \"uniform\"",
         FIELD,

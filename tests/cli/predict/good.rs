@@ -22,7 +22,11 @@ fn with_field() -> String {
 #[test]
 fn an_even_field_has_the_stiffness_of_the_published_parameters() {
     // Zhao's surfaces and material, A₀ = 0.06 m²: K_N/A₀ = 6.200e11 N/m³ at 2 MPa, K_T/K_N = 0.461 without tangential force
-    let bench = bench(&replaced(&with_field(), "shear_strength = 2e8", "shear_strength = 0"));
+    let bench = bench(&replaced(
+        &with_field(),
+        "shear_strength = 2e8",
+        "shear_strength = 0",
+    ));
     let n = 20;
     let mut field = "x_m,y_m,area_m2,pressure_Pa\n".to_owned();
     for k in 0..n * n {
@@ -78,7 +82,11 @@ fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
     let bench = bench(&over_torque());
     let outcome = bench.done(&PREDICT);
     assert!(outcome.stdout.contains("at 25 N·m"), "{}", outcome.stdout);
-    assert!(outcome.stdout.contains("imbalance +0.00 %"), "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.contains("imbalance +0.00 %"),
+        "{}",
+        outcome.stdout
+    );
     let file = bench.json("j.joint.json");
     let table = &file["joint"]["over_preload"];
     assert_eq!(table["nominal"], 20.0);
@@ -98,7 +106,14 @@ fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
         bench.done(&["export", "j.joint.json", "-o", "j.fmu", "--fmi", version]);
         bench.done(&["check", "j.fmu"]);
     }
-    bench.done(&["export", "j.joint.json", "-o", "frozen.fmu", "--preload", "12"]);
+    bench.done(&[
+        "export",
+        "j.joint.json",
+        "-o",
+        "frozen.fmu",
+        "--preload",
+        "12",
+    ]);
     bench.done(&["check", "frozen.fmu"]);
 }
 
@@ -122,7 +137,11 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     let variance = 1.01_f64.ln();
     for (place, score) in [(0, 1.959_964), (1, -1.959_964)] {
         let factor = 0.2 * (score * variance.sqrt() - 0.5 * variance).exp();
-        let at_end = bench(&replaced(STUDY, "nut_factor = 0.2", &format!("nut_factor = {factor}")));
+        let at_end = bench(&replaced(
+            STUDY,
+            "nut_factor = 0.2",
+            &format!("nut_factor = {factor}"),
+        ));
         at_end.done(&PREDICT);
         let expected = entry(&at_end.json("j.joint.json"), "stiffness", 0, 0);
         let found = file["uncertainty"]["interval_95"]["stiffness"][0][0][place]
@@ -136,7 +155,9 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     exact.done(&PREDICT);
     assert_eq!(file["joint"], exact.json("j.joint.json")["joint"]);
     let basis = file["uncertainty"]["basis"].as_str().unwrap();
-    assert!(basis.contains("nut factor") && basis.contains("20000 draws") && basis.contains("seed 7"));
+    assert!(
+        basis.contains("nut factor") && basis.contains("20000 draws") && basis.contains("seed 7")
+    );
 }
 
 #[test]
@@ -159,15 +180,22 @@ fn bolts_that_scatter_each_on_their_own_scatter_less_together() {
     };
     let (each, common) = (deviation("each-bolt"), deviation("common"));
     // four independent bolts: half the deviation, and the coupling that they have in common is none
-    assert!((common.0 / each.0 - 2.0).abs() < 0.15, "{each:?} {common:?}");
-    assert!(each.1 > 0.0 && common.1 < 1e-6 * each.1, "{each:?} {common:?}");
+    assert!(
+        (common.0 / each.0 - 2.0).abs() < 0.15,
+        "{each:?} {common:?}"
+    );
+    assert!(
+        each.1 > 0.0 && common.1 < 1e-6 * each.1,
+        "{each:?} {common:?}"
+    );
 }
 
 #[test]
 fn the_same_seed_gives_the_same_file_and_refused_draws_are_told() {
     let uncertain = replaced(STUDY, "= 1.42", "= \"1.42 ± 0.02\"");
     let uncertain = replaced(&uncertain, "friction = 0.3", "friction = \"0.3 ± 0.1\"");
-    let with_seed = |seed: u64| uncertain.clone() + &format!("\n[uncertainty]\ndraws = 3000\nseed = {seed}\n");
+    let with_seed =
+        |seed: u64| uncertain.clone() + &format!("\n[uncertainty]\ndraws = 3000\nseed = {seed}\n");
     let run = |seed: u64, threads: &str| {
         let bench = bench(&with_seed(seed));
         let output = bench
@@ -212,10 +240,20 @@ fn everything_for_finite_elements_is_written_beside() {
     let lines = bench.text("f.csv").lines().count();
     assert!((2300..=2402).contains(&lines), "{lines}");
     let page = bench.text("r.html");
-    for part in ["The joint", "Pressure", "The whole interface", "Surfaces", "What was put in", "Provenance"] {
+    for part in [
+        "The joint",
+        "Pressure",
+        "The whole interface",
+        "Surfaces",
+        "What was put in",
+        "Provenance",
+    ] {
         assert!(page.contains(&format!("<h2>{part}</h2>")), "{part}");
     }
-    assert!(!page.contains("http://") && !page.contains("src="), "a reference to the network");
+    assert!(
+        !page.contains("http://") && !page.contains("src="),
+        "a reference to the network"
+    );
     let hash = file["provenance"]["inputs"][0]["sha256"].as_str().unwrap();
     assert!(page.contains(hash));
     let names = fs::read_dir(bench.path("")).unwrap().count();

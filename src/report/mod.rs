@@ -15,8 +15,10 @@ mod line_figure;
 mod look;
 mod page;
 mod prediction;
+mod pressure_figure;
 mod resonance_labels;
 mod response_figure;
+mod spectrum_figure;
 mod strip;
 mod svg;
 mod text;
@@ -29,7 +31,9 @@ pub use layered_beam_figure::LayeredBeamFigure;
 pub(crate) use line_figure::{Line, LineFigure, Scale, Shape};
 pub use page::IdentificationReport;
 pub use prediction::PredictionReport;
+pub use pressure_figure::PressureFigure;
 pub(crate) use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
+pub use spectrum_figure::spectrum_figure;
 
 #[cfg(test)]
 mod tests;

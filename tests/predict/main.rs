@@ -12,3 +12,4 @@ mod patch;
 mod pressure;
 mod surface;
 mod uncertain;
+mod virtual_material;

@@ -12,13 +12,17 @@ use super::super::table::{Table, number};
 use super::outputs::{self, Outputs};
 use crate::export::Timestamp;
 use crate::predict::patch::{matrix27, table};
-use crate::predict::study::{InterfaceStudy, Prediction, State};
+use crate::predict::study::{InterfaceStudy, Prediction, PredictionMethod, State};
+use crate::predict::virtual_material::Card;
 use crate::report::PredictionReport;
 
+/// Name and number of the layer's material.
+const MATERIAL_NAME: &str = "bolted_joint";
+const MATERIAL_NUMBER: u32 = 1;
 /// Inputs that account for less of a result's scatter are not named.
 const WORTH_NAMING: f64 = 0.05;
 
-pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
+pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Result<(), CliError> {
     outputs::refuse(
         &[
             ("--damping-csv", arguments.damping_csv.as_ref()),
@@ -54,12 +58,20 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
                 &["csv"],
                 "a name that ends in .csv",
             ),
+            (
+                "--material-card",
+                arguments.material_card.as_ref(),
+                &["csv", "inp", "mac"],
+                "a name that ends in .csv, in .inp for Abaqus or in .mac for ANSYS",
+            ),
         ],
     )?;
-    outputs::refuse(
-        &[("--material-card", arguments.material_card.as_ref())],
-        "none: only method \"virtual-material\" has a material",
-    )?;
+    if method == PredictionMethod::FractalContact {
+        outputs::refuse(
+            &[("--material-card", arguments.material_card.as_ref())],
+            "none: only method \"virtual-material\" has a material",
+        )?;
+    }
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),
         None => None,
@@ -85,6 +97,9 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     files.add(arguments.matrix_csv.as_ref(), || matrix_csv);
     files.add(arguments.matrix27.as_ref(), || macro_text);
     files.add(arguments.field_csv.as_ref(), || found.field_csv());
+    files.add(arguments.material_card.as_ref(), || {
+        material_card(arguments, found.nominal())
+    });
     if let Some(written) = written {
         files.add(arguments.report.as_ref(), || {
             let report = PredictionReport {
@@ -104,6 +119,21 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
         return print(&serde_json::to_string_pretty(&value)?);
     }
     print(&(summary(&found) + "\n" + &files.written()))
+}
+
+/// The layer's card, in the form that the name asks for.
+fn material_card(arguments: &PredictArguments, state: &State) -> String {
+    let ending = arguments.material_card.as_ref();
+    let ending = ending.and_then(|path| path.extension()?.to_str());
+    let card = match ending {
+        Some("inp") => Card::Abaqus,
+        Some("mac") => Card::Ansys(MATERIAL_NUMBER),
+        _ => Card::Csv,
+    };
+    let material = state.material.as_ref();
+    // the name is one that every program takes
+    let text = material.map(|material| card.text(material, MATERIAL_NAME));
+    text.and_then(Result::ok).unwrap_or_default()
 }
 
 /// The result for people.
@@ -163,6 +193,16 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
         number(state.interface.normal_loss_factor(), 3),
         number(state.interface.tangential_loss_factor(), 3),
     );
+    if let Some(layer) = &state.material {
+        let _ = writeln!(
+            text,
+            "  layer {} m thick: E = {} Pa, ν = {}, ρ = {} kg/m³",
+            layer.thickness_m,
+            number(layer.youngs_modulus_pa, 4),
+            number(layer.poissons_ratio, 4),
+            number(layer.density_kg_per_m3, 4)
+        );
+    }
     let mut header = vec!["", "predicted"];
     if found.outcome.is_some() {
         header.extend(["± std. dev.", "95 % interval"]);
@@ -217,6 +257,13 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
                 "force_imbalance": state.balance.as_ref().map(|balance| balance.force_imbalance()),
                 "largest_pressure_pa": state.largest_pressure_pa(),
                 "largest_real_area_fraction": state.largest_real_area(),
+                "layer": state.material.as_ref().map(|layer| json!({
+                    "youngs_modulus_pa": layer.youngs_modulus_pa,
+                    "shear_modulus_pa": layer.shear_modulus_pa,
+                    "poissons_ratio": layer.poissons_ratio,
+                    "density_kg_per_m3": layer.density_kg_per_m3,
+                    "thickness_m": layer.thickness_m,
+                })),
                 "normal_loss_factor": state.interface.normal_loss_factor(),
                 "tangential_loss_factor": state.interface.tangential_loss_factor(),
                 "reference_m": state.interface.reference_m(),
@@ -255,6 +302,7 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
         "matrix_csv": path(&arguments.matrix_csv),
         "matrix27": path(&arguments.matrix27),
         "field_csv": path(&arguments.field_csv),
+        "material_card": path(&arguments.material_card),
         "joint_file": found.joint_file(),
         "fractal_dimension": found.roughness[0],
         "roughness_m": found.roughness[1],

@@ -10,8 +10,8 @@ use crate::predict::study::PredictionMethod;
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     match PredictionMethod::read(&arguments.study)? {
-        PredictionMethod::FractalContact | PredictionMethod::VirtualMaterial => {
-            interface::run(arguments)
+        method @ (PredictionMethod::FractalContact | PredictionMethod::VirtualMaterial) => {
+            interface::run(arguments, method)
         }
         PredictionMethod::LayeredBeam => layered_beam::run(arguments),
     }

@@ -7,6 +7,9 @@ use crate::predict::pressure::Element;
 use super::contact::{Contact, ContactMoments, PatchMoments};
 use super::damping::{DampingError, NormalDamping};
 
+/// Off the diagonal, what is at most this part of the diagonal is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// A matrix over x, y, z, rx, ry, rz.
 pub type Matrix6 = [[f64; 6]; 6];
 
@@ -59,9 +62,9 @@ impl InterfaceJoint {
         };
         Ok(Self {
             reference_m,
-            stiffness,
-            hysteretic,
-            viscous,
+            stiffness: without_rounding(stiffness),
+            hysteretic: without_rounding(hysteretic),
+            viscous: without_rounding(viscous),
             normal: [moments.normal_stiffness.sum, moments.normal_damping.sum],
             tangential: [
                 moments.tangential_stiffness.sum,
@@ -208,6 +211,20 @@ fn sum(mut a: Matrix6, b: Matrix6) -> Matrix6 {
         }
     }
     a
+}
+
+/// The matrix with zeros where sums that cancel, as those of a symmetric interface, have left rounding.
+fn without_rounding(matrix: Matrix6) -> Matrix6 {
+    let size = |i: usize| matrix[i][i].sqrt();
+    let mut cleaned = matrix;
+    for (i, row) in cleaned.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            if entry.abs() <= ROUNDING * size(i) * size(j) {
+                *entry = 0.0;
+            }
+        }
+    }
+    cleaned
 }
 
 fn scaled(matrix: Matrix6, by: f64) -> Matrix6 {

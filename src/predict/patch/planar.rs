@@ -8,9 +8,6 @@ use super::axis::SignedAxis;
 use super::damping::DampingError;
 use super::interface::{InterfaceJoint, Matrix6};
 
-/// Off the diagonal, what is smaller than this part of the diagonal is what sums that cancel leave.
-const ROUNDING: f64 = 1e-12;
-
 /// Which relative motions become the joint file's `y` and `theta`.
 ///
 /// The others are held at zero: the part is a submatrix. In a beam along x that bends in the x–z plane of its interface, `y` is
@@ -100,14 +97,11 @@ impl Planar {
             .iter()
             .map(|&(i, sign)| {
                 let row = chosen.iter();
-                row.map(|&(j, other)| {
-                    let scale = (matrix[i][i] * matrix[j][j]).sqrt();
-                    match i == j {
-                        true => matrix[i][j],
-                        // of a symmetric interface only rounding is left
-                        false if matrix[i][j].abs() <= ROUNDING * scale => 0.0,
-                        false => sign * other * matrix[i][j],
-                    }
+                row.map(|&(j, other)| match matrix[i][j] {
+                    // no −0
+                    0.0 => 0.0,
+                    entry if i == j => entry,
+                    entry => sign * other * entry,
                 })
                 .collect()
             })

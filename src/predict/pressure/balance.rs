@@ -53,13 +53,15 @@ impl Balance {
 
 impl fmt::Display for Balance {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Rounded before it is written, so that no zero has a sign.
+        let percent = (1e4 * self.force_imbalance()).round() / 100.0 + 0.0;
         let [x_mm, y_mm] = self.offset_m().map(|metres| 1e3 * metres);
         write!(
             formatter,
             "the field carries {:.3} kN, the bolts pull {:.3} kN (imbalance {:+.2} %); its resultant lies {:.3} mm from theirs",
             1e-3 * self.force_n,
             1e-3 * self.preload_n,
-            100.0 * self.force_imbalance() + 0.0,
+            percent,
             x_mm.hypot(y_mm)
         )
     }

@@ -80,11 +80,14 @@ impl Rectangle {
             && y_m + radius_m <= self.y_m[1]
     }
 
-    /// Whether the square around a disc meets it: necessary for the disc to do so.
-    pub(super) fn is_near_disc(&self, [x_m, y_m]: [f64; 2], radius_m: f64) -> bool {
-        x_m + radius_m > self.x_m[0]
-            && x_m - radius_m < self.x_m[1]
-            && y_m + radius_m > self.y_m[0]
-            && y_m - radius_m < self.y_m[1]
+    /// Distances of its nearest and its farthest point from a point, in m.
+    pub(super) fn distances_m(&self, point_m: [f64; 2]) -> [f64; 2] {
+        let along = |[low, high]: [f64; 2], at: f64| {
+            let (below, above) = (low - at, at - high);
+            [below.max(above).max(0.0), below.abs().max(above.abs())]
+        };
+        let [near_x, far_x] = along(self.x_m, point_m[0]);
+        let [near_y, far_y] = along(self.y_m, point_m[1]);
+        [near_x.hypot(near_y), far_x.hypot(far_y)]
     }
 }

@@ -20,6 +20,7 @@ use crate::predict::pressure::{
 };
 use crate::predict::surface::{FitSettings, Profile, ProfileFit};
 use crate::predict::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
+use crate::predict::virtual_material::Layers;
 use crate::text_file;
 
 /// Draws where a study has uncertain values and does not say how many.
@@ -76,7 +77,6 @@ pub struct InterfaceStudy {
 pub(super) struct MaterialInputs {
     pub(super) youngs_modulus: InputPlace,
     pub(super) poissons_ratio: InputPlace,
-    pub(super) density_kg_per_m3: Option<f64>,
 }
 
 /// Fractal dimension and roughness of a surface.
@@ -95,12 +95,22 @@ pub(super) enum SurfaceInputs {
     Each([SurfaceInput; 2], [f64; 2]),
 }
 
-/// Hardness and friction.
+/// Which contact model, and its numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactInputs {
-    pub(super) hardness: InputPlace,
-    pub(super) friction: InputPlace,
-    pub(super) shear_strength: InputPlace,
+pub(super) enum ContactInputs {
+    /// Zhao's.
+    Fractal {
+        hardness: InputPlace,
+        friction: InputPlace,
+        shear_strength: InputPlace,
+    },
+    /// Tian's layer.
+    Layer {
+        hardness: InputPlace,
+        friction_ratio: InputPlace,
+        layers: Layers,
+        loss_factor: InputPlace,
+    },
 }
 
 impl InterfaceStudy {
@@ -159,15 +169,7 @@ impl Checker<'_> {
             self.material("b", &file.materials.b)?,
         ];
         let surfaces = self.surfaces(&file.surface)?;
-        let contact = ContactInputs {
-            hardness: self.positive("contact.hardness", "hardness", file.contact.hardness)?,
-            friction: self.positive("contact.friction", "friction", file.contact.friction)?,
-            shear_strength: self.not_negative(
-                "contact.shear_strength",
-                "shear strength",
-                file.contact.shear_strength,
-            )?,
-        };
+        let contact = self.contact(&file)?;
         let (torques_n_m, nominal_n_m) = self.torques(file.tightening.as_ref())?;
         let clamping = self.clamping(&file, !torques_n_m.is_empty())?;
         let geometry = self.geometry(&file, &clamping, nominal_n_m)?;
@@ -314,7 +316,6 @@ impl Checker<'_> {
             poissons_ratio: self
                 .inputs
                 .add(format!("Poisson's ratio of {side}"), distribution),
-            density_kg_per_m3: table.density,
         })
     }
 
@@ -353,8 +354,14 @@ impl Checker<'_> {
                     );
                 };
                 self.check_band("surface.band", band.from, band.to)?;
-                let of_a = self.surface("surface.a", " of a", "surface a", a)?;
-                let of_b = self.surface("surface.b", " of b", "surface b", b)?;
+                // what was measured on each is fitted over the same band unless it has its own
+                let with_band = |one: &OneSurfaceTable| OneSurfaceTable {
+                    band: one.band.or(one.profiles.as_ref().and(Some(band))),
+                    ..one.clone()
+                };
+                let (a, b) = (with_band(a), with_band(b));
+                let of_a = self.surface("surface.a", " of a", "surface a", &a)?;
+                let of_b = self.surface("surface.b", " of b", "surface b", &b)?;
                 Ok(SurfaceInputs::Each([of_a, of_b], [band.from, band.to]))
             }
             _ => self.refuse(
@@ -363,6 +370,85 @@ impl Checker<'_> {
                 "both, or values of the two together in [surface]",
             ),
         }
+    }
+
+    /// The numbers of the method's contact; those of the other method are refused.
+    fn contact(&mut self, file: &StudyFile) -> Checked<ContactInputs> {
+        let table = &file.contact;
+        let hardness = self.positive("contact.hardness", "hardness", table.hardness)?;
+        match file.method {
+            PredictionMethod::VirtualMaterial => {
+                for (key, found) in [
+                    ("contact.friction", table.friction),
+                    ("contact.shear_strength", table.shear_strength),
+                ] {
+                    if let Some(found) = found {
+                        let expected = "none of method \"virtual-material\", which takes contact.friction_ratio";
+                        return self.refuse(key, found, expected);
+                    }
+                }
+                self.layer(file, hardness)
+            }
+            PredictionMethod::FractalContact | PredictionMethod::LayeredBeam => {
+                if let Some(found) = table.friction_ratio {
+                    let expected = "none of method \"fractal-contact\", where it follows from friction and shear_strength";
+                    return self.refuse("contact.friction_ratio", found, expected);
+                }
+                if file.layer.is_some() {
+                    let expected = "none: only method \"virtual-material\" has a layer";
+                    return self.refuse("layer", "a table", expected);
+                }
+                let Some(friction) = table.friction else {
+                    let expected = "the coefficient of static friction";
+                    return self.refuse("contact.friction", "nothing", expected);
+                };
+                let Some(shear_strength) = table.shear_strength else {
+                    let expected = "the shear strength of the softer part in Pa, or 0 for a joint without tangential load";
+                    return self.refuse("contact.shear_strength", "nothing", expected);
+                };
+                Ok(ContactInputs::Fractal {
+                    hardness,
+                    friction: self.positive("contact.friction", "friction", friction)?,
+                    shear_strength: self.not_negative(
+                        "contact.shear_strength",
+                        "shear strength",
+                        shear_strength,
+                    )?,
+                })
+            }
+        }
+    }
+
+    fn layer(&mut self, file: &StudyFile, hardness: InputPlace) -> Checked<ContactInputs> {
+        let Some(layer) = &file.layer else {
+            let expected =
+                "thickness = [a, b], of the part of each side that the layer takes the place of, m";
+            return self.refuse("layer.thickness", "nothing", expected);
+        };
+        let [a, b] = [&file.materials.a, &file.materials.b].map(|part| part.density);
+        let (Some(a), Some(b)) = (a, b) else {
+            let side = if a.is_none() { "a" } else { "b" };
+            let expected = "kg/m³, for the density of the layer";
+            return self.refuse(format!("materials.{side}.density"), "nothing", expected);
+        };
+        let friction_ratio = file.contact.friction_ratio.unwrap_or(Uncertain::exact(0.0));
+        Ok(ContactInputs::Layer {
+            hardness,
+            friction_ratio: self.not_negative(
+                "contact.friction_ratio",
+                "friction ratio",
+                friction_ratio,
+            )?,
+            layers: Layers {
+                thickness_m: layer.thickness,
+                density_kg_per_m3: [a, b],
+            },
+            loss_factor: self.not_negative(
+                "layer.loss_factor",
+                "loss factor",
+                layer.loss_factor.unwrap_or(Uncertain::exact(0.0)),
+            )?,
+        })
     }
 
     fn check_band(&self, key: &str, from: f64, to: f64) -> Checked<()> {
@@ -742,6 +828,9 @@ impl Checker<'_> {
                 "\"uniform\", \"kavi\" or \"cone\"",
             );
         };
+        if bolts.is_empty() {
+            return self.refuse("bolts", "none", "[[bolts]], which press the parts together");
+        }
         let outline = self.model("interface", Rectangle::new(x_m, y_m))?;
         let cells = table.elements.unwrap_or(ELEMENTS);
         let clearance_m = pressure.clearance.unwrap_or(0.0);

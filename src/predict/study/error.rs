@@ -11,6 +11,7 @@ use crate::predict::patch::{DampingError, PlanarError};
 use crate::predict::pressure::{FieldError, FieldFileError, PressureError, TighteningError};
 use crate::predict::surface::{FitError, ProfileFileError, RoughnessError};
 use crate::predict::uncertain::{InputError, MonteCarloError};
+use crate::predict::virtual_material::VirtualMaterialError;
 use crate::text_file::TextFileError;
 
 /// Why a joint cannot be predicted.
@@ -75,6 +76,9 @@ pub enum ModelError {
     /// The contact.
     #[error(transparent)]
     Fractal(#[from] FractalError),
+    /// The virtual layer.
+    #[error(transparent)]
+    VirtualMaterial(#[from] VirtualMaterialError),
     /// Bolts and the pressure that they make.
     #[error(transparent)]
     Pressure(#[from] PressureError),

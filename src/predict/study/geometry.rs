@@ -1,17 +1,40 @@
 //! The elements of an interface and what presses on them, computed once: every draw only scales it.
 
 use crate::predict::pressure::{
-    Balance, Bolt, BoltShare, BoltedInterface, Element, PressureField, Reach, Rectangle,
-    ThicknessRatio, Zone, ZoneForce, with_preloads,
+    Balance, Bolt, BoltShare, BoltedField, BoltedInterface, Element, PressureField, Reach,
+    Rectangle, ThicknessRatio, Zone, ZoneForce, with_preloads,
 };
 
 use super::error::ModelError;
+
+/// The rectangle that a field was computed on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plate {
+    /// Where the two parts could touch.
+    pub outline: Rectangle,
+    /// Width and height of an element, m.
+    pub cell_m: [f64; 2],
+    /// How much wider than its bolt each hole is, m.
+    pub clearance_m: f64,
+}
+
+impl Plate {
+    fn of(found: &BoltedField, outline: Rectangle, clearance_m: f64) -> Self {
+        Self {
+            outline,
+            cell_m: found.cell_m(),
+            clearance_m,
+        }
+    }
+}
 
 /// Elements, and their pressures as a linear function of the preloads.
 #[derive(Debug, Clone)]
 pub(super) struct Geometry {
     /// All without pressure.
     elements: Vec<Element>,
+    /// None of a field from elsewhere.
+    plate: Option<Plate>,
     loading: Loading,
 }
 
@@ -56,6 +79,7 @@ impl Geometry {
         let field = found.field().scaled(0.0)?;
         Ok(Self {
             elements: field.elements().to_vec(),
+            plate: Some(Plate::of(&found, outline, clearance_m)),
             loading: Loading::Even {
                 area_m2: field.area_m2(),
             },
@@ -71,6 +95,7 @@ impl Geometry {
         zone: Zone,
     ) -> Result<Self, ModelError> {
         let mut elements = Vec::new();
+        let mut plate = None;
         let mut per_preload = Vec::with_capacity(bolts.len());
         let mut shares = Vec::with_capacity(bolts.len());
         for place in 0..bolts.len() {
@@ -92,10 +117,12 @@ impl Geometry {
             per_preload.push(field.elements().iter().map(|e| e.pressure_pa).collect());
             if place == 0 {
                 elements = field.scaled(0.0)?.elements().to_vec();
+                plate = Some(Plate::of(&found, outline, clearance_m));
             }
         }
         Ok(Self {
             elements,
+            plate,
             loading: Loading::Zones {
                 per_preload,
                 shares,
@@ -107,6 +134,7 @@ impl Geometry {
     pub(super) fn given(field: &PressureField, preload_n: Option<f64>) -> Result<Self, ModelError> {
         Ok(Self {
             elements: field.scaled(0.0)?.elements().to_vec(),
+            plate: None,
             loading: Loading::Given {
                 pressures_pa: field.elements().iter().map(|e| e.pressure_pa).collect(),
                 preload_n,
@@ -117,6 +145,10 @@ impl Geometry {
     /// The elements, without pressure.
     pub(super) fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    pub(super) fn plate(&self) -> Option<Plate> {
+        self.plate
     }
 
     pub(super) fn area_m2(&self) -> f64 {
@@ -167,6 +199,14 @@ impl Geometry {
                 pressures_pa.extend(given.iter().map(|pressure| pressure * factor));
             }
         }
+    }
+
+    /// Force of these pressures (Pa) on the elements, N.
+    pub(super) fn force_n(&self, pressures_pa: &[f64]) -> f64 {
+        let elements = self.elements.iter().zip(pressures_pa);
+        elements
+            .map(|(element, pressure_pa)| element.area_m2 * pressure_pa)
+            .sum()
     }
 
     /// The field under these bolts, and what it carries of their preloads where there are any.

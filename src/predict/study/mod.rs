@@ -13,6 +13,7 @@ mod error;
 mod field_csv;
 mod geometry;
 mod joint_file;
+mod law;
 mod method;
 mod model;
 mod origin;
@@ -24,6 +25,7 @@ mod warnings;
 
 pub use check::InterfaceStudy;
 pub use error::{ModelError, PredictError};
+pub use geometry::Plate;
 pub use method::PredictionMethod;
 pub use model::State;
 pub use prediction::Prediction;

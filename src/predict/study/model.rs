@@ -5,12 +5,15 @@ use crate::predict::patch::{Contact, InterfaceJoint, PlanarJoint};
 use crate::predict::pressure::{Balance, Bolt, PressureField};
 use crate::predict::surface::Roughness;
 use crate::predict::uncertain::{Drawn, InputPlace};
+use crate::predict::virtual_material::{LayerContact, VirtualMaterial};
 use crate::predict::{Material, Pair};
 
 use super::both_surfaces::both;
-use super::check::{InterfaceStudy, MaterialInputs, SurfaceInput, SurfaceInputs};
-use super::contact_curve::{ContactCurve, ContactLaw};
+use super::check::{ContactInputs, InterfaceStudy, MaterialInputs, SurfaceInput, SurfaceInputs};
+use super::contact_curve::ContactLaw;
 use super::error::ModelError;
+use super::geometry::Plate;
+use super::law::{Law, LayerLaw, OverField};
 
 /// The joint at one torque, or at the only tightness.
 #[derive(Debug, Clone)]
@@ -27,6 +30,8 @@ pub struct State {
     pub contacts: Vec<Contact>,
     /// What a fractal contact amounts to at each element; none of other models.
     pub per_area: Vec<PerArea>,
+    /// The layer that stands for the interface, of method `virtual-material`.
+    pub material: Option<VirtualMaterial>,
     /// The joint.
     pub interface: InterfaceJoint,
     /// The part of it in the joint file.
@@ -58,6 +63,12 @@ impl State {
 }
 
 impl InterfaceStudy {
+    /// The rectangle that the pressure is computed on; none of a field from elsewhere.
+    #[must_use]
+    pub fn plate(&self) -> Option<Plate> {
+        self.geometry.plate()
+    }
+
     /// Torques at which there is a joint each; one `None` where there is no table.
     pub(super) fn torques(&self) -> Vec<Option<f64>> {
         match self.torques_n_m.as_slice() {
@@ -67,7 +78,7 @@ impl InterfaceStudy {
     }
 
     /// The contact of these values.
-    pub(super) fn law(&self, values: &Drawn) -> Result<ContactLaw, ModelError> {
+    pub(super) fn law(&self, values: &Drawn) -> Result<Law, ModelError> {
         let of = |place: InputPlace| values.of(place);
         let material = |inputs: &MaterialInputs| {
             Material::new(of(inputs.youngs_modulus), of(inputs.poissons_ratio))
@@ -77,21 +88,36 @@ impl InterfaceStudy {
             a: material(a)?,
             b: material(b)?,
         };
-        let friction = Friction {
-            coefficient: of(self.contact.friction),
-            shear_strength_pa: of(self.contact.shear_strength),
-        };
-        let contact = FractalContact::new(
-            &pair,
-            self.roughness(values)?,
-            of(self.contact.hardness),
-            friction,
-            self.geometry.area_m2(),
-        )?;
-        Ok(ContactLaw {
-            contact,
-            loss_factor: self.loss_factor,
-        })
+        let roughness = self.roughness(values)?;
+        match self.contact {
+            ContactInputs::Fractal {
+                hardness,
+                friction,
+                shear_strength,
+            } => {
+                let friction = Friction {
+                    coefficient: of(friction),
+                    shear_strength_pa: of(shear_strength),
+                };
+                let area_m2 = self.geometry.area_m2();
+                let contact =
+                    FractalContact::new(&pair, roughness, of(hardness), friction, area_m2)?;
+                Ok(Law::Fractal(ContactLaw {
+                    contact,
+                    loss_factor: self.loss_factor,
+                }))
+            }
+            ContactInputs::Layer {
+                hardness,
+                friction_ratio,
+                layers,
+                loss_factor,
+            } => Ok(Law::Layer(LayerLaw {
+                contact: LayerContact::new(&pair, roughness, of(hardness), of(friction_ratio))?,
+                layers,
+                loss_factor: of(loss_factor),
+            })),
+        }
     }
 
     /// The roughness of both surfaces together.
@@ -112,13 +138,16 @@ impl InterfaceStudy {
     pub(super) fn state(
         &self,
         values: &Drawn,
-        law: &ContactLaw,
+        law: &Law,
         torque_n_m: Option<f64>,
     ) -> Result<State, ModelError> {
         let bolts = self.clamping.bolts(values, torque_n_m)?;
         let (field, balance) = self.geometry.field(&bolts)?;
-        let per_area = law.contact.over(&field)?;
-        let contacts: Vec<Contact> = per_area.iter().map(|found| law.of(found)).collect();
+        let OverField {
+            contacts,
+            per_area,
+            material,
+        } = law.over(&field)?;
         let parts = field.elements().iter().zip(contacts.iter().copied());
         let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)?;
         let planar = self.planar.of(&interface, self.frequency_hz)?;
@@ -129,6 +158,7 @@ impl InterfaceStudy {
             balance,
             contacts,
             per_area,
+            material,
             interface,
             planar,
         })
@@ -138,18 +168,14 @@ impl InterfaceStudy {
     pub(super) fn drawn_joint(
         &self,
         values: &Drawn,
-        law: &ContactLaw,
+        law: &Law,
         torque_n_m: Option<f64>,
     ) -> Result<(InterfaceJoint, PlanarJoint), ModelError> {
         let bolts = self.clamping.bolts(values, torque_n_m)?;
         let mut pressures_pa = Vec::new();
         self.geometry.pressures(&bolts, &mut pressures_pa);
-        let largest_pa = pressures_pa.iter().copied().fold(0.0, f64::max);
-        let curve = ContactCurve::new(law, largest_pa)?;
-        let contacts: Vec<Contact> = pressures_pa
-            .iter()
-            .map(|&pressure_pa| curve.at(pressure_pa))
-            .collect::<Result<_, _>>()?;
+        let force_n = self.geometry.force_n(&pressures_pa);
+        let contacts = law.drawn(&pressures_pa, force_n)?;
         let parts = self.geometry.elements().iter().zip(contacts);
         let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)?;
         let planar = self.planar.of(&interface, self.frequency_hz)?;

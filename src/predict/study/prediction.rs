@@ -98,7 +98,7 @@ fn key_of(error: &ModelError) -> &'static str {
     match error {
         ModelError::Material(_) => "materials",
         ModelError::Roughness(_) | ModelError::Fit(_) => "surface",
-        ModelError::Fractal(_) => "contact",
+        ModelError::Fractal(_) | ModelError::VirtualMaterial(_) => "contact",
         ModelError::Pressure(_) => "pressure",
         ModelError::Tightening(_) => "tightening",
         ModelError::Field(_) => "interface.field",

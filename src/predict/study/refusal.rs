@@ -4,6 +4,7 @@ use super::error::ModelError;
 use crate::predict::fractal::FractalError;
 use crate::predict::pressure::PressureError;
 use crate::predict::uncertain::Refusal;
+use crate::predict::virtual_material::VirtualMaterialError;
 
 impl From<ModelError> for Refusal {
     fn from(error: ModelError) -> Self {
@@ -12,6 +13,12 @@ impl From<ModelError> for Refusal {
             ModelError::Pressure(PressureError::BoltSlack { .. }) => {
                 "the moment takes a bolt's whole preload"
             }
+            ModelError::VirtualMaterial(error) => match error {
+                VirtualMaterialError::NoElasticContact { .. } => "no contact is elastic",
+                VirtualMaterialError::PoissonsRatio { .. } => "no elastic layer",
+                VirtualMaterialError::FrictionRatio(_) => "β/f of 1 or more",
+                _ => "outside the layer's model",
+            },
             ModelError::Material(_) => "no elastic material",
             ModelError::Roughness(_) => "no fractal surface",
             ModelError::Tightening(_) => "no preload follows from the torque",

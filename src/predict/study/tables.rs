@@ -60,7 +60,7 @@ pub(super) struct SurfaceTable {
     pub(super) b: Option<OneSurfaceTable>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OneSurfaceTable {
     pub(super) profiles: Option<Vec<PathBuf>>,
@@ -85,9 +85,11 @@ pub(super) struct ContactTable {
     /// Pa.
     pub(super) hardness: Uncertain,
     /// Coefficient.
-    pub(super) friction: Uncertain,
+    pub(super) friction: Option<Uncertain>,
     /// Pa.
-    pub(super) shear_strength: Uncertain,
+    pub(super) shear_strength: Option<Uncertain>,
+    /// Tangential load over the friction force.
+    pub(super) friction_ratio: Option<Uncertain>,
 }
 
 /// The virtual layer.
@@ -96,6 +98,7 @@ pub(super) struct ContactTable {
 pub(super) struct LayerTable {
     /// Of the part of side a and of side b that the layer takes the place of, m.
     pub(super) thickness: [f64; 2],
+    pub(super) loss_factor: Option<Uncertain>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -51,6 +51,15 @@ impl Prediction<'_> {
                     ));
                 }
             }
+            let [normal, tangential] = [
+                state.interface.normal_loss_factor(),
+                state.interface.tangential_loss_factor(),
+            ];
+            if state.material.is_some() && normal + tangential == 0.0 {
+                warnings.push(format!(
+                    "the layer has no damping{at}: its model gives none; state layer.loss_factor"
+                ));
+            }
             if state.interface.stiffness()[2][2] == 0.0 {
                 warnings.push(format!(
                     "no contact is elastic{at}, so that there is no stiffness: the roughness is too large for this pressure and hardness"

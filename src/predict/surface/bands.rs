@@ -1,11 +1,17 @@
-//! Means of a spectrum over bands of equal ratio, and their covariance.
+//! Means of a spectrum over smooth bands of equal ratio, and their covariance.
+
+use std::f64::consts::PI;
 
 use super::{Spectrum, Welch};
 
-/// Lines of the spectrum in each band, with the part of the band that each one stands for.
+/// Smooth bands over ln f, cos² of a full width of twice the logarithm of their ratio, one such logarithm apart: together they
+/// count every frequency alike.
+///
+/// Waves that are a constant ratio apart, as the Weierstrass–Mandelbrot function has them, weigh in each such band as much as
+/// a continuous spectrum does, wherever they lie in it, if the ratio is γ or a power of it.
 #[derive(Debug, Clone)]
 pub(super) struct Bands {
-    /// By band: line and ∫ d ln f over what the line shares with the band, over that of the band.
+    /// By band: line, and the integral of the band's weight over ln f from half a line below to half a line above.
     weights: Vec<Vec<(usize, f64)>>,
     /// Mean of ln f over each band.
     centre: Vec<f64>,
@@ -16,28 +22,31 @@ pub(super) struct Bands {
 impl Bands {
     /// As many bands of the ratio `ratio` as there are between the two frequencies, the last ending at the higher one.
     pub(super) fn new(spectrum: &Spectrum, [low, high]: [f64; 2], ratio: f64) -> Self {
+        let spacing = ratio.ln();
         // Rounding must not cost a band that fits exactly.
-        let count = ((high / low).ln() / ratio.ln() + 1e-9).floor().max(0.0);
+        let count = ((high / low).ln() / spacing - 1.0 + 1e-9).floor().max(0.0);
         let mut bands = Self {
             weights: Vec::new(),
             centre: Vec::new(),
-            ends_per_m: [high * ratio.powf(-count), high],
+            ends_per_m: [high * ratio.powf(-count - 1.0), high],
         };
         let frequencies = spectrum.frequency_per_m();
         let half = 0.5 * frequencies.get(1).copied().unwrap_or(0.0);
         let mut below = count;
         while below > 0.5 {
-            let ends = [high * ratio.powf(-below), high * ratio.powf(1.0 - below)];
+            let centre = high.ln() - spacing * below;
+            let part = |frequency: f64| {
+                // ∫ cos²(πu/2) du from −1, u = (ln f − centre)/spacing
+                let u = ((frequency.ln() - centre) / spacing).clamp(-1.0, 1.0);
+                0.5 * (u + 1.0) + (PI * u).sin() / (2.0 * PI)
+            };
             let lines = frequencies.iter().enumerate().skip(1);
             let weights = lines.filter_map(|(line, frequency)| {
-                let (from, to) = (
-                    (frequency - half).max(ends[0]),
-                    (frequency + half).min(ends[1]),
-                );
-                (to > from).then(|| (line, (to / from).ln() / ratio.ln()))
+                let weight = part(frequency + half) - part(frequency - half);
+                (weight > 0.0).then_some((line, weight))
             });
             bands.weights.push(weights.collect());
-            bands.centre.push(0.5 * (ends[0] * ends[1]).ln());
+            bands.centre.push(centre);
             below -= 1.0;
         }
         bands
@@ -57,7 +66,7 @@ impl Bands {
         self.ends_per_m
     }
 
-    /// Means of `value(line)` over each band, all of ln f counting alike.
+    /// Means of `value(line)` over each band.
     pub(super) fn means(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let mean = |weights: &Vec<(usize, f64)>| {
             weights.iter().map(|&(line, part)| part * value(line)).sum()

@@ -51,7 +51,7 @@ pub enum FitError {
     },
     /// A band in which no line can be fitted.
     #[error(
-        "wavelengths from {} to {} m hold {found} bands of the ratio {ratio}; expected at least 3: widen the band (from {shortest_m} m, two steps, \
+        "wavelengths from {} to {} m hold {found} bands at a ratio of {ratio}; expected at least 3: widen the band (from {shortest_m} m, two steps, \
          to {longest_m} m, a segment), lengthen the segments, or narrow the ratio",
         wavelength_m[0], wavelength_m[1]
     )]
@@ -60,7 +60,7 @@ pub enum FitError {
         wavelength_m: [f64; 2],
         /// Bands in them.
         found: usize,
-        /// Ratio of a band's ends.
+        /// Ratio of neighbouring bands.
         ratio: f64,
         /// Shortest wavelength that the sampling has.
         shortest_m: f64,

@@ -22,7 +22,8 @@ pub struct FitSettings {
     pub overlap: f64,
     /// Shortest and longest wavelength of the fit, in m; `None`: from 8 steps to a sixth of a segment.
     pub wavelength_band_m: Option<[f64; 2]>,
-    /// Ratio of the ends of each band that the spectrum is averaged over before its logarithm is taken.
+    /// Ratio of the middles of neighbouring bands that the spectrum is averaged over before its logarithm is taken; each band reaches to
+    /// the middles of its neighbours. γ, for a surface that is a Weierstrass–Mandelbrot function.
     pub band_ratio: f64,
     /// γ of the Weierstrass–Mandelbrot function.
     pub gamma: f64,
@@ -388,7 +389,7 @@ fn prepared(
             "0 or more and less than 1",
         ),
         (
-            "the ratio of a band's ends",
+            "the ratio of neighbouring bands",
             settings.band_ratio,
             settings.band_ratio.is_finite() && settings.band_ratio > 1.0,
             "more than 1",

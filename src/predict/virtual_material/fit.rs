@@ -7,7 +7,7 @@ use crate::predict::Pair;
 use crate::predict::surface::{Roughness, RoughnessError};
 
 /// Range of the fractal dimension that is searched.
-const DIMENSIONS: [f64; 2] = [1.005, 1.995];
+const DIMENSIONS: [f64; 2] = [1.05, 1.95];
 /// Range of how far, as a logarithm of lengths, the roughness stays below that with which the least loaded layer has no elastic contact.
 const MARGINS: [f64; 2] = [1e-7, 60.0];
 /// Points of the search along either.
@@ -276,7 +276,6 @@ impl Problem<'_> {
 
     /// The minimum near a start, and its sum of squares.
     fn refined(&self, start: Unknowns) -> (Unknowns, f64) {
-        let bounds = [DIMENSIONS, MARGINS.map(f64::ln)];
         let mut at = start;
         let mut least = self.objective(at);
         let mut damping = 1e-3;
@@ -286,14 +285,11 @@ impl Problem<'_> {
             else {
                 break;
             };
-            let damped = [0, 1].map(|row| matrix[row][row] * (1.0 + damping));
-            let Some(step) = solved(
-                [[damped[0], matrix[0][1]], [matrix[1][0], damped[1]]],
-                gradient,
-            ) else {
+            let Some(trial) = within(at, step(matrix, gradient, damping), |held| {
+                gradient[1 - held] / (matrix[1 - held][1 - held] * (1.0 + damping))
+            }) else {
                 break;
             };
-            let trial = [0, 1].map(|n| (at[n] - step[n]).clamp(bounds[n][0], bounds[n][1]));
             let value = self.objective(trial);
             let change = (trial[0] - at[0]).abs().max((trial[1] - at[1]).abs());
             if value < least {
@@ -363,10 +359,7 @@ impl Problem<'_> {
         let layers = layers.collect::<Result<Vec<_>, VirtualMaterialError>>()?;
         let count = 2 * self.observations.len();
         let sum = self.objective(at);
-        let is_at_bound = {
-            let margins = MARGINS.map(f64::ln);
-            DIMENSIONS.contains(&at[0]) || margins.contains(&at[1])
-        };
+        let is_at_bound = (0..2).any(|n| bounds()[n].contains(&at[n]));
         let deviations = self.deviations(at, roughness_m, sum, is_at_bound);
         Ok(Fit {
             roughness,
@@ -411,6 +404,35 @@ impl Problem<'_> {
             .all(|value| value.is_finite() && *value >= 0.0)
             .then(|| variances.map(f64::sqrt))
     }
+}
+
+/// Bounds of the unknowns.
+fn bounds() -> [[f64; 2]; 2] {
+    [DIMENSIONS, MARGINS.map(f64::ln)]
+}
+
+/// The step of Levenberg and Marquardt, to be subtracted.
+fn step(matrix: [[f64; 2]; 2], gradient: [f64; 2], damping: f64) -> Option<[f64; 2]> {
+    let [[a, b], [c, d]] = matrix;
+    solved(
+        [[a * (1.0 + damping), b], [c, d * (1.0 + damping)]],
+        gradient,
+    )
+}
+
+/// Where a step leads within the bounds. An unknown that would leave them is held at its bound; the other one then takes the step `alone`.
+fn within(at: Unknowns, step: Option<[f64; 2]>, alone: impl Fn(usize) -> f64) -> Option<Unknowns> {
+    let bounds = bounds();
+    let clamped = |n: usize, value: f64| value.clamp(bounds[n][0], bounds[n][1]);
+    let step = step?;
+    let mut trial = [0, 1].map(|n| clamped(n, at[n] - step[n]));
+    for held in [0, 1] {
+        let other = 1 - held;
+        if trial[held] == at[held] && step[held] != 0.0 && bounds[held].contains(&at[held]) {
+            trial[other] = clamped(other, at[other] - alone(held));
+        }
+    }
+    Some(trial)
 }
 
 fn squares(all: &[[f64; 2]]) -> f64 {

@@ -1,5 +1,7 @@
 //! Pressure and preloads, and the interface as a whole: its 6×6 matrices and loss factors.
 
+use super::super::PressureFigure;
+use super::super::lap::figure;
 use crate::html::{cell, escaped, number, number_cell, shown, table};
 use crate::predict::patch::Matrix6;
 use crate::predict::study::Prediction;
@@ -57,8 +59,9 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
         ),
     };
     format!(
-        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{bolts}",
+        "<h2>Pressure</h2>\n<p>{}.</p>\n{}{}{bolts}{}",
         escaped(&crate::html::capitalised(&found.study.pressure)),
+        drawing(found),
         table(
             &[
                 "Torque, N·m",
@@ -72,8 +75,74 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
                 "η tangential",
             ],
             &rows
-        )
+        ),
+        layer(found)
     )
+}
+
+/// The field under the nominal preloads.
+fn drawing(found: &Prediction<'_>) -> String {
+    let state = found.nominal();
+    let plate = found.study.plate();
+    let at = state
+        .torque_n_m
+        .map(|torque| format!(" at {} N·m", number(torque)))
+        .unwrap_or_default();
+    let drawn = PressureFigure {
+        title: "Pressure on the interface",
+        field: &state.field,
+        cell_m: plate.map(|plate| plate.cell_m),
+        outline: plate.map(|plate| plate.outline),
+        bolts: &state.bolts,
+        clearance_m: plate.map_or(0.0, |plate| plate.clearance_m),
+    };
+    drawn.to_svg().map_or_else(String::new, |svg| {
+        figure(
+            "pressure",
+            &format!("<b>Pressure on the interface</b>{at}, with the bolts and their preloads."),
+            &svg,
+        )
+    })
+}
+
+/// The virtual layer at each torque.
+fn layer(found: &Prediction<'_>) -> String {
+    let rows: Vec<String> = found
+        .states
+        .iter()
+        .filter_map(|state| {
+            let layer = state.material.as_ref()?;
+            let torque = state.torque_n_m.map_or_else(|| "–".to_owned(), number);
+            Some(
+                [
+                    number_cell(&torque),
+                    number_cell(&number(layer.youngs_modulus_pa)),
+                    number_cell(&number(layer.shear_modulus_pa)),
+                    number_cell(&number(layer.poissons_ratio)),
+                    number_cell(&number(layer.density_kg_per_m3)),
+                    number_cell(&number(layer.thickness_m)),
+                ]
+                .concat(),
+            )
+        })
+        .collect();
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<h3>Virtual layer</h3>\n{}",
+            table(
+                &[
+                    "Torque, N·m",
+                    "E, Pa",
+                    "G, Pa",
+                    "ν",
+                    "ρ, kg/m³",
+                    "Thickness, m"
+                ],
+                &rows
+            )
+        ),
+    }
 }
 
 pub(super) fn section(found: &Prediction<'_>) -> String {
@@ -97,19 +166,13 @@ fn matrix(matrix: &Matrix6) -> String {
     if matrix.iter().flatten().all(|value| *value == 0.0) {
         return "<p>None.</p>\n".to_owned();
     }
-    let size = |i: usize| matrix[i][i].abs().sqrt();
     let rows: Vec<String> = (0..6)
         .map(|i| {
-            let cells = (0..6).map(|j| {
-                let value = matrix[i][j];
-                // what is left of sums that cancel is no stiffness
-                let is_nothing = value.abs() <= 1e-12 * size(i) * size(j);
-                number_cell(&match is_nothing {
-                    true => "0".to_owned(),
-                    false => shown(value, DIGITS),
-                })
+            let cells = matrix[i].map(|value| match value {
+                0.0 => number_cell("0"),
+                value => number_cell(&shown(value, DIGITS)),
             });
-            format!("{}{}", cell(DOFS[i]), cells.collect::<String>())
+            format!("{}{}", cell(DOFS[i]), cells.concat())
         })
         .collect();
     let headings: Vec<&str> = std::iter::once("").chain(DOFS).collect();

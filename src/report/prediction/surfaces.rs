@@ -1,7 +1,7 @@
 //! The surfaces: fractal dimension and roughness, and the spectra that they were fitted to.
 
 use super::super::lap::figure;
-use super::super::{Line, LineFigure, Scale, Shape};
+use super::super::spectrum_figure;
 use crate::html::{beside, cell, escaped, number, number_cell, shown, spread, table};
 use crate::predict::study::Prediction;
 use crate::predict::surface::ProfileFit;
@@ -53,7 +53,7 @@ fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
             )
         })
         .collect();
-    let drawing = spectrum(fit).map_or_else(String::new, |svg| {
+    let drawing = spectrum_figure(fit).map_or_else(String::new, |svg| {
         figure(
             &format!("spectrum-{}", place + 1),
             "<b>Spectrum of the profiles</b> (Welch), the means of its bands, and the line fitted to them.",
@@ -69,39 +69,4 @@ fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
         number(1e6 * longest_m),
         shown(fit.correlation(), 3),
     )
-}
-
-fn spectrum(fit: &ProfileFit) -> Option<String> {
-    let spectrum = fit.spectrum();
-    let lines = spectrum.frequency_per_m().iter().zip(spectrum.density_m3());
-    let positive = lines.filter(|(frequency, density)| **frequency > 0.0 && **density > 0.0);
-    let [shortest_m, longest_m] = fit.wavelength_band_m();
-    let ends = [1.0 / longest_m, 1.0 / shortest_m];
-    LineFigure {
-        title: "Power spectral density of the profiles",
-        across: ("spatial frequency, 1/m", Scale::Logarithmic),
-        up: ("density, m³", Scale::Logarithmic),
-        lines: vec![
-            Line {
-                name: "spectrum".to_owned(),
-                shape: Shape::Curve,
-                points: positive.map(|(f, s)| (*f, *s)).collect(),
-            },
-            Line {
-                name: "line fitted".to_owned(),
-                shape: Shape::Curve,
-                points: ends.map(|f| (f, fit.density_m3(f))).to_vec(),
-            },
-            Line {
-                name: "means of bands".to_owned(),
-                shape: Shape::Marks,
-                points: fit
-                    .bands()
-                    .iter()
-                    .map(|band| (band.frequency_per_m, band.density_m3))
-                    .collect(),
-            },
-        ],
-    }
-    .to_svg()
 }

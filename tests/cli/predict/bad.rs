@@ -76,16 +76,16 @@ fn surfaces_that_cannot_be_are_refused() {
     let without = bench(&profiles);
     without.refused(&PREDICT, &["p.csv: cannot be read"]);
     let short = bench(&profiles);
-    short.write("p.csv", "x_um,z_um\n0,0.1\n1,0.2\n");
+    short.write("p.csv", "distance_um,height_um\n0,0.1\n1,0.2\n");
     short.refused(&PREDICT, &["p.csv", "2 points", "at least 3"]);
 }
 
 #[test]
 fn contacts_outside_the_model_are_refused_with_the_reason() {
-    // q = T/(μP) of 0.96
+    // q = T/(μP) of 0.976
     refused(
+        "shear_strength = 1e8",
         "shear_strength = 2e8",
-        "shear_strength = 6.1e8",
         &["`contact`", "q = T/(μP)", "lower"],
     );
     refused(
@@ -277,4 +277,28 @@ fn outputs_are_written_all_or_none() {
     }
     let twice = ["--matrix-csv", "a.csv", "--field-csv", "a.csv"];
     bench.refused(&[&PREDICT[..], &twice].concat(), &["same file as a.csv"]);
+}
+
+#[test]
+fn keys_of_the_other_method_are_refused() {
+    refused(
+        "shear_strength = 1e8\n",
+        "shear_strength = 1e8\nfriction_ratio = 0.1\n",
+        &["`contact.friction_ratio`", "fractal-contact"],
+    );
+    refused("friction = 0.3\n", "", &["`contact.friction`", "nothing"]);
+    refused(
+        "[interface]\n",
+        "[layer]\nthickness = [0.001, 0.001]\n[interface]\n",
+        &["`layer`", "virtual-material"],
+    );
+    let layer = |table: &str| {
+        let method = replaced(STUDY, "\"fractal-contact\"", "\"virtual-material\"");
+        replaced(&method, "friction = 0.3\nshear_strength = 1e8\n", table)
+    };
+    let thickness = "[layer]\nthickness = [0.001, 0.001]\n";
+    bench(&layer("")).refused(&PREDICT, &["`layer.thickness`", "nothing"]);
+    bench(&layer(thickness)).refused(&PREDICT, &["`materials.a.density`", "nothing"]);
+    bench(&layer(&format!("friction = 0.3\n{thickness}")))
+        .refused(&PREDICT, &["`contact.friction`", "contact.friction_ratio"]);
 }

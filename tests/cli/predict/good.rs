@@ -24,7 +24,7 @@ fn an_even_field_has_the_stiffness_of_the_published_parameters() {
     // Zhao's surfaces and material, A₀ = 0.06 m²: K_N/A₀ = 6.200e11 N/m³ at 2 MPa, K_T/K_N = 0.461 without tangential force
     let bench = bench(&replaced(
         &with_field(),
-        "shear_strength = 2e8",
+        "shear_strength = 1e8",
         "shear_strength = 0",
     ));
     let n = 20;
@@ -276,4 +276,82 @@ fn viscous_normal_damping_is_that_of_zhao() {
     assert!((number(&state["viscous_damping"][2][2]) / expected - 1.0).abs() < 1e-12);
     let file = bench.json("j.joint.json");
     assert!((entry(&file, "damping", 0, 0) / expected - 1.0).abs() < 1e-12);
+}
+
+/// The study with Tian's layer in place of the contact.
+fn with_layer() -> String {
+    let layer = replaced(STUDY, "\"fractal-contact\"", "\"virtual-material\"");
+    let layer = layer.replace(
+        "poissons_ratio = 0.28\n",
+        "poissons_ratio = 0.28\ndensity = 7200\n",
+    );
+    let contact = "friction = 0.3\nshear_strength = 1e8\n";
+    replaced(
+        &layer,
+        contact,
+        "friction_ratio = 0.2\n[layer]\nthickness = [0.001, 0.0005]\nloss_factor = 0.01\n",
+    )
+}
+
+#[test]
+fn a_virtual_layer_is_the_joint_of_its_material() {
+    let bench = bench(&with_layer());
+    let card = |name: &str| {
+        let written = [&PREDICT[..], &["--material-card", name, "--json"]].concat();
+        let json = bench.done(&written).json();
+        (bench.text(name), json["states"][0].clone())
+    };
+    let (abaqus, state) = card("layer.inp");
+    assert!(abaqus.contains("*MATERIAL, NAME=bolted_joint"), "{abaqus}");
+    let number = |value: &Value| value.as_f64().unwrap();
+    let layer = &state["layer"];
+    assert_eq!(number(&layer["thickness_m"]), 0.0015);
+    assert!((number(&layer["density_kg_per_m3"]) - 7200.0).abs() < 1e-9);
+    let shear =
+        number(&layer["youngs_modulus_pa"]) / (2.0 * (1.0 + number(&layer["poissons_ratio"])));
+    // E A/h and G A/h over the area under pressure
+    let ratio = number(&state["stiffness"][2][2]) / number(&state["stiffness"][0][0]);
+    assert!((ratio / (number(&layer["youngs_modulus_pa"]) / shear) - 1.0).abs() < 1e-12);
+    let area = number(&state["stiffness"][2][2]) * 0.0015 / number(&layer["youngs_modulus_pa"]);
+    // four zones of 3.5 diameters without their holes; cells at the rim count whole
+    let zones = 4.0 * std::f64::consts::PI * 0.004_f64.powi(2) * (3.5_f64.powi(2) - 1.0);
+    assert!(area > zones && area < 1.25 * zones, "{area} {zones}");
+    // the loss factor that is stated
+    let expected = 0.01 * number(&state["stiffness"][2][2]) / (std::f64::consts::TAU * 300.0);
+    let damping = entry(&bench.json("j.joint.json"), "damping", 0, 0);
+    assert!((damping / expected - 1.0).abs() < 1e-12);
+    assert!(card("layer.mac").0.contains("MP,"));
+    assert!(card("layer.csv").0.starts_with("quantity,value,unit\n"));
+    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
+    bench.done(&["check", "j.fmu"]);
+}
+
+#[test]
+fn the_example_goes_from_profiles_to_an_fmu() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/predict-four-bolts");
+    let bench = crate::bench::Bench::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        bench.write(&name, fs::read(path).unwrap());
+    }
+    let outputs = ["--report", "r.html", "--matrix27", "k.mac"];
+    let outcome = bench.done(&[&PREDICT[..], &outputs].concat());
+    assert!(
+        outcome.stdout.contains("5000 draws, seed 1, 0 refused"),
+        "{}",
+        outcome.stdout
+    );
+    assert_eq!(outcome.stderr, "");
+    let file = bench.json("j.joint.json");
+    // the study, three profiles of each surface
+    assert_eq!(file["provenance"]["inputs"].as_array().unwrap().len(), 7);
+    let table = &file["uncertainty"]["over_preload"];
+    assert_eq!(table["at"].as_array().unwrap().len(), 4);
+    assert_eq!(table["correlation"]["unknowns"][0], "k_yy@4");
+    assert_eq!(table["correlation"]["matrix"].as_array().unwrap().len(), 24);
+    let page = bench.text("r.html");
+    assert_eq!(page.matches("Spectrum of the profiles").count(), 2);
+    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
+    bench.done(&["check", "j.fmu"]);
 }

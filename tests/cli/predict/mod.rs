@@ -24,7 +24,7 @@ roughness = 1.21e-8
 [contact]
 hardness = 1.96e9
 friction = 0.3
-shear_strength = 2e8
+shear_strength = 1e8
 
 [interface]
 x = [-0.06, 0.06]

@@ -31,8 +31,8 @@ const MOST_AMPLITUDES: usize = 100_000;
 const MOST_FASTENERS: usize = 10_000;
 
 /// Draws if the study does not say, and the most of them.
-const DRAWS: u64 = 10_000;
-const MOST_DRAWS: u64 = 10_000_000;
+const DRAWS: u64 = 2000;
+const MOST_DRAWS: u64 = 1_000_000;
 
 /// T/(P d) of dry steel threads as bought.
 const NUT_FACTOR: f64 = 0.2;

@@ -129,6 +129,9 @@ struct PredictArguments {
     /// Also write frequencies and damping over the amplitude (method layered-beam)
     #[arg(long, value_name = "NAME.csv")]
     damping_csv: Option<PathBuf>,
+    /// Also draw damping over the amplitude (method layered-beam)
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,

@@ -25,7 +25,10 @@ const WORTH_NAMING: f64 = 0.05;
 
 pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Result<(), CliError> {
     outputs::refuse(
-        &[("--damping-csv", arguments.damping_csv.as_ref())],
+        &[
+            ("--damping-csv", arguments.damping_csv.as_ref()),
+            ("--figure", arguments.figure.as_ref()),
+        ],
         "none: damping over the amplitude is of method \"layered-beam\"",
     )?;
     outputs::check(

@@ -8,6 +8,7 @@ use super::super::output::{message, print};
 use super::outputs::{self, Outputs};
 use crate::predict::layered_beam::Study;
 use crate::predict::study::PredictError;
+use crate::report::LayeredBeamFigure;
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     outputs::refuse(
@@ -30,6 +31,12 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
                 &["csv"],
                 "a name that ends in .csv",
             ),
+            (
+                "--figure",
+                arguments.figure.as_ref(),
+                &["svg"],
+                "a name that ends in .svg",
+            ),
         ],
     )?;
     let study = Study::read(&arguments.study).map_err(PredictError::from)?;
@@ -38,6 +45,10 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     let mut files = Outputs::new();
     files.add(Some(&arguments.output), || joint_file);
     files.add(arguments.damping_csv.as_ref(), || found.csv());
+    files.add(arguments.figure.as_ref(), || {
+        let figure = LayeredBeamFigure { outcome: &found };
+        figure.to_svg().unwrap_or_default()
+    });
     files.write()?;
     for warning in found.warnings() {
         message(&format!("warning: {warning}"));
@@ -45,6 +56,7 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),
+            "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "damping_csv": arguments.damping_csv.as_ref().map(|path| path.display().to_string()),
             "joint_file": found.joint_file(),
             "result": found,

@@ -23,8 +23,9 @@ pub(super) const HIGHEST_MODE: usize = 100;
 /// A drive point that a mode moves by less than this part of its largest deflection is a node.
 const NODE: f64 = 1e-3;
 
-/// A sum of slopes of less than this over the length is rounding: every fastener is where the mode has no slope.
-const NO_SLOPE: f64 = 1e-5;
+/// A sum of slopes of the exact shape of less than this over the length is rounding: every fastener is where the mode has no
+/// slope. The shape by finite elements has more rounding, and is not asked.
+const NO_SLOPE: f64 = 1e-9;
 
 /// Where a mode comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -87,11 +88,13 @@ impl BeamMode {
         }
         fasteners.check_on(beam)?;
         let drive_point_m = drive_point(beam, number, drive_point_m)?;
+        let exact = classical(beam, fasteners, number, drive_point_m);
+        let has_slope = exact.2.iter().sum::<f64>() * beam.length_m() > NO_SLOPE;
         let (angular_frequency, mass_kg, mut slopes_per_m) = match route {
-            Route::Classical => classical(beam, fasteners, number, drive_point_m),
+            Route::Classical => exact,
             Route::FiniteElements => finite_elements(beam, fasteners, number, drive_point_m)?,
         };
-        if slopes_per_m.iter().sum::<f64>() * beam.length_m() < NO_SLOPE {
+        if !has_slope {
             slopes_per_m.fill(0.0);
         }
         let stiffness_n_per_m = match stored {

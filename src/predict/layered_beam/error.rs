@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::super::uncertain::MonteCarloError;
 use crate::structure::BeamError;
 
 /// Why a layered beam, its fasteners or its damping make no sense.
@@ -126,6 +127,9 @@ pub enum LayeredBeamError {
         /// Last, m.
         to: f64,
     },
+    /// Nothing follows from the draws.
+    #[error("`uncertainty`: {0}")]
+    MonteCarlo(MonteCarloError),
     /// The finite elements fail.
     #[error(transparent)]
     FiniteElements(#[from] BeamError),

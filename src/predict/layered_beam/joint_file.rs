@@ -9,6 +9,7 @@ use super::amplitude_damping::AmplitudeDamping;
 use super::damping::SlipDamping;
 use super::error::LayeredBeamError;
 use super::lap::{EquivalentDamping, EquivalentLap};
+use super::scatter::Scattered;
 use super::study::Study;
 
 /// The joint file, and what is to be said about it.
@@ -19,6 +20,23 @@ pub(super) struct LapFile {
     damper: Damper,
     /// Largest |damping ratio of the joint/damping ratio of the beam − 1| in the range of amplitudes.
     pub(super) worst_error: f64,
+}
+
+/// Stiffness (N/m) and constant damping (N·s/m) of the joint for a mode with this damping.
+pub(super) fn terms(
+    damping: &SlipDamping,
+    how: &EquivalentDamping,
+) -> Result<(f64, f64), LayeredBeamError> {
+    let lap = EquivalentLap::of(damping);
+    let constant = match how {
+        EquivalentDamping::AtAmplitude(amplitude) => {
+            lap.joint_damping_n_s_per_m(damping.viscous_damping_n_s_per_m(*amplitude))
+        }
+        EquivalentDamping::Over(range) => {
+            lap.joint_damping_over(damping, range)?.constant_n_s_per_m
+        }
+    };
+    Ok((lap.stiffness_n_per_m, constant))
 }
 
 /// The joint's damping at the nominal torque.
@@ -35,6 +53,7 @@ pub(super) fn lap_file(
     study: &Study,
     nominal: &SlipDamping,
     over_torque: &[(f64, SlipDamping)],
+    scattered: Option<&Scattered>,
 ) -> Result<LapFile, LayeredBeamError> {
     let lap = EquivalentLap::of(nominal);
     let stiffness = vec![vec![lap.stiffness_n_per_m]];
@@ -126,7 +145,7 @@ pub(super) fn lap_file(
             a: lap.a.clone(),
             b: lap.b.clone(),
         }),
-        uncertainty: None,
+        uncertainty: scattered.map(Scattered::uncertainty),
         validity: Some(Validity {
             frequency_hz: [below, above],
             torque_n_m: torques(over_torque),

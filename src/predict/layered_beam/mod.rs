@@ -22,6 +22,7 @@ mod lap;
 mod normal_force;
 mod outcome;
 mod roots;
+mod scatter;
 mod shape;
 mod study;
 
@@ -35,5 +36,6 @@ pub use lap::{EquivalentDamping, EquivalentLap};
 pub use normal_force::{normal_force_ratio, zone_radius_ratio};
 pub use outcome::{AmplitudeRow, ModeRow, Outcome, SlipRow};
 pub use roots::root;
+pub use scatter::{Scatter, ScatterRow};
 pub use shape::ModeShape;
 pub use study::{Calibration, Friction, Study, StudyError};

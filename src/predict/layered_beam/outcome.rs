@@ -11,6 +11,7 @@ use super::damping::SlipDamping;
 use super::error::LayeredBeamError;
 use super::fasteners::Fasteners;
 use super::joint_file::{LapFile, lap_file};
+use super::scatter::ScatterRow;
 use super::study::{Friction, Study};
 
 /// More damping than the energies over one period, taken as equal from one to the next, are good for.
@@ -41,6 +42,8 @@ pub struct Outcome {
     pub mode: usize,
     /// Largest |ζ of the joint file/ζ of the beam − 1| over the study's amplitudes.
     pub joint_damping_worst_error: f64,
+    /// Scatter of the results, where the study has values with a standard deviation.
+    pub scatter: Vec<ScatterRow>,
     /// What a reader should know before using the result.
     pub warnings: Vec<String>,
     #[serde(skip)]
@@ -142,7 +145,11 @@ impl Outcome {
                 Ok((*torque, damping_of(fasteners, study.mode, study.route)?))
             })
             .collect::<Result<_, LayeredBeamError>>()?;
-        let lap = lap_file(study, &nominal, &over_torque)?;
+        let scattered = study.scatter.as_ref();
+        let scattered = scattered
+            .map(|scatter| scatter.run(study, &nominal, &over_torque))
+            .transpose()?;
+        let lap = lap_file(study, &nominal, &over_torque, scattered.as_ref())?;
         let (mut modes, mut amplitudes) = (Vec::new(), Vec::new());
         let mut without_slip = Vec::new();
         for number in 1..=study.modes {
@@ -178,6 +185,7 @@ impl Outcome {
             slips: slips(study, &nominal.mode),
             mode: study.mode,
             joint_damping_worst_error: lap.worst_error,
+            scatter: scattered.map(|found| found.rows()).unwrap_or_default(),
             warnings,
             joint_file: lap.file,
         })
@@ -258,7 +266,7 @@ impl Outcome {
             ));
         }
         let own = || self.amplitudes.iter().filter(|row| row.mode == self.mode);
-        for row in own().next().into_iter().chain(own().last()) {
+        for row in own().next().into_iter().chain(own().next_back()) {
             let of_joint = row.joint_damping_ratio;
             let of_joint = of_joint
                 .map(|ratio| format!(", {ratio:.5} in the joint file"))
@@ -272,6 +280,7 @@ impl Outcome {
             "the joint file's damping is within {:.1} % of friction's over these amplitudes",
             100.0 * self.joint_damping_worst_error
         ));
+        lines.extend(self.scatter.iter().map(ScatterRow::to_string));
         lines
     }
 }

@@ -15,7 +15,7 @@ const MOST_ITERATIONS: usize = 30;
 pub fn root(boundary: Boundary, mode: usize) -> f64 {
     let n = mode as f64;
     // (−1)^(n+1)
-    let sign = if mode % 2 == 0 { -1.0 } else { 1.0 };
+    let sign = if mode.is_multiple_of(2) { -1.0 } else { 1.0 };
     match boundary {
         // cosh λ cos λ = 1 with λ = (n + ½)π + δ: sin δ = (−1)^(n+1) sech λ   (Kavi 3.15)
         Boundary::FixedFixed | Boundary::FreeFree => beside(n * PI + FRAC_PI_2, sign),

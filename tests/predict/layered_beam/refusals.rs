@@ -200,6 +200,28 @@ fn what_is_no_friction() {
 }
 
 #[test]
+fn what_is_no_scatter() {
+    refused(
+        "[motion]",
+        "[uncertainty]\ndraws = 100\n[motion]",
+        &["`uncertainty`", "standard deviation"],
+    );
+    refused(
+        "alpha_mu = 0.0021",
+        "alpha_mu = \"0.0021 ± -1\"",
+        &["line", "-1"],
+    );
+    let draws = "alpha_mu = \"0.0021 ± 0.0001\"\n[uncertainty]\ndraws = 1";
+    refused("alpha_mu = 0.0021", draws, &["`uncertainty.draws`", "2 to"]);
+    let own = "calibration = { damping_ratio = 0.01, amplitude = 1e-4, fasteners = { kind = \"rivet\", diameter = 0.006, count = 4, stress = \"1e8 ± 1e7\" } }";
+    refused(
+        "alpha_mu = 0.0021",
+        own,
+        &["`friction.calibration`", "damping_ratio"],
+    );
+}
+
+#[test]
 fn what_is_no_joint() {
     let linear = "[joint]\namplitude = 1e-4\n[motion]";
     refused("[motion]", linear, &["`joint.amplitude`", "linear"]);

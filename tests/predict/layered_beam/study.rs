@@ -171,6 +171,96 @@ route = "finite-elements"
     close(back.amplitudes[1].finite_element_damping_ratio, 0.01, 1e-12);
 }
 
+/// Friction and preload as value ± standard deviation: products of lognormal factors have moments in closed form.
+#[test]
+fn standard_deviations_become_intervals_of_the_joint() {
+    let text = STUDY
+        .replace("alpha_mu = 0.0021", "alpha_mu = \"0.0021 ± 0.00042\"")
+        .replace("torque = 4\nnut_factor = 0.18", "preload = { value = 4000, standard_deviation = 600 }")
+        .replace("[motion]", "[joint]\ndamping = \"linear\"\namplitude = 1e-4\n[uncertainty]\ndraws = 20000\nseed = 7\n[motion]");
+    let found = run(&text);
+    let row = |name: &str| found.scatter.iter().find(|row| row.name == name).unwrap();
+    // c ∝ α′μ P: (s/m)² = (1 + 0.2²)(1 + 0.15²) − 1
+    let relative = ((1.0 + 0.04_f64) * (1.0 + 0.0225) - 1.0).sqrt();
+    let damping = row("c_yy");
+    let c = found.joint_file().joint.damping[0][0];
+    close(damping.mean, c, 0.01);
+    close(damping.standard_deviation / damping.mean, relative, 0.03);
+    // of a lognormal: e^(σ²/2 ± 1.96 σ) about the mean
+    let sigma = (1.0 + relative * relative).ln().sqrt();
+    for (end, sign) in damping.interval_95.iter().zip([-1.0, 1.0]) {
+        close(
+            *end,
+            c * (-0.5 * sigma * sigma + sign * 1.959_964 * sigma).exp(),
+            0.03,
+        );
+    }
+    // they do not change what bends
+    assert!(row("k_yy").standard_deviation < 1e-9 * row("k_yy").mean);
+    let uncertainty = found.joint_file().uncertainty.as_ref().unwrap();
+    assert_eq!(
+        uncertainty.standard_deviation.damping[0][0],
+        damping.standard_deviation
+    );
+    assert!(
+        uncertainty.basis.contains("friction.alpha_mu")
+            && uncertainty.basis.contains("fasteners.preload")
+    );
+    JointFile::from_json(&found.joint_file().to_json().unwrap(), "again").unwrap();
+    // the same seed, the same draws
+    assert_eq!(run(&text).scatter, found.scatter);
+}
+
+/// What was calibrated on the beam itself depends on neither its preload nor, in the damping ratio, on its stiffness.
+#[test]
+fn a_calibrated_beam_does_not_depend_on_its_preload() {
+    let text = STUDY
+        .replace(
+            "alpha_mu = 0.0021",
+            "calibration = { damping_ratio = \"0.01 ± 0.001\", amplitude = 1e-4 }",
+        )
+        .replace("nut_factor = 0.18", "nut_factor = \"0.18 ± 0.05\"")
+        .replace(
+            "stiffness_ratio = 0.93",
+            "stiffness_ratio = \"0.93 ± 0.01\"",
+        );
+    let found = run(&text);
+    let row = |name: &str| found.scatter.iter().find(|row| row.name == name).unwrap();
+    let relative = |name: &str| row(name).standard_deviation / row(name).mean;
+    close(relative("damping_ratio"), 0.1, 0.05);
+    close(relative("k_yy"), 0.01 / 0.93, 0.05);
+    close(relative("frequency_hz"), 0.5 * 0.01 / 0.93, 0.05);
+    // with the preload it follows where the calibration was on other fasteners
+    let other = "amplitude = 1e-4, fasteners = { kind = \"rivet\", diameter = 0.006, count = 4 } }";
+    let text = text.replace("amplitude = 1e-4 }", other);
+    let found = run(&text);
+    let row = found
+        .scatter
+        .iter()
+        .find(|row| row.name == "damping_ratio")
+        .unwrap();
+    // 1/K of a lognormal has the same relative scatter as K
+    let expected = ((1.0 + 0.01_f64) * (1.0 + (0.05_f64 / 0.18).powi(2)) - 1.0).sqrt();
+    close(row.standard_deviation / row.mean, expected, 0.05);
+}
+
+#[test]
+fn a_table_over_the_preload_has_its_scatter() {
+    let text = STUDY
+        .replace("torque = 4", "torque = [2, 8]")
+        .replace("alpha_mu = 0.0021", "alpha_mu = \"0.0021 ± 0.0002\"")
+        .replace("[motion]", "[joint]\ndamping = \"linear\"\n[motion]");
+    let found = run(&text);
+    let uncertainty = found.joint_file().uncertainty.as_ref().unwrap();
+    let over = uncertainty.over_preload.as_ref().unwrap();
+    let [low, high] = [0, 1].map(|place| over.at[place].standard_deviation.damping[0][0]);
+    close(high, 4.0 * low, 1e-2);
+    // one friction for both
+    let matrix = &over.correlation.as_ref().unwrap().matrix;
+    assert!(matrix[1][3] > 0.9999);
+    JointFile::from_json(&found.joint_file().to_json().unwrap(), "again").unwrap();
+}
+
 #[test]
 fn the_example_runs() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/kavi-layered-beam/study.toml");

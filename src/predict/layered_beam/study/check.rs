@@ -5,12 +5,14 @@ use std::path::Path;
 use sha2::{Digest as _, Sha256};
 
 use super::super::super::pressure::Tightening;
+use super::super::super::uncertain::{MonteCarlo, Uncertain};
 use super::super::amplitude_damping::AmplitudeRange;
 use super::super::beam::{Layer, LayeredBeam};
 use super::super::beam_mode::HIGHEST_MODE;
 use super::super::error::{LayeredBeamError, positive};
 use super::super::fasteners::{FastenerKind, Fasteners, RIVET_STRESS_PA};
 use super::super::lap::EquivalentDamping;
+use super::super::scatter::{Scatter, TensionFrom, UncertainValues};
 use super::tables::{
     AmplitudeTable, BeamTable, CalibrationTable, DampingName, FastenersTable, StudyFile,
 };
@@ -27,6 +29,10 @@ const MOST_AMPLITUDES: usize = 100_000;
 
 /// More fasteners than any beam has.
 const MOST_FASTENERS: usize = 10_000;
+
+/// Draws if the study does not say, and the most of them.
+const DRAWS: u64 = 2000;
+const MOST_DRAWS: u64 = 1_000_000;
 
 /// T/(P d) of dry steel threads as bought.
 const NUT_FACTOR: f64 = 0.2;
@@ -60,8 +66,8 @@ impl Checker<'_> {
         let damping = self.damping(&file, &tightened)?;
         let friction = match (file.friction.alpha_mu, &file.friction.calibration) {
             (Some(alpha_mu), None) => {
-                self.model(positive("friction.alpha_mu", alpha_mu, ""))?;
-                Friction::Known(alpha_mu)
+                self.model(positive("friction.alpha_mu", alpha_mu.value, ""))?;
+                Friction::Known(alpha_mu.value)
             }
             (None, Some(table)) => {
                 Friction::Calibrated(Box::new(self.calibration(table, &file, &beam, mode)?))
@@ -72,6 +78,7 @@ impl Checker<'_> {
                 return Err(self.refuse("friction", found, expected));
             }
         };
+        let scatter = self.scatter(&file)?;
         Ok(Study {
             path: self.path.to_owned(),
             sha256: hexadecimal(&Sha256::digest(self.text.as_bytes())),
@@ -89,6 +96,7 @@ impl Checker<'_> {
             route: motion.route,
             stored: motion.stored_energy,
             damping,
+            scatter,
         })
     }
 
@@ -127,7 +135,7 @@ impl Checker<'_> {
             table.width,
             layers.collect(),
             table.boundary,
-            table.stiffness_ratio.unwrap_or(1.0),
+            table.stiffness_ratio.map_or(1.0, |ratio| ratio.value),
         ))
     }
 
@@ -176,7 +184,7 @@ impl Checker<'_> {
                 if table.preload.is_some() || table.torque.is_some() || table.nut_factor.is_some() {
                     return Err(of("torque", "none: rivets have a stress"));
                 }
-                let stress = table.stress.unwrap_or(RIVET_STRESS_PA);
+                let stress = table.stress.map_or(RIVET_STRESS_PA, |stress| stress.value);
                 alone(self.model(Fasteners::rivets(table.diameter, stress, positions))?)
             }
             FastenerKind::Bolt => {
@@ -187,11 +195,13 @@ impl Checker<'_> {
                     self.model(Fasteners::bolts(table.diameter, preload, positions.clone()))
                 };
                 match (table.preload, &table.torque) {
-                    (Some(preload), None) if table.nut_factor.is_none() => alone(bolts(preload)?),
+                    (Some(preload), None) if table.nut_factor.is_none() => {
+                        alone(bolts(preload.value)?)
+                    }
                     (None, Some(torque)) => {
                         let torques = torque.list();
                         self.torques(&torques)?;
-                        let factor = table.nut_factor.unwrap_or(NUT_FACTOR);
+                        let factor = table.nut_factor.map_or(NUT_FACTOR, |factor| factor.value);
                         self.model(positive("fasteners.nut_factor", factor, ""))?;
                         self.model(positive("fasteners.diameter", table.diameter, "m"))?;
                         let tightening = Tightening::NutFactor {
@@ -320,6 +330,64 @@ impl Checker<'_> {
         Ok(EquivalentDamping::Over(range))
     }
 
+    fn scatter(&self, file: &StudyFile) -> Result<Option<Scatter>, StudyError> {
+        let exact = Uncertain::exact;
+        let own = &file.fasteners;
+        let tension = match (own.kind, own.preload) {
+            (FastenerKind::Rivet, _) => (
+                TensionFrom::Stress,
+                own.stress.unwrap_or(exact(RIVET_STRESS_PA)),
+            ),
+            (FastenerKind::Bolt, Some(preload)) => (TensionFrom::Preload, preload),
+            (FastenerKind::Bolt, None) => (
+                TensionFrom::NutFactor,
+                own.nut_factor.unwrap_or(exact(NUT_FACTOR)),
+            ),
+        };
+        let calibration = file.friction.calibration.as_ref();
+        if let Some(table) = calibration {
+            let ratio = table.beam.as_ref().and_then(|beam| beam.stiffness_ratio);
+            let fasteners = table.fasteners.iter();
+            let values = fasteners.flat_map(|own| [own.stress, own.preload, own.nut_factor]);
+            let mut values = values.flatten().chain(ratio);
+            if let Some(found) = values.find(|value| !value.is_exact()) {
+                return Err(self.refuse(
+                    "friction.calibration",
+                    found,
+                    "no standard deviations on the beam of the calibration: let damping_ratio have it",
+                ));
+            }
+        }
+        let friction = match calibration {
+            Some(table) => table.damping_ratio,
+            None => file.friction.alpha_mu.unwrap_or(exact(1.0)),
+        };
+        let values = UncertainValues {
+            stiffness_ratio: file.beam.stiffness_ratio.unwrap_or(exact(1.0)),
+            tension,
+            friction,
+            calibrated_on_own: calibration
+                .map(|table| [table.beam.is_none(), table.fasteners.is_none()]),
+        };
+        let (draws, seed) = match &file.uncertainty {
+            Some(table) => (table.draws, table.seed.unwrap_or(1)),
+            None => (DRAWS, 1),
+        };
+        if !(2..=MOST_DRAWS).contains(&draws) {
+            let expected = format!("a number from 2 to {MOST_DRAWS}");
+            return Err(self.refuse("uncertainty.draws", draws, expected));
+        }
+        let scatter = Scatter::of(&values, MonteCarlo { draws, seed });
+        if scatter.is_none() && file.uncertainty.is_some() {
+            return Err(self.refuse(
+                "uncertainty",
+                "no value with a standard deviation",
+                "one at least, such as alpha_mu = \"0.002 ± 0.0003\"",
+            ));
+        }
+        Ok(scatter)
+    }
+
     fn calibration(
         &self,
         table: &CalibrationTable,
@@ -329,7 +397,7 @@ impl Checker<'_> {
     ) -> Result<Calibration, StudyError> {
         self.model(positive(
             "friction.calibration.damping_ratio",
-            table.damping_ratio,
+            table.damping_ratio.value,
             "",
         ))?;
         self.model(positive(
@@ -353,7 +421,7 @@ impl Checker<'_> {
             ));
         }
         Ok(Calibration {
-            damping_ratio: table.damping_ratio,
+            damping_ratio: table.damping_ratio.value,
             amplitude_m: table.amplitude,
             mode: self.mode("friction.calibration.mode", table.mode.unwrap_or(mode))?,
             drive_point_m: table.drive_point.or(if own_beam.is_none() {

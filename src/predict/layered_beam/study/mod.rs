@@ -15,6 +15,7 @@ use super::error::LayeredBeamError;
 use super::fasteners::Fasteners;
 use super::lap::EquivalentDamping;
 use super::outcome::Outcome;
+use super::scatter::Scatter;
 use tables::StudyFile;
 
 /// Why a study of a layered beam cannot be used.
@@ -88,6 +89,8 @@ pub struct Study {
     pub stored: StoredEnergy,
     /// How damping goes into the joint file.
     pub damping: EquivalentDamping,
+    /// What is drawn, where a value has a standard deviation.
+    pub scatter: Option<Scatter>,
 }
 
 /// Where α′μ comes from.

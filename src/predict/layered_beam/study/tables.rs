@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::structure::Boundary;
 
+use super::super::super::uncertain::Uncertain;
 use super::super::beam_mode::{Route, StoredEnergy};
 use super::super::fasteners::{FastenerKind, NormalForceRule};
 
@@ -24,6 +25,14 @@ pub(super) struct StudyFile {
     pub(super) motion: MotionTable,
     #[serde(default)]
     pub(super) joint: JointTable,
+    pub(super) uncertainty: Option<UncertaintyTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UncertaintyTable {
+    pub(super) draws: u64,
+    pub(super) seed: Option<u64>,
 }
 
 #[derive(Deserialize)]
@@ -38,7 +47,7 @@ pub(super) struct BeamTable {
     pub(super) length: f64,
     pub(super) width: f64,
     pub(super) boundary: Boundary,
-    pub(super) stiffness_ratio: Option<f64>,
+    pub(super) stiffness_ratio: Option<Uncertain>,
     pub(super) layer: Vec<LayerTable>,
 }
 
@@ -58,10 +67,10 @@ pub(super) struct FastenersTable {
     pub(super) count: Option<usize>,
     pub(super) pitch: Option<f64>,
     pub(super) positions: Option<Vec<f64>>,
-    pub(super) stress: Option<f64>,
-    pub(super) preload: Option<f64>,
+    pub(super) stress: Option<Uncertain>,
+    pub(super) preload: Option<Uncertain>,
     pub(super) torque: Option<OneOrMore>,
-    pub(super) nut_factor: Option<f64>,
+    pub(super) nut_factor: Option<Uncertain>,
     #[serde(default)]
     pub(super) normal_force: NormalForceRule,
 }
@@ -69,14 +78,14 @@ pub(super) struct FastenersTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FrictionTable {
-    pub(super) alpha_mu: Option<f64>,
+    pub(super) alpha_mu: Option<Uncertain>,
     pub(super) calibration: Option<CalibrationTable>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CalibrationTable {
-    pub(super) damping_ratio: f64,
+    pub(super) damping_ratio: Uncertain,
     pub(super) amplitude: f64,
     pub(super) mode: Option<usize>,
     pub(super) drive_point: Option<f64>,

@@ -299,11 +299,16 @@ pub(super) fn all() -> Result<Vec<Claim>, LayeredBeamError> {
         verdict: Verdict::Assumed,
         remark: "α′μ is taken as one constant whatever the surfaces".to_owned(),
     });
+    let twice = Setup {
+        alpha_mu: 2.0,
+        ..kavi
+    };
+    let twice = steel(1).damping(&twice, AMPLITUDE_M)? / reference;
     all.push(Claim {
         source: "7.1 (3), (4)",
         statement: "damping grows with the slip ratio and the coefficient of friction",
-        compared: "ζ for α′μ of 1, 2".to_owned(),
-        obtained: vec![1.0, 2.0],
+        compared: format!("specimen 1 with α′μ of 1, 2: {OVER_FIRST}"),
+        obtained: vec![1.0, twice],
         verdict: Verdict::Assumed,
         remark: "ζ is proportional to their product, which is put in; that the two are inverse to each other is not in the equations".to_owned(),
     });
@@ -316,16 +321,16 @@ pub(super) fn all() -> Result<Vec<Claim>, LayeredBeamError> {
         remark: "no frequency is in E_f; the curves that it was taken from are not printed"
             .to_owned(),
     });
-    let zone = {
-        let specimen = steel(5);
+    let zone = |number: usize| {
+        let specimen = steel(number);
         let rivets = specimen.rivets(&kavi)?;
-        1e3 * rivets.zone_diameter_m(&specimen.beam(&kavi)?)
+        Ok::<_, LayeredBeamError>(1e3 * rivets.zone_diameter_m(&specimen.beam(&kavi)?))
     };
     all.push(Claim {
         source: "5.2",
         statement: "the specimens are as wide as the zones of pressure need",
         compared: "specimen 5: diameter of the zone and width in mm".to_owned(),
-        obtained: vec![zone, 1e3 * super::specimens::WIDTH_M],
+        obtained: vec![zone(5)?, 1e3 * super::specimens::WIDTH_M],
         verdict: Verdict::Contradicted,
         remark: "at thickness ratio 2 the zone of an 8 mm rivet is wider than specimens 5 and 16: part of N has no interface to act on".to_owned(),
     });
@@ -333,7 +338,7 @@ pub(super) fn all() -> Result<Vec<Claim>, LayeredBeamError> {
         source: "5.2",
         statement: "rivets are equispaced along the length, and one zone of pressure apart",
         compared: "specimen 1: pitch of six rivets over the length, and diameter of the zone in mm".to_owned(),
-        obtained: vec![370.0 / 6.0, 33.0],
+        obtained: vec![steel(1).length_mm / steel(1).rivets as f64, zone(1)?],
         verdict: Verdict::Contradicted,
         remark: "six zones of 33 mm are 198 mm long on a beam of 370 mm. Here the rivets are in the middles of six equal parts; what the other reading gives is said above".to_owned(),
     });

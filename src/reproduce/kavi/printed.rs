@@ -148,7 +148,10 @@ pub(super) fn all() -> Result<Vec<PrintedNumber>, LayeredBeamError> {
         let (sum, absolute) = slopes.fold((0.0_f64, 0.0_f64), |(sum, absolute), slope| {
             (sum + slope, absolute + slope.abs())
         });
-        (sum / absolute).abs()
+        // what is left is rounding
+        Some((sum / absolute).abs())
+            .filter(|part| *part > 1e-12)
+            .unwrap_or(0.0)
     };
     let quantity =
         "sum of slopes as printed over that of their absolute values, specimen 1".to_owned();

@@ -125,6 +125,8 @@ pub(super) struct Setup {
     pub(super) stiffness_ratio: f64,
     /// Thickness of every layer over that of the table.
     pub(super) thickness_scale: f64,
+    /// α′μ.
+    pub(super) alpha_mu: f64,
 }
 
 impl Setup {
@@ -136,6 +138,7 @@ impl Setup {
         stored: StoredEnergy::Modal,
         stiffness_ratio: 1.0,
         thickness_scale: 1.0,
+        alpha_mu: 1.0,
     };
 
     pub(super) fn with(boundary: Boundary) -> Self {
@@ -210,7 +213,7 @@ impl Specimen {
         amplitude_m: f64,
     ) -> Result<f64, LayeredBeamError> {
         let (beam, rivets) = (self.beam(setup)?, self.rivets(setup)?);
-        let damping = SlipDamping::new(&beam, &rivets, mode, 1.0)?;
+        let damping = SlipDamping::new(&beam, &rivets, mode, setup.alpha_mu)?;
         Ok(damping.damping_ratio(amplitude_m))
     }
 }

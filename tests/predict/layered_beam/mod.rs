@@ -1,5 +1,6 @@
 //! Layered beams whose interfaces slip.
 
+mod command;
 mod damping;
 mod free_decay;
 mod lap;

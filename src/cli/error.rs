@@ -11,6 +11,7 @@ use crate::export::ExportError;
 use crate::frf::FrfError;
 use crate::identify::IdentifyError;
 use crate::joint::{JointFileError, PreloadError};
+use crate::predict::study::PredictError;
 use crate::reproduce::ReproduceError;
 use crate::respond::{PollutionError, RespondError};
 
@@ -19,6 +20,8 @@ use crate::respond::{PollutionError, RespondError};
 pub(super) enum CliError {
     #[error(transparent)]
     Identify(Box<IdentifyError>),
+    #[error(transparent)]
+    Predict(Box<PredictError>),
     #[error(transparent)]
     Reproduce(#[from] ReproduceError),
     #[error(transparent)]
@@ -62,6 +65,12 @@ pub(super) enum CliError {
 impl From<IdentifyError> for CliError {
     fn from(error: IdentifyError) -> Self {
         Self::Identify(Box::new(error))
+    }
+}
+
+impl From<PredictError> for CliError {
+    fn from(error: PredictError) -> Self {
+        Self::Predict(Box::new(error))
     }
 }
 

@@ -10,8 +10,10 @@ mod identified_from;
 mod identify;
 mod lap;
 mod output;
+mod predict;
 mod progress;
 mod reproduce;
+mod reproduce_kavi;
 mod reproduce_pirdayr;
 mod reproduce_tian;
 mod respond;
@@ -43,6 +45,8 @@ enum Command {
     Demo(DemoArguments),
     /// Identify the joint of a study and write its joint file
     Identify(IdentifyArguments),
+    /// Predict a joint from surfaces, materials and bolts, before anything is built, and write its joint file
+    Predict(PredictArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
     /// Check a joint file or an FMU, and run the FMU's library for a moment
@@ -52,7 +56,7 @@ enum Command {
     RunLibrary(RunLibraryArguments),
     /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis, of Pirdayr's or of Tian's paper anew, published and obtained values side by side
+    /// Compute published tables anew, of Tol's, Pirdayr's, Tian's or Kavi's, published and obtained values side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -95,6 +99,40 @@ struct IdentifyArguments {
     /// Seed of the bootstrap [default: 1]
     #[arg(long, requires = "bootstrap")]
     seed: Option<u64>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// `predict`
+#[derive(Debug, Args)]
+struct PredictArguments {
+    /// The study: surfaces, materials, bolts and the model to take (TOML)
+    study: PathBuf,
+    /// Joint file to write
+    #[arg(short, long, value_name = "NAME.joint.json")]
+    output: PathBuf,
+    /// Also write a report: one page with assumptions, surfaces, pressure, stiffness and damping
+    #[arg(long, value_name = "NAME.html")]
+    report: Option<PathBuf>,
+    /// Also write the 6×6 stiffness and damping of the interface as a table
+    #[arg(long, value_name = "NAME.csv")]
+    matrix_csv: Option<PathBuf>,
+    /// Also write them as an ANSYS macro of MATRIX27 elements between two nodes
+    #[arg(long, value_name = "NAME.mac")]
+    matrix27: Option<PathBuf>,
+    /// Also write pressure, stiffness and damping of each element of the interface
+    #[arg(long, value_name = "NAME.csv")]
+    field_csv: Option<PathBuf>,
+    /// Also write the virtual layer's material (method virtual-material): a table, or a card for Abaqus or ANSYS
+    #[arg(long, value_name = "NAME.csv|NAME.inp|NAME.mac")]
+    material_card: Option<PathBuf>,
+    /// Also write frequencies and damping over the amplitude (method layered-beam)
+    #[arg(long, value_name = "NAME.csv")]
+    damping_csv: Option<PathBuf>,
+    /// Also draw damping over the amplitude (method layered-beam)
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -227,7 +265,8 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` or `tian` for the tables of their papers
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis [default: all]; or one of `pirdayr`, `tian`
+    /// and `kavi` for the tables of their papers and the specimens of his thesis
     tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
@@ -244,6 +283,9 @@ struct ReproduceArguments {
     /// Print the tables as a document in Markdown
     #[arg(long)]
     markdown: bool,
+    /// Also draw damping over what is varied, for `kavi`
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -289,6 +331,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
+        Command::Predict(arguments) => predict::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::RunLibrary(arguments) => check::run_library(&arguments),

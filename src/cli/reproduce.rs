@@ -1,4 +1,4 @@
-//! `reproduce`: the tables of Tol's thesis computed anew.
+//! `reproduce`: the tables of Tol's thesis, of Pirdayr's paper and of Kavi's thesis computed anew.
 
 use std::fmt::Write as _;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::output::print;
 use super::progress::Progress;
 use super::table::{Table, number};
-use super::{ReproduceArguments, reproduce_pirdayr, reproduce_tian};
+use super::{ReproduceArguments, reproduce_kavi, reproduce_pirdayr, reproduce_tian};
 
 /// What is computed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub(super) enum Source {
     Pirdayr,
     /// Table I of Tian's paper.
     Tian,
+    /// The specimens of Kavi's thesis.
+    Kavi,
 }
 
 impl FromStr for Source {
@@ -29,6 +31,7 @@ impl FromStr for Source {
         match text {
             PIRDAYR => Ok(Self::Pirdayr),
             TIAN => Ok(Self::Tian),
+            KAVI => Ok(Self::Kavi),
             table => table.parse().map(Self::Tol),
         }
     }
@@ -36,16 +39,42 @@ impl FromStr for Source {
 
 const PIRDAYR: &str = "pirdayr";
 const TIAN: &str = "tian";
+const KAVI: &str = "kavi";
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
-    for (source, name) in [(Source::Pirdayr, PIRDAYR), (Source::Tian, TIAN)] {
-        if arguments.tables.contains(&source) {
-            return alone(source, name, arguments);
+    let alone = [
+        (Source::Pirdayr, PIRDAYR),
+        (Source::Tian, TIAN),
+        (Source::Kavi, KAVI),
+    ];
+    let named = alone
+        .iter()
+        .find(|(source, _)| arguments.tables.contains(source));
+    if arguments.figure.is_some() && !matches!(named, Some((Source::Kavi, _))) {
+        return Err(CliError::Option {
+            option: "--figure",
+            found: "other tables".to_owned(),
+            expected: "`kavi`, which is the one that has a figure",
+        });
+    }
+    if let Some((source, name)) = named {
+        if arguments.tables.len() > 1 {
+            return Err(CliError::Option {
+                option: name,
+                found: format!("{} tables beside it", arguments.tables.len() - 1),
+                expected: "it alone: it has a table of another form",
+            });
+        }
+        match source {
+            Source::Tol(_) => {}
+            Source::Pirdayr => return reproduce_pirdayr::run(arguments),
+            Source::Tian => return reproduce_tian::run(arguments),
+            Source::Kavi => return reproduce_kavi::run(arguments),
         }
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
         Source::Tol(table) => Some(*table),
-        Source::Pirdayr | Source::Tian => None,
+        Source::Pirdayr | Source::Tian | Source::Kavi => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
@@ -86,24 +115,6 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
 }
 
 /// A source whose table has another form than those of Tol.
-fn alone(
-    source: Source,
-    name: &'static str,
-    arguments: &ReproduceArguments,
-) -> Result<(), CliError> {
-    if arguments.tables.len() > 1 {
-        return Err(CliError::Option {
-            option: name,
-            found: format!("{} tables beside it", arguments.tables.len() - 1),
-            expected: "it alone: it has a table of another form",
-        });
-    }
-    match source {
-        Source::Tian => reproduce_tian::run(arguments),
-        Source::Pirdayr | Source::Tol(_) => reproduce_pirdayr::run(arguments),
-    }
-}
-
 /// What the tables are called, for `--help`.
 pub(super) fn names() -> String {
     let mut text = "Tables:\n".to_owned();
@@ -118,6 +129,10 @@ pub(super) fn names() -> String {
     let _ = writeln!(
         text,
         "  {TIAN:<18}Tian, Table I: layers that stand for a joint, and the surfaces that would give them"
+    );
+    let _ = writeln!(
+        text,
+        "  {KAVI:<18}Kavi, Table 5.1: riveted beams, printed numbers and statements"
     );
     text.trim_end().to_owned()
 }

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::identify::IdentifyError;
 use crate::predict::MaterialError;
+use crate::predict::layered_beam::LayeredBeamError;
 use crate::predict::surface::RoughnessError;
 use crate::predict::virtual_material::{FitError, VirtualMaterialError};
 use crate::respond::PollutionError;
@@ -36,6 +37,9 @@ pub enum ReproduceError {
     /// An identification.
     #[error(transparent)]
     Identify(Box<IdentifyError>),
+    /// A layered beam.
+    #[error(transparent)]
+    LayeredBeam(#[from] LayeredBeamError),
 }
 
 impl From<IdentifyError> for ReproduceError {

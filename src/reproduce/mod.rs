@@ -1,10 +1,12 @@
-//! The case studies of Tol's thesis computed anew, and the tables of Pirdayr's and Tian's papers: published and obtained values side by side.
+//! The case studies of Tol's thesis, the tables of Pirdayr's and Tian's papers and the specimens of Kavi's thesis computed anew:
+//! published and obtained values side by side.
 
 mod approaches;
 mod beams;
 mod bolted;
 mod draws;
 mod error;
+mod kavi;
 mod lumped;
 mod outcome;
 mod pirdayr;
@@ -14,6 +16,10 @@ mod tian;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
+pub use kavi::{
+    AMPLITUDE_M, AtBoundary, BOUNDARIES, Claim, KaviReproduction, PrintedNumber, SpecimenMaterial,
+    SpecimenRow, Verdict, kavi,
+};
 pub use outcome::{Reproduction, Row, Spread};
 pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};

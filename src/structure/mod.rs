@@ -6,7 +6,7 @@ mod modal;
 mod rotation;
 mod spatial;
 
-pub use beam::{Beam, BeamError, BeamPoint, Boundary, Damping, Motion};
+pub use beam::{Beam, BeamError, BeamModes, BeamPoint, Boundary, Damping, Motion};
 pub use coupling::{Assembly, ComplexMatrix, CouplingError, Partition, couple, transmission};
 pub use modal::{ModalError, ModalModel};
 pub use rotation::{Difference, FiniteDifference, Order};

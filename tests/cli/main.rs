@@ -20,6 +20,7 @@ mod modal_file;
 mod model_choice;
 mod modes_beside;
 mod output;
+mod predict;
 mod report;
 mod rig;
 mod study;

@@ -1,4 +1,4 @@
-//! Joints from physics against quadrature, arbitrary precision, published numbers and their own limits.
+//! Joints from physics against quadrature, closed forms, arbitrary precision, statistics, published numbers and their own limits.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -7,7 +7,10 @@
 )]
 
 mod fractal;
-mod tian;
-mod virtual_material;
+mod layered_beam;
+mod patch;
 mod pressure;
 mod surface;
+mod tian;
+mod uncertain;
+mod virtual_material;

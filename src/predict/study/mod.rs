@@ -1,1 +1,33 @@
-//! The study of a prediction: what its file says, validated.
+//! The study of a prediction, from its file to the joint: what is known of surfaces, materials and bolts, checked before
+//! anything is computed, and what follows from it.
+//!
+//! [`InterfaceStudy::read`] takes a study of method `fractal-contact` or `virtual-material`, [`Prediction::of`] computes it at the
+//! values given and at every draw of those that are uncertain, and [`Prediction::joint_file`] is what the export takes. Studies
+//! of method `layered-beam` are those of [`super::layered_beam`]; [`PredictionMethod::read`] tells which it is.
+
+mod both_surfaces;
+mod check;
+mod clamping;
+mod contact_curve;
+mod error;
+mod field_csv;
+mod geometry;
+mod joint_file;
+mod law;
+mod method;
+mod model;
+mod origin;
+mod prediction;
+mod refusal;
+mod results;
+mod tables;
+mod warnings;
+
+pub use check::InterfaceStudy;
+pub use error::{ModelError, PredictError};
+pub use geometry::Plate;
+pub use law::Layer;
+pub use method::PredictionMethod;
+pub use model::State;
+pub use prediction::Prediction;
+pub use results::Unknown;

@@ -12,7 +12,7 @@ use crate::export::Timestamp;
 use crate::html::{self, escaped};
 
 /// A page around finished sections.
-fn page(name: &str, what: &str, written: Timestamp, sections: &str) -> String {
+pub(super) fn page(name: &str, what: &str, written: Timestamp, sections: &str) -> String {
     let name = escaped(name);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -27,13 +27,13 @@ fn page(name: &str, what: &str, written: Timestamp, sections: &str) -> String {
 }
 
 /// A picture under its caption; both are finished.
-fn figure(id: &str, caption: &str, svg: &str) -> String {
+pub(super) fn figure(id: &str, caption: &str, svg: &str) -> String {
     format!(
         "<figure id=\"{id}\">\n<figcaption>{caption}</figcaption>\n<div class=\"picture\">\n{svg}</div>\n</figure>\n"
     )
 }
 
-fn warnings(warnings: &[String]) -> String {
+pub(super) fn warnings(warnings: &[String]) -> String {
     let each = warnings.iter();
     each.map(|warning| format!("<p class=\"warning\">{}</p>\n", escaped(warning)))
         .collect()

@@ -14,8 +14,9 @@ pub(super) const ELEMENTS: f64 = 60.0;
 /// eigenvalues) would drown the low modes in rounding. Within it the deflection is the element's own cubic.
 const SHORTEST_ELEMENT: f64 = 1e-4;
 impl Beam {
-    /// Node positions: both ends, every point that is not too close to another, and equal elements between them.
-    pub(super) fn mesh(&self, points: &[BeamPoint]) -> Result<Vec<f64>, BeamError> {
+    /// Node positions: both ends, every point that is not too close to another, and equal elements between them, of which
+    /// `elements` would fill the length.
+    pub(super) fn mesh(&self, points: &[BeamPoint], elements: f64) -> Result<Vec<f64>, BeamError> {
         self.check()?;
         let rounding = 1e-9 * self.length_m;
         let mut marks = vec![0.0, self.length_m];
@@ -39,7 +40,7 @@ impl Beam {
         let mut nodes = vec![0.0];
         for pair in marks.windows(2) {
             let span = pair[1] - pair[0];
-            let count = (ELEMENTS * span / self.length_m - 1e-9).ceil().max(1.0);
+            let count = (elements * span / self.length_m - 1e-9).ceil().max(1.0);
             for step in 1..=count as usize {
                 nodes.push(pair[0] + span * step as f64 / count);
             }

@@ -1,6 +1,8 @@
 //! A straight uniform beam by finite elements: the substructure that is computed instead of measured.
 
-use nalgebra::DMatrix;
+use std::num::NonZeroU16;
+
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +11,7 @@ mod mesh;
 
 pub use error::BeamError;
 
-use mesh::interpolation;
+use mesh::{ELEMENTS, interpolation};
 
 /// How the two ends of a beam are held; the first word is the end at x = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
@@ -75,6 +77,15 @@ pub struct BeamPoint {
     pub motion: Motion,
 }
 
+/// Undamped mass-normalised modes of a beam at some of its points, in ascending order, rigid-body modes included.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeamModes {
+    /// ω_r, rad/s.
+    pub angular_frequency: DVector<f64>,
+    /// φ_r at each point, kg^−½ for a translation and m⁻¹·kg^−½ for a rotation: one row a point, one column a mode.
+    pub amplitudes: DMatrix<f64>,
+}
+
 impl Beam {
     /// Receptances between all `points`, one matrix (points×points) for each frequency: every mode of the
     /// finite-element model is summed. All points are nodes of the mesh, save those within 1e-4 of the length
@@ -87,19 +98,8 @@ impl Beam {
         points: &[BeamPoint],
         frequency_hz: &[f64],
     ) -> Result<Vec<DMatrix<Complex64>>, BeamError> {
-        let nodes = self.mesh(points)?;
-        let modes = self.modes_on(&nodes)?;
-        let free = self.free_dofs(nodes.len());
-        // φ_r at each point: one row a point, one column a mode.
-        let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
-        for (p, point) in points.iter().enumerate() {
-            for (dof, weight) in interpolation(&nodes, point) {
-                if let Some(row) = free.iter().position(|&kept| kept == dof) {
-                    let mut amplitude = amplitudes.row_mut(p);
-                    amplitude += modes.shapes.row(row) * weight;
-                }
-            }
-        }
+        let modes = self.modes_with(points, ELEMENTS)?;
+        let amplitudes = &modes.amplitudes;
         let rigid = self.rigid_body_modes();
         let receptances = frequency_hz.iter().map(|frequency_hz| {
             let omega = std::f64::consts::TAU * frequency_hz;
@@ -136,12 +136,47 @@ impl Beam {
         receptances.collect()
     }
 
+    /// Undamped modes of the finite-element model with about `elements` elements over the length, each point a node of the
+    /// mesh as in [`Beam::receptances`].
+    ///
+    /// # Errors
+    /// [`BeamError`] if the beam is not physical, or a point is not on it.
+    pub fn modes_at(
+        &self,
+        points: &[BeamPoint],
+        elements: NonZeroU16,
+    ) -> Result<BeamModes, BeamError> {
+        let mut modes = self.modes_with(points, f64::from(elements.get()))?;
+        let rigid = self.rigid_body_modes();
+        modes.angular_frequency.rows_mut(0, rigid).fill(0.0);
+        Ok(modes)
+    }
+
+    fn modes_with(&self, points: &[BeamPoint], elements: f64) -> Result<BeamModes, BeamError> {
+        let nodes = self.mesh(points, elements)?;
+        let modes = self.modes_on(&nodes)?;
+        let free = self.free_dofs(nodes.len());
+        let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
+        for (p, point) in points.iter().enumerate() {
+            for (dof, weight) in interpolation(&nodes, point) {
+                if let Some(row) = free.iter().position(|&kept| kept == dof) {
+                    let mut amplitude = amplitudes.row_mut(p);
+                    amplitude += modes.shapes.row(row) * weight;
+                }
+            }
+        }
+        Ok(BeamModes {
+            angular_frequency: modes.angular_frequency,
+            amplitudes,
+        })
+    }
+
     /// Natural frequencies in Hz, ascending, rigid-body modes (as zeros) included.
     ///
     /// # Errors
     /// [`BeamError`] if the beam is not physical.
     pub fn natural_frequencies_hz(&self) -> Result<Vec<f64>, BeamError> {
-        let nodes = self.mesh(&[])?;
+        let nodes = self.mesh(&[], ELEMENTS)?;
         let mut frequencies = self.modes_on(&nodes)?.frequency_hz();
         frequencies[..self.rigid_body_modes()].fill(0.0);
         Ok(frequencies)

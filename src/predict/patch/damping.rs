@@ -1,0 +1,53 @@
+//! From a contact model's energy ratios to damping: which loss factor they are, and when the normal part is viscous.
+
+use serde::Deserialize;
+use thiserror::Error;
+
+/// What a contact model's dissipated over stored energy is taken for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LossFactor {
+    /// It is the loss factor η of K (1 + jη), as Zhao uses it: C_T = η_T K_T.
+    #[default]
+    EnergyRatio,
+    /// The loss factor is the energy ratio over 2π, as the energies have it: a spring K (1 + jη) of amplitude X dissipates
+    /// π η K X² a cycle and stores ½ K X² at most, a ratio of 2π η.
+    EnergyRatioOverTwoPi,
+}
+
+impl LossFactor {
+    /// η of an energy ratio.
+    #[must_use]
+    pub fn of(self, energy_ratio: f64) -> f64 {
+        match self {
+            Self::EnergyRatio => energy_ratio,
+            Self::EnergyRatioOverTwoPi => energy_ratio / std::f64::consts::TAU,
+        }
+    }
+}
+
+/// How the interface dissipates along its normal.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum NormalDamping {
+    /// By hysteresis, as along the interface: D_N = η_N K_N at every frequency.
+    #[default]
+    Hysteretic,
+    /// As a dashpot, C_N = η_N √(M K_N) with the mass M of the structure (Zhao).
+    Viscous {
+        /// M, in kg.
+        mass_kg: f64,
+    },
+}
+
+/// A number that damping cannot be computed with.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum DampingError {
+    /// A frequency that is not positive.
+    #[error(
+        "found {0} Hz, expected the frequency in Hz, above zero, at which hysteretic and viscous damping are converted"
+    )]
+    Frequency(f64),
+    /// A mass that is not positive.
+    #[error("found {0} kg, expected the mass of the structure in kg, above zero")]
+    Mass(f64),
+}

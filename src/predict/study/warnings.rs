@@ -1,0 +1,98 @@
+//! What a reader should know before using a predicted joint.
+
+use super::prediction::Prediction;
+
+/// An imbalance of field and preloads that is worth a word.
+const IMBALANCE: f64 = 0.01;
+/// Real over nominal area from which contacts are no longer apart, as the model has them.
+const CROWDED: f64 = 0.1;
+/// Loss factor that no joint in one piece has.
+const LOSSY: f64 = 1.0;
+/// Share of refused draws from which the intervals are those of another distribution.
+const REFUSED: f64 = 0.05;
+
+impl Prediction<'_> {
+    /// Warnings, a sentence each; none where all is well.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for share in self.study.geometry.shares() {
+            if share.part_on_plate < 1.0 - IMBALANCE {
+                warnings.push(share.to_string());
+            }
+        }
+        for state in &self.states {
+            let at = state
+                .torque_n_m
+                .map(|torque| format!(" at {torque} N·m"))
+                .unwrap_or_default();
+            if let Some(balance) = &state.balance
+                && balance.force_imbalance().abs() > IMBALANCE
+            {
+                warnings.push(format!(
+                    "{balance}{at}: the pressures belong to other preloads"
+                ));
+            }
+            let crowded = state.largest_real_area();
+            if crowded > CROWDED {
+                warnings.push(format!(
+                    "up to {:.0} % of the area touches{at}: the model has contacts far apart, about 1 %",
+                    100.0 * crowded
+                ));
+            }
+            for (direction, loss_factor) in [
+                ("normal", state.interface.normal_loss_factor()),
+                ("tangential", state.interface.tangential_loss_factor()),
+            ] {
+                if loss_factor > LOSSY {
+                    warnings.push(format!(
+                        "the {direction} loss factor is {loss_factor:.2}{at}: more is lost in a cycle than a spring can give back; \
+                         check roughness and hardness, or take the energy ratio over 2π (damping.loss_factor)"
+                    ));
+                }
+            }
+            let [normal, tangential] = [
+                state.interface.normal_loss_factor(),
+                state.interface.tangential_loss_factor(),
+            ];
+            if let Some(layer) = &state.layer
+                && let Err(reason) = &layer.material
+            {
+                warnings.push(format!(
+                    "no isotropic material stands for the layer{at}: {reason}"
+                ));
+            }
+            if state.layer.is_some() && normal + tangential == 0.0 {
+                warnings.push(format!(
+                    "the layer has no damping{at}: its model gives none; state layer.loss_factor"
+                ));
+            }
+            if state.interface.stiffness()[2][2] == 0.0 {
+                warnings.push(format!(
+                    "no contact is elastic{at}, so that there is no stiffness: the roughness is too large for this pressure and hardness"
+                ));
+            }
+        }
+        if let Some(outcome) = &self.outcome
+            && outcome.refused_share() > 0.0
+        {
+            let reasons = outcome.refused.iter();
+            let reasons: Vec<String> = reasons
+                .map(|(reason, count)| format!("{reason} ({count})"))
+                .collect();
+            let verdict = match outcome.refused_share() > REFUSED {
+                true => {
+                    "; the intervals are those of what the model covers, not of what was stated"
+                }
+                false => "",
+            };
+            warnings.push(format!(
+                "{} of {} draws refused: {}{verdict}",
+                outcome.of.draws - outcome.accepted,
+                outcome.of.draws,
+                reasons.join(", ")
+            ));
+        }
+        warnings
+    }
+}

@@ -1,0 +1,369 @@
+//! Predictions whose result is known from elsewhere, and what follows them: export, check, files for other programs.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{PREDICT, STUDY, bench, over_torque};
+use crate::bench::replaced;
+
+fn entry(file: &Value, matrix: &str, i: usize, j: usize) -> f64 {
+    file["joint"][matrix][i][j].as_f64().unwrap()
+}
+
+/// The study with a pressure from a file.
+fn with_field() -> String {
+    let interface = STUDY.find("[interface]").unwrap();
+    let joint = STUDY.find("[joint]").unwrap();
+    let field = "[interface]\nfield = \"field.csv\"\n\n";
+    format!("{}{field}{}", &STUDY[..interface], &STUDY[joint..])
+}
+
+#[test]
+fn an_even_field_has_the_stiffness_of_the_published_parameters() {
+    // Zhao's surfaces and material, A₀ = 0.06 m²: K_N/A₀ = 6.200e11 N/m³ at 2 MPa, K_T/K_N = 0.461 without tangential force
+    let bench = bench(&replaced(
+        &with_field(),
+        "shear_strength = 1e8",
+        "shear_strength = 0",
+    ));
+    let n = 20;
+    let mut field = "x_m,y_m,area_m2,pressure_Pa\n".to_owned();
+    for k in 0..n * n {
+        let (x, y) = (
+            0.3 * ((k % n) as f64 + 0.5) / n as f64,
+            0.2 * ((k / n) as f64 + 0.5) / n as f64,
+        );
+        field += &format!("{x},{y},{},2e6\n", 0.06 / (n * n) as f64);
+    }
+    bench.write("field.csv", &field);
+    bench.done(&PREDICT);
+    let file = bench.json("j.joint.json");
+    let area = 0.06;
+    let normal = entry(&file, "stiffness", 0, 0);
+    assert!((normal / (6.200e11 * area) - 1.0).abs() < 2e-4, "{normal}");
+    // about the centroid: no coupling, and k_n times the second moment of the area
+    assert_eq!(entry(&file, "stiffness", 0, 1), 0.0);
+    let inertia = 0.2 * 0.3_f64.powi(3) / 12.0 * (1.0 - 1.0 / (n * n) as f64);
+    let rotation = entry(&file, "stiffness", 1, 1);
+    assert!((rotation / (normal / area * inertia) - 1.0).abs() < 1e-9);
+
+    bench.write(
+        "study.toml",
+        bench.text("study.toml").replace(
+            "translation = \"z\"\nrotation = \"-y\"",
+            "translation = \"x\"",
+        ),
+    );
+    bench.done(&PREDICT);
+    let tangential = entry(&bench.json("j.joint.json"), "stiffness", 0, 0);
+    assert!((tangential / normal - 0.461).abs() < 5e-4);
+}
+
+#[test]
+fn the_field_that_is_written_gives_the_same_joint_again() {
+    let first = bench(STUDY);
+    let written = ["--field-csv", "field.csv"];
+    first.done(&[&PREDICT[..], &written].concat());
+    let second = bench(&with_field());
+    second.write("field.csv", first.text("field.csv"));
+    second.done(&PREDICT);
+    let [first, second] = [first, second].map(|bench| bench.json("j.joint.json"));
+    for matrix in ["stiffness", "damping"] {
+        for i in 0..2 {
+            let [a, b] = [&first, &second].map(|file| entry(file, matrix, i, i));
+            assert!((a / b - 1.0).abs() < 1e-12, "{matrix} {i}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
+    let bench = bench(&over_torque());
+    let outcome = bench.done(&PREDICT);
+    assert!(outcome.stdout.contains("at 25 N·m"), "{}", outcome.stdout);
+    assert!(
+        outcome.stdout.contains("imbalance +0.00 %"),
+        "{}",
+        outcome.stdout
+    );
+    let file = bench.json("j.joint.json");
+    let table = &file["joint"]["over_preload"];
+    assert_eq!(table["nominal"], 20.0);
+    let stiffness = |place: usize| table["stiffness"][place][0][0].as_f64().unwrap();
+    for place in 1..5 {
+        assert!(stiffness(place) > stiffness(place - 1));
+    }
+    // its joint at 20 N·m is that of the study with this torque alone
+    let alone = super::bench(STUDY);
+    alone.done(&PREDICT);
+    assert_eq!(
+        table["stiffness"][3],
+        alone.json("j.joint.json")["joint"]["stiffness"]
+    );
+    bench.done(&["check", "j.joint.json"]);
+    for version in ["3", "2"] {
+        bench.done(&["export", "j.joint.json", "-o", "j.fmu", "--fmi", version]);
+        bench.done(&["check", "j.fmu"]);
+    }
+    bench.done(&[
+        "export",
+        "j.joint.json",
+        "-o",
+        "frozen.fmu",
+        "--preload",
+        "12",
+    ]);
+    bench.done(&["check", "frozen.fmu"]);
+}
+
+#[test]
+fn intervals_are_those_of_the_only_uncertain_input() {
+    // Stiffness grows with the preload, so that its quantiles are the stiffnesses at the preload's: with one nut factor for
+    // all bolts, drawn lognormal, at K = m e^(±1.96 s − s²/2), s² = ln(1 + 0.1²).
+    let uncertain = replaced(
+        STUDY,
+        "nut_factor = 0.2\n",
+        "nut_factor = { value = 0.2, standard_deviation = 0.02 }\nscatter = \"common\"\n",
+    ) + "\n[uncertainty]\ndraws = 20000\nseed = 7\n";
+    let bench_of_draws = bench(&uncertain);
+    let outcome = bench_of_draws.done(&PREDICT);
+    assert!(
+        outcome.stdout.contains("k_yy scatters with nut factor"),
+        "{}",
+        outcome.stdout
+    );
+    let file = bench_of_draws.json("j.joint.json");
+    let variance = 1.01_f64.ln();
+    for (place, score) in [(0, 1.959_964), (1, -1.959_964)] {
+        let factor = 0.2 * (score * variance.sqrt() - 0.5 * variance).exp();
+        let at_end = bench(&replaced(
+            STUDY,
+            "nut_factor = 0.2",
+            &format!("nut_factor = {factor}"),
+        ));
+        at_end.done(&PREDICT);
+        let expected = entry(&at_end.json("j.joint.json"), "stiffness", 0, 0);
+        let found = file["uncertainty"]["interval_95"]["stiffness"][0][0][place]
+            .as_f64()
+            .unwrap();
+        // the percentile of 20 000 draws is known to about 0.02 standard deviations
+        assert!((found / expected - 1.0).abs() < 0.006, "{found} {expected}");
+    }
+    // the joint itself is the one at the values given
+    let exact = bench(STUDY);
+    exact.done(&PREDICT);
+    assert_eq!(file["joint"], exact.json("j.joint.json")["joint"]);
+    let basis = file["uncertainty"]["basis"].as_str().unwrap();
+    assert!(
+        basis.contains("nut factor") && basis.contains("20000 draws") && basis.contains("seed 7")
+    );
+}
+
+#[test]
+fn bolts_that_scatter_each_on_their_own_scatter_less_together() {
+    let deviation = |scatter: &str| {
+        let study = replaced(
+            STUDY,
+            "nut_factor = 0.2\n",
+            &format!("nut_factor = \"0.2 ± 0.03\"\nscatter = \"{scatter}\"\n"),
+        );
+        let bench = bench(&study);
+        bench.done(&PREDICT);
+        let file = bench.json("j.joint.json");
+        let of = |i: usize, j: usize| {
+            file["uncertainty"]["standard_deviation"]["stiffness"][i][j]
+                .as_f64()
+                .unwrap()
+        };
+        (of(0, 0), of(0, 1))
+    };
+    let (each, common) = (deviation("each-bolt"), deviation("common"));
+    // four independent bolts: half the deviation, and the coupling that they have in common is none
+    assert!(
+        (common.0 / each.0 - 2.0).abs() < 0.15,
+        "{each:?} {common:?}"
+    );
+    assert!(
+        each.1 > 0.0 && common.1 < 1e-6 * each.1,
+        "{each:?} {common:?}"
+    );
+}
+
+#[test]
+fn the_same_seed_gives_the_same_file_and_refused_draws_are_told() {
+    let uncertain = replaced(STUDY, "= 1.42", "= \"1.42 ± 0.02\"");
+    let uncertain = replaced(&uncertain, "friction = 0.3", "friction = \"0.3 ± 0.1\"");
+    let with_seed =
+        |seed: u64| uncertain.clone() + &format!("\n[uncertainty]\ndraws = 3000\nseed = {seed}\n");
+    let run = |seed: u64, threads: &str| {
+        let bench = bench(&with_seed(seed));
+        let output = bench
+            .command(&PREDICT)
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        (bench.text("j.joint.json"), stderr)
+    };
+    let (file, warnings) = run(1, "1");
+    assert_eq!(run(1, "3").0, file);
+    assert_ne!(run(2, "3").0, file);
+    assert!(
+        warnings.contains("draws refused: q = T/(μP) beyond the model"),
+        "{warnings}"
+    );
+    assert!(file.contains("of them refused"));
+}
+
+#[test]
+fn everything_for_finite_elements_is_written_beside() {
+    let bench = bench(STUDY);
+    let outcome = bench.done(
+        &[
+            &PREDICT[..],
+            &["--matrix-csv", "k.csv", "--matrix27", "k.mac"],
+            &["--field-csv", "f.csv", "--report", "r.html", "--json"],
+        ]
+        .concat(),
+    );
+    let json = outcome.json();
+    let stiffness = &json["states"][0]["stiffness"];
+    let file = bench.json("j.joint.json");
+    assert_eq!(stiffness[2][2], file["joint"]["stiffness"][0][0]);
+    assert_eq!(stiffness[4][4], file["joint"]["stiffness"][1][1]);
+    let row = format!("{:e}", stiffness[2][2].as_f64().unwrap());
+    assert!(bench.text("k.csv").contains(&row));
+    assert!(bench.text("k.mac").contains("MATRIX27"));
+    // four elements of 2 mm are under each hole
+    let lines = bench.text("f.csv").lines().count();
+    assert!((2300..=2402).contains(&lines), "{lines}");
+    let page = bench.text("r.html");
+    for part in [
+        "The joint",
+        "Pressure",
+        "The whole interface",
+        "Surfaces",
+        "What was put in",
+        "Provenance",
+    ] {
+        assert!(page.contains(&format!("<h2>{part}</h2>")), "{part}");
+    }
+    let references = ["<script src", "<link", "<img", "url(", "@import"];
+    assert!(references.iter().all(|reference| !page.contains(reference)));
+    let hash = file["provenance"]["inputs"][0]["sha256"].as_str().unwrap();
+    assert!(page.contains(hash));
+    let names = fs::read_dir(bench.path("")).unwrap().count();
+    assert_eq!(names, 6);
+}
+
+#[test]
+fn viscous_normal_damping_is_that_of_zhao() {
+    let viscous = replaced(
+        STUDY,
+        "frequency = 300",
+        "frequency = 300\nnormal = \"viscous\"\nmass = 12.5",
+    );
+    let bench = bench(&viscous);
+    let json = bench.done(&[&PREDICT[..], &["--json"]].concat()).json();
+    let state = &json["states"][0];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let stiffness = number(&state["stiffness"][2][2]);
+    let expected = number(&state["normal_loss_factor"]) * (12.5 * stiffness).sqrt();
+    assert!((number(&state["viscous_damping"][2][2]) / expected - 1.0).abs() < 1e-12);
+    let file = bench.json("j.joint.json");
+    assert!((entry(&file, "damping", 0, 0) / expected - 1.0).abs() < 1e-12);
+}
+
+/// The study with Tian's layer in place of the contact.
+fn with_layer() -> String {
+    let layer = replaced(STUDY, "\"fractal-contact\"", "\"virtual-material\"");
+    let layer = layer.replace(
+        "poissons_ratio = 0.28\n",
+        "poissons_ratio = 0.28\ndensity = 7200\n",
+    );
+    let contact = "friction = 0.3\nshear_strength = 1e8\n";
+    replaced(
+        &layer,
+        contact,
+        "friction_ratio = 0.2\n[layer]\nthickness = [0.001, 0.0005]\nloss_factor = 0.01\n",
+    )
+}
+
+#[test]
+fn a_virtual_layer_is_the_joint_of_its_material() {
+    // As hard as iron is, the moduli are those of no isotropic material: there is a joint, but no card.
+    let soft = bench(&with_layer());
+    soft.refused(
+        &[&PREDICT[..], &["--material-card", "layer.inp"]].concat(),
+        &["`layer`", "Poisson's ratio", "isotropic"],
+    );
+    let outcome = soft.done(&PREDICT);
+    assert!(
+        outcome.stderr.contains("no isotropic material"),
+        "{}",
+        outcome.stderr
+    );
+    soft.done(&["check", "j.joint.json"]);
+
+    let bench = bench(&replaced(&with_layer(), "1.96e9", "6e9"));
+    let card = |name: &str| {
+        let written = [&PREDICT[..], &["--material-card", name, "--json"]].concat();
+        let json = bench.done(&written).json();
+        (bench.text(name), json["states"][0].clone())
+    };
+    let (abaqus, state) = card("layer.inp");
+    assert!(abaqus.contains("*MATERIAL, NAME=bolted_joint"), "{abaqus}");
+    let number = |value: &Value| value.as_f64().unwrap();
+    let layer = &state["layer"];
+    assert_eq!(number(&layer["thickness_m"]), 0.0015);
+    assert!((number(&layer["density_kg_per_m3"]) - 7200.0).abs() < 1e-9);
+    let young = number(&layer["youngs_modulus_pa"]);
+    let shear = young / (2.0 * (1.0 + number(&layer["poissons_ratio"])));
+    // E A/h and G A/h over the area under pressure
+    let ratio = number(&state["stiffness"][2][2]) / number(&state["stiffness"][0][0]);
+    assert!((ratio / (number(&layer["youngs_modulus_pa"]) / shear) - 1.0).abs() < 1e-12);
+    let area = number(&state["stiffness"][2][2]) * 0.0015 / number(&layer["youngs_modulus_pa"]);
+    // four zones of 3.5 diameters without their holes; cells at the rim count whole
+    let zones = 4.0 * std::f64::consts::PI * 0.004_f64.powi(2) * (3.5_f64.powi(2) - 1.0);
+    assert!(area > zones && area < 1.25 * zones, "{area} {zones}");
+    // the loss factor that is stated
+    let expected = 0.01 * number(&state["stiffness"][2][2]) / (std::f64::consts::TAU * 300.0);
+    let damping = entry(&bench.json("j.joint.json"), "damping", 0, 0);
+    assert!((damping / expected - 1.0).abs() < 1e-12);
+    assert!(card("layer.mac").0.contains("MP,"));
+    assert!(card("layer.csv").0.starts_with("quantity,value,unit\n"));
+    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
+    bench.done(&["check", "j.fmu"]);
+}
+
+#[test]
+fn the_example_goes_from_profiles_to_an_fmu() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/predict-four-bolts");
+    let bench = crate::bench::Bench::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        bench.write(&name, fs::read(path).unwrap());
+    }
+    let outputs = ["--report", "r.html", "--matrix27", "k.mac"];
+    let outcome = bench.done(&[&PREDICT[..], &outputs].concat());
+    assert!(
+        outcome.stdout.contains("5000 draws, seed 1, 0 refused"),
+        "{}",
+        outcome.stdout
+    );
+    assert_eq!(outcome.stderr, "");
+    let file = bench.json("j.joint.json");
+    // the study, three profiles of each surface
+    assert_eq!(file["provenance"]["inputs"].as_array().unwrap().len(), 7);
+    let table = &file["uncertainty"]["over_preload"];
+    assert_eq!(table["at"].as_array().unwrap().len(), 4);
+    assert_eq!(table["correlation"]["unknowns"][0], "k_yy@4");
+    assert_eq!(table["correlation"]["matrix"].as_array().unwrap().len(), 24);
+    let page = bench.text("r.html");
+    assert_eq!(page.matches("Spectrum of the profiles").count(), 2);
+    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
+    bench.done(&["check", "j.fmu"]);
+}

@@ -190,7 +190,7 @@ fn document(found: &KaviReproduction, sections: &[Section]) -> String {
         "# Kavi's riveted beams, computed anew\n\n\
          B. Kavi, *Dynamics and Damping of Thin Riveted Beam Composite Structures of Various Configurations*, PhD thesis, National Institute of \
          Technology Rourkela, 2014: the {} specimens of Table 5.1, numbers that the thesis prints, and what it says of its results, each checked \
-         against its own equations ([theory](theory.md#from-physics-layered-beams)). Written by\n\n    bolted-joint reproduce kavi --markdown --figure docs/images/kavi.svg\n\n\
+         against its own equations ([theory](theory.md#19-from-physics-layered-beams)). Written by\n\n    bolted-joint reproduce kavi --markdown --figure docs/images/kavi.svg\n\n\
          ![Damping ratio over what the thesis varies](images/kavi.svg)\n",
         found.specimens.len()
     );

@@ -9,11 +9,59 @@ use std::path::Path;
 
 use bolted_joint::identify::Study;
 use bolted_joint::joint::JointFile;
+use bolted_joint::predict::study::{InterfaceStudy, Prediction};
 use bolted_joint::structure::ModalModel;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
 const STUDY: &str = include_str!("../examples/tol-m10x16/study.toml");
+const PREDICTION: &str = r#"method = "fractal-contact"
+name = "two bolts"
+[materials]
+a = { youngs_modulus = 2.1e11, poissons_ratio = "0.3 ± 0.01" }
+b = { youngs_modulus = 2.1e11, poissons_ratio = 0.3 }
+[surface]
+fractal_dimension = "1.42 ± 0.02"
+roughness = { value = 1.2e-8, standard_deviation = 1e-9 }
+correlation = 0.9
+[contact]
+hardness = 1.8e9
+friction = 0.25
+shear_strength = 5e7
+[interface]
+x = [-0.05, 0.05]
+y = [-0.03, 0.03]
+elements = [6, 4]
+[pressure]
+model = "cone"
+half_angle = 30
+head_diameter = 0.013
+depth = 0.012
+bending_moment = [0, "10 ± 1"]
+[[bolts]]
+x = -0.02
+y = 0
+diameter = 0.008
+torque = 20
+[[bolts]]
+x = 0.02
+y = 0
+diameter = 0.008
+preload = "9000 ± 450"
+[tightening]
+thread = { friction = "0.12 ± 0.01", head_friction = 0.1, head_diameter = 0.013, hole_diameter = 0.009 }
+scatter = "common"
+[joint]
+translation = "z"
+rotation = "-y"
+reference = [0, 0, 0.001]
+[damping]
+frequency = 300
+normal = "viscous"
+mass = 3
+[uncertainty]
+draws = 20
+"#;
 const MODES: &str = include_str!("../examples/tol-m10x16/a-modes.toml");
 const JOINT: &str = include_str!("data/joint/m10-aluminium.joint.json");
 const PRELOAD: &str = include_str!("data/joint/over-preload.joint.json");
@@ -82,6 +130,14 @@ fn run(text: &'static str, read: fn(&str) -> bool) {
 fn damaged_studies_do_not_panic() {
     run(STUDY, |text| {
         Study::from_toml(text, Path::new("study.toml")).is_ok()
+    });
+}
+
+#[test]
+fn damaged_predictions_do_not_panic() {
+    run(PREDICTION, |text| {
+        InterfaceStudy::from_toml(text, Path::new("study.toml"))
+            .is_ok_and(|study| Prediction::of(&study, &|| {}).is_ok())
     });
 }
 

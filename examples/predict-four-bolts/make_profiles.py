@@ -7,7 +7,7 @@ import pathlib
 
 import numpy as np
 
-POINTS, STEP_M = 2048, 1e-6
+POINTS, STEP_M = 4096, 1e-6
 GAMMA = 1.5
 SURFACES = {"a": (1.42, 8e-9), "b": (1.45, 1.2e-8)}
 TRACES = 3
@@ -34,7 +34,7 @@ def main():
         for trace in range(1, TRACES + 1):
             height = profile(dimension, roughness_m, generator)
             height -= height.mean()
-            rows = [f"{1e6 * STEP_M * k:.0f},{1e6 * z:.5f}" for k, z in enumerate(height)]
+            rows = [f"{1e6 * STEP_M * k:.0f},{1e6 * z:.4f}" for k, z in enumerate(height)]
             text = f"# synthetic, not measured: D = {dimension}, G = {roughness_m} m\ndistance_um,height_um\n" + "\n".join(rows) + "\n"
             (folder / f"{surface}-{trace}.csv").write_text(text, encoding="utf-8")
 

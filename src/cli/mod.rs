@@ -15,6 +15,7 @@ mod progress;
 mod reproduce;
 mod reproduce_kavi;
 mod reproduce_pirdayr;
+mod reproduce_tian;
 mod respond;
 mod respond_lap;
 mod table;
@@ -55,7 +56,8 @@ enum Command {
     RunLibrary(RunLibraryArguments),
     /// Compute what a test of a study's assembly would measure, with or without noise, or how laps respond
     Respond(RespondArguments),
-    /// Compute the published tables of Tol's thesis, of Pirdayr's paper or of Kavi's thesis anew, published and obtained values side by side
+    /// Compute the published tables of Tol's thesis, of Pirdayr's or Tian's paper or of Kavi's thesis anew, published and obtained values
+    /// side by side
     Reproduce(ReproduceArguments),
 }
 
@@ -264,7 +266,7 @@ enum NoiseProcedure {
 #[derive(Debug, Args)]
 #[command(after_help = reproduce::names())]
 struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` for the tables of his paper,
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16 [default: all]; or `pirdayr` or `tian` for the tables of their papers,
     /// or `kavi` for the specimens of his thesis
     tables: Vec<reproduce::Source>,
     /// Draws of the noise, for mean and spread

@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::output::print;
 use super::progress::Progress;
 use super::table::{Table, number};
-use super::{ReproduceArguments, reproduce_kavi, reproduce_pirdayr};
+use super::{ReproduceArguments, reproduce_kavi, reproduce_pirdayr, reproduce_tian};
 
 /// What is computed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub(super) enum Source {
     Pirdayr,
     /// The specimens of Kavi's thesis.
     Kavi,
+    /// Table I of Tian's paper.
+    Tian,
 }
 
 impl FromStr for Source {
@@ -29,6 +31,7 @@ impl FromStr for Source {
         match text {
             PIRDAYR => Ok(Self::Pirdayr),
             KAVI => Ok(Self::Kavi),
+            TIAN => Ok(Self::Tian),
             table => table.parse().map(Self::Tol),
         }
     }
@@ -36,34 +39,31 @@ impl FromStr for Source {
 
 const PIRDAYR: &str = "pirdayr";
 const KAVI: &str = "kavi";
+const TIAN: &str = "tian";
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
-    let alone = [(Source::Pirdayr, PIRDAYR), (Source::Kavi, KAVI)];
-    let named = alone
+    let others = [
+        (Source::Pirdayr, PIRDAYR),
+        (Source::Kavi, KAVI),
+        (Source::Tian, TIAN),
+    ];
+    let named = others
         .iter()
         .find(|(source, _)| arguments.tables.contains(source));
-    if let (Some(_), None | Some((Source::Pirdayr, _))) = (&arguments.figure, named) {
+    let is_kavi = matches!(named, Some((Source::Kavi, _)));
+    if arguments.figure.is_some() && !is_kavi {
         return Err(CliError::Option {
             option: "--figure",
             found: "other tables".to_owned(),
             expected: "`kavi`, which is the one that has a figure",
         });
     }
-    match (named, arguments.tables.as_slice()) {
-        (None, _) => {}
-        (Some(_), [Source::Pirdayr]) => return reproduce_pirdayr::run(arguments),
-        (Some(_), [Source::Kavi]) => return reproduce_kavi::run(arguments),
-        (Some((_, name)), others) => {
-            return Err(CliError::Option {
-                option: name,
-                found: format!("{} tables beside it", others.len() - 1),
-                expected: "it alone: it has a table of another form",
-            });
-        }
+    if let Some((source, name)) = named {
+        return alone(*source, name, arguments);
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
         Source::Tol(table) => Some(*table),
-        Source::Pirdayr | Source::Kavi => None,
+        Source::Pirdayr | Source::Kavi | Source::Tian => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
@@ -103,6 +103,26 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     print(&texts.join("\n"))
 }
 
+/// A source whose table has another form than those of Tol.
+fn alone(
+    source: Source,
+    name: &'static str,
+    arguments: &ReproduceArguments,
+) -> Result<(), CliError> {
+    if arguments.tables.len() > 1 {
+        return Err(CliError::Option {
+            option: name,
+            found: format!("{} tables beside it", arguments.tables.len() - 1),
+            expected: "it alone: it has a table of another form",
+        });
+    }
+    match source {
+        Source::Tian => reproduce_tian::run(arguments),
+        Source::Kavi => reproduce_kavi::run(arguments),
+        Source::Pirdayr | Source::Tol(_) => reproduce_pirdayr::run(arguments),
+    }
+}
+
 /// What the tables are called, for `--help`.
 pub(super) fn names() -> String {
     let mut text = "Tables:\n".to_owned();
@@ -117,6 +137,10 @@ pub(super) fn names() -> String {
     let _ = writeln!(
         text,
         "  {KAVI:<18}Kavi, Table 5.1: riveted beams, printed numbers and statements"
+    );
+    let _ = writeln!(
+        text,
+        "  {TIAN:<18}Tian, Table I: layers that stand for a joint, and the surfaces that would give them"
     );
     text.trim_end().to_owned()
 }

@@ -239,9 +239,11 @@ impl PressureFigure<'_> {
 
 /// The colour scale, to the right of the plate.
 fn draw_scale(strip: &Strip, highest: f64, unit: &str, svg: &mut Svg) {
-    let height = strip.height.max(2.0 * SMALLEST).min(LARGEST[1]);
     let (left, top) = (strip.left + strip.width + BAR_DISTANCE, strip.top);
-    let height = height.min(strip.height + LABELS_BELOW - MARGIN);
+    // A thin strip of a plate has a scale that goes down beside its labels.
+    let height = (2.0 * SMALLEST)
+        .max(strip.height)
+        .min(strip.height + LABELS_BELOW - MARGIN);
     svg.element("g")
         .word("shape-rendering", "crispEdges")
         .open();
@@ -362,6 +364,7 @@ mod tests {
         let cells = svg
             .split("<path d=\"")
             .find(|path| path.contains("fill=\"rgb("))
+            .and_then(|path| path.split('"').next())
             .expect("cells");
         assert_eq!(cells.matches('m').count(), 20);
         assert!(svg.contains(">1: 15.0 kN</text>") && svg.contains(">pressure, MPa</text>"));

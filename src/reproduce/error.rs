@@ -3,7 +3,10 @@
 use thiserror::Error;
 
 use crate::identify::IdentifyError;
+use crate::predict::MaterialError;
 use crate::predict::layered_beam::LayeredBeamError;
+use crate::predict::surface::RoughnessError;
+use crate::predict::virtual_material::{FitError, VirtualMaterialError};
 use crate::respond::PollutionError;
 use crate::structure::{BeamError, CouplingError, ModalError, SpatialError};
 
@@ -25,6 +28,12 @@ pub enum ReproduceError {
     /// An assembly.
     #[error(transparent)]
     Coupling(#[from] CouplingError),
+    /// A material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// A layer that stands for a joint, or the fit of a surface to some.
+    #[error(transparent)]
+    Layer(Box<FitError>),
     /// An identification.
     #[error(transparent)]
     Identify(Box<IdentifyError>),
@@ -36,5 +45,23 @@ pub enum ReproduceError {
 impl From<IdentifyError> for ReproduceError {
     fn from(error: IdentifyError) -> Self {
         Self::Identify(Box::new(error))
+    }
+}
+
+impl From<FitError> for ReproduceError {
+    fn from(error: FitError) -> Self {
+        Self::Layer(Box::new(error))
+    }
+}
+
+impl From<VirtualMaterialError> for ReproduceError {
+    fn from(error: VirtualMaterialError) -> Self {
+        FitError::from(error).into()
+    }
+}
+
+impl From<RoughnessError> for ReproduceError {
+    fn from(error: RoughnessError) -> Self {
+        FitError::from(error).into()
     }
 }

@@ -1,5 +1,5 @@
-//! The case studies of Tol's thesis computed anew, the tables of Pirdayr's paper and the specimens of Kavi's thesis: published and
-//! obtained values side by side.
+//! The case studies of Tol's thesis computed anew, the tables of Pirdayr's and Tian's papers and the specimens of Kavi's thesis:
+//! published and obtained values side by side.
 
 mod approaches;
 mod beams;
@@ -12,6 +12,7 @@ mod outcome;
 mod pirdayr;
 mod published;
 mod receptances;
+mod tian;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
@@ -22,6 +23,7 @@ pub use kavi::{
 pub use outcome::{Reproduction, Row, Spread};
 pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
+pub use tian::{TianFit, TianLayer, TianReproduction, tian};
 
 use draws::Repetition;
 

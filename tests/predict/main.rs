@@ -11,5 +11,6 @@ mod layered_beam;
 mod patch;
 mod pressure;
 mod surface;
+mod tian;
 mod uncertain;
 mod virtual_material;

@@ -243,12 +243,11 @@ fn preloads_from_torques() {
     }
     // Without friction the work of a turn lifts the load by a pitch.
     assert!((torque(0.0, 0.0) - 20e3 * pitch_m / TAU).abs() < 1e-9);
-    // The first-order coefficient of friction is d₂/(2 cos α_n) (1 + tan² φ), from the derivative of the flank's balance.
+    // The derivative of the flank's balance with respect to μ_G: d₂/(2 cos α_n cos² φ).
     let lead = (pitch_m / (PI * thread(0.0, 0.0).pitch_diameter_m())).atan();
     let normal = ((PI / 6.0).tan() * lead.cos()).atan();
     let slope = (torque(1e-6, 0.0) - torque(0.0, 0.0)) / 1e-6 / 20e3;
-    let expected =
-        0.5 * thread(0.0, 0.0).pitch_diameter_m() / normal.cos() / lead.cos().powi(2) * lead.cos();
+    let expected = 0.5 * thread(0.0, 0.0).pitch_diameter_m() / normal.cos() / lead.cos().powi(2);
     assert!((slope / expected - 1.0).abs() < 1e-5, "{slope} {expected}");
     let back = Tightening::Friction(thread(0.12, 0.1));
     let preload_n = back.preload_n(45.0).unwrap();

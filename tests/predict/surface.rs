@@ -6,7 +6,8 @@ use bolted_joint::predict::surface::{
     Detrend, FitError, FitSettings, FitWarning, Profile, ProfileError, ProfileFit, Roughness,
     Synthetic, Welch, Window,
 };
-use rayon::prelude::*;
+use proptest::prelude::*;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use tempfile::TempDir;
 
 fn surface(dimension: f64, roughness_m: f64) -> Synthetic {
@@ -19,7 +20,7 @@ fn surface(dimension: f64, roughness_m: f64) -> Synthetic {
 }
 
 /// Measurements of three profiles each, with different seeds.
-const MEASUREMENTS: u64 = 1000;
+const MEASUREMENTS: u64 = 500;
 
 #[derive(Debug)]
 struct Trials {
@@ -98,7 +99,7 @@ fn intervals_of_gaussian_surfaces_hold_the_truth_as_often_as_they_say() {
         });
         println!("D {dimension}: {found:?}");
         for quantity in 0..2 {
-            assert!((0.93..=0.97).contains(&found.covered[quantity]));
+            assert!((0.92..=0.975).contains(&found.covered[quantity]));
             assert!((0.95..=1.1).contains(&found.stated[quantity]));
         }
         assert!(found.bias[0].abs() < 3.5);
@@ -210,12 +211,11 @@ fn the_density_is_one_sided_and_over_cycles_per_metre() {
     assert!((spectrum.frequency_per_m()[peak.0] * wavelength_m - 1.0).abs() < 1e-12);
 }
 
-/// Mean square of the waves of the Weierstrass–Mandelbrot function over an octave of γ is the integral of (30) over it only if ω
-/// counts cycles per metre: ½ G^(2(D−1)) f^(2D−4) summed over whole periods of ln f is ∫ S df with a weight that undoes the slope.
+/// ω counts cycles per metre, and the density is one-sided: only so does the published line give the D and G that made the surface.
 #[test]
 fn line_and_intercept_are_those_of_the_published_equations() {
     let synthetic = surface(1.42, 1.21e-8);
-    let profiles: Vec<Profile> = (0..400)
+    let profiles: Vec<Profile> = (10_000..11_000)
         .map(|seed| synthetic.gaussian(seed).unwrap())
         .collect();
     let fit = ProfileFit::new(&profiles, &FitSettings::default()).unwrap();
@@ -227,7 +227,7 @@ fn line_and_intercept_are_those_of_the_published_equations() {
     assert!((fit.intercept() - intercept).abs() < 1e-10);
     assert!((d - 1.42).abs() < 3.0 * fit.dimension_standard_deviation());
     assert!((g / 1.21e-8).ln().abs() < 3.0 * fit.log_roughness_standard_deviation());
-    assert!(fit.dimension_standard_deviation() < 0.003);
+    assert!(fit.dimension_standard_deviation() < 0.002);
     // ω in radians per metre would be S(ω) = S(f)/2π with f = ω/2π: a G larger by (2π)^((2−D)/(D−1)), far outside.
     let factor = std::f64::consts::TAU.powf(0.58 / 0.42);
     assert!(factor.ln() > 20.0 * fit.log_roughness_standard_deviation());
@@ -269,7 +269,7 @@ fn a_surface_that_is_no_fractal_has_wider_intervals_and_a_warning() {
     let synthetic = surface(1.42, 1.21e-8);
     let with_marks = |seed| {
         let profile = synthetic.gaussian(seed).unwrap();
-        let marks = |(x, z): (f64, &f64)| z + 3e-7 * (x * std::f64::consts::TAU / 4e-5).cos();
+        let marks = |(x, z): (f64, &f64)| z + 1e-6 * (x * std::f64::consts::TAU / 4e-5).cos();
         let heights = profile.distance_m().zip(profile.height_m()).map(marks);
         Profile::new(profile.step_m(), heights.collect()).unwrap()
     };
@@ -360,7 +360,7 @@ fn slopes_of_no_fractal_are_refused() {
     );
     // Too short a measurement: D near 1 says nothing of G.
     let short = Synthetic {
-        points: 256,
+        points: 1000,
         ..surface(1.03, 1e-30)
     };
     let refused = (0..20).any(|seed| {
@@ -443,4 +443,34 @@ fn bad_profiles_are_refused_with_their_line() {
         assert!(Roughness::new(dimension, 1e-9).is_err());
     }
     assert!(Roughness::new(1.5, 0.0).is_err());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Damaged tables are read or refused, never a panic; what is read can be fitted or is refused.
+    #[test]
+    fn damaged_tables_do_no_harm(
+        place in 0.0..1.0_f64,
+        token in prop::sample::select(vec![
+            "", "-", ",", ";", "\n", "1e308", "-1e308", "1e-320", "nan", "[", "_", "\"", "µ", "#", "\t", "\u{feff}",
+        ]),
+        removed in 0_usize..8,
+    ) {
+        let folder = TempDir::new().unwrap();
+        let path = folder.path().join("table.csv");
+        let rows = (0..40).map(|k| format!("{k},{},1,2\n", k * 7 % 11));
+        for header in ["distance_um,height_nm,a,b\n", "x_mm,y_mm,area_mm2,pressure_MPa\n"] {
+            let mut text: Vec<char> = header.chars().chain(rows.clone().collect::<String>().chars()).collect();
+            let at = (place * text.len() as f64) as usize;
+            let end = (at + removed).min(text.len());
+            text.splice(at..end, token.chars());
+            fs::write(&path, text.into_iter().collect::<String>()).unwrap();
+            let profiles = [Profile::read(&path), Profile::read_resampled(&path)];
+            for profile in profiles.into_iter().flatten() {
+                let _ = ProfileFit::new(&[profile], &FitSettings::default());
+            }
+            let _ = bolted_joint::predict::pressure::PressureField::read(&path, None);
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! `predict` with the methods of an interface: `fractal-contact` and `virtual-material`.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use serde_json::{Value, json};
 
@@ -12,7 +13,7 @@ use super::super::table::{Table, number};
 use super::outputs::{self, Outputs};
 use crate::export::Timestamp;
 use crate::predict::patch::{matrix27, table};
-use crate::predict::study::{InterfaceStudy, Prediction, PredictionMethod, State};
+use crate::predict::study::{InterfaceStudy, PredictError, Prediction, PredictionMethod, State};
 use crate::predict::virtual_material::Card;
 use crate::report::PredictionReport;
 
@@ -97,9 +98,10 @@ pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Res
     files.add(arguments.matrix_csv.as_ref(), || matrix_csv);
     files.add(arguments.matrix27.as_ref(), || macro_text);
     files.add(arguments.field_csv.as_ref(), || found.field_csv());
-    files.add(arguments.material_card.as_ref(), || {
-        material_card(arguments, found.nominal())
-    });
+    if let Some(path) = &arguments.material_card {
+        let card = material_card(path, &found)?;
+        files.add(Some(path), || card);
+    }
     if let Some(written) = written {
         files.add(arguments.report.as_ref(), || {
             let report = PredictionReport {
@@ -122,18 +124,15 @@ pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Res
 }
 
 /// The layer's card, in the form that the name asks for.
-fn material_card(arguments: &PredictArguments, state: &State) -> String {
-    let ending = arguments.material_card.as_ref();
-    let ending = ending.and_then(|path| path.extension()?.to_str());
-    let card = match ending {
+fn material_card(path: &Path, found: &Prediction<'_>) -> Result<String, PredictError> {
+    let card = match path.extension().and_then(|ending| ending.to_str()) {
         Some("inp") => Card::Abaqus,
         Some("mac") => Card::Ansys(MATERIAL_NUMBER),
         _ => Card::Csv,
     };
-    let material = state.material.as_ref();
+    let material = found.material()?;
     // the name is one that every program takes
-    let text = material.map(|material| card.text(material, MATERIAL_NAME));
-    text.and_then(Result::ok).unwrap_or_default()
+    Ok(card.text(&material, MATERIAL_NAME).unwrap_or_default())
 }
 
 /// The result for people.
@@ -193,15 +192,22 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
         number(state.interface.normal_loss_factor(), 3),
         number(state.interface.tangential_loss_factor(), 3),
     );
-    if let Some(layer) = &state.material {
-        let _ = writeln!(
+    if let Some(layer) = &state.layer {
+        let _ = write!(
             text,
-            "  layer {} m thick: E = {} Pa, ν = {}, ρ = {} kg/m³",
+            "  layer {} m thick: E = {} Pa, G = {} Pa",
             layer.thickness_m,
-            number(layer.youngs_modulus_pa, 4),
-            number(layer.poissons_ratio, 4),
-            number(layer.density_kg_per_m3, 4)
+            number(layer.moduli.youngs_modulus_pa, 4),
+            number(layer.moduli.shear_modulus_pa, 4),
         );
+        text += &match &layer.material {
+            Ok(material) => format!(
+                ", ν = {}, ρ = {} kg/m³\n",
+                number(material.poissons_ratio, 4),
+                number(material.density_kg_per_m3, 4)
+            ),
+            Err(_) => "\n".to_owned(),
+        };
     }
     let mut header = vec!["", "predicted"];
     if found.outcome.is_some() {
@@ -257,12 +263,12 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
                 "force_imbalance": state.balance.as_ref().map(|balance| balance.force_imbalance()),
                 "largest_pressure_pa": state.largest_pressure_pa(),
                 "largest_real_area_fraction": state.largest_real_area(),
-                "layer": state.material.as_ref().map(|layer| json!({
-                    "youngs_modulus_pa": layer.youngs_modulus_pa,
-                    "shear_modulus_pa": layer.shear_modulus_pa,
-                    "poissons_ratio": layer.poissons_ratio,
-                    "density_kg_per_m3": layer.density_kg_per_m3,
+                "layer": state.layer.as_ref().map(|layer| json!({
+                    "youngs_modulus_pa": layer.moduli.youngs_modulus_pa,
+                    "shear_modulus_pa": layer.moduli.shear_modulus_pa,
                     "thickness_m": layer.thickness_m,
+                    "poissons_ratio": layer.material.as_ref().ok().map(|m| m.poissons_ratio),
+                    "density_kg_per_m3": layer.material.as_ref().ok().map(|m| m.density_kg_per_m3),
                 })),
                 "normal_loss_factor": state.interface.normal_loss_factor(),
                 "tangential_loss_factor": state.interface.tangential_loss_factor(),

@@ -5,18 +5,18 @@ use super::FractalError;
 /// What the energy lost in a cycle is compared with.
 ///
 /// A contact that is loaded once to T = qμP takes up W, and a cycle between −T and T costs W_d; Mindlin's theory gives both, and
-/// the loss factor is W_d/(cW − W_d).
+/// the loss factor is W_d/(mW − W_d).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum StoredEnergy {
-    /// c = 1: the energy of one loading. η_T = 1/((5/24) H₂/H₁ − 1), which is 4q/9 for small q and infinite at q = 0.9583.
+    /// m = 1: the energy of one loading. η_T = 1/((5/24) H₂/H₁ − 1), which is 4q/9 for small q and infinite at q = 0.9583.
     #[default]
     OneLoading,
-    /// c = π: η_T = 1/((5π/24) H₂/H₁ − 1), which is 4q/(9π) for small q and 0.74 at q = 1.
+    /// m = π, as in Zhao's (26) and (29): η_T = 1/((5π/24) H₂/H₁ − 1), which is 4q/(9π) for small q and 0.74 at q = 1.
     PiLoadings,
 }
 
 impl StoredEnergy {
-    /// W_d/W of the loss factor's pole: c times 5/24, the other constants of H₁ and H₂ taken together.
+    /// W_d/W of the loss factor's pole: m times 5/24, the other constants of H₁ and H₂ taken together.
     fn pole(self) -> f64 {
         match self {
             Self::OneLoading => 5.0 / 24.0,

@@ -108,16 +108,15 @@ impl PressureField {
                 source,
             }
         })?;
+        let is_same = |nominal_m2: f64| (field.area_m2() / nominal_m2 - 1.0).abs() <= SAME_AREA;
         match nominal_area_m2 {
-            Some(nominal_m2) if !((field.area_m2() / nominal_m2 - 1.0).abs() <= SAME_AREA) => {
-                Err(FieldFileError::Area {
-                    rows: field.elements().len(),
-                    found_m2: field.area_m2(),
-                    path: table.path,
-                    nominal_m2,
-                    percent: 100.0 * SAME_AREA,
-                })
-            }
+            Some(nominal_m2) if !is_same(nominal_m2) => Err(FieldFileError::Area {
+                rows: field.elements().len(),
+                found_m2: field.area_m2(),
+                path: table.path,
+                nominal_m2,
+                percent: 100.0 * SAME_AREA,
+            }),
             _ => Ok(field),
         }
     }

@@ -425,6 +425,15 @@ impl Checker<'_> {
                 "thickness = [a, b], of the part of each side that the layer takes the place of, m";
             return self.refuse("layer.thickness", "nothing", expected);
         };
+        let is_thick = |thickness: &f64| thickness.is_finite() && *thickness > 0.0;
+        if !layer.thickness.iter().all(is_thick) {
+            let expected = "two lengths in m above zero";
+            return self.refuse(
+                "layer.thickness",
+                format!("{:?}", layer.thickness),
+                expected,
+            );
+        }
         let [a, b] = [&file.materials.a, &file.materials.b].map(|part| part.density);
         let (Some(a), Some(b)) = (a, b) else {
             let side = if a.is_none() { "a" } else { "b" };

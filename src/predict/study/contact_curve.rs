@@ -1,7 +1,7 @@
 //! Stiffness and damping of a contact over the pressure: computed at every element, or from a curve where thousands of
 //! elements are asked for thousands of times.
 
-use crate::predict::fractal::{FractalContact, FractalError, PerArea};
+use crate::predict::fractal::{FractalContact, FractalError, PerArea, StoredEnergy};
 use crate::predict::patch::{Contact, LossFactor};
 
 /// Knots of a curve, evenly spaced over the logarithm of the pressure.
@@ -38,11 +38,12 @@ impl ContactLaw {
     }
 }
 
-/// A contact's densities as cubics between knots over ln p, each through the four nearest knots (Lagrange).
+/// A contact as cubics between knots over ln p, each through the four nearest knots (Lagrange).
 ///
-/// The densities are smooth over ln p above the pressure at which stiffness begins, and the curve begins there. With a step of
-/// at most ln(10⁴)/95 = 0.097 the interpolation's error, h⁴ f''''·3/128, is below 10⁻⁵ of the density at every pressure and
-/// below 10⁻⁶ of sums over an interface.
+/// k_n, η_N k_n and q = T/(μP) are smooth over ln p above the pressure at which stiffness begins, and the curve begins there.
+/// What is singular where the friction is used up follows from q: k_t ∝ k_n (1 − q)^(1/3), and η_T. With a step of at most
+/// h = ln(10⁴)/95 = 0.097 the interpolation's error, 3/128 h⁴ times the fourth derivative, is below 10⁻⁵ of the density at
+/// every pressure and below 10⁻⁶ of sums over an interface.
 #[derive(Debug, Clone)]
 pub(super) struct ContactCurve<'l> {
     law: &'l ContactLaw,
@@ -50,15 +51,20 @@ pub(super) struct ContactCurve<'l> {
     lowest_pa: f64,
     log_lowest: f64,
     per_step: f64,
-    /// Coefficients of 1, t, t², t³ of each density between neighbouring knots.
-    pieces: Vec<[[f64; 4]; 4]>,
+    /// k_t/k_n without tangential load.
+    tangential_over_normal: f64,
+    /// Coefficients of 1, t, t², t³ of k_n, η_N k_n and q between neighbouring knots.
+    pieces: Vec<[[f64; 4]; 3]>,
 }
+
+/// k_n, η_N k_n and q.
+type Knot = [f64; 3];
 
 impl<'l> ContactCurve<'l> {
     /// Up to the pressure `largest_pa`.
     pub(super) fn new(law: &'l ContactLaw, largest_pa: f64) -> Result<Self, FractalError> {
         // whatever ends the model ends it here first
-        law.at(largest_pa)?;
+        let largest = law.contact.at(largest_pa)?;
         let critical_pressure_pa = law.contact.critical_pressure_pa();
         let lowest_pa = (critical_pressure_pa * ABOVE_CRITICAL).max(LOWEST * largest_pa);
         let mut curve = Self {
@@ -67,6 +73,8 @@ impl<'l> ContactCurve<'l> {
             lowest_pa,
             log_lowest: lowest_pa.ln(),
             per_step: 0.0,
+            tangential_over_normal: largest.tangential_stiffness_n_per_m3
+                / (largest.normal_stiffness_n_per_m3 * slip(largest.friction_ratio)),
             pieces: Vec::new(),
         };
         if lowest_pa >= largest_pa {
@@ -80,9 +88,13 @@ impl<'l> ContactCurve<'l> {
                 _ if knot == KNOTS - 1 => largest_pa,
                 _ => (curve.log_lowest + step * knot as f64).exp(),
             };
-            law.at(pressure_pa).map(densities)
+            law.contact.at(pressure_pa).map(|found| {
+                let normal = found.normal_stiffness_n_per_m3;
+                let damping = normal * found.normal_loss_factor;
+                [normal, damping, found.friction_ratio]
+            })
         });
-        let knots: Vec<[f64; 4]> = knots.collect::<Result<_, _>>()?;
+        let knots: Vec<Knot> = knots.collect::<Result<_, _>>()?;
         curve.pieces = (0..KNOTS - 1).map(|piece| cubic(&knots, piece)).collect();
         Ok(curve)
     }
@@ -101,28 +113,29 @@ impl<'l> ContactCurve<'l> {
         let place = (pressure_pa.ln() - self.log_lowest) * self.per_step;
         let piece = (place as usize).min(last);
         let t = place - piece as f64;
-        let [normal, tangential, normal_damping, tangential_damping] =
+        let [normal, damping, friction_ratio] =
             self.pieces[piece].map(|[a, b, c, d]| a + t * (b + t * (c + t * d)));
+        // rounding of a friction ratio of zero
+        let friction_ratio = friction_ratio.max(0.0);
+        let tangential = self.tangential_over_normal * normal * slip(friction_ratio);
+        let loss = StoredEnergy::default().loss_factor(friction_ratio)?;
+        let loss_factor = self.law.loss_factor;
         Ok(Contact {
             normal_stiffness_n_per_m3: normal,
             tangential_stiffness_n_per_m3: tangential,
-            normal_damping_n_per_m3: normal_damping,
-            tangential_damping_n_per_m3: tangential_damping,
+            normal_damping_n_per_m3: loss_factor.of(damping),
+            tangential_damping_n_per_m3: tangential * loss_factor.of(loss),
         })
     }
 }
 
-fn densities(contact: Contact) -> [f64; 4] {
-    [
-        contact.normal_stiffness_n_per_m3,
-        contact.tangential_stiffness_n_per_m3,
-        contact.normal_damping_n_per_m3,
-        contact.tangential_damping_n_per_m3,
-    ]
+/// (1 − q)^(1/3)
+fn slip(friction_ratio: f64) -> f64 {
+    (1.0 - friction_ratio).cbrt()
 }
 
 /// The cubics through four knots, as polynomials of the way t from knot `piece` to the next.
-fn cubic(knots: &[[f64; 4]], piece: usize) -> [[f64; 4]; 4] {
+fn cubic(knots: &[Knot], piece: usize) -> [[f64; 4]; 3] {
     let first = piece.saturating_sub(1).min(knots.len() - 4);
     // t of the first of the four
     let offset = first as f64 - piece as f64;
@@ -133,10 +146,9 @@ fn cubic(knots: &[[f64; 4]], piece: usize) -> [[f64; 4]; 4] {
         let d2 = 0.5 * (value(2) - 2.0 * value(1) + value(0));
         let d3 = (value(3) - 3.0 * value(2) + 3.0 * value(1) - value(0)) / 6.0;
         // in powers of s
-        let powers = [value(0), d1 - d2 + 2.0 * d3, d2 - 3.0 * d3, d3];
+        let [a, b, c, d] = [value(0), d1 - d2 + 2.0 * d3, d2 - 3.0 * d3, d3];
         // and of t
         let s = -offset;
-        let [a, b, c, d] = powers;
         [
             a + s * (b + s * (c + s * d)),
             b + s * (2.0 * c + 3.0 * s * d),
@@ -153,11 +165,20 @@ mod tests {
     use crate::predict::surface::Roughness;
     use crate::predict::{Material, Pair};
 
+    fn densities(contact: Contact) -> [f64; 4] {
+        [
+            contact.normal_stiffness_n_per_m3,
+            contact.tangential_stiffness_n_per_m3,
+            contact.normal_damping_n_per_m3,
+            contact.tangential_damping_n_per_m3,
+        ]
+    }
+
     fn law(fractal_dimension: f64, roughness_m: f64) -> ContactLaw {
         let iron = Material::new(1.5e11, 0.28).unwrap();
         let friction = Friction {
             coefficient: 0.3,
-            shear_strength_pa: 2e8,
+            shear_strength_pa: 5e7,
         };
         let roughness = Roughness::new(fractal_dimension, roughness_m).unwrap();
         let pair = Pair { a: iron, b: iron };
@@ -204,6 +225,41 @@ mod tests {
                 assert!(error < 1e-6, "D = {dimension}, {i}: {error}");
             }
         }
+    }
+
+    /// Where the friction is nearly used up, the tangential loss factor grows beyond all bounds; the curve follows.
+    #[test]
+    fn near_the_end_of_friction_the_curve_stays_with_the_contact() {
+        let mut law = law(1.42, 1.21e-8);
+        let largest_pa = 9e6;
+        let ratio = (1..1000)
+            .map(|k| largest_pa * f64::from(k) / 1000.0)
+            .map(|pressure_pa| law.contact.at(pressure_pa).unwrap().friction_ratio)
+            .fold(0.0, f64::max);
+        let iron = Material::new(1.5e11, 0.28).unwrap();
+        let friction = Friction {
+            coefficient: 0.3,
+            // q up to 0.95
+            shear_strength_pa: 5e7 * 0.95 / ratio,
+        };
+        let roughness = Roughness::new(1.42, 1.21e-8).unwrap();
+        let pair = Pair { a: iron, b: iron };
+        law.contact = FractalContact::new(&pair, roughness, 1.96e9, friction, 0.06).unwrap();
+        let curve = ContactCurve::new(&law, largest_pa).unwrap();
+        let mut most: f64 = 0.0;
+        for k in 0..1000 {
+            let pressure_pa = largest_pa * (1.0 - f64::from(k) / 1000.0);
+            let (found, expected) = (
+                densities(curve.at(pressure_pa).unwrap()),
+                densities(law.at(pressure_pa).unwrap()),
+            );
+            for i in 0..4 {
+                let error = (found[i] / expected[i] - 1.0).abs();
+                assert!(error < 1e-3, "{pressure_pa} {i}: {error}");
+            }
+            most = most.max(expected[3] / expected[1]);
+        }
+        assert!(most > 10.0, "{most}");
     }
 
     #[test]

@@ -79,6 +79,9 @@ pub enum ModelError {
     /// The virtual layer.
     #[error(transparent)]
     VirtualMaterial(#[from] VirtualMaterialError),
+    /// A model without a virtual layer.
+    #[error("found no layer: only method \"virtual-material\" has a material")]
+    NoLayer,
     /// Bolts and the pressure that they make.
     #[error(transparent)]
     Pressure(#[from] PressureError),

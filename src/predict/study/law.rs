@@ -3,7 +3,9 @@
 use crate::predict::fractal::PerArea;
 use crate::predict::patch::Contact;
 use crate::predict::pressure::PressureField;
-use crate::predict::virtual_material::{LayerContact, Layers, Loading, VirtualMaterial};
+use crate::predict::virtual_material::{
+    LayerContact, Layers, Loading, Moduli, VirtualMaterial, VirtualMaterialError,
+};
 
 use super::contact_curve::{ContactCurve, ContactLaw};
 use super::error::ModelError;
@@ -25,6 +27,17 @@ pub(super) struct LayerLaw {
     pub(super) loss_factor: f64,
 }
 
+/// A virtual layer under the load of its interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// Young's modulus across it and shear modulus along it.
+    pub moduli: Moduli,
+    /// Its thickness, m.
+    pub thickness_m: f64,
+    /// The isotropic material of these moduli, or why there is none: the joint needs none.
+    pub material: Result<VirtualMaterial, VirtualMaterialError>,
+}
+
 /// What a model says of a field, element by element.
 #[derive(Debug, Clone)]
 pub(super) struct OverField {
@@ -32,7 +45,7 @@ pub(super) struct OverField {
     /// None of the layer.
     pub(super) per_area: Vec<PerArea>,
     /// None of the fractal contact.
-    pub(super) material: Option<VirtualMaterial>,
+    pub(super) layer: Option<Layer>,
 }
 
 impl Law {
@@ -44,17 +57,17 @@ impl Law {
                 Ok(OverField {
                     contacts: per_area.iter().map(|found| law.of(found)).collect(),
                     per_area,
-                    material: None,
+                    layer: None,
                 })
             }
             Self::Layer(law) => {
                 let elements = field.elements().iter();
                 let pressures_pa: Vec<f64> = elements.map(|element| element.pressure_pa).collect();
-                let (material, contact) = law.under(field.force_n())?;
+                let (layer, contact) = law.under(field.force_n())?;
                 Ok(OverField {
                     contacts: where_pressed(&pressures_pa, contact).collect(),
                     per_area: Vec::new(),
-                    material: Some(material),
+                    layer: Some(layer),
                 })
             }
         }
@@ -84,19 +97,24 @@ impl Law {
 
 impl LayerLaw {
     /// The layer under a force (N), and what it has per area.
-    fn under(&self, force_n: f64) -> Result<(VirtualMaterial, Contact), ModelError> {
-        let loading = Loading::Force(force_n);
-        let material = VirtualMaterial::new(&self.contact, loading, &self.layers)?;
+    fn under(&self, force_n: f64) -> Result<(Layer, Contact), ModelError> {
+        let moduli = self.contact.moduli(Loading::Force(force_n))?;
+        let thickness_m = self.layers.thickness_m.iter().sum();
         // k = E/h and G_x/h
-        let normal = material.youngs_modulus_pa / material.thickness_m;
-        let tangential = material.shear_modulus_pa / material.thickness_m;
+        let normal = moduli.youngs_modulus_pa / thickness_m;
+        let tangential = moduli.shear_modulus_pa / thickness_m;
+        let layer = Layer {
+            moduli,
+            thickness_m,
+            material: VirtualMaterial::from_moduli(moduli, &self.layers),
+        };
         let contact = Contact {
             normal_stiffness_n_per_m3: normal,
             tangential_stiffness_n_per_m3: tangential,
             normal_damping_n_per_m3: self.loss_factor * normal,
             tangential_damping_n_per_m3: self.loss_factor * tangential,
         };
-        Ok((material, contact))
+        Ok((layer, contact))
     }
 }
 

@@ -26,6 +26,7 @@ mod warnings;
 pub use check::InterfaceStudy;
 pub use error::{ModelError, PredictError};
 pub use geometry::Plate;
+pub use law::Layer;
 pub use method::PredictionMethod;
 pub use model::State;
 pub use prediction::Prediction;

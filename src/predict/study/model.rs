@@ -5,7 +5,7 @@ use crate::predict::patch::{Contact, InterfaceJoint, PlanarJoint};
 use crate::predict::pressure::{Balance, Bolt, PressureField};
 use crate::predict::surface::Roughness;
 use crate::predict::uncertain::{Drawn, InputPlace};
-use crate::predict::virtual_material::{LayerContact, VirtualMaterial};
+use crate::predict::virtual_material::LayerContact;
 use crate::predict::{Material, Pair};
 
 use super::both_surfaces::both;
@@ -13,7 +13,7 @@ use super::check::{ContactInputs, InterfaceStudy, MaterialInputs, SurfaceInput, 
 use super::contact_curve::ContactLaw;
 use super::error::ModelError;
 use super::geometry::Plate;
-use super::law::{Law, LayerLaw, OverField};
+use super::law::{Law, Layer, LayerLaw, OverField};
 
 /// The joint at one torque, or at the only tightness.
 #[derive(Debug, Clone)]
@@ -31,7 +31,7 @@ pub struct State {
     /// What a fractal contact amounts to at each element; none of other models.
     pub per_area: Vec<PerArea>,
     /// The layer that stands for the interface, of method `virtual-material`.
-    pub material: Option<VirtualMaterial>,
+    pub layer: Option<Layer>,
     /// The joint.
     pub interface: InterfaceJoint,
     /// The part of it in the joint file.
@@ -146,7 +146,7 @@ impl InterfaceStudy {
         let OverField {
             contacts,
             per_area,
-            material,
+            layer,
         } = law.over(&field)?;
         let parts = field.elements().iter().zip(contacts.iter().copied());
         let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)?;
@@ -158,7 +158,7 @@ impl InterfaceStudy {
             balance,
             contacts,
             per_area,
-            material,
+            layer,
             interface,
             planar,
         })

@@ -5,6 +5,7 @@ use super::error::{ModelError, PredictError};
 use super::model::State;
 use super::results;
 use crate::predict::uncertain::{Estimate, Outcome, Refusal};
+use crate::predict::virtual_material::VirtualMaterial;
 
 /// A predicted joint.
 #[derive(Debug, Clone)]
@@ -85,6 +86,21 @@ impl<'s> Prediction<'s> {
         found.unwrap_or(&self.states[0])
     }
 
+    /// The isotropic material of the virtual layer at the nominal torque.
+    ///
+    /// # Errors
+    /// [`PredictError::Model`] where the model has no layer, or its moduli are those of no isotropic material.
+    pub fn material(&self) -> Result<VirtualMaterial, PredictError> {
+        let refused = |reason: ModelError| PredictError::Model {
+            path: self.study.path.clone(),
+            key: "layer".to_owned(),
+            reason: Box::new(reason),
+        };
+        let layer = self.nominal().layer.as_ref();
+        let layer = layer.ok_or_else(|| refused(ModelError::NoLayer))?;
+        layer.material.map_err(|reason| refused(reason.into()))
+    }
+
     /// What the draws say of a result, such as `k_yy`, at a torque.
     #[must_use]
     pub fn estimate(&self, name: &str, torque_n_m: Option<f64>) -> Option<&Estimate> {
@@ -98,7 +114,7 @@ fn key_of(error: &ModelError) -> &'static str {
     match error {
         ModelError::Material(_) => "materials",
         ModelError::Roughness(_) | ModelError::Fit(_) => "surface",
-        ModelError::Fractal(_) | ModelError::VirtualMaterial(_) => "contact",
+        ModelError::Fractal(_) | ModelError::VirtualMaterial(_) | ModelError::NoLayer => "contact",
         ModelError::Pressure(_) => "pressure",
         ModelError::Tightening(_) => "tightening",
         ModelError::Field(_) => "interface.field",

@@ -55,7 +55,14 @@ impl Prediction<'_> {
                 state.interface.normal_loss_factor(),
                 state.interface.tangential_loss_factor(),
             ];
-            if state.material.is_some() && normal + tangential == 0.0 {
+            if let Some(layer) = &state.layer
+                && let Err(reason) = &layer.material
+            {
+                warnings.push(format!(
+                    "no isotropic material stands for the layer{at}: {reason}"
+                ));
+            }
+            if state.layer.is_some() && normal + tangential == 0.0 {
                 warnings.push(format!(
                     "the layer has no damping{at}: its model gives none; state layer.loss_factor"
                 ));

@@ -1,12 +1,10 @@
 //! Fractal dimension and roughness from the spectrum of profiles: a straight line on logarithmic scales.
 
-use std::fmt;
-
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
-
 use super::bands::Bands;
-use super::special::{NORMAL_975, chi_squared_95, digamma_less_log, trigamma};
-use super::{Detrend, FitError, Profile, Roughness, Spectrum, Welch, Window};
+use super::fractal::Fractal;
+use super::line::Line;
+use super::special::{NORMAL_975, chi_squared_95};
+use super::{Detrend, FitError, FitWarning, Profile, Roughness, Spectrum, Welch, Window};
 use crate::identify::student_975;
 
 /// How profiles are fitted.
@@ -45,9 +43,9 @@ impl Default for FitSettings {
 }
 
 /// Steps in the shortest wavelength of the default band: there the folded spectrum is a few per cent.
-const DEFAULT_STEPS: f64 = 8.0;
+pub(super) const DEFAULT_STEPS: f64 = 8.0;
 /// Waves in a segment at the longest wavelength of the default band.
-const DEFAULT_WAVES: f64 = 6.0;
+pub(super) const DEFAULT_WAVES: f64 = 6.0;
 /// Fewer steps in a wave than this are worth a warning.
 const WARN_STEPS: f64 = 4.0;
 /// Fewer waves in a segment than this are worth a warning.
@@ -86,76 +84,6 @@ pub struct BandMean {
     pub density_m3: f64,
     /// Standard deviation of its natural logarithm.
     pub log_standard_deviation: f64,
-}
-
-/// What is doubtful about a fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum FitWarning {
-    /// Waves that the sampling hardly resolves.
-    NearSampling {
-        /// Shortest wavelength over the step.
-        steps: f64,
-    },
-    /// Waves of which a segment has few.
-    NearSegment {
-        /// Segment over the longest wavelength.
-        waves: f64,
-    },
-    /// A spectrum that is no straight line within its scatter.
-    NotStraight {
-        /// χ² of the fit.
-        chi_squared: f64,
-        /// Bands less two.
-        degrees_of_freedom: usize,
-    },
-    /// An interval of D that goes beyond what a profile can have.
-    DimensionNearEnd {
-        /// 95 % interval of D.
-        interval: [f64; 2],
-    },
-}
-
-impl fmt::Display for FitWarning {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NearSampling { steps } => write!(
-                formatter,
-                "the shortest wavelength of the fit is {steps:.1} steps: shorter waves fold into it, and instruments smooth it; \
-                 use {DEFAULT_STEPS} steps or more"
-            ),
-            Self::NearSegment { waves } => write!(
-                formatter,
-                "the longest wavelength of the fit is in a segment only {waves:.1} times, where the window and the line taken off bias it; \
-                 lengthen the segments or shorten the band to {DEFAULT_WAVES} times"
-            ),
-            Self::NotStraight {
-                chi_squared,
-                degrees_of_freedom,
-            } => write!(
-                formatter,
-                "the spectrum is no straight line within its scatter (χ² = {chi_squared:.1} with {degrees_of_freedom} degrees of freedom): \
-                 the surface is no fractal over this band; the intervals are widened accordingly"
-            ),
-            Self::DimensionNearEnd {
-                interval: [low, high],
-            } => write!(
-                formatter,
-                "the 95 % interval of D, {low:.3} to {high:.3}, goes beyond (1, 2)"
-            ),
-        }
-    }
-}
-
-/// A straight line through the logarithms of band means.
-struct Line {
-    /// ln S at the reference frequency, and the slope.
-    at_reference: Vector2<f64>,
-    covariance: Matrix2<f64>,
-    chi_squared: f64,
-    log_standard_deviation: Vec<f64>,
-    /// ln of each band's mean over the line.
-    residual: DVector<f64>,
 }
 
 impl ProfileFit {
@@ -201,9 +129,10 @@ impl ProfileFit {
         let [low, high] = bands.ends_per_m();
         let wavelength_band_m = [1.0 / high, 1.0 / low];
         let reference = bands.centre().iter().sum::<f64>() / bands.count() as f64;
-        let line = fitted(&spectrum, &bands, &welch, &points, reference).ok_or(FitError::Flat {
-            wavelength_m: wavelength_band_m,
-        })?;
+        let line =
+            Line::fitted(&spectrum, &bands, &welch, &points, reference).ok_or(FitError::Flat {
+                wavelength_m: wavelength_band_m,
+            })?;
         let degrees_of_freedom = bands.count() - 2;
         let freedom = degrees_of_freedom as f64;
         let inflated = line.chi_squared > chi_squared_95(freedom);
@@ -436,138 +365,4 @@ fn prepared(
     };
     welch.check(shortest)?;
     Ok((welch, first_m, points))
-}
-
-/// Fits ln S = a + k (ln f − reference) to band means; `None` if there is no power in a band.
-fn fitted(
-    spectrum: &Spectrum,
-    bands: &Bands,
-    welch: &Welch,
-    points: &[usize],
-    reference: f64,
-) -> Option<Line> {
-    let count = bands.count();
-    let relative = bands.covariance(welch, points);
-    // A mean of gamma variables is nearly one itself, of shape 1/variance: the mean and the variance of its logarithm.
-    let shape = |band: usize| 1.0 / relative[band][band];
-    let bias = DVector::from_fn(count, |band, _| digamma_less_log(shape(band)));
-    let log_variance: Vec<f64> = (0..count).map(|band| trigamma(shape(band))).collect();
-    let covariance = DMatrix::from_fn(count, count, |a, b| {
-        relative[a][b] * (log_variance[a] * log_variance[b] * shape(a) * shape(b)).sqrt()
-    });
-    let weight = covariance.cholesky()?.inverse();
-    let design = DMatrix::from_fn(count, 2, |band, column| match column {
-        0 => 1.0,
-        _ => bands.centre()[band] - reference,
-    });
-    let normal = design.transpose() * &weight;
-    let information = &normal * &design;
-    let information = Matrix2::from_fn(|row, column| information[(row, column)]);
-    let line_covariance = information.try_inverse()?;
-
-    let (frequency, density) = (spectrum.frequency_per_m(), spectrum.density_m3());
-    let smoothing = welch.smoothing();
-    let residual = |line: &Vector2<f64>| -> Option<DVector<f64>> {
-        let slope = line[1];
-        // Mean of S/S_line over the band. The window's main lobe lifts a spectrum f^k by ½ k (k − 1) σ²/n², n the line's number.
-        let means = bands.means(|place| {
-            let lift = 1.0 + 0.5 * slope * (slope - 1.0) * smoothing / (place as f64).powi(2);
-            let on_line = (line[0] + slope * (frequency[place].ln() - reference)).exp();
-            density[place] / (on_line * lift.max(1.0))
-        });
-        let valid = means.iter().all(|mean| mean.is_finite() && *mean > 0.0);
-        valid.then(|| DVector::from_iterator(count, means.iter().map(|mean| mean.ln())) - &bias)
-    };
-    let start = bands.means(|place| density[place]);
-    let logarithms = start.iter().map(|mean| mean.ln()).sum::<f64>() / count as f64;
-    let mut line = Vector2::new(logarithms, -2.0);
-    let mut rest = residual(&line)?;
-    // The weighted mean ratio of each band depends on the line a little: Newton with the slope at the band's middle.
-    for _ in 0..100 {
-        let step = line_covariance * (&normal * &rest).fixed_rows::<2>(0).into_owned();
-        line += step;
-        rest = residual(&line)?;
-        if step.amax() < 1e-13 * line.amax() {
-            break;
-        }
-    }
-    let chi_squared = rest.dot(&(&weight * &rest));
-    Some(Line {
-        at_reference: line,
-        covariance: line_covariance,
-        chi_squared,
-        log_standard_deviation: log_variance
-            .iter()
-            .map(|variance| variance.sqrt())
-            .collect(),
-        residual: rest,
-    })
-}
-
-/// D and G from the line.
-struct Fractal {
-    roughness: Roughness,
-    covariance: [[f64; 2]; 2],
-    dimension_interval: [f64; 2],
-    roughness_interval_m: [f64; 2],
-}
-
-impl Fractal {
-    fn from_line(
-        line: Vector2<f64>,
-        covariance: Matrix2<f64>,
-        reference: f64,
-        quantile: f64,
-        gamma: f64,
-        wavelength_m: [f64; 2],
-    ) -> Result<Self, FitError> {
-        let [at_reference, slope] = [line[0], line[1]];
-        // Zhao (31): the slope is 2D − 5, ln S(1) = 2(D − 1) ln G − ln(2 ln γ)
-        let dimension = 0.5 * (5.0 + slope);
-        let standard_deviation = 0.5 * covariance[(1, 1)].sqrt();
-        let outside = FitError::Dimension {
-            dimension,
-            standard_deviation,
-            slope,
-            wavelength_m,
-        };
-        if !(dimension > 1.0 && dimension < 2.0) {
-            return Err(outside);
-        }
-        let twice = 2.0 * (dimension - 1.0);
-        let log_roughness = (at_reference - slope * reference + (2.0 * gamma.ln()).ln()) / twice;
-        // d ln G = (da − (ln f₀ + ln G) dk)/(2(D − 1))
-        let lever = reference + log_roughness;
-        let [aa, ak, kk] = [covariance[(0, 0)], covariance[(0, 1)], covariance[(1, 1)]];
-        let numerator = aa - 2.0 * lever * ak + lever * lever * kk;
-        let with_slope = ak - lever * kk;
-        // Fieller: all g with (u − g q)² ≤ z² var(u − g q), where q = 2(D − 1) and g is ln G.
-        let z_squared = quantile * quantile;
-        let leading = twice * twice - z_squared * kk;
-        if leading <= 0.0 {
-            return Err(FitError::Undetermined {
-                dimension,
-                standard_deviation,
-            });
-        }
-        let middle = -z_squared * with_slope / leading;
-        let half = (middle * middle + z_squared * numerator / leading).sqrt();
-        let roughness =
-            Roughness::new(dimension, log_roughness.exp()).map_err(|_| outside.clone())?;
-        Ok(Self {
-            roughness,
-            covariance: [
-                [0.25 * kk, 0.5 * with_slope / twice],
-                [0.5 * with_slope / twice, numerator / (twice * twice)],
-            ],
-            dimension_interval: [
-                dimension - quantile * standard_deviation,
-                dimension + quantile * standard_deviation,
-            ],
-            roughness_interval_m: [
-                (log_roughness + middle - half).exp(),
-                (log_roughness + middle + half).exp(),
-            ],
-        })
-    }
 }

@@ -187,8 +187,10 @@ impl Profile {
         }
         text.push_str("distance_mm,height_um\n");
         for (point, height_m) in self.height_m.iter().enumerate() {
-            let distance_mm = 1e3 * (self.start_m + self.step_m * point as f64);
-            let _ = writeln!(text, "{distance_mm:.6},{:.6}", 1e6 * height_m);
+            // Picometres and femtometres are finer than any instrument.
+            let rounded = |value: f64| (1e9 * value).round() / 1e9;
+            let distance_mm = rounded(1e3 * (self.start_m + self.step_m * point as f64));
+            let _ = writeln!(text, "{distance_mm},{}", rounded(1e6 * height_m));
         }
         text
     }
@@ -280,7 +282,11 @@ fn check_points(distance_m: &[f64], height_m: &[f64]) -> Result<f64, ProfileErro
         }),
         None => {
             let last = distance_m.len() - 1;
-            Ok((distance_m[last] - distance_m[0]) / last as f64)
+            let step_m = (distance_m[last] - distance_m[0]) / last as f64;
+            match step_m.is_normal() {
+                true => Ok(step_m),
+                false => Err(ProfileError::Step(step_m)),
+            }
         }
     }
 }

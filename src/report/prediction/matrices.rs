@@ -111,15 +111,19 @@ fn layer(found: &Prediction<'_>) -> String {
         .states
         .iter()
         .filter_map(|state| {
-            let layer = state.material.as_ref()?;
+            let layer = state.layer.as_ref()?;
+            let material = layer.material.as_ref().ok();
+            let or_dash = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), number);
             let torque = state.torque_n_m.map_or_else(|| "–".to_owned(), number);
             Some(
                 [
                     number_cell(&torque),
-                    number_cell(&number(layer.youngs_modulus_pa)),
-                    number_cell(&number(layer.shear_modulus_pa)),
-                    number_cell(&number(layer.poissons_ratio)),
-                    number_cell(&number(layer.density_kg_per_m3)),
+                    number_cell(&number(layer.moduli.youngs_modulus_pa)),
+                    number_cell(&number(layer.moduli.shear_modulus_pa)),
+                    number_cell(&or_dash(material.map(|material| material.poissons_ratio))),
+                    number_cell(&or_dash(
+                        material.map(|material| material.density_kg_per_m3),
+                    )),
                     number_cell(&number(layer.thickness_m)),
                 ]
                 .concat(),

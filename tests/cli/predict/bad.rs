@@ -13,7 +13,7 @@ fn unknown_keys_and_methods_are_told_with_their_line() {
     refused(
         "hardness =",
         "hardnes =",
-        &["study.toml", "line 18", "hardnes"],
+        &["study.toml", "line 17", "hardnes"],
     );
     refused(
         "\"fractal-contact\"",
@@ -91,7 +91,17 @@ fn contacts_outside_the_model_are_refused_with_the_reason() {
     refused(
         "hardness = 1.96e9",
         "hardness = 3e7",
-        &["`contact`", "element", "Pa"],
+        &["`contact`", "element 188", "q = T/(μP)"],
+    );
+    bench(&replaced(&replaced(STUDY, "1.96e9", "3e7"), "= 1e8", "= 0")).refused(
+        &PREDICT,
+        &[
+            "`contact`",
+            "element",
+            "3",
+            "Pa",
+            "the parts flow as a whole",
+        ],
     );
     refused(
         "friction = 0.3",
@@ -138,7 +148,7 @@ fn bolts_that_cannot_be_are_refused() {
     );
     refused(
         "thickness = [0.01, 0.01]\n",
-        "thickness = [0.01, 0.01]\nbending_moment = [0, 2000]\n",
+        "thickness = [0.01, 0.01]\nbending_moment = [0, 3000]\n",
         &["bolt", "raise the preload or lower the moment"],
     );
     refused("model = \"kavi\"\n", "", &["`pressure.model`", "uniform"]);

@@ -223,7 +223,8 @@ fn a_calibrated_beam_does_not_depend_on_its_preload() {
         .replace(
             "stiffness_ratio = 0.93",
             "stiffness_ratio = \"0.93 ± 0.01\"",
-        );
+        )
+        .replace("[motion]", "[uncertainty]\ndraws = 40000\n[motion]");
     let found = run(&text);
     let row = |name: &str| found.scatter.iter().find(|row| row.name == name).unwrap();
     let relative = |name: &str| row(name).standard_deviation / row(name).mean;

@@ -174,16 +174,27 @@ mod tests {
         ]
     }
 
-    fn law(fractal_dimension: f64, roughness_m: f64) -> ContactLaw {
+    const LARGEST_PA: f64 = 9e6;
+
+    /// Surfaces whose q = T/(μP) comes up to `friction_ratio` at pressures up to the largest.
+    fn law(fractal_dimension: f64, roughness_m: f64, friction_ratio: f64) -> ContactLaw {
         let iron = Material::new(1.5e11, 0.28).unwrap();
-        let friction = Friction {
-            coefficient: 0.3,
-            shear_strength_pa: 5e7,
-        };
-        let roughness = Roughness::new(fractal_dimension, roughness_m).unwrap();
         let pair = Pair { a: iron, b: iron };
+        let roughness = Roughness::new(fractal_dimension, roughness_m).unwrap();
+        let with = |shear_strength_pa: f64| {
+            let friction = Friction {
+                coefficient: 0.3,
+                shear_strength_pa,
+            };
+            FractalContact::new(&pair, roughness, 1.96e9, friction, 0.06).unwrap()
+        };
+        // q is proportional to the shear stress
+        let slight = with(1.0);
+        let most = (1..=1000)
+            .map(|k| slight.at(LARGEST_PA * f64::from(k) / 1000.0).unwrap())
+            .fold(0.0, |most, found| f64::max(most, found.friction_ratio));
         ContactLaw {
-            contact: FractalContact::new(&pair, roughness, 1.96e9, friction, 0.06).unwrap(),
+            contact: with(friction_ratio / most),
             loss_factor: LossFactor::default(),
         }
     }
@@ -199,14 +210,13 @@ mod tests {
             (5.0 / 3.0, 3e-9),
             (1.85, 2e-8),
         ] {
-            let law = law(dimension, roughness_m);
-            let largest_pa = 9e6;
-            let curve = ContactCurve::new(&law, largest_pa).unwrap();
+            let law = law(dimension, roughness_m, 0.6);
+            let curve = ContactCurve::new(&law, LARGEST_PA).unwrap();
             let (mut by_curve, mut by_element) = ([0.0; 4], [0.0; 4]);
             let mut worst: f64 = 0.0;
             for k in 0..4000 {
                 // a paraboloid of pressure about a bolt, zero at its rim
-                let pressure_pa = largest_pa * (1.0 - f64::from(k) / 3999.0);
+                let pressure_pa = LARGEST_PA * (1.0 - f64::from(k) / 3999.0);
                 let (found, expected) = (
                     densities(curve.at(pressure_pa).unwrap()),
                     densities(law.at(pressure_pa).unwrap()),
@@ -230,25 +240,11 @@ mod tests {
     /// Where the friction is nearly used up, the tangential loss factor grows beyond all bounds; the curve follows.
     #[test]
     fn near_the_end_of_friction_the_curve_stays_with_the_contact() {
-        let mut law = law(1.42, 1.21e-8);
-        let largest_pa = 9e6;
-        let ratio = (1..1000)
-            .map(|k| largest_pa * f64::from(k) / 1000.0)
-            .map(|pressure_pa| law.contact.at(pressure_pa).unwrap().friction_ratio)
-            .fold(0.0, f64::max);
-        let iron = Material::new(1.5e11, 0.28).unwrap();
-        let friction = Friction {
-            coefficient: 0.3,
-            // q up to 0.95
-            shear_strength_pa: 5e7 * 0.95 / ratio,
-        };
-        let roughness = Roughness::new(1.42, 1.21e-8).unwrap();
-        let pair = Pair { a: iron, b: iron };
-        law.contact = FractalContact::new(&pair, roughness, 1.96e9, friction, 0.06).unwrap();
-        let curve = ContactCurve::new(&law, largest_pa).unwrap();
+        let law = law(1.42, 1.21e-8, 0.95);
+        let curve = ContactCurve::new(&law, LARGEST_PA).unwrap();
         let mut most: f64 = 0.0;
         for k in 0..1000 {
-            let pressure_pa = largest_pa * (1.0 - f64::from(k) / 1000.0);
+            let pressure_pa = LARGEST_PA * (1.0 - f64::from(k) / 1000.0);
             let (found, expected) = (
                 densities(curve.at(pressure_pa).unwrap()),
                 densities(law.at(pressure_pa).unwrap()),
@@ -264,7 +260,7 @@ mod tests {
 
     #[test]
     fn where_nothing_is_elastic_there_is_nothing() {
-        let law = law(1.42, 1.21e-8);
+        let law = law(1.42, 1.21e-8, 0.6);
         let below = 0.5 * law.contact.critical_pressure_pa();
         let curve = ContactCurve::new(&law, below).unwrap();
         assert_eq!(curve.at(below).unwrap(), Contact::default());
@@ -273,7 +269,7 @@ mod tests {
 
     #[test]
     fn pressures_beyond_the_model_are_refused_as_the_contact_does() {
-        let law = law(1.42, 1.21e-8);
+        let law = law(1.42, 1.21e-8, 0.6);
         let beyond = ContactCurve::new(&law, 3e9).unwrap_err();
         assert_eq!(beyond, law.at(3e9).unwrap_err());
     }

@@ -203,7 +203,7 @@ fn numbers() -> impl Strategy<Value = Numbers> {
                     poisson: [nu1, nu2],
                     hardness_pa: power(hardness),
                     friction: 0.2,
-                    // q is slip where all is plastic, and grows with the pressure.
+                    // q is slip where all is plastic; above that it falls first, then grows with the pressure.
                     shear_pa: slip * 0.2 * power(hardness),
                     area_m2: power(area),
                 }

@@ -5,8 +5,9 @@ mod higher;
 use std::{array::from_fn, num::NonZeroU32};
 
 use crate::{
-    joint::Motion,
     lap::{Body, Lap, LapLoads, LapState},
+    law::Polynomial,
+    motion::Motion,
     pair::Pair,
 };
 use higher::Higher;
@@ -58,16 +59,19 @@ impl<const D: usize> LapIntegrator<D> {
             from_fn(|i| from_fn(|j| over_inertia(i, matrix[i][j], matrix[i][j])))
         };
         let law = &lap.joint;
+        let polynomials = law.polynomials();
         Self {
             mobility: of_bodies(|_, _| 1.0),
             support: of_bodies(|body, i| body.stiffness[i]),
-            joint: of_joint(&law.stiffness),
-            cubic: from_fn(|i| over_inertia(i, law.cubic[i], law.cubic[i])),
+            joint: of_joint(&law.linear.stiffness),
+            cubic: from_fn(|i| {
+                over_inertia(i, polynomials[i].springs[0], polynomials[i].springs[0])
+            }),
             damping: Damping {
                 support: of_bodies(|body, i| body.damping[i]),
-                joint: of_joint(&law.damping),
+                joint: of_joint(&law.linear.damping),
             },
-            higher: (!law.higher.are_none()).then(|| Higher::new(lap)),
+            higher: (!polynomials.iter().all(Polynomial::is_cubic)).then(|| Higher::new(lap)),
         }
     }
 

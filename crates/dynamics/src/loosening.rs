@@ -4,8 +4,9 @@
 use std::array::from_fn;
 
 use crate::{
-    joint::{JointLaw, Motion},
     lap::{Lap, LapLoads, LapState},
+    law::{JointLaw, JointMemory},
+    motion::Motion,
     vector::dot,
 };
 
@@ -44,11 +45,11 @@ impl<const D: usize> LapConditions<D> {
     /// Power of the external loads, of the dampers and of the changing stiffness in this state, W.
     #[must_use]
     pub fn powers(&self, state: &LapState<D>) -> PassedEnergy {
-        let relative = state.a.relative_to(&state.b);
+        let relative = state.relative();
         PassedEnergy {
             // P = F_aᵀ ẋ_a + F_bᵀ ẋ_b
             supplied: dot(&self.loads.a, &state.a.velocity) + dot(&self.loads.b, &state.b.velocity),
-            dissipated: self.lap.dissipated_power(state),
+            dissipated: self.lap.dissipated_power(&JointMemory::REST, state),
             // ∂U/∂t at constant r = ½ rᵀ (dK/dt) r + ¼ Σ (dk3/dt) r⁴: U is linear in the coefficients
             preload: self.law_rate.stored_energy(&relative.displacement),
         }
@@ -89,7 +90,9 @@ impl<const D: usize> LapConditions<D> {
 
     /// Velocities and accelerations, and the powers.
     fn rate(&self, state: &LapState<D>) -> CountedState<D> {
-        let [of_a, of_b] = self.lap.accelerations(state, &self.loads);
+        let [of_a, of_b] = self
+            .lap
+            .accelerations(&JointMemory::REST, state, &self.loads);
         let rate = |motion: &Motion<D>, acceleration| Motion {
             displacement: motion.velocity,
             velocity: acceleration,

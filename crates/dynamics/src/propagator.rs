@@ -4,8 +4,8 @@ use std::num::NonZeroU32;
 
 use crate::{
     integrator::LapIntegrator,
-    joint::Motion,
     lap::{LapLoads, LapState},
+    motion::Motion,
 };
 
 impl<const D: usize> LapState<D> {

@@ -81,14 +81,15 @@ impl<const D: usize> Lap<D> {
             return None;
         }
         let size = 2 * D;
+        let joint = self.joint.linearised_about(&[0.0; D]).linear;
         let mut stiffness = [[0.0; MAX_ORDER]; MAX_ORDER];
         let mut damping = [[0.0; MAX_ORDER]; MAX_ORDER];
         self.assemble(
-            &self.joint.stiffness,
+            &joint.stiffness,
             |body, i| body.stiffness[i],
             &mut stiffness,
         );
-        self.assemble(&self.joint.damping, |body, i| body.damping[i], &mut damping);
+        self.assemble(&joint.damping, |body, i| body.damping[i], &mut damping);
 
         // State (s x, ẋ) in mass-normalised coordinates x ← √m x with s² = ‖M⁻½ K M⁻½‖, so that both halves of the
         // companion matrix [[0, sI], [−K̃/s, −C̃]] have entries of one size.

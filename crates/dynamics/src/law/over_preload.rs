@@ -7,7 +7,8 @@
 
 use std::fmt;
 
-use crate::{definiteness::is_positive_semidefinite, higher::HigherTerms, joint::JointLaw};
+use super::JointLaw;
+use crate::definiteness::is_positive_semidefinite;
 
 /// Halvings that find how much of a slope a matrix bears: as many as a double has digits.
 const HALVINGS: u32 = 53;
@@ -268,8 +269,8 @@ impl<const D: usize> Knot<D> {
             before.map(|(width_n_m, _)| -width_n_m / 3.0),
             after.map(|(width_n_m, _)| width_n_m / 3.0),
         ];
-        limit(&law.stiffness, &mut slope.stiffness, thirds);
-        limit(&law.damping, &mut slope.damping, thirds);
+        limit(&law.linear.stiffness, &mut slope.linear.stiffness, thirds);
+        limit(&law.linear.damping, &mut slope.linear.damping, thirds);
         Some(Self {
             preload_n_m,
             law,
@@ -345,57 +346,6 @@ fn limit<const D: usize>(
     }
     for entry in slope.iter_mut().flatten() {
         *entry *= low;
-    }
-}
-
-impl<const D: usize> JointLaw<D> {
-    /// A function of each coefficient of several laws.
-    #[inline]
-    fn each<const N: usize>(laws: [&Self; N], of: impl Fn([f64; N]) -> f64) -> Self {
-        let matrix = |part: fn(&Self) -> &[[f64; D]; D]| {
-            std::array::from_fn(|i| std::array::from_fn(|j| of(laws.map(|law| part(law)[i][j]))))
-        };
-        let list = |part: fn(&Self) -> &[f64; D]| {
-            std::array::from_fn(|i| of(laws.map(|law| part(law)[i])))
-        };
-        let higher = if laws.iter().all(|law| law.higher.are_none()) {
-            HigherTerms::NONE
-        } else {
-            HigherTerms {
-                quintic: list(|law| &law.higher.quintic),
-                septic: list(|law| &law.higher.septic),
-                damping_quadratic: list(|law| &law.higher.damping_quadratic),
-                damping_quartic: list(|law| &law.higher.damping_quartic),
-            }
-        };
-        Self {
-            stiffness: matrix(|law| &law.stiffness),
-            damping: matrix(|law| &law.damping),
-            cubic: list(|law| &law.cubic),
-            higher,
-        }
-    }
-
-    /// Every coefficient times `factor`: the change of the law when what it depends on changes by `factor`.
-    #[must_use]
-    pub fn times(&self, factor: f64) -> Self {
-        Self::each([self], |[coefficient]| factor * coefficient)
-    }
-
-    fn is_finite(&self) -> bool {
-        let higher = &self.higher;
-        let lists = [
-            &self.cubic,
-            &higher.quintic,
-            &higher.septic,
-            &higher.damping_quadratic,
-            &higher.damping_quartic,
-        ];
-        let matrices = self.stiffness.iter().chain(&self.damping);
-        matrices
-            .chain(lists)
-            .flatten()
-            .all(|coefficient| coefficient.is_finite())
     }
 }
 

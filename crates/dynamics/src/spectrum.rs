@@ -140,7 +140,7 @@ impl<const D: usize> Lap<D> {
 mod tests {
     use super::*;
     use crate::lap::Body;
-    use crate::{higher::HigherTerms, joint::JointLaw};
+    use crate::law::{Linear, Polynomial};
 
     fn pirdayr(k: f64, c: f64, m: f64, k12: f64, c12: f64) -> Lap<1> {
         let body = Body {
@@ -149,12 +149,11 @@ mod tests {
             damping: [c],
         };
         Lap {
-            joint: JointLaw {
+            joint: Linear {
                 stiffness: [[k12]],
                 damping: [[c12]],
-                cubic: [0.0],
-                higher: HigherTerms::NONE,
-            },
+            }
+            .beside([0.0].map(Polynomial::cubic)),
             a: body,
             b: body,
         }

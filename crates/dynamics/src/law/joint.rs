@@ -253,3 +253,118 @@ impl<const D: usize> JointLaw<D> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law() -> JointLaw<2> {
+        Linear {
+            stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+            damping: [[10.83, -0.83], [-0.83, 0.083]],
+        }
+        .beside(Polynomial::on_each(
+            &[[-3e11, 4e6], [5e16, -3e9], [-1e21, 2e12]],
+            &[[-4e6, 30.0], [7e11, -2e4]],
+        ))
+    }
+
+    #[test]
+    fn the_linear_law_is_the_difference_quotient_of_the_load() {
+        let law = law();
+        let about = [1.3e-3, -8e-3];
+        let linear = law.linearised_about(&about);
+        for j in 0..2 {
+            let load = |step: f64, rate: f64| {
+                let mut motion = Motion {
+                    displacement: about,
+                    velocity: [0.0; 2],
+                };
+                motion.displacement[j] += step;
+                motion.velocity[j] += rate;
+                law.load_on_b(&motion)
+            };
+            let step = 1e-6 * about[j].abs();
+            let [above, below] = [step, -step].map(|step| load(step, 0.0));
+            let [still, moving] = [0.0, 1.0].map(|rate| load(0.0, rate));
+            for i in 0..2 {
+                let stiffness = (above[i] - below[i]) / (2.0 * step);
+                let damping = moving[i] - still[i];
+                assert!((linear.linear.stiffness[i][j] / stiffness - 1.0).abs() < 1e-6);
+                assert!((linear.linear.damping[i][j] / damping - 1.0).abs() < 1e-9);
+            }
+        }
+        assert!(linear.is_linear());
+    }
+
+    #[test]
+    fn between_the_extremes_nothing_is_larger_or_smaller() {
+        let alone = law().linear.beside([-3e11, 4e6].map(Polynomial::cubic));
+        let without_septic = law().linear.beside(law().polynomials().map(|mut terms| {
+            terms.springs[2] = 0.0;
+            terms
+        }));
+        for law in [law(), alone, without_septic] {
+            for (i, amplitude) in [(0, 8e-3), (1, 0.05)] {
+                let at = |r: f64| {
+                    let mut displacement = [0.0; 2];
+                    displacement[i] = r;
+                    let linear = law.linearised_about(&displacement).linear;
+                    [linear.stiffness[i][i], linear.damping[i][i]]
+                };
+                let extremes: Vec<[f64; 2]> = law.extremes(i, amplitude).map(at).collect();
+                for kind in 0..2 {
+                    let all = || extremes.iter().map(|values| values[kind]);
+                    let least = all().fold(f64::INFINITY, f64::min);
+                    let most = all().fold(f64::NEG_INFINITY, f64::max);
+                    let slack = 1e-12 * most.abs().max(least.abs());
+                    for n in 0..=5000 {
+                        let value = at(amplitude * f64::from(n) / 5000.0)[kind];
+                        assert!(
+                            (least - slack..=most + slack).contains(&value),
+                            "{i} {kind} {n}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_term_to_reach_the_linear_one_tells_the_amplitude() {
+        let [y, theta] = law().nonlinear_amplitude();
+        // c2 r² = c: √(10.83/4e6); c2 θ² = c: √(0.083/30) is past √(1.29e3/4e6)
+        assert!((y / (5.73e5_f64 / 3e11).sqrt() - 1.0).abs() < 1e-15);
+        assert!((theta / (1.29e3_f64 / 4e6).sqrt() - 1.0).abs() < 1e-15);
+        let mut law = law().linear.beside([0.0, -0.0].map(Polynomial::cubic));
+        assert_eq!(law.nonlinear_amplitude(), [f64::INFINITY; 2]);
+        law.on[0] = Polynomial::with(&[0.0, 0.0, -5.73e5 / 64.0], &[]).into();
+        assert!((law.nonlinear_amplitude()[0] - 2.0).abs() < 1e-15);
+        law.linear.stiffness[0][0] = 0.0;
+        assert_eq!(law.nonlinear_amplitude()[0], 0.0);
+    }
+
+    #[test]
+    fn with_rotation_the_coupling_takes_its_share_of_the_damping() {
+        let law = Linear {
+            damping: [[10.0, 2.0], [2.0, 1.0]],
+            ..Linear::NONE
+        }
+        .beside(Polynomial::on_each(&[], &[[-3.0, -1.0]]));
+        // 10 − 4/1 = 6 = 3 u and 1 − 4/10 = 0.6 = u
+        let [y, theta] = law.active_amplitude().map(Option::unwrap);
+        assert!((y - 2.0_f64.sqrt()).abs() < 1e-15 && (theta - 0.6_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn damping_that_does_not_fall_is_never_where_a_joint_turns_active() {
+        for (c, dampers) in [(-1.0, [1.0, 0.0]), (0.0, [0.0, 0.0]), (1.0, [0.0, 2.0])] {
+            let law = Linear {
+                damping: [[c]],
+                ..Linear::NONE
+            }
+            .beside([Polynomial::with(&[], &dampers)]);
+            assert_eq!(law.active_amplitude(), [None]);
+        }
+    }
+}

@@ -172,6 +172,22 @@ impl<N: Number> Polynomial<N> {
         Self::with(&[k3], &[])
     }
 
+    /// The terms on each of several DOFs, as joint files list them: the springs of third, fifth, … order on each DOF, then the
+    /// dampers of second, fourth, … order; what is left out is zero.
+    #[must_use]
+    pub fn on_each<const D: usize>(springs: &[[N; D]], dampers: &[[N; D]]) -> [Self; D] {
+        let mut all = [Self::NONE; D];
+        for (i, own) in all.iter_mut().enumerate() {
+            for (term, list) in own.springs.iter_mut().zip(springs) {
+                *term = list[i];
+            }
+            for (term, list) in own.dampers.iter_mut().zip(dampers) {
+                *term = list[i];
+            }
+        }
+        all
+    }
+
     /// The terms without the cubic spring.
     #[must_use]
     pub fn without_cubic(&self) -> Self {

@@ -2,19 +2,15 @@
 
 use super::*;
 use crate::{
-    higher::HigherTerms,
     integrator::LapIntegrator,
     lap::Body,
-    over_preload::{Beyond, JointOverPreload},
+    law::{Beyond, JointOverPreload, Linear, Polynomial},
 };
 use std::num::NonZeroU32;
 
 fn joint() -> JointOverPreload<2> {
-    let law = |k: [[f64; 2]; 2], c: [[f64; 2]; 2], cubic| JointLaw {
-        stiffness: k,
-        damping: c,
-        cubic,
-        higher: HigherTerms::NONE,
+    let law = |stiffness: [[f64; 2]; 2], damping: [[f64; 2]; 2], cubic: [f64; 2]| {
+        Linear { stiffness, damping }.beside(cubic.map(Polynomial::cubic))
     };
     let table = [
         (
@@ -97,10 +93,10 @@ fn imbalance(fall: f64, steps: u32) -> (f64, f64) {
     }
     let before = conditions(&joint, fall, 0.0)
         .lap
-        .stored_energy(&START.state);
+        .stored_energy(&JointMemory::REST, &START.state);
     let after = conditions(&joint, fall, 0.08)
         .lap
-        .stored_energy(&counted.state);
+        .stored_energy(&JointMemory::REST, &counted.state);
     let passed = counted.passed;
     assert!(passed.preload < -0.01 * before, "{passed:?} of {before}");
     let missing = after - before - passed.supplied + passed.dissipated - passed.preload;

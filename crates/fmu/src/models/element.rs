@@ -2,14 +2,16 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{JointLaw, Motion};
+use bolted_joint_dynamics::{JointLaw, JointMemory, Motion};
 
 use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{
+            A, B, JointOutputs, is_active, joint_law, set_escape_amplitude, set_joint_outputs,
+        },
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -139,14 +141,11 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the law and the motions.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
-    let relative = relative::<D>(values);
-    let on_b = law.load_on_b(&relative);
+    let outputs = JointOutputs::new(law, &JointMemory::REST, &relative(values));
     // 0 − F is −F but for F = 0, which stays without a sign
-    A.set_load(values, &on_b.map(|load| 0.0 - load));
-    B.set_load(values, &on_b);
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-    values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+    A.set_load(values, &outputs.on_b.map(|load| 0.0 - load));
+    B.set_load(values, &outputs.on_b);
+    set_joint_outputs(values, &outputs, |output| output);
 }
 
 /// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
@@ -155,18 +154,13 @@ pub(super) fn differentiate<const D: usize>(
     values: &Values,
     change: &mut Values,
 ) {
-    let [relative, relative_change] = [values, &*change].map(relative::<D>);
-    let on_b = law.load_on_b_tangent(law_change, &relative, &relative_change);
+    let law = law.with_change(law_change);
+    let relative = relative(values).with_change(&relative(change));
+    let outputs = JointOutputs::new(&law, &JointMemory::REST, &relative);
+    let on_b = outputs.on_b.map(|load| load.change[0]);
     A.set_load(change, &on_b.map(|load| -load));
     B.set_load(change, &on_b);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = law.stored_energy_tangent(
-        law_change,
-        &relative.displacement,
-        &relative_change.displacement,
-    );
-    change[vr::POWER_DISSIPATED] =
-        law.dissipated_power_tangent(law_change, &relative, &relative_change);
+    set_joint_outputs(change, &outputs, |output| output.change[0]);
 }
 
 /// Motion of side a as seen from side b.

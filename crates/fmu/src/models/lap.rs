@@ -8,14 +8,16 @@ pub(crate) use prepared::SUBSTEPS_MAX;
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{Lap, LapLoads, LapState, Motion};
+use bolted_joint_dynamics::{Dual, JointMemory, Lap, LapLoads, LapState, Motion, Number};
 
 use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{
+            A, B, JointOutputs, is_active, joint_law, set_escape_amplitude, set_joint_outputs,
+        },
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -179,13 +181,8 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the bodies, the joint and their state.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
-    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = lap.stored_energy(state);
-    values[vr::POWER_DISSIPATED] = lap.dissipated_power(state);
-    let [of_a, of_b] = lap.accelerations(state, &loads(values));
-    A.set_acceleration(values, &of_a);
-    B.set_acceleration(values, &of_b);
+    let outputs = LapOutputs::new(lap, state, &loads(values));
+    outputs.write(values, |output| output);
 }
 
 /// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
@@ -194,22 +191,40 @@ pub(super) fn differentiate<const D: usize>(
     values: &Values,
     change: &mut Values,
 ) {
-    let [state, state_change] = [values, &*change].map(state::<D>);
-    let [relative, relative_change] =
-        [&state, &state_change].map(|state| state.a.relative_to(&state.b));
-    let on_b = lap
-        .joint
-        .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = lap.stored_energy_tangent(lap_change, &state, &state_change);
-    change[vr::POWER_DISSIPATED] = lap.dissipated_power_tangent(lap_change, &state, &state_change);
-    let [of_a, of_b] = lap.accelerations_tangent(
-        lap_change,
-        [&state, &state_change],
-        [&loads(values), &loads(change)],
-    );
-    A.set_acceleration(change, &of_a);
-    B.set_acceleration(change, &of_b);
+    let lap = lap.with_change(lap_change);
+    let state = state(values).with_change(&state(change));
+    let loads = loads(values).with_change(&loads(change));
+    LapOutputs::new(&lap, &state, &loads).write(change, |output: Dual<1>| output.change[0]);
+}
+
+/// What bodies and joint put out.
+struct LapOutputs<const D: usize, N> {
+    joint: JointOutputs<D, N>,
+    accelerations: [[N; D]; 2],
+}
+
+impl<const D: usize, N: Number> LapOutputs<D, N> {
+    #[inline]
+    fn new(lap: &Lap<D, N>, state: &LapState<D, N>, loads: &LapLoads<D, N>) -> Self {
+        let memory = &JointMemory::REST;
+        let joint = JointOutputs {
+            on_b: lap.joint.load_on_b_after(memory, &state.relative()),
+            stored_energy: lap.stored_energy(memory, state),
+            dissipated_power: lap.dissipated_power(memory, state),
+        };
+        Self {
+            joint,
+            accelerations: lap.accelerations(memory, state, loads),
+        }
+    }
+
+    #[inline]
+    fn write(&self, values: &mut Values, of: impl Fn(N) -> f64) {
+        set_joint_outputs(values, &self.joint, &of);
+        let [of_a, of_b] = self.accelerations.map(|list| list.map(&of));
+        A.set_acceleration(values, &of_a);
+        B.set_acceleration(values, &of_b);
+    }
 }
 
 /// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.

@@ -1,6 +1,8 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
-use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
+use bolted_joint_dynamics::{
+    Body, JointLaw, JointMemory, Linear, Motion, Number, Polynomial, is_positive_semidefinite,
+};
 
 use crate::interface::{Dependence, Dofs, Kind, Values, Variable, Variables, reference as vr};
 
@@ -110,17 +112,14 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     const SEPTIC: [usize; 2] = [vr::JOINT_K7_Y, vr::JOINT_K7_THETA];
     const DAMPING_QUADRATIC: [usize; 2] = [vr::JOINT_C2_Y, vr::JOINT_C2_THETA];
     const DAMPING_QUARTIC: [usize; 2] = [vr::JOINT_C4_Y, vr::JOINT_C4_THETA];
-    JointLaw {
+    Linear {
         stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
         damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
-        cubic: gather(values, &CUBIC),
-        higher: HigherTerms {
-            quintic: gather(values, &QUINTIC),
-            septic: gather(values, &SEPTIC),
-            damping_quadratic: gather(values, &DAMPING_QUADRATIC),
-            damping_quartic: gather(values, &DAMPING_QUARTIC),
-        },
     }
+    .beside(Polynomial::on_each(
+        &[CUBIC, QUINTIC, SEPTIC].map(|term| gather(values, &term)),
+        &[DAMPING_QUADRATIC, DAMPING_QUARTIC].map(|term| gather(values, &term)),
+    ))
 }
 
 /// Writes the calculated parameters `joint.escape_amplitude_y` and `joint.escape_amplitude_theta`.
@@ -134,13 +133,46 @@ pub(super) fn set_escape_amplitude<const D: usize>(values: &mut Values, amplitud
 
 /// Whether the joint's stiffness and damping can feed energy.
 pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
-    [&law.stiffness, &law.damping].map(|matrix| !is_positive_semidefinite(matrix))
+    [&law.linear.stiffness, &law.linear.damping].map(|matrix| !is_positive_semidefinite(matrix))
 }
 
-/// Writes the load on side b to the outputs `joint.F` and `joint.M`.
+/// What the joint puts out.
+pub(super) struct JointOutputs<const D: usize, N> {
+    /// Load on side b.
+    pub(super) on_b: [N; D],
+    /// Energy stored in the springs.
+    pub(super) stored_energy: N,
+    /// Power turned into heat.
+    pub(super) dissipated_power: N,
+}
+
+impl<const D: usize, N: Number> JointOutputs<D, N> {
+    /// Of a joint that remembers `memory`, at this relative motion.
+    #[inline]
+    pub(super) fn new(
+        law: &JointLaw<D, N>,
+        memory: &JointMemory<D>,
+        relative: &Motion<D, N>,
+    ) -> Self {
+        Self {
+            on_b: law.load_on_b_after(memory, relative),
+            stored_energy: law.stored_energy_after(memory, &relative.displacement),
+            dissipated_power: law.dissipated_power_after(memory, relative),
+        }
+    }
+}
+
+/// Writes what the joint puts out, or its change.
 #[inline]
-pub(super) fn set_joint_load<const D: usize>(values: &mut Values, load_on_b: &[f64; D]) {
-    scatter(values, &[vr::JOINT_FORCE, vr::JOINT_MOMENT], load_on_b);
+pub(super) fn set_joint_outputs<const D: usize, N: Copy>(
+    values: &mut Values,
+    outputs: &JointOutputs<D, N>,
+    of: impl Fn(N) -> f64,
+) {
+    let references = [vr::JOINT_FORCE, vr::JOINT_MOMENT];
+    scatter(values, &references, &outputs.on_b.map(&of));
+    values[vr::ENERGY_STORED] = of(outputs.stored_energy);
+    values[vr::POWER_DISSIPATED] = of(outputs.dissipated_power);
 }
 
 /// Name of a variable that both FMUs have.

@@ -1,16 +1,17 @@
 //! Reference values are SciPy's `PchipInterpolator` (1.17), and what the definitions ask for.
 
 use super::*;
+use crate::law::{Linear, Polynomial};
 
 type Matrix = [[f64; 2]; 2];
 
 fn law(stiffness: Matrix, damping: Matrix, cubic: [f64; 2]) -> JointLaw<2> {
-    JointLaw {
-        stiffness,
-        damping,
-        cubic,
-        higher: HigherTerms::NONE,
-    }
+    Linear { stiffness, damping }.beside(cubic.map(Polynomial::cubic))
+}
+
+/// k3 of the first DOF.
+fn cubic<const D: usize>(law: &JointLaw<D>) -> f64 {
+    law.on[0].polynomial().springs[0]
 }
 
 /// One DOF, with the numbers of a table of four torques: K, C, k3.
@@ -22,12 +23,11 @@ fn four_torques(beyond: Beyond) -> JointOverPreload<1> {
         (8.0, 4.07e6, 0.69, 1.97e3),
     ]
     .map(|(preload, k, c, k3)| {
-        let law = JointLaw {
+        let law = Linear {
             stiffness: [[k]],
             damping: [[c]],
-            cubic: [k3],
-            higher: HigherTerms::NONE,
-        };
+        }
+        .beside([k3].map(Polynomial::cubic));
         (preload, law)
     });
     JointOverPreload::new(&table, beyond).unwrap()
@@ -51,12 +51,12 @@ fn it_is_the_monotone_cubic_of_fritsch_and_butland() {
     for (preload, [k, c, k3], [dk, dc, dk3]) in references {
         let (law, slope) = (joint.law(preload), joint.slope(preload));
         for (found, expected) in [
-            (law.stiffness[0][0], k),
-            (law.damping[0][0], c),
-            (law.cubic[0], k3),
-            (slope.stiffness[0][0], dk),
-            (slope.damping[0][0], dc),
-            (slope.cubic[0], dk3),
+            (law.linear.stiffness[0][0], k),
+            (law.linear.damping[0][0], c),
+            (cubic(&law), k3),
+            (slope.linear.stiffness[0][0], dk),
+            (slope.linear.damping[0][0], dc),
+            (cubic(&slope), dk3),
         ] {
             let tolerance = 1e-13 * expected.abs().max(1e-3);
             assert!(
@@ -87,10 +87,15 @@ fn two_preloads_give_a_straight_line() {
     let expected = JointLaw::each([&first, &last], |[a, b]| a + 0.4 * (b - a));
     let difference = JointLaw::each([&found, &expected], |[a, b]| (a - b).abs());
     assert!(
-        difference.stiffness.iter().flatten().all(|d| *d < 1e-14),
+        difference
+            .linear
+            .stiffness
+            .iter()
+            .flatten()
+            .all(|d| *d < 1e-14),
         "{difference:?}"
     );
-    assert!((joint.slope(13.7).stiffness[0][0] - 8.5 / 5.0).abs() < 1e-14);
+    assert!((joint.slope(13.7).linear.stiffness[0][0] - 8.5 / 5.0).abs() < 1e-14);
 }
 
 #[test]
@@ -100,14 +105,14 @@ fn stiffness_and_damping_stay_positive_semidefinite_and_monotone() {
     let unlimited = |p: f64| {
         let entry = |i: usize, j: usize| {
             let scalar = table.map(|(preload, law)| {
-                let law = JointLaw {
-                    stiffness: [[law.stiffness[i][j] + 100.0]],
-                    ..JointLaw::NONE
+                let law = Linear {
+                    stiffness: [[law.linear.stiffness[i][j] + 100.0]],
+                    ..Linear::NONE
                 };
-                (preload, law)
+                (preload, law.into())
             });
             let joint = JointOverPreload::new(&scalar, Beyond::Refused).unwrap();
-            joint.law(p).stiffness[0][0] - 100.0
+            joint.law(p).linear.stiffness[0][0] - 100.0
         };
         [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
     };
@@ -117,10 +122,10 @@ fn stiffness_and_damping_stay_positive_semidefinite_and_monotone() {
         let preload = 1.0 + 1e-3 * f64::from(step);
         let law = joint.law(preload);
         assert!(
-            is_positive_semidefinite(&law.stiffness),
+            is_positive_semidefinite(&law.linear.stiffness),
             "{preload}: {law:?}"
         );
-        assert!(is_positive_semidefinite(&law.damping), "{preload}");
+        assert!(is_positive_semidefinite(&law.linear.damping), "{preload}");
         let [[a, b], [_, d]] = unlimited(preload);
         left += u32::from(a * d - b * b < -1e-9);
         // each entry goes the way that the table goes there
@@ -132,9 +137,16 @@ fn stiffness_and_damping_stay_positive_semidefinite_and_monotone() {
             [&gap[0].1, &gap[1].1, &before, &law],
             |[low, high, old, new]| (new - old) * (high - low).signum() + 1e-14 * (1.0 + new.abs()),
         );
-        let entries = way.stiffness.iter().chain(&way.damping).flatten();
+        let entries = way
+            .linear
+            .stiffness
+            .iter()
+            .chain(&way.linear.damping)
+            .flatten();
         assert!(
-            entries.chain(&way.cubic).all(|way| *way >= 0.0),
+            entries
+                .chain(way.on.iter().flat_map(|laws| laws.parameters()))
+                .all(|way| *way >= 0.0),
             "{preload}: {way:?}"
         );
         before = law;
@@ -167,7 +179,12 @@ fn slope_and_curvature_are_the_derivatives_and_the_slope_has_no_jump() {
             )
         }) {
             let error = JointLaw::each([&of, &change], |[a, b]| (a - b).abs());
-            let entries = error.stiffness.iter().flatten().chain(&error.cubic);
+            let entries = error
+                .linear
+                .stiffness
+                .iter()
+                .flatten()
+                .chain(error.on.iter().flat_map(|laws| laws.parameters()));
             assert!(
                 entries.copied().fold(0.0, f64::max) < 1e-6,
                 "{p}: {error:?}"
@@ -178,7 +195,11 @@ fn slope_and_curvature_are_the_derivatives_and_the_slope_has_no_jump() {
         let [below, above] = [knot - 1e-9, knot + 1e-9].map(|p| joint.slope(p));
         let jump = JointLaw::each([&below, &above], |[a, b]| (a - b).abs());
         assert!(
-            jump.stiffness.iter().flatten().all(|jump| *jump < 1e-6),
+            jump.linear
+                .stiffness
+                .iter()
+                .flatten()
+                .all(|jump| *jump < 1e-6),
             "{jump:?}"
         );
     }

@@ -8,10 +8,14 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, JointOverPreload, Lap, LapConditions, LapLoads, LapState, PassedEnergy,
+    CountedState, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions, LapLoads, LapState,
+    PassedEnergy,
 };
 
-use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
+use super::{
+    CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller,
+    stored_energy_change,
+};
 use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, Values, memory, reference as vr},
@@ -206,7 +210,9 @@ impl<const D: usize> Model for LooseningLap<D> {
         values[memory::COUNTED_PRELOAD] = values[vr::PRELOAD];
         values[memory::PRELOAD_WORK] = 0.0;
         // what the balance E = E₀ + supplied − dissipated + preload starts from
-        let stored = self.lap(values).stored_energy(&state(values));
+        let stored = self
+            .lap(values)
+            .stored_energy(&JointMemory::REST, &state(values));
         values[memory::FIRST_ENERGY] =
             stored - values[vr::ENERGY_SUPPLIED] + values[vr::ENERGY_DISSIPATED];
     }
@@ -392,9 +398,8 @@ impl<const D: usize> Model for LooseningLap<D> {
             InterfaceType::CoSimulation => {
                 // d(U(r; p) − U(r; p_counted))
                 let counted = self.table.law(values[memory::COUNTED_PRELOAD]);
-                lap.joint
-                    .stored_energy_tangent(&lap_change.joint, &r, &r_change)
-                    - counted.stored_energy_tangent(&JointLaw::NONE, &r, &r_change)
+                stored_energy_change([&lap.joint, &lap_change.joint], [&r, &r_change])
+                    - stored_energy_change([&counted, &JointLaw::NONE], [&r, &r_change])
             }
             InterfaceType::ModelExchange => {
                 change[vr::ENERGY_STORED] - change[vr::ENERGY_SUPPLIED]

@@ -26,7 +26,7 @@ pub enum Axis {
     },
     /// Equal distances for equal ratios. Both ends lie on the series 1, 2, 5, 10, …
     Logarithmic {
-        /// Number of the first value in the series, see [`one_two_five`].
+        /// Number of the first value in the series, see `one_two_five`.
         low: i32,
         /// Number of the last value in the series.
         high: i32,

@@ -129,6 +129,14 @@ impl<const D: usize, N: Number> Lap<D, N> {
             + self.joint.dissipated_power_after(memory, &state.relative())
     }
 
+    /// Power that the dampers of joint and supports turn into heat, W, as [`JointLaw::viscous_power`].
+    #[must_use]
+    pub fn viscous_power(&self, state: &LapState<D, N>) -> N {
+        self.a.dissipation(&state.a)
+            + self.b.dissipation(&state.b)
+            + self.joint.viscous_power(&state.relative())
+    }
+
     /// Accelerations of body a and of body b: m/s², rad/s².
     #[must_use]
     pub fn accelerations(

@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod definiteness;
+mod dof;
 mod eigenvalues;
 mod elementary;
 mod escape;
@@ -13,6 +14,7 @@ mod higher;
 mod integrator;
 mod joint;
 mod lap;
+pub mod law;
 mod linearised;
 mod loosening;
 mod over_preload;
@@ -24,6 +26,7 @@ mod tangent;
 mod vector;
 
 pub use definiteness::is_positive_semidefinite;
+pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofKind};
 pub use higher::HigherTerms;
 pub use integrator::LapIntegrator;
 pub use joint::{JointLaw, Motion};

@@ -1,0 +1,7 @@
+//! The laws of a joint.
+
+mod declaration;
+
+pub use declaration::{
+    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
+};

@@ -6,10 +6,12 @@ use bolted_joint_dynamics::{JointLaw, Motion};
 
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, reference as vr},
+    interface::{
+        ElementCalculatedParameters, ElementOutputs, InterfaceType, Values, reference as vr,
+    },
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{A, B, is_active, joint_law},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -94,13 +96,19 @@ impl<const D: usize> Model for Element<D> {
     }
 
     fn calculate_parameters(&self, values: &mut Values) {
-        let amplitude = finite(joint_law::<D>(values).escape_amplitude());
-        set_escape_amplitude(values, &amplitude);
+        let joint_escape_amplitude = finite(joint_law::<D>(values).escape_amplitude());
+        ElementCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
         let [law, law_change] = [values, &*change].map(joint_law::<D>);
-        set_escape_amplitude(change, &law.escape_amplitude_tangent(&law_change));
+        ElementCalculatedParameters {
+            joint_escape_amplitude: law.escape_amplitude_tangent(&law_change),
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -141,12 +149,15 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
     let relative = relative::<D>(values);
     let on_b = law.load_on_b(&relative);
-    // 0 − F is −F but for F = 0, which stays without a sign
-    A.set_load(values, &on_b.map(|load| 0.0 - load));
-    B.set_load(values, &on_b);
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-    values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+    ElementOutputs {
+        // 0 − F is −F but for F = 0, which stays without a sign
+        a_load: on_b.map(|load| 0.0 - load),
+        b_load: on_b,
+        joint_load: on_b,
+        energy_stored: law.stored_energy(&relative.displacement),
+        power_dissipated: law.dissipated_power(&relative),
+    }
+    .write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
@@ -157,16 +168,18 @@ pub(super) fn differentiate<const D: usize>(
 ) {
     let [relative, relative_change] = [values, &*change].map(relative::<D>);
     let on_b = law.load_on_b_tangent(law_change, &relative, &relative_change);
-    A.set_load(change, &on_b.map(|load| -load));
-    B.set_load(change, &on_b);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = law.stored_energy_tangent(
-        law_change,
-        &relative.displacement,
-        &relative_change.displacement,
-    );
-    change[vr::POWER_DISSIPATED] =
-        law.dissipated_power_tangent(law_change, &relative, &relative_change);
+    ElementOutputs {
+        a_load: on_b.map(|load| -load),
+        b_load: on_b,
+        joint_load: on_b,
+        energy_stored: law.stored_energy_tangent(
+            law_change,
+            &relative.displacement,
+            &relative_change.displacement,
+        ),
+        power_dissipated: law.dissipated_power_tangent(law_change, &relative, &relative_change),
+    }
+    .write(change);
 }
 
 /// Motion of side a as seen from side b.

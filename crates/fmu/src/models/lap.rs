@@ -12,10 +12,10 @@ use bolted_joint_dynamics::{Lap, LapLoads, LapState, Motion};
 
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, reference as vr},
+    interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{A, B, is_active, joint_law},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -131,13 +131,19 @@ impl<const D: usize> Model for LapModel<D> {
     }
 
     fn calculate_parameters(&self, values: &mut Values) {
-        let amplitude = finite(lap::<D>(values).escape_amplitude());
-        set_escape_amplitude(values, &amplitude);
+        let joint_escape_amplitude = finite(lap::<D>(values).escape_amplitude());
+        LapCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
         let [lap, lap_change] = [values, &*change].map(lap::<D>);
-        set_escape_amplitude(change, &lap.escape_amplitude_tangent(&lap_change));
+        LapCalculatedParameters {
+            joint_escape_amplitude: lap.escape_amplitude_tangent(&lap_change),
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -179,13 +185,15 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the bodies, the joint and their state.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
-    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = lap.stored_energy(state);
-    values[vr::POWER_DISSIPATED] = lap.dissipated_power(state);
-    let [of_a, of_b] = lap.accelerations(state, &loads(values));
-    A.set_acceleration(values, &of_a);
-    B.set_acceleration(values, &of_b);
+    let [a_acceleration, b_acceleration] = lap.accelerations(state, &loads(values));
+    LapOutputs {
+        joint_load: lap.joint.load_on_b(&state.a.relative_to(&state.b)),
+        energy_stored: lap.stored_energy(state),
+        power_dissipated: lap.dissipated_power(state),
+        a_acceleration,
+        b_acceleration,
+    }
+    .write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
@@ -197,19 +205,22 @@ pub(super) fn differentiate<const D: usize>(
     let [state, state_change] = [values, &*change].map(state::<D>);
     let [relative, relative_change] =
         [&state, &state_change].map(|state| state.a.relative_to(&state.b));
-    let on_b = lap
+    let joint_load = lap
         .joint
         .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = lap.stored_energy_tangent(lap_change, &state, &state_change);
-    change[vr::POWER_DISSIPATED] = lap.dissipated_power_tangent(lap_change, &state, &state_change);
-    let [of_a, of_b] = lap.accelerations_tangent(
+    let [a_acceleration, b_acceleration] = lap.accelerations_tangent(
         lap_change,
         [&state, &state_change],
         [&loads(values), &loads(change)],
     );
-    A.set_acceleration(change, &of_a);
-    B.set_acceleration(change, &of_b);
+    LapOutputs {
+        joint_load,
+        energy_stored: lap.stored_energy_tangent(lap_change, &state, &state_change),
+        power_dissipated: lap.dissipated_power_tangent(lap_change, &state, &state_change),
+        a_acceleration,
+        b_acceleration,
+    }
+    .write(change);
 }
 
 /// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use crate::{
     frame::Expanded,
     interface::{Interface, Interfaces},
+    scope::Joints,
 };
 
 impl Interfaces {
@@ -46,6 +47,24 @@ impl Interfaces {
                 self.lap.log_categories
             ),
         );
+        for (doc, name, joints) in [
+            (
+                "Joints whose law is given by parameters.",
+                "CONSTANT_JOINTS",
+                Joints::CONSTANT,
+            ),
+            (
+                "Joints whose law follows from the preload.",
+                "JOINTS_OVER_PRELOAD",
+                Joints::OVER_PRELOAD,
+            ),
+        ] {
+            line(&mut source, &format!("/// {doc}"));
+            line(
+                &mut source,
+                &format!("const {name}: u32 = {};", joints.bits()),
+            );
+        }
         references::write(&mut source, self);
         for (name, interface, expanded) in self.both() {
             let constant = name.to_uppercase();

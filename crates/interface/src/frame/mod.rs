@@ -175,7 +175,7 @@ pub(crate) enum Origin {
 }
 
 /// One of those that a line is written for.
-pub(crate) enum Instance<'a> {
+enum Instance<'a> {
     Alone,
     Dof(usize),
     Parameter(&'a LawParameter),

@@ -28,7 +28,10 @@ pub use definiteness::is_positive_semidefinite;
 pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofKind};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
-pub use law::{Beyond, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial, TableDefect};
+pub use law::{
+    Beyond, DofLaws, DofMemory, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial,
+    TableDefect,
+};
 pub use motion::Motion;
 pub use number::{Dual, Number};
 pub use propagator::LapPropagator;

@@ -55,7 +55,7 @@ impl fmt::Display for Identity {
         } = self.variables;
         let preload = match dependence {
             Dependence::OverPreload => " over the preload",
-            Dependence::Any | Dependence::Constant => "",
+            Dependence::Constant => "",
         };
         write!(
             f,

@@ -1,6 +1,8 @@
-//! Tables of variables, generated from `modelDescription/*.xml`.
+//! Tables of variables, generated from `modelDescription/*.xml`, the table of DOFs and the laws of the joint.
 
 use std::fmt;
+
+use bolted_joint_dynamics::DOF_COUNT;
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
@@ -15,10 +17,10 @@ pub(crate) struct Variable {
     pub(crate) role: Role,
     /// Start value that the FMU has before its start-value file and the importer set others; 0 for what is calculated.
     pub(crate) start: f64,
-    /// Whether it exists only where the joint rotates.
-    pub(crate) rotational: bool,
-    /// Of which joints it is.
-    pub(crate) dependence: Dependence,
+    /// The DOFs that it needs, a bit for each row of the table; each of several such sets suffices.
+    pub(crate) rows: &'static [u32],
+    /// The kinds of joints that it is of, a bit for each.
+    pub(crate) joints: u32,
     /// Whether the importer may access it inside a communication step.
     pub(crate) intermediate: bool,
 }
@@ -34,15 +36,23 @@ pub(crate) struct ContinuousState {
     pub(crate) nominal: f64,
 }
 
-/// Of which joints a variable is, and which of them the joint of an FMU is.
+/// What the law of an FMU's joint rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dependence {
-    /// Of every joint.
-    Any,
-    /// Of a joint whose law is given by parameters.
+    /// Parameters alone.
     Constant,
-    /// Of a joint whose law follows from the preload.
+    /// The preload.
     OverPreload,
+}
+
+impl Dependence {
+    /// Bit of such joints in [`Variable::joints`].
+    const fn joints(self) -> u32 {
+        match self {
+            Self::Constant => CONSTANT_JOINTS,
+            Self::OverPreload => JOINTS_OVER_PRELOAD,
+        }
+    }
 }
 
 /// What a variable is to the library; each role is one bit of a [`Roles`] set.
@@ -139,6 +149,28 @@ pub(crate) mod memory {
     pub(crate) const PRELOAD_RATE: usize = REFERENCE_COUNT + 3;
 }
 
+/// Values of the first `D` DOFs.
+#[inline]
+pub(crate) fn gather<const D: usize>(values: &Values, references: &[usize; DOF_COUNT]) -> [f64; D] {
+    std::array::from_fn(|dof| values[references[dof]])
+}
+
+/// Writes values of the first `D` DOFs.
+#[inline]
+pub(crate) fn scatter<const D: usize>(
+    values: &mut Values,
+    references: &[usize; DOF_COUNT],
+    from: &[f64; D],
+) {
+    for dof in 0..D {
+        values[references[dof]] = from[dof];
+    }
+}
+
+// the tables are those of the same DOFs and laws
+const _: () = assert!(reference::LAW_PARAMETERS.len() == DOF_COUNT);
+const _: () = assert!(reference::LAW_MEMORY.len() == DOF_COUNT);
+
 /// Who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InterfaceType {
@@ -194,10 +226,18 @@ impl Dofs {
             Self::Two => 2,
         }
     }
+
+    /// The DOFs, a bit for each row of the table.
+    const fn rows(self) -> u32 {
+        match self {
+            Self::One => 0b01,
+            Self::Two => 0b11,
+        }
+    }
 }
 
-/// Variables that one FMU has: a table of its kind, without the rotational ones for a joint that only translates, and without
-/// those that only joints of the other dependence have.
+/// Variables that one FMU has: a table of its kind, without those of DOFs that its joint does not have, and without those that
+/// only other kinds of joints have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variables {
     /// Which of the two FMUs.
@@ -218,9 +258,10 @@ impl Variables {
         table
             .get(reference)?
             .as_ref()
-            .filter(|variable| self.dofs == Dofs::Two || !variable.rotational)
+            .filter(|variable| variable.joints & self.dependence.joints() != 0)
             .filter(|variable| {
-                variable.dependence == Dependence::Any || variable.dependence == self.dependence
+                let missing = !self.dofs.rows();
+                variable.rows.iter().any(|needed| needed & missing == 0)
             })
     }
 
@@ -235,9 +276,10 @@ impl Variables {
             Kind::Element => ELEMENT_STATES,
             Kind::Lap => LAP_STATES,
         };
-        states
-            .iter()
-            .filter(move |state| self.get(state.reference).is_some())
+        states.iter().filter(move |state| {
+            let has = |reference| self.get(reference).is_some();
+            has(state.reference) && has(state.derivative)
+        })
     }
 
     /// Name of the variable with this value reference, for messages.

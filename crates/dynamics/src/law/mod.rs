@@ -10,7 +10,7 @@ mod over_preload;
 mod polynomial;
 
 pub use declaration::{
-    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, Span, UnitRule,
+    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
 };
 pub use joint::{JointLaw, JointMemory};
 pub use linear::Linear;

@@ -40,8 +40,7 @@ fn build() -> Result<(), String> {
         println!("cargo:rerun-if-changed={}", root.join(watched).display());
     }
 
-    let interfaces =
-        Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
+    let interfaces = Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
     let tables = out.join("interface.rs");
     fs::write(&tables, interfaces.to_rust())
         .map_err(|error| format!("{}: {error}", tables.display()))?;

@@ -173,6 +173,15 @@ impl<const D: usize> Lap<D> {
         (!finite || !self.joint.is_finite()).then_some(Defect::NotFinite)
     }
 
+    /// Whether a support can feed energy: its stiffness or damping on a DOF is negative.
+    #[must_use]
+    pub fn has_active_support(&self) -> bool {
+        [&self.a, &self.b]
+            .iter()
+            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
+            .any(|&coefficient| coefficient < 0.0)
+    }
+
     /// The model with its change along one direction.
     #[must_use]
     pub fn with_change(&self, change: &Self) -> Lap<D, Dual<1>> {

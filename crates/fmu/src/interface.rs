@@ -43,14 +43,42 @@ pub(crate) enum Dependence {
     Constant,
     /// The preload.
     OverPreload,
+    /// Parameters, and what these laws remember of the motion, a bit for each as in [`Variable::joints`]; not empty.
+    Memory(u32),
 }
 
 impl Dependence {
+    /// The joint whose laws with memory have these names, separated by spaces.
+    pub(crate) fn on_memory_of(names: &str) -> Option<Self> {
+        let law = |name: &str| MEMORY_LAWS.iter().find(|(other, _)| *other == name);
+        names
+            .split(' ')
+            .try_fold(0, |laws, name| Some(laws | law(name)?.1))
+            .map(Self::Memory)
+    }
+
+    /// As one number, for a state that is written down.
+    pub(crate) const fn number(self) -> u32 {
+        self.joints()
+    }
+
+    /// The reverse of [`Dependence::number`].
+    pub(crate) fn from_number(number: u32) -> Option<Self> {
+        let known = MEMORY_LAWS.iter().fold(0, |all, (_, law)| all | law);
+        match number {
+            CONSTANT_JOINTS => Some(Self::Constant),
+            JOINTS_OVER_PRELOAD => Some(Self::OverPreload),
+            laws if laws & !known == 0 && laws != 0 => Some(Self::Memory(laws)),
+            _ => None,
+        }
+    }
+
     /// Bit of such joints in [`Variable::joints`].
     const fn joints(self) -> u32 {
         match self {
             Self::Constant => CONSTANT_JOINTS,
             Self::OverPreload => JOINTS_OVER_PRELOAD,
+            Self::Memory(laws) => laws,
         }
     }
 }
@@ -133,9 +161,9 @@ impl Roles {
 pub(crate) type Values = [f64; VALUE_COUNT];
 
 /// Number of values.
-pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 4;
+pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 6;
 
-/// What is remembered of a joint over the preload beside its variables, as indices.
+/// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
 pub(crate) mod memory {
     use super::REFERENCE_COUNT;
 
@@ -147,6 +175,10 @@ pub(crate) mod memory {
     pub(crate) const FIRST_ENERGY: usize = REFERENCE_COUNT + 2;
     /// Rate of the preload at present, N·m/s, as far as it is known; not remembered, but calculated from the inputs' course.
     pub(crate) const PRELOAD_RATE: usize = REFERENCE_COUNT + 3;
+    /// Time of the latest commit of a joint with memory, s.
+    pub(crate) const COMMITTED_TIME: usize = REFERENCE_COUNT + 4;
+    /// Power of its dampers then, W.
+    pub(crate) const COMMITTED_POWER: usize = REFERENCE_COUNT + 5;
 }
 
 /// Values of the first `D` DOFs.

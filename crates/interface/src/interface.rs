@@ -9,6 +9,7 @@ use crate::{
     agreement,
     error::{InterfaceError, Problem, VariableProblem},
     frame::{Expanded, Filling, Frames},
+    scope::Joints,
     structure, units,
     variable::{Role, Variable},
 };
@@ -122,6 +123,8 @@ pub struct Interfaces {
     /// Where the variables of both come from.
     pub(crate) expanded: [Expanded; 2],
     pub(crate) dof_count: usize,
+    /// Names of the laws that remember the motion, with the kind of joints that has each.
+    pub(crate) memory_laws: Vec<(&'static str, Joints)>,
 }
 
 impl Interfaces {
@@ -150,6 +153,7 @@ impl Interfaces {
             lap,
             expanded,
             dof_count: filling.dofs.len(),
+            memory_laws: Joints::of_memory_laws(filling.laws),
         })
     }
 

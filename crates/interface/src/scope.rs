@@ -41,6 +41,8 @@ impl Joints {
     pub const CONSTANT: Self = Self(1);
     /// A joint whose law follows from the preload.
     pub const OVER_PRELOAD: Self = Self(2);
+    /// A joint with memory.
+    pub const MEMORY: Self = Self(!3);
     /// Every joint.
     pub const ANY: Self = Self(u32::MAX);
 
@@ -62,19 +64,21 @@ impl Joints {
         self.0
     }
 
-    /// Every joint with memory.
-    pub(crate) fn with_memory(laws: &[Declaration]) -> Self {
-        (0..laws.len())
-            .filter(|&law| !laws[law].memory.is_empty())
-            .map(Self::with_memory_of)
-            .fold(Self::NONE, Self::with)
+    /// The laws with memory, each with the joints that have it.
+    #[must_use]
+    pub fn of_memory_laws(laws: &[Declaration]) -> Vec<(&'static str, Self)> {
+        let places = laws.iter().enumerate();
+        places
+            .filter(|(_, law)| !law.memory.is_empty())
+            .map(|(place, law)| (law.name, Self::with_memory_of(place)))
+            .collect()
     }
 
     /// The joints that have the parameters of the law at this place: its own where it remembers, else all but those over the
     /// preload.
     pub(crate) fn of_law(law: usize, laws: &[Declaration]) -> Self {
         if laws[law].memory.is_empty() {
-            Self::CONSTANT.with(Self::with_memory(laws))
+            Self::CONSTANT.with(Self::MEMORY)
         } else {
             Self::with_memory_of(law)
         }
@@ -85,11 +89,10 @@ impl Joints {
         if self == Self::ANY {
             return String::new();
         }
-        let memory = Self(!Self::CONSTANT.with(Self::OVER_PRELOAD).0);
         [
             (Self::CONSTANT, "Constant"),
             (Self::OVER_PRELOAD, "OverPreload"),
-            (memory, "Memory"),
+            (Self::MEMORY, "Memory"),
         ]
         .iter()
         .filter(|(kind, _)| self.intersects(*kind))

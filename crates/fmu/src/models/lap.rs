@@ -53,14 +53,10 @@ impl<const D: usize> Model for LapModel<D> {
             self.watch.quiet(),
         ));
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
-        let supports = [&lap.a, &lap.b]
-            .iter()
-            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
-            .any(|&coefficient| coefficient < 0.0);
         Ok(Active {
             joint_stiffness,
             joint_damping,
-            supports,
+            supports: lap.has_active_support(),
         }
         .warning())
     }
@@ -248,7 +244,7 @@ fn take_single_step<const D: usize>(
     holds
 }
 
-fn lap<const D: usize>(values: &Values) -> Lap<D> {
+pub(super) fn lap<const D: usize>(values: &Values) -> Lap<D> {
     Lap {
         joint: joint_law(values),
         a: A.body(values),

@@ -65,6 +65,7 @@ impl Interfaces {
                 &format!("const {name}: u32 = {};", joints.bits()),
             );
         }
+        memory_laws(&mut source, &self.memory_laws);
         references::write(&mut source, self);
         for (name, interface, expanded) in self.both() {
             let constant = name.to_uppercase();
@@ -80,6 +81,22 @@ impl Interfaces {
         let [element, lap] = &self.expanded;
         [("Element", &self.element, element), ("Lap", &self.lap, lap)]
     }
+}
+
+/// The laws that remember the motion, with the kind of joints that has each.
+fn memory_laws(source: &mut String, laws: &[(&'static str, Joints)]) {
+    let with_memory: Vec<(&str, u32)> = laws
+        .iter()
+        .map(|(name, joints)| (*name, joints.bits()))
+        .collect();
+    line(
+        source,
+        "/// Laws that remember the motion, each with the joints that have it.",
+    );
+    line(
+        source,
+        &format!("pub(crate) const MEMORY_LAWS: &[(&str, u32)] = &{with_memory:?};"),
+    );
 }
 
 fn table(

@@ -342,7 +342,7 @@ impl<'a> Filler<'a> {
             joints = joints.with(match word {
                 "constant" => Joints::CONSTANT,
                 "over_preload" => Joints::OVER_PRELOAD,
-                "memory" => Joints::with_memory(self.filling.laws),
+                "memory" => Joints::MEMORY,
                 found => {
                     return Err(FrameProblem::Word {
                         line: number,

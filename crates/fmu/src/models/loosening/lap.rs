@@ -196,15 +196,11 @@ impl<const D: usize> Model for LooseningLap<D> {
         self.interface_type = interface_type;
         // the bodies may be others
         self.latest = None;
-        let supports = [A.body::<D>(values), B.body::<D>(values)]
-            .iter()
-            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
-            .any(|&coefficient| coefficient < 0.0);
         let [joint_stiffness, joint_damping] = active;
         Ok(Active {
             joint_stiffness,
             joint_damping,
-            supports,
+            supports: self.lap(values).has_active_support(),
         }
         .warning())
     }

@@ -24,7 +24,7 @@ mod spectrum;
 mod vector;
 
 pub use definiteness::is_positive_semidefinite;
-pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofKind};
+pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
 pub use law::{Beyond, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial, TableDefect};

@@ -53,6 +53,45 @@ pub const DOF_COUNT: usize = DOFS.len();
 /// The sets of DOFs that a joint can have, as indices of [`DOFS`].
 pub const DOF_SETS: &[&[usize]] = &[&[0], &[0, 1]];
 
+/// How many DOFs a joint can have: one case for each number of which the laws are compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DofCount {
+    /// One.
+    One,
+    /// Two.
+    Two,
+}
+
+impl DofCount {
+    /// As many as that, if a joint can have them.
+    #[must_use]
+    pub const fn of(count: usize) -> Option<Self> {
+        match count {
+            1 => Some(Self::One),
+            2 => Some(Self::Two),
+            _ => None,
+        }
+    }
+}
+
+/// An expression in which `D` is a [`DofCount`] as a constant, so that laws of that size can be used in it:
+/// `with_dofs!(count, D => file.lap::<D>())`.
+#[macro_export]
+macro_rules! with_dofs {
+    ($count:expr, $D:ident => $body:expr) => {
+        match $count {
+            $crate::DofCount::One => {
+                const $D: usize = 1;
+                $body
+            }
+            $crate::DofCount::Two => {
+                const $D: usize = 2;
+                $body
+            }
+        }
+    };
+}
+
 impl DofKind {
     /// Unit of the displacement.
     #[must_use]
@@ -138,7 +177,15 @@ impl DofKind {
 
 #[cfg(test)]
 mod tests {
-    use super::{DOF_SETS, DOFS};
+    use super::{DOF_SETS, DOFS, DofCount};
+
+    #[test]
+    fn laws_are_compiled_for_every_set() {
+        for set in DOF_SETS {
+            let count = DofCount::of(set.len()).unwrap();
+            assert_eq!(with_dofs!(count, D => [0; D].len()), set.len());
+        }
+    }
 
     #[test]
     fn no_name_stands_twice_in_a_set() {

@@ -25,7 +25,7 @@ mod vector;
 
 pub use counted::{CountedState, LapConditions, PassedEnergy};
 pub use definiteness::is_positive_semidefinite;
-pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofKind};
+pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
 pub use law::{

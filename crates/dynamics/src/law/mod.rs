@@ -15,7 +15,7 @@ pub use declaration::{
 pub use joint::{JointLaw, JointMemory};
 pub use linear::Linear;
 pub use over_preload::{Beyond, JointOverPreload, TableDefect};
-pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT};
+pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT, TERM_COUNT, Tangent, Term};
 
 use crate::number::Number;
 
@@ -206,6 +206,12 @@ dof_laws! {
 /// Number of parameters that the laws have on each DOF.
 pub const DOF_PARAMETER_COUNT: usize = PLACES.end.parameters[1];
 
+/// What the laws on each DOF declare of their parameters, each with its law, in the order of [`DofLaws::parameters`].
+pub fn dof_parameters() -> impl Iterator<Item = (&'static Declaration, &'static Parameter)> {
+    let laws = DECLARATIONS.iter().skip(1);
+    laws.flat_map(|law| law.parameters.iter().map(move |parameter| (law, parameter)))
+}
+
 /// Number of numbers that the laws remember on each DOF.
 pub const DOF_MEMORY_COUNT: usize = PLACES.end.memory[1];
 
@@ -246,6 +252,18 @@ impl<N: Number> DofLaws<N> {
     #[must_use]
     pub fn are_none(&self) -> bool {
         self.parameters.iter().all(|parameter| parameter.is_zero())
+    }
+
+    /// The laws with these parameters alone, the others zero.
+    #[must_use]
+    pub fn with_only(&self, stays: impl Fn(&Parameter) -> bool) -> Self {
+        let mut only = *self;
+        for (value, (_, parameter)) in only.parameters.iter_mut().zip(dof_parameters()) {
+            if !stays(parameter) {
+                *value = N::ZERO;
+            }
+        }
+        only
     }
 
     #[inline]

@@ -3,6 +3,10 @@
 //!
 //! Load on side b: `k3 r³ + k5 r⁵ + k7 r⁷ + (c2 r² + c4 r⁴) ṙ`. A further term is a further row of `SPRINGS` or `DAMPERS`.
 
+mod term;
+
+pub use term::{TERM_COUNT, Term};
+
 use super::{
     Law,
     declaration::{ActsOn, Declaration, Parameter, Quantity, Range, Span, UnitRule},
@@ -126,8 +130,8 @@ pub const SPRING_COUNT: usize = SPRINGS.len();
 /// Number of dampers.
 pub const DAMPER_COUNT: usize = DAMPERS.len();
 
-const PARAMETERS: [Parameter; SPRING_COUNT + DAMPER_COUNT] = {
-    let mut all = [SPRING; SPRING_COUNT + DAMPER_COUNT];
+const PARAMETERS: [Parameter; TERM_COUNT] = {
+    let mut all = [SPRING; TERM_COUNT];
     let mut index = 0;
     while index < all.len() {
         all[index] = if index < SPRING_COUNT {
@@ -139,6 +143,17 @@ const PARAMETERS: [Parameter; SPRING_COUNT + DAMPER_COUNT] = {
     }
     all
 };
+
+/// The load with its derivatives at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangent {
+    /// f, N or N·m.
+    pub force: f64,
+    /// ∂f/∂r
+    pub stiffness: f64,
+    /// ∂f/∂ṙ
+    pub damping: f64,
+}
 
 /// The terms on one relative DOF.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -302,6 +317,35 @@ impl<N: Number> Law<N> for Polynomial<N> {
 }
 
 impl Polynomial {
+    /// Degree in r and ṙ together of the highest term there is; at least that of the cubic spring.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        let there = Term::ALL
+            .into_iter()
+            .filter(|&term| self.coefficient(term) != 0.0);
+        there
+            .map(Term::degree)
+            .fold(Term::CUBIC.degree(), usize::max)
+    }
+
+    /// The load and its derivatives by Horner's scheme: what [`crate::Dual`] numbers give, for loops over many moments.
+    #[inline]
+    #[must_use]
+    pub fn tangent(&self, r: f64, velocity: f64) -> Tangent {
+        // ∂f/∂r = 3 k3 r² + 5 k5 r⁴ + 7 k7 r⁶ + (2 c2 r + 4 c4 r³) ṙ, ∂f/∂ṙ = c2 r² + c4 r⁴
+        let squared = r * r;
+        let slopes: [f64; SPRING_COUNT] =
+            std::array::from_fn(|j| (2 * j + 3) as f64 * self.springs[j]);
+        let changes: [f64; DAMPER_COUNT] =
+            std::array::from_fn(|j| (2 * j + 2) as f64 * self.dampers[j]);
+        let damping = squared * value(&self.dampers, squared);
+        Tangent {
+            force: r * squared * value(&self.springs, squared) + damping * velocity,
+            stiffness: squared * value(&slopes, squared) + r * value(&changes, squared) * velocity,
+            damping,
+        }
+    }
+
     /// Displacements above rest and below `amplitude` (m, rad) at which the stiffness or the damping of small motion about
     /// them turns from growing to falling, or back.
     pub(crate) fn turning_points(&self, amplitude: f64) -> impl Iterator<Item = f64> + use<> {
@@ -352,6 +396,7 @@ impl Polynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Dual;
 
     #[test]
     fn the_least_damping_is_that_of_a_fine_grid() {
@@ -376,6 +421,26 @@ mod tests {
         let without_end = |c2, c4| Polynomial::with(&[], &[c2, c4]).least_damping(f64::INFINITY);
         assert_eq!(without_end(1.0, -1.0), f64::NEG_INFINITY);
         assert_eq!(without_end(-2.0, 1.0), -1.0);
+    }
+
+    #[test]
+    fn the_tangent_is_that_of_the_load() {
+        let all = Polynomial::with(&[-3e2, 7e3, 2e5], &[4.0, -6e2]);
+        for (r, velocity) in [(0.1, 2.0), (-0.07, 0.5), (0.0, 1.0)] {
+            let terms = Polynomial::new(&Term::ALL.map(|term| all.coefficient(term).into()));
+            let dual = terms.load(&[], Dual::<2>::along(r, 0), Dual::along(velocity, 1));
+            let tangent = all.tangent(r, velocity);
+            for (found, expected) in [
+                (tangent.force, dual.value),
+                (tangent.stiffness, dual.change[0]),
+                (tangent.damping, dual.change[1]),
+            ] {
+                assert!(
+                    (found - expected).abs() < 1e-13 * (1.0 + expected.abs()),
+                    "{r}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod power_series;
 mod propagator;
 mod rk4;
 mod spectrum;
+mod stepper;
 mod vector;
 
 pub use counted::{CountedState, LapConditions, PassedEnergy};
@@ -37,3 +38,4 @@ pub use number::{Dual, Number};
 pub use propagator::LapPropagator;
 pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
 pub use spectrum::{Eigenvalue, Spectrum};
+pub use stepper::{LapMoment, LapStepper};

@@ -135,8 +135,8 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
     }
     if file.bodies.is_some() {
         facts.push(match file.joint.dofs {
-            DofSet::Translation => lap_fact::<1>(&joints),
-            DofSet::TranslationRotation => lap_fact::<2>(&joints),
+            DofSet::TRANSLATION => lap_fact::<1>(&joints),
+            DofSet::TRANSLATION_ROTATION => lap_fact::<2>(&joints),
         });
     }
     let findings = passivity

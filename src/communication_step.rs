@@ -63,7 +63,7 @@ pub(super) fn communication_step(
         (Interface::Element, Some(mass), _) => {
             let dofs = joints
                 .first()
-                .map_or(DofSet::Translation, |file| file.joint.dofs);
+                .map_or(DofSet::TRANSLATION, |file| file.joint.dofs);
             let neighbours = neighbours(dofs, mass, arguments.neighbour_inertia)?;
             of_element(joints, &neighbours, arguments, suggested_s).map(Some)
         }
@@ -91,20 +91,20 @@ fn neighbours(
 ) -> Result<Neighbours, CliError> {
     let mut sides = mass.map(|mass| vec![mass]);
     match (dofs, inertia) {
-        (DofSet::Translation, None) => {}
-        (DofSet::TranslationRotation, Some(inertia)) => {
+        (DofSet::TRANSLATION, None) => {}
+        (DofSet::TRANSLATION_ROTATION, Some(inertia)) => {
             for (side, inertia) in sides.iter_mut().zip(inertia) {
                 side.push(inertia);
             }
         }
-        (DofSet::TranslationRotation, None) => {
+        (DofSet::TRANSLATION_ROTATION, None) => {
             return Err(CliError::Option {
                 option: "--neighbour-inertia",
                 found: "none".to_owned(),
                 expected: "the moments of inertia of both neighbours, as the joint has rotation; `fixed,fixed` if they do not turn",
             });
         }
-        (DofSet::Translation, Some(_)) => {
+        (DofSet::TRANSLATION, Some(_)) => {
             return Err(CliError::Option {
                 option: "--neighbour-inertia",
                 found: "a joint without rotation".to_owned(),
@@ -175,8 +175,8 @@ fn of_lap(
     let longest_s = step_size_max_s.unwrap_or(f64::INFINITY);
     let amplitude = arguments.amplitude.as_deref();
     let bound = shortest(joints, |file| match file.joint.dofs {
-        DofSet::Translation => lap_bound::<1>(file, restraints, longest_s, amplitude),
-        DofSet::TranslationRotation => lap_bound::<2>(file, restraints, longest_s, amplitude),
+        DofSet::TRANSLATION => lap_bound::<1>(file, restraints, longest_s, amplitude),
+        DofSet::TRANSLATION_ROTATION => lap_bound::<2>(file, restraints, longest_s, amplitude),
     })?;
     let mut facts = vec![
             format!(

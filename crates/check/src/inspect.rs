@@ -213,10 +213,10 @@ fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
     }
     let at_one = |joint: &JointFile| {
         let finding = match joint.joint.dofs {
-            DofSet::Translation => joint
+            DofSet::TRANSLATION => joint
                 .tangent_laps::<1>()
                 .map(|laps| unstable(&laps, step_s)),
-            DofSet::TranslationRotation => joint
+            DofSet::TRANSLATION_ROTATION => joint
                 .tangent_laps::<2>()
                 .map(|laps| unstable(&laps, step_s)),
         };

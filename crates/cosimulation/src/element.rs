@@ -125,8 +125,8 @@ pub fn element_bound(
     }
     let mut bound = StepBound::Nothing;
     let tangents = match joint.dofs {
-        DofSet::Translation => tangents::<1>(joint, amplitude),
-        DofSet::TranslationRotation => tangents::<2>(joint, amplitude),
+        DofSet::TRANSLATION => tangents::<1>(joint, amplitude),
+        DofSet::TRANSLATION_ROTATION => tangents::<2>(joint, amplitude),
     }?;
     for tangent in tangents {
         let Some(relative) = Relative::new(&tangent.stiffness, &tangent.damping, neighbours) else {
@@ -315,9 +315,9 @@ mod tests {
         let rows = |rows: &[&[f64]]| rows.iter().map(|row| row.to_vec()).collect();
         Joint {
             dofs: if cubic.len() == 1 {
-                DofSet::Translation
+                DofSet::TRANSLATION
             } else {
-                DofSet::TranslationRotation
+                DofSet::TRANSLATION_ROTATION
             },
             stiffness: rows(stiffness),
             damping: rows(damping),

@@ -31,10 +31,10 @@ fn icon(interface: Interface) -> Picture {
 
 fn diagram(interface: Interface, dofs: DofSet) -> Picture {
     match (interface, dofs) {
-        (Interface::Element, DofSet::Translation) => picture!("diagram-element-1"),
-        (Interface::Element, DofSet::TranslationRotation) => picture!("diagram-element-2"),
-        (Interface::Lap, DofSet::Translation) => picture!("diagram-lap-1"),
-        (Interface::Lap, DofSet::TranslationRotation) => picture!("diagram-lap-2"),
+        (Interface::Element, DofSet::TRANSLATION) => picture!("diagram-element-1"),
+        (Interface::Element, DofSet::TRANSLATION_ROTATION) => picture!("diagram-element-2"),
+        (Interface::Lap, DofSet::TRANSLATION) => picture!("diagram-lap-1"),
+        (Interface::Lap, DofSet::TRANSLATION_ROTATION) => picture!("diagram-lap-2"),
     }
 }
 

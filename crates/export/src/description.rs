@@ -33,7 +33,7 @@ impl Description {
         drop_variables(&mut tree, |name| {
             let of = dependence(name);
             of != Dependence::Any && of != law
-                || dofs == DofSet::Translation && requires_rotation(name)
+                || dofs == DofSet::TRANSLATION && requires_rotation(name)
         });
         if law == Dependence::OverPreload {
             make_factors_change(&mut tree);
@@ -359,7 +359,7 @@ mod tests {
     fn user_text_is_escaped() {
         let mut description = Description::new(
             Interface::Element,
-            DofSet::Translation,
+            DofSet::TRANSLATION,
             Dependence::Constant,
         )
         .unwrap();
@@ -376,7 +376,7 @@ mod tests {
     #[test]
     fn nothing_of_the_rotation_is_left() {
         for interface in [Interface::Element, Interface::Lap] {
-            let text = Description::new(interface, DofSet::Translation, Dependence::Constant)
+            let text = Description::new(interface, DofSet::TRANSLATION, Dependence::Constant)
                 .unwrap()
                 .text()
                 .unwrap();

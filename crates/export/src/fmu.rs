@@ -310,8 +310,8 @@ fn lap_facts(
             Some(found_s) => Err(ExportError::StepOfElement { found_s }),
             None => Ok(None),
         },
-        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(subject, options).map(Some),
-        (Interface::Lap, DofSet::TranslationRotation) => {
+        (Interface::Lap, DofSet::TRANSLATION) => sized_lap_facts::<1>(subject, options).map(Some),
+        (Interface::Lap, DofSet::TRANSLATION_ROTATION) => {
             sized_lap_facts::<2>(subject, options).map(Some)
         }
     }

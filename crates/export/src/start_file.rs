@@ -142,7 +142,7 @@ mod tests {
         ];
         let text = start_file(
             Interface::Lap,
-            DofSet::Translation,
+            DofSet::TRANSLATION,
             "0123",
             "",
             &parameter_lines(&parameters),

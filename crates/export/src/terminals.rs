@@ -38,8 +38,8 @@ pub(super) fn terminals_and_icons(declared: &Declared, dofs: DofSet) -> String {
 /// The flange of one side: motion, equal on both sides of a connection, and load, whose sum there is zero.
 fn terminal(document: &mut Document, declared: &Declared, dofs: DofSet, side: &str, middle: f64) {
     let kind = match dofs {
-        DofSet::Translation => "_bolted_joint.TranslationalFlange",
-        DofSet::TranslationRotation => "_bolted_joint.TranslationalRotationalFlange",
+        DofSet::TRANSLATION => "_bolted_joint.TranslationalFlange",
+        DofSet::TRANSLATION_ROTATION => "_bolted_joint.TranslationalRotationalFlange",
     };
     let attributes = Attributes::new()
         .with("name", side)

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::{DOF_SETS, DOFS, Dof, DofCount};
+use bolted_joint_dynamics::{DOF_SETS, DOFS, Dof, DofCount, law::UnitRule};
 use serde::{Deserialize, Serialize};
+
+use super::units::unit;
 
 /// Degrees of freedom of a joint, in the order of the rows of its matrices: one of [`DOF_SETS`].
 ///
@@ -54,6 +56,18 @@ impl DofSet {
     #[must_use]
     pub fn names(self) -> Vec<&'static str> {
         self.rows().map(|dof| dof.name).collect()
+    }
+
+    /// Row and column of each entry of the upper triangle of a matrix, row by row.
+    pub fn entries(self) -> impl Iterator<Item = [usize; 2]> {
+        let count = self.count();
+        (0..count).flat_map(move |i| (i..count).map(move |j| [i, j]))
+    }
+
+    /// Unit of a parameter at this row and column, as people write it.
+    #[must_use]
+    pub fn unit(self, rule: UnitRule, [row, column]: [usize; 2]) -> String {
+        unit(rule, self.row(row).kind, self.row(column).kind)
     }
 
     /// Row of the matrices of the DOF with this name.

@@ -40,8 +40,8 @@ impl RespondStudy {
     /// [`RespondError`] that names lap and level.
     pub fn run(&self) -> Result<ResponseTable, RespondError> {
         match self.laps[0].file.joint.dofs {
-            DofSet::Translation => self.run_with::<1>(),
-            DofSet::TranslationRotation => self.run_with::<2>(),
+            DofSet::TRANSLATION => self.run_with::<1>(),
+            DofSet::TRANSLATION_ROTATION => self.run_with::<2>(),
         }
     }
 

@@ -190,8 +190,8 @@ pub(super) fn moved(references: &References) -> Vec<u32> {
 /// How far each DOF is moved: m, rad.
 fn amplitude(file: &JointFile) -> Vec<f64> {
     let escape = match file.joint.dofs {
-        DofSet::Translation => escape_amplitude(&file.lap::<1>().ok()),
-        DofSet::TranslationRotation => escape_amplitude(&file.lap::<2>().ok()),
+        DofSet::TRANSLATION => escape_amplitude(&file.lap::<1>().ok()),
+        DofSet::TRANSLATION_ROTATION => escape_amplitude(&file.lap::<2>().ok()),
     };
     let part = if file.joint.has_terms_of_higher_order() {
         HIGHER_AMPLITUDE
@@ -199,8 +199,8 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
         CUBIC_AMPLITUDE
     };
     let nonlinear = match file.joint.dofs {
-        DofSet::Translation => nonlinear_amplitude(&file.joint.law::<1>().ok()),
-        DofSet::TranslationRotation => nonlinear_amplitude(&file.joint.law::<2>().ok()),
+        DofSet::TRANSLATION => nonlinear_amplitude(&file.joint.law::<1>().ok()),
+        DofSet::TRANSLATION_ROTATION => nonlinear_amplitude(&file.joint.law::<2>().ok()),
     };
     (0..file.joint.dofs.count())
         .map(|i| {
@@ -231,8 +231,8 @@ fn escape_amplitude<const D: usize>(lap: &Option<Lap<D>>) -> Vec<Option<f64>> {
 /// A step that follows the lap's fastest mode and is a single Runge–Kutta step.
 fn lap_step_s(file: &JointFile, step_size_max_s: Option<f64>) -> f64 {
     let accurate_s = match file.joint.dofs {
-        DofSet::Translation => file.lap::<1>().ok().and_then(|lap| accurate_step_s(&lap)),
-        DofSet::TranslationRotation => file.lap::<2>().ok().and_then(|lap| accurate_step_s(&lap)),
+        DofSet::TRANSLATION => file.lap::<1>().ok().and_then(|lap| accurate_step_s(&lap)),
+        DofSet::TRANSLATION_ROTATION => file.lap::<2>().ok().and_then(|lap| accurate_step_s(&lap)),
     };
     let longest = step_size_max_s.unwrap_or(f64::INFINITY);
     let step_s = accurate_s.unwrap_or(f64::INFINITY).min(longest);

@@ -54,6 +54,12 @@ pub(super) const DECLARATION: Declaration = Declaration {
     memory: &[],
 };
 
+/// What it says of the stiffness.
+pub const STIFFNESS: &Parameter = &DECLARATION.parameters[0];
+
+/// What it says of the damping.
+pub const DAMPING: &Parameter = &DECLARATION.parameters[1];
+
 /// Stiffness and damping matrices of a joint with `D` DOFs a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linear<const D: usize, N = f64> {

@@ -13,7 +13,7 @@ pub use declaration::{
     ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
 };
 pub use joint::{JointLaw, JointMemory};
-pub use linear::Linear;
+pub use linear::{DAMPING, Linear, STIFFNESS};
 pub use over_preload::{Beyond, JointOverPreload, TableDefect};
 pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT, TERM_COUNT, Tangent, Term};
 

@@ -58,8 +58,8 @@ struct Dof {
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let figures = match page.file.joint.dofs {
-        DofSet::Translation => sized::<1>(page),
-        DofSet::TranslationRotation => sized::<2>(page),
+        DofSet::TRANSLATION => sized::<1>(page),
+        DofSet::TRANSLATION_ROTATION => sized::<2>(page),
     };
     let figures: String = figures
         .into_iter()

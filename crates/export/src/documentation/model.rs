@@ -7,8 +7,8 @@ use bolted_joint_joint::DofSet;
 pub(super) fn section(page: &Page<'_>) -> String {
     let dofs = page.file.joint.dofs;
     let motion = match dofs {
-        DofSet::Translation => "<i>x</i> = <i>y</i>: the joint resists one translation",
-        DofSet::TranslationRotation => {
+        DofSet::TRANSLATION => "<i>x</i> = <i>y</i>: the joint resists one translation",
+        DofSet::TRANSLATION_ROTATION => {
             "<i>x</i> = [<i>y</i>, <i>θ</i>]<sup>T</sup>: the joint resists a translation and a rotation, and couples them"
         }
     };

@@ -50,25 +50,25 @@ impl ReferenceRun {
     ) -> Result<Option<Self>, ExportError> {
         let names = Names::of(declared);
         Ok(match (interface, file.joint.dofs, facts) {
-            (Interface::Lap, DofSet::Translation, Some(facts)) => lap::run(
+            (Interface::Lap, DofSet::TRANSLATION, Some(facts)) => lap::run(
                 &file.lap::<1>()?,
                 &Laws::of(file, over_preload)?,
                 facts,
                 names,
             ),
-            (Interface::Lap, DofSet::TranslationRotation, Some(facts)) => lap::run(
+            (Interface::Lap, DofSet::TRANSLATION_ROTATION, Some(facts)) => lap::run(
                 &file.lap::<2>()?,
                 &Laws::of(file, over_preload)?,
                 facts,
                 names,
             ),
             (Interface::Lap, _, None) => None,
-            (Interface::Element, DofSet::Translation, _) => Some(element::run(
+            (Interface::Element, DofSet::TRANSLATION, _) => Some(element::run(
                 &Laws::<1>::of(file, over_preload)?,
                 step_of_element_s,
                 names,
             )),
-            (Interface::Element, DofSet::TranslationRotation, _) => Some(element::run(
+            (Interface::Element, DofSet::TRANSLATION_ROTATION, _) => Some(element::run(
                 &Laws::<2>::of(file, over_preload)?,
                 step_of_element_s,
                 names,

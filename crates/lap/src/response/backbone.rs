@@ -4,12 +4,13 @@
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
+use bolted_joint_dynamics::law::Term;
+
 use super::data::{RESPONSE, ResponseDataError, Use};
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
-use super::terms::Term;
 
 /// Half-periods that a free decay is read over at a time.
 const HALF_PERIODS: usize = 10;
@@ -65,7 +66,7 @@ impl BackboneLine {
             ResponseUnknown::SupportDamping => [0.0, 0.0, 0.5],
             ResponseUnknown::JointDamping => [0.0, 0.0, 1.0],
             ResponseUnknown::Term(term) => {
-                let by = z.by_term[term as usize];
+                let by = z.by_term[term.index()];
                 [by.re, 0.0, by.im / self.omega]
             }
             ResponseUnknown::OtherModesReal | ResponseUnknown::OtherModesImaginary => [0.0; 3],

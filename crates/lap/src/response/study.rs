@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use bolted_joint_dynamics::law::Term;
 use serde::{Deserialize, Serialize};
 
 use super::super::input::{check_name, refuse};
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
-use super::terms::{Term, TermSet};
+use super::terms::{NamedTerm, TermSet};
 use crate::error::LapError;
 use bolted_joint_files::text_file;
 use bolted_joint_identify::{IdentifyError, StudyMethod};
@@ -144,7 +145,7 @@ struct StudyFile {
 struct ModelTable {
     drive: Place,
     response: Place,
-    terms: Option<Vec<Term>>,
+    terms: Option<Vec<NamedTerm>>,
     harmonics: Option<usize>,
     #[serde(default)]
     other_modes: bool,
@@ -224,16 +225,19 @@ impl LapResponseStudy {
         check_name(path, &file.name)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let noise = noise(path, &file.noise)?;
-        let terms = file.model.terms.as_deref();
-        if let Some(twice) = terms.and_then(|terms| {
-            let mut terms = terms.iter().enumerate();
-            let all = file.model.terms.as_deref().unwrap_or_default();
-            terms.find_map(|(place, term)| all[..place].contains(term).then_some(*term))
+        let terms: Option<Vec<Term>> = file
+            .model
+            .terms
+            .as_deref()
+            .map(|terms| terms.iter().map(|named| named.0).collect());
+        if let Some(twice) = terms.as_deref().and_then(|terms| {
+            let mut all = terms.iter().enumerate();
+            all.find_map(|(place, term)| terms[..place].contains(term).then_some(*term))
         }) {
             return refuse(
                 path,
                 "model.terms",
-                format!("{} twice", twice.symbol()),
+                format!("{} twice", twice.row().symbol),
                 "every term once",
             );
         }
@@ -324,7 +328,7 @@ impl LapResponseStudy {
             name: file.name,
             drive: file.model.drive,
             response: file.model.response,
-            terms: file.model.terms.map(|terms| TermSet::of(&terms)),
+            terms: terms.as_deref().map(TermSet::of),
             harmonics,
             other_modes: file.model.other_modes,
             known,

@@ -101,8 +101,8 @@ impl Checker<'_> {
                 source,
             })?;
             let is_lap = match file.joint.dofs {
-                DofSet::Translation => file.lap::<1>().map(drop),
-                DofSet::TranslationRotation => file.lap::<2>().map(drop),
+                DofSet::TRANSLATION => file.lap::<1>().map(drop),
+                DofSet::TRANSLATION_ROTATION => file.lap::<2>().map(drop),
             };
             is_lap.map_err(|source| RespondError::Law {
                 path: path.clone(),
@@ -290,8 +290,8 @@ impl Checker<'_> {
         dofs: DofSet,
     ) -> Result<Vec<Start>, RespondError> {
         let expected = match dofs {
-            DofSet::Translation => "a.y, a.v, b.y or b.v",
-            DofSet::TranslationRotation => "a or b, a point, and y, theta, v or omega",
+            DofSet::TRANSLATION => "a.y, a.v, b.y or b.v",
+            DofSet::TRANSLATION_ROTATION => "a or b, a point, and y, theta, v or omega",
         };
         let one = |(name, &value): (&String, &f64)| {
             let key = format!("start.{name}");

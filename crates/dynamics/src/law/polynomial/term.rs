@@ -4,6 +4,7 @@ use super::{DAMPER_COUNT, PARAMETERS, Polynomial, SPRING_COUNT};
 use crate::{
     law::declaration::{Parameter, UnitRule},
     number::Number,
+    power_series::value,
 };
 
 /// Number of terms.
@@ -118,6 +119,17 @@ impl<N: Number> Polynomial<N> {
             None => &mut self.springs[term.0],
             Some(index) => &mut self.dampers[index],
         }
+    }
+}
+
+impl Polynomial {
+    /// Viscous damper with the same loss over a period of a harmonic motion of this amplitude (m, rad) as the dampers have.
+    #[must_use]
+    pub fn equivalent_damping(&self, amplitude: f64) -> f64 {
+        let describing = |j: usize| Term(SPRING_COUNT + j).describing();
+        let shares: [f64; DAMPER_COUNT] = std::array::from_fn(|j| describing(j) * self.dampers[j]);
+        let squared = amplitude * amplitude;
+        value(&shares, squared) * squared
     }
 }
 

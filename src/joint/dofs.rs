@@ -25,6 +25,15 @@ impl DofSet {
         self.names().len()
     }
 
+    /// The DOFs as rows of the table of DOFs, in the order of the matrices' rows.
+    #[must_use]
+    pub fn rows(self) -> &'static [usize] {
+        match self {
+            Self::Translation => &[0],
+            Self::TranslationRotation => &[0, 1],
+        }
+    }
+
     /// Names of the DOFs in the order of the matrices' rows.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {

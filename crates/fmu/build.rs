@@ -20,8 +20,7 @@ fn main() -> ExitCode {
 fn write_tables() -> Result<(), String> {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=linking.rs");
-    let interfaces =
-        Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
+    let interfaces = Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
     let out = variable("OUT_DIR")?;
     let path = Path::new(&out).join("interface.rs");
     fs::write(&path, interfaces.to_rust()).map_err(|error| format!("{}: {error}", path.display()))

@@ -370,12 +370,8 @@ mod tests {
 
     #[test]
     fn user_text_is_escaped() {
-        let mut description = Description::new(
-            Interface::Element,
-            DofSet::Translation,
-            Joints::CONSTANT,
-        )
-        .unwrap();
+        let mut description =
+            Description::new(Interface::Element, DofSet::Translation, Joints::CONSTANT).unwrap();
         let name = "M8 <\"steel\" & 'brass'> ü";
         description.set_names(name, format!("{name}: x"));
         let text = description.text().unwrap();

@@ -8,11 +8,7 @@ use bolted_joint_joint::{Body, DofSet, HigherTerms, Joint, JointFile};
 /// Start value of the parameter `name`, or of the preload, or `None` where the joint file has no such number.
 ///
 /// A law's parameter that the file leaves out is zero.
-pub fn start_value(
-    file: &JointFile,
-    longest_step_s: Option<f64>,
-    name: &str,
-) -> Option<f64> {
+pub fn start_value(file: &JointFile, longest_step_s: Option<f64>, name: &str) -> Option<f64> {
     let joint = &file.joint;
     match name {
         "step_size_max" => longest_step_s,

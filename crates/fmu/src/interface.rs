@@ -276,12 +276,10 @@ impl Variables {
             Kind::Element => ELEMENT_STATES,
             Kind::Lap => LAP_STATES,
         };
-        states
-            .iter()
-            .filter(move |state| {
-                let has = |reference| self.get(reference).is_some();
-                has(state.reference) && has(state.derivative)
-            })
+        states.iter().filter(move |state| {
+            let has = |reference| self.get(reference).is_some();
+            has(state.reference) && has(state.derivative)
+        })
     }
 
     /// Name of the variable with this value reference, for messages.

@@ -1,8 +1,6 @@
 //! What the laws of the joint say of themselves, until the laws say it.
 
-use bolted_joint_dynamics::law::{
-    ActsOn, Declaration, Parameter, Quantity, Range, Span, UnitRule,
-};
+use bolted_joint_dynamics::law::{ActsOn, Declaration, Parameter, Quantity, Range, Span, UnitRule};
 
 const fn parameter(
     symbol: &'static str,

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use bolted_joint_dynamics::{DOFS, Dof};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,11 @@ impl DofSet {
             Self::Translation => &[0],
             Self::TranslationRotation => &[0, 1],
         }
+    }
+
+    /// The DOFs themselves, in that order.
+    pub fn members(self) -> impl Iterator<Item = &'static Dof> {
+        self.rows().iter().map(|&row| &DOFS[row])
     }
 
     /// Names of the DOFs in the order of the matrices' rows.

@@ -2,7 +2,8 @@
 
 use bolted_joint_dynamics::Motion;
 
-use super::{Laws, Names, ReferenceRun, entry, stimulus, table};
+use super::{DISPLACEMENT, LOAD, Laws, Names, RATE, ReferenceRun, entry, stimulus, table};
+use crate::ExportError;
 
 /// Communication step (s) where nothing says what frequencies matter.
 const STEP_S: f64 = 1e-4;
@@ -19,7 +20,8 @@ pub(super) fn run<const D: usize>(
     laws: &Laws<D>,
     step_s: Option<f64>,
     names: Names,
-) -> ReferenceRun {
+) -> Result<ReferenceRun, ExportError> {
+    let dofs = names.dofs;
     let step_s = step_s.unwrap_or(STEP_S);
     let amplitude = stimulus::relative_motion(laws.nominal());
     let time = |step: usize| step as f64 * step_s;
@@ -40,22 +42,19 @@ pub(super) fn run<const D: usize>(
         .map(|level| [motion(false, level), motion(true, level)])
         .collect();
     let input = |[a, b]: &[Motion<D>; 2], name: &str| {
-        [("a", a), ("b", b)]
-            .iter()
-            .find_map(|(side, motion)| {
-                let quantities = [
-                    ("y", "theta", &motion.displacement),
-                    ("v", "omega", &motion.velocity),
-                ];
-                entry(name, side, quantities)
-            })
-            .unwrap_or_default()
+        [("a", a), ("b", b)].iter().find_map(|(side, motion)| {
+            let quantities: [(_, &[f64]); 2] = [
+                (DISPLACEMENT, &motion.displacement),
+                (RATE, &motion.velocity),
+            ];
+            entry(name, side, dofs, &quantities)
+        })
     };
     let inputs = sides.iter().enumerate().flat_map(|(level, sides)| {
         // Constant from one level's beginning to the next.
         [level, level + 1].map(move |edge| {
             (time(STEPS_A_LEVEL * edge), move |name: &str| match name {
-                "preload" => laws.preload_n_m(level),
+                "preload" => Some(laws.preload_n_m(level)),
                 _ => input(sides, name),
             })
         })
@@ -67,21 +66,20 @@ pub(super) fn run<const D: usize>(
         let on_b = law.load_on_b(&relative);
         let on_a = on_b.map(|load| -load);
         (middle, move |name: &str| match name {
-            "energy.stored" => law.stored_energy(&relative.displacement),
-            "power.dissipated" => law.dissipated_power(&relative),
+            "energy.stored" => Some(law.stored_energy(&relative.displacement)),
+            "power.dissipated" => Some(law.dissipated_power(&relative)),
             // the preload is held
-            "power.preload" => 0.0,
+            "power.preload" => Some(0.0),
             _ => [("a", &on_a), ("b", &on_b), ("joint", &on_b)]
-                .iter()
-                .find_map(|(side, load)| entry(name, side, [("F", "M", load), ("F", "M", load)]))
-                .unwrap_or_default(),
+                .into_iter()
+                .find_map(|(side, load)| entry(name, side, dofs, &[(LOAD, load)])),
         })
     });
-    ReferenceRun {
+    Ok(ReferenceRun {
         step_s,
         steps: STEPS_A_LEVEL * LEVELS,
-        inputs: table(names.inputs, inputs),
-        outputs: table(names.outputs, outputs),
+        inputs: table(names.inputs, inputs)?,
+        outputs: table(names.outputs, outputs)?,
         tolerance: TOLERANCE,
-    }
+    })
 }

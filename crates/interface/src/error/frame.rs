@@ -4,7 +4,9 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrameProblem {
     /// A variable or an unknown is not written as one empty element on one line.
-    #[error("line {line} is not one whole element; write it as <{tag} name=\"value\" …/> on a line of its own")]
+    #[error(
+        "line {line} is not one whole element; write it as <{tag} name=\"value\" …/> on a line of its own"
+    )]
     NotALine {
         /// Line number, from 1.
         line: usize,
@@ -30,7 +32,9 @@ pub enum FrameProblem {
         expected: &'static str,
     },
     /// A placeholder stands for nothing there.
-    #[error("line {line}: {{{placeholder}}} stands for nothing there; is the line one for each DOF?")]
+    #[error(
+        "line {line}: {{{placeholder}}} stands for nothing there; is the line one for each DOF?"
+    )]
     Placeholder {
         /// Line number, from 1.
         line: usize,

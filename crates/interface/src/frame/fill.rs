@@ -178,8 +178,10 @@ impl<'a> Filler<'a> {
             self.filled.parts.push(Part::Text(text.to_owned()));
             return Ok(());
         };
-        let mut line =
-            Line::parse(text).ok_or(FrameProblem::NotALine { line: number, tag: *tag })?;
+        let mut line = Line::parse(text).ok_or(FrameProblem::NotALine {
+            line: number,
+            tag: *tag,
+        })?;
         let each = line.take("each");
         let only = line.take("only");
         for instance in self.instances(each, number)? {
@@ -243,9 +245,7 @@ impl<'a> Filler<'a> {
                 Instance::Alone => Origin::Alone,
                 Instance::Dof(row) => Origin::Dof { pattern, row: *row },
                 Instance::Parameter(parameter) => Origin::Parameter((*parameter).clone()),
-                Instance::Memory(memory) => {
-                    Origin::Memory([memory.law, memory.number, memory.row])
-                }
+                Instance::Memory(memory) => Origin::Memory([memory.law, memory.number, memory.row]),
             }],
             line,
             number,

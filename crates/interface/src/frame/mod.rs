@@ -114,8 +114,7 @@ impl Expanded {
                 problem: problem.into(),
             }
         };
-        let filled =
-            |file, text| Filled::new(file, text, filling).map_err(inconsistent(file));
+        let filled = |file, text| Filled::new(file, text, filling).map_err(inconsistent(file));
         let element = filled(ELEMENT, frames.element)?;
         let lap = filled(LAP, frames.lap)?;
         let names = element
@@ -126,7 +125,9 @@ impl Expanded {
         let references = references::references(frames.value_references, names)
             .map_err(inconsistent(VALUE_REFERENCES))?;
         Ok([
-            element.expanded(&references).map_err(inconsistent(ELEMENT))?,
+            element
+                .expanded(&references)
+                .map_err(inconsistent(ELEMENT))?,
             lap.expanded(&references).map_err(inconsistent(LAP))?,
         ])
     }

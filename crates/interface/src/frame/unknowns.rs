@@ -6,12 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::{
-    Filling, Instance,
-    laws::LawParameter,
-    line::Line,
-    words::Quantity,
-};
+use super::{Filling, Instance, laws::LawParameter, line::Line, words::Quantity};
 use crate::error::FrameProblem;
 
 /// Kinds of dependencies, as attributes of an unknown in a frame.
@@ -46,12 +41,12 @@ impl Unknown {
             };
             let known = known.get_or_insert_default();
             for token in tokens.split_whitespace() {
-                let names = laws
-                    .names(token, instance)
-                    .map_err(|placeholder| FrameProblem::Placeholder {
+                let names = laws.names(token, instance).map_err(|placeholder| {
+                    FrameProblem::Placeholder {
                         line: number,
                         placeholder,
-                    })?;
+                    }
+                })?;
                 for name in names {
                     if !known.iter().any(|(earlier, _)| *earlier == name) {
                         known.push((name, kind));
@@ -81,7 +76,10 @@ impl Unknown {
     }
 
     /// The element of FMI, dependencies in the order of their value references.
-    pub(super) fn element(&self, references: &HashMap<String, u32>) -> Result<String, FrameProblem> {
+    pub(super) fn element(
+        &self,
+        references: &HashMap<String, u32>,
+    ) -> Result<String, FrameProblem> {
         let reference = |name: &String| {
             references
                 .get(name.as_str())
@@ -144,11 +142,8 @@ impl Laws<'_> {
     }
 
     fn acting_on(&self, effect: &str, instance: &Instance<'_>) -> Result<Vec<String>, String> {
-        let here = |parameter: &LawParameter| {
-            instance
-                .row()
-                .is_some_and(|row| parameter.at.touches(row))
-        };
+        let here =
+            |parameter: &LawParameter| instance.row().is_some_and(|row| parameter.at.touches(row));
         let acts = |parameter: &&LawParameter| match effect {
             "load" => parameter.acts_on.load && here(parameter),
             "own" => instance.law() == Some(parameter.law) && here(parameter),

@@ -83,10 +83,7 @@ fn capitalised(word: &str) -> String {
 }
 
 /// `text` with each `{placeholder}` replaced, or the first placeholder that stands for nothing.
-pub(super) fn filled(
-    text: &str,
-    value: impl Fn(&str) -> Option<String>,
-) -> Result<String, String> {
+pub(super) fn filled(text: &str, value: impl Fn(&str) -> Option<String>) -> Result<String, String> {
     let mut filled = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {

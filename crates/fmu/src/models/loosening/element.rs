@@ -154,11 +154,7 @@ impl<const D: usize> Model for LooseningElement<D> {
         differentiate([&self.law(values), &law_change], values, change);
         let [r, r_change] = [values, &*change].map(|values| relative::<D>(values).displacement);
         ElementOverPreloadOutputs {
-            power_preload: preload_power_change(
-                &self.table,
-                [values, &*change],
-                [&r, &r_change],
-            ),
+            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
         }
         .write(change);
     }

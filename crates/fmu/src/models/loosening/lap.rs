@@ -396,11 +396,7 @@ impl<const D: usize> Model for LooseningLap<D> {
             [&state, &state_change].map(|state| state.a.relative_to(&state.b).displacement);
         differentiate([&lap, &lap_change], values, change);
         LapOverPreloadOutputs {
-            power_preload: preload_power_change(
-                &self.table,
-                [values, &*change],
-                [&r, &r_change],
-            ),
+            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
             // dP = dFᵀẋ + Fᵀdẋ
             power_supplied: supplied_power(&loads(change), &state)
                 + supplied_power(&loads(values), &state_change),

@@ -115,6 +115,16 @@ impl Joint {
         all.find(|own| own.dof == dof && own.law == law)
     }
 
+    /// Names of the joint's laws that remember the motion, in the order in which laws are declared.
+    #[must_use]
+    pub fn laws_with_memory(&self) -> Vec<&'static str> {
+        Friction::laws()
+            .filter(|law| !law.memory.is_empty())
+            .filter(|law| self.friction.iter().any(|own| own.law.name == law.name))
+            .map(|law| law.name)
+            .collect()
+    }
+
     /// Whether a term of higher order is not zero.
     #[must_use]
     pub fn has_terms_of_higher_order(&self) -> bool {

@@ -103,8 +103,9 @@ pub(super) fn load_finding(
                 "run: found an output that is not finite at communication point {index}"
             ));
         }
-        for (i, (expected, size)) in expected_loads(joint, sample).into_iter().enumerate() {
-            let name = ["F", "M"][i.min(1)];
+        let loads = joint.dofs.members().zip(expected_loads(joint, sample));
+        for (i, (dof, (expected, size))) in loads.enumerate() {
+            let name = dof.load;
             let dofs = sample.joint.len();
             let mut found = vec![("joint", sample.joint[i])];
             if interface == Interface::Element {
@@ -176,7 +177,7 @@ pub(super) fn derivative_finding(
     let dofs = sample.joint.len();
     let relative = |i: usize| seed[i] - seed[dofs + i];
     let relative_rate = |i: usize| seed[2 * dofs + i] - seed[3 * dofs + i];
-    for (i, found) in found.iter().enumerate() {
+    for (i, (dof, found)) in joint.dofs.members().zip(found).enumerate() {
         let r = sample.displacements[i] - sample.displacements[dofs + i];
         let v = sample.velocities[i] - sample.velocities[dofs + i];
         // δF = K δr + C δṙ + (3 k3 r² + 5 k5 r⁴ + 7 k7 r⁶ + (2 c2 r + 4 c4 r³) ṙ) δr + (c2 r² + c4 r⁴) δṙ
@@ -205,9 +206,9 @@ pub(super) fn derivative_finding(
         }
         if (found - expected).abs() > SAME * size || !found.is_finite() {
             return Some(format!(
-                "run: found the directional derivative of {} to be {found:?}, expected {expected:?} from \
+                "run: found the directional derivative of joint.{} to be {found:?}, expected {expected:?} from \
                  resources/joint.json",
-                ["joint.F", "joint.M"][i.min(1)]
+                dof.load
             ));
         }
     }

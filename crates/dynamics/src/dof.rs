@@ -120,6 +120,15 @@ impl DofKind {
         }
     }
 
+    /// The word for the displacement.
+    #[must_use]
+    pub const fn displacement(self) -> &'static str {
+        match self {
+            Self::Translation => "displacement",
+            Self::Rotation => "rotation",
+        }
+    }
+
     /// The word for the motion, as in "stiffness in translation".
     #[must_use]
     pub const fn motion(self) -> &'static str {
@@ -138,12 +147,30 @@ impl DofKind {
         }
     }
 
+    /// The word for the acceleration.
+    #[must_use]
+    pub const fn acceleration(self) -> &'static str {
+        match self {
+            Self::Translation => "acceleration",
+            Self::Rotation => "angular acceleration",
+        }
+    }
+
     /// The word for the load.
     #[must_use]
     pub const fn load(self) -> &'static str {
         match self {
             Self::Translation => "force",
             Self::Rotation => "moment",
+        }
+    }
+
+    /// The word for the inertia.
+    #[must_use]
+    pub const fn inertia(self) -> &'static str {
+        match self {
+            Self::Translation => "mass",
+            Self::Rotation => "moment of inertia",
         }
     }
 }

@@ -26,6 +26,7 @@ pub struct LapIntegrator<const D: usize> {
     damping: Damping<D>,
     /// The joint's terms of higher order; `None` where it has none, so that nothing is spent on them.
     higher: Option<Higher<D>>,
+    has_memory: bool,
 }
 
 /// The dampers of supports and joint, as a linear map of velocities to accelerations.
@@ -72,6 +73,7 @@ impl<const D: usize> LapIntegrator<D> {
                 joint: of_joint(&law.linear.damping),
             },
             higher: (!polynomials.iter().all(Polynomial::is_cubic)).then(|| Higher::new(lap)),
+            has_memory: law.has_memory(),
         }
     }
 
@@ -79,7 +81,9 @@ impl<const D: usize> LapIntegrator<D> {
     #[inline]
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.higher.is_none() && self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
+        !self.has_memory
+            && self.higher.is_none()
+            && self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
     }
 
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
@@ -96,6 +100,13 @@ impl<const D: usize> LapIntegrator<D> {
             None => self.advance_without_higher(state, loads, interval_s, substeps),
             Some(higher) => self.advance_higher(higher, state, loads, interval_s, substeps),
         }
+    }
+
+    /// Whether the joint remembers its motion. Such a lap is stepped by [`crate::LapConditions::step`], not by this.
+    #[inline]
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.has_memory
     }
 
     /// Whether the joint has terms of higher order.

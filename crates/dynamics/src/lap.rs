@@ -129,6 +129,14 @@ impl<const D: usize, N: Number> Lap<D, N> {
             + self.joint.dissipated_power_after(memory, &state.relative())
     }
 
+    /// Power that the dampers of joint and supports turn into heat, W, as [`JointLaw::viscous_power`].
+    #[must_use]
+    pub fn viscous_power(&self, state: &LapState<D, N>) -> N {
+        self.a.dissipation(&state.a)
+            + self.b.dissipation(&state.b)
+            + self.joint.viscous_power(&state.relative())
+    }
+
     /// Accelerations of body a and of body b: m/s², rad/s².
     #[must_use]
     pub fn accelerations(
@@ -163,6 +171,15 @@ impl<const D: usize> Lap<D> {
             .flat_map(|body| body.stiffness.iter().chain(&body.damping))
             .all(|value| value.is_finite());
         (!finite || !self.joint.is_finite()).then_some(Defect::NotFinite)
+    }
+
+    /// Whether a support can feed energy: its stiffness or damping on a DOF is negative.
+    #[must_use]
+    pub fn has_active_support(&self) -> bool {
+        [&self.a, &self.b]
+            .iter()
+            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
+            .any(|&coefficient| coefficient < 0.0)
     }
 
     /// The model with its change along one direction.

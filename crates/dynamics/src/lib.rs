@@ -5,6 +5,7 @@
 //! kind of number, real ones or [`Dual`] ones that carry their changes.
 #![forbid(unsafe_code)]
 
+mod counted;
 mod definiteness;
 mod dof;
 mod eigenvalues;
@@ -13,7 +14,6 @@ mod escape;
 mod integrator;
 mod lap;
 pub mod law;
-mod loosening;
 mod motion;
 mod number;
 mod pair;
@@ -21,16 +21,21 @@ mod power_series;
 mod propagator;
 mod rk4;
 mod spectrum;
+mod stepper;
 mod vector;
 
+pub use counted::{CountedState, LapConditions, PassedEnergy};
 pub use definiteness::is_positive_semidefinite;
 pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
-pub use law::{Beyond, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial, TableDefect};
-pub use loosening::{CountedState, LapConditions, PassedEnergy};
+pub use law::{
+    Beyond, DofLaws, DofMemory, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial,
+    TableDefect,
+};
 pub use motion::Motion;
 pub use number::{Dual, Number};
 pub use propagator::LapPropagator;
 pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
 pub use spectrum::{Eigenvalue, Spectrum};
+pub use stepper::{LapMoment, LapStepper};

@@ -55,7 +55,8 @@ impl fmt::Display for Identity {
         } = self.variables;
         let preload = match dependence {
             Dependence::OverPreload => " over the preload",
-            Dependence::Any | Dependence::Constant => "",
+            Dependence::Constant => "",
+            Dependence::Memory(_) => " with memory",
         };
         write!(
             f,
@@ -149,7 +150,7 @@ impl Snapshot {
         });
         bytes.push(kind_number(variables.kind));
         bytes.push(variables.dofs.count());
-        bytes.push(u8::from(variables.dependence == Dependence::OverPreload));
+        bytes.extend(variables.dependence.number().to_le_bytes());
         bytes.push(match interface_type {
             InterfaceType::CoSimulation => 0,
             InterfaceType::ModelExchange => 1,
@@ -215,11 +216,8 @@ impl Snapshot {
                 .into());
             }
         };
-        let dependence = match reader.u8()? {
-            0 => Dependence::Constant,
-            1 => Dependence::OverPreload,
-            _ => return Err(Damage::Field { name: "joint" }.into()),
-        };
+        let dependence =
+            Dependence::from_number(reader.u32()?).ok_or(Damage::Field { name: "joint" })?;
         let interface_type = match reader.u8()? {
             0 => InterfaceType::CoSimulation,
             1 => InterfaceType::ModelExchange,

@@ -109,6 +109,17 @@ impl ActsOn {
 pub struct Remembered {
     /// Variable `joint.SYMBOL_DOF`.
     pub symbol: &'static str,
+    /// Its quantity, that is its unit and type.
+    pub quantity: RememberedAs,
     /// What it is, for people; words in braces as in [`Parameter::description`].
     pub description: &'static str,
+}
+
+/// What a remembered number is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RememberedAs {
+    /// A relative displacement of its DOF.
+    Displacement,
+    /// A load on its DOF.
+    Load,
 }

@@ -120,6 +120,17 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
         })
     }
 
+    /// Power that the dampers turn into heat (W) at the relative motion. Laws that remember have no part in it: they tell their
+    /// heat where they move on, in [`JointLaw::commit`].
+    #[must_use]
+    pub fn viscous_power(&self, relative: &Motion<D, N>) -> N {
+        let linear = self.linear.dissipated_power(&relative.velocity);
+        (0..D).fold(linear, |sum, i| {
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            sum + self.on[i].viscous_power(r, velocity)
+        })
+    }
+
     /// Whether the joint is linear.
     #[inline]
     #[must_use]

@@ -10,7 +10,7 @@ mod over_preload;
 mod polynomial;
 
 pub use declaration::{
-    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, Span, UnitRule,
+    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
 };
 pub use joint::{JointLaw, JointMemory};
 pub use linear::{DAMPING, Linear, STIFFNESS};
@@ -62,6 +62,11 @@ struct Place {
 }
 
 impl Place {
+    /// Whether the law there remembers anything.
+    const fn has_memory(self) -> bool {
+        self.memory[0] < self.memory[1]
+    }
+
     /// The place of a law behind this one.
     const fn then(self, declaration: &Declaration) -> Self {
         let ([_, parameters], [_, memory]) = (self.parameters, self.memory);
@@ -139,11 +144,22 @@ macro_rules! dof_laws {
                 sum
             }
 
+            /// The same of the laws that remember nothing, W: the others tell their heat where they move on.
+            #[inline]
+            #[must_use]
+            pub fn viscous_power(&self, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if !PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    sum = sum + self.$name().dissipated_power(&[], r, velocity);
+                })+
+                sum
+            }
+
             /// Whether a law that is there remembers the motion.
             #[inline]
             #[must_use]
             pub fn have_memory(&self) -> bool {
-                $((PLACES.$name.memory[0] < PLACES.$name.memory[1] && self.has(PLACES.$name)) ||)+ false
+                $((PLACES.$name.has_memory() && self.has(PLACES.$name)) ||)+ false
             }
         }
 

@@ -93,6 +93,8 @@ impl Instance {
         // a restored state may have brought other parameters
         let active = self.use_parameters()?;
         let reached = self.model.check_states(&self.values)?;
+        self.model.commit(&mut self.values);
+        self.outputs_stale = true;
         Ok(Warning::of(active, reached))
     }
 

@@ -67,6 +67,7 @@ fn conditions(joint: &JointOverPreload<2>, fall: f64, t: f64) -> LapConditions<2
 }
 
 const START: CountedState<2> = CountedState {
+    memory: JointMemory::REST,
     state: LapState {
         a: Motion {
             displacement: [2e-4, 1e-3],

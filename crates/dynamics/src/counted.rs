@@ -1,5 +1,5 @@
-//! Time integration of a lap whose bolt loosens: the joint's law changes within a step, and the energy that comes and goes
-//! is counted along with the motion.
+//! Time integration of a lap that keeps account: the joint's law may change within a step because its bolt loosens, the joint
+//! may remember its motion, and the energy that comes and goes is counted.
 
 use std::array::from_fn;
 
@@ -15,7 +15,7 @@ use crate::{
 pub struct PassedEnergy {
     /// Work of the external loads.
     pub supplied: f64,
-    /// Turned into heat by the dampers of joint and supports.
+    /// Turned into heat by joint and supports.
     pub dissipated: f64,
     /// Work done on the joint's springs by their change of stiffness; negative while the joint loosens.
     pub preload: f64,
@@ -32,31 +32,54 @@ pub struct LapConditions<const D: usize> {
     pub loads: LapLoads<D>,
 }
 
-/// Motion, and the energy that has passed.
+/// Motion, what the joint remembers of it, and the energy that has passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedState<const D: usize> {
     /// Motion of both bodies.
     pub state: LapState<D>,
+    /// What the joint remembers; a step begins and ends with it, and the stages between leave it as it is.
+    pub memory: JointMemory<D>,
     /// What was counted so far.
     pub passed: PassedEnergy,
 }
 
+impl<const D: usize> CountedState<D> {
+    /// At rest, before anything has moved.
+    pub const REST: Self = Self {
+        state: LapState::REST,
+        memory: JointMemory::REST,
+        passed: PassedEnergy {
+            supplied: 0.0,
+            dissipated: 0.0,
+            preload: 0.0,
+        },
+    };
+}
+
+/// Velocities and accelerations, and the powers.
+struct Rate<const D: usize> {
+    state: LapState<D>,
+    powers: PassedEnergy,
+}
+
 impl<const D: usize> LapConditions<D> {
-    /// Power of the external loads, of the dampers and of the changing stiffness in this state, W.
+    /// Power of the external loads, of the dampers and of the changing stiffness in this state, W. The heat of laws that
+    /// remember is none of it: that is counted where they move on.
     #[must_use]
     pub fn powers(&self, state: &LapState<D>) -> PassedEnergy {
         let relative = state.relative();
         PassedEnergy {
             // P = F_aᵀ ẋ_a + F_bᵀ ẋ_b
             supplied: dot(&self.loads.a, &state.a.velocity) + dot(&self.loads.b, &state.b.velocity),
-            dissipated: self.lap.dissipated_power(&JointMemory::REST, state),
+            dissipated: self.lap.viscous_power(state),
             // ∂U/∂t at constant r = ½ rᵀ (dK/dt) r + ¼ Σ (dk3/dt) r⁴: U is linear in the coefficients
             preload: self.law_rate.stored_energy(&relative.displacement),
         }
     }
 
     /// Motion and energies after one step of the classical Runge–Kutta method of `step_s` (s), in which these conditions hold
-    /// at its start, middle and end.
+    /// at its start, middle and end. What the joint remembers moves on once, at the end: with such a joint the order is between
+    /// one and three, because a slider sticks or slips somewhere within a step.
     #[must_use]
     pub fn step(
         [start, middle, end]: [&Self; 3],
@@ -64,17 +87,18 @@ impl<const D: usize> LapConditions<D> {
         step_s: f64,
     ) -> CountedState<D> {
         let half_s = 0.5 * step_s;
-        let k1 = start.rate(&counted.state);
-        let k2 = middle.rate(&moved(&counted.state, half_s, &k1.state));
-        let k3 = middle.rate(&moved(&counted.state, half_s, &k2.state));
-        let k4 = end.rate(&moved(&counted.state, step_s, &k3.state));
+        let mut memory = counted.memory;
+        let k1 = start.rate(&memory, &counted.state);
+        let k2 = middle.rate(&memory, &moved(&counted.state, half_s, &k1.state));
+        let k3 = middle.rate(&memory, &moved(&counted.state, half_s, &k2.state));
+        let k4 = end.rate(&memory, &moved(&counted.state, step_s, &k3.state));
         // z(t+h) = z + h/6 (k₁ + 2k₂ + 2k₃ + k₄)
         let sixth_s = step_s / 6.0;
         let mean = |of: fn(&PassedEnergy) -> f64| {
-            let [k1, k2, k3, k4] = [&k1, &k2, &k3, &k4].map(|k| of(&k.passed));
+            let [k1, k2, k3, k4] = [&k1, &k2, &k3, &k4].map(|k| of(&k.powers));
             of(&counted.passed) + sixth_s * (k1 + 2.0 * (k2 + k3) + k4)
         };
-        let passed = PassedEnergy {
+        let mut passed = PassedEnergy {
             supplied: mean(|passed| passed.supplied),
             dissipated: mean(|passed| passed.dissipated),
             preload: mean(|passed| passed.preload),
@@ -82,27 +106,30 @@ impl<const D: usize> LapConditions<D> {
         let inner = moved(&k2.state, 1.0, &k3.state);
         let outer = moved(&k1.state, 1.0, &k4.state);
         let sum = moved(&outer, 2.0, &inner);
+        let state = moved(&counted.state, sixth_s, &sum);
+        if end.lap.joint.has_memory() {
+            let r = state.relative().displacement;
+            passed.dissipated += end.lap.joint.commit(&mut memory, &r);
+        }
         CountedState {
-            state: moved(&counted.state, sixth_s, &sum),
+            state,
+            memory,
             passed,
         }
     }
 
-    /// Velocities and accelerations, and the powers.
-    fn rate(&self, state: &LapState<D>) -> CountedState<D> {
-        let [of_a, of_b] = self
-            .lap
-            .accelerations(&JointMemory::REST, state, &self.loads);
+    fn rate(&self, memory: &JointMemory<D>, state: &LapState<D>) -> Rate<D> {
+        let [of_a, of_b] = self.lap.accelerations(memory, state, &self.loads);
         let rate = |motion: &Motion<D>, acceleration| Motion {
             displacement: motion.velocity,
             velocity: acceleration,
         };
-        CountedState {
+        Rate {
             state: LapState {
                 a: rate(&state.a, of_a),
                 b: rate(&state.b, of_b),
             },
-            passed: self.powers(state),
+            powers: self.powers(state),
         }
     }
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::StepBound;
 use super::stability::Search;
-use bolted_joint_joint::{DofSet, Joint, LawError, displacements};
+use bolted_joint_joint::{Joint, LawError, displacements};
 
 /// Inertia of a neighbour in one DOF, at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]

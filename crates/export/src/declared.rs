@@ -1,6 +1,6 @@
 //! What the FMU of a joint must declare, for whoever looks into one.
 
-use bolted_joint_interface::{Dependence, Interface as Declared};
+use bolted_joint_interface::{Interface as Declared, Joints};
 
 use super::description::Description;
 use super::parameters::start_value;
@@ -13,7 +13,7 @@ pub fn declared(
     interface: Interface,
     step_size_max_s: Option<f64>,
 ) -> Result<Declared, ExportError> {
-    let mut description = Description::new(interface, file.joint.dofs, dependence(file))?;
+    let mut description = Description::new(interface, file.joint.dofs, kind(file))?;
     description.set_parameters(|name| start_value(file, step_size_max_s, name))?;
     if let Some(table) = &file.joint.over_preload {
         description.set_preload(table.nominal, None);
@@ -23,9 +23,9 @@ pub fn declared(
 }
 
 /// Whether the FMU's joint is a constant one or one over the preload.
-pub(super) fn dependence(file: &JointFile) -> Dependence {
+pub(super) fn kind(file: &JointFile) -> Joints {
     match file.joint.over_preload {
-        Some(_) => Dependence::OverPreload,
-        None => Dependence::Constant,
+        Some(_) => Joints::OVER_PRELOAD,
+        None => Joints::CONSTANT,
     }
 }

@@ -6,7 +6,7 @@ use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum};
 
 use super::archive::{File, archive};
 use super::assets::pictures;
-use super::declared::dependence;
+use super::declared::kind;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
@@ -205,7 +205,7 @@ fn fmu(
     let step = lap.as_ref().map(|lap| lap.step);
 
     let dofs = file.joint.dofs;
-    let mut description = Description::new(options.interface, dofs, dependence(subject.source()))?;
+    let mut description = Description::new(options.interface, dofs, kind(subject.source()))?;
     description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);

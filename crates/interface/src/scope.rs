@@ -121,9 +121,9 @@ impl Scope {
         self.joints.intersects(joint) && self.rows.iter().any(|&needed| rows.contains(needed))
     }
 
-    /// Whether it is of every joint with the same DOFs.
+    /// Whether it is of these kinds of joints and no other.
     #[must_use]
-    pub fn is_of_any_law(&self) -> bool {
-        self.joints == Joints::ANY
+    pub fn is_only_of(&self, joints: Joints) -> bool {
+        self.joints == joints
     }
 }

@@ -55,6 +55,12 @@ impl DofSet {
         &DOFS[self.0[index.min(last)]]
     }
 
+    /// The rows of the table of DOFs that it has.
+    #[must_use]
+    pub fn indices(self) -> &'static [usize] {
+        self.0
+    }
+
     /// Names of the DOFs in the order of the matrices' rows.
     #[must_use]
     pub fn names(self) -> Vec<&'static str> {

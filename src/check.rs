@@ -134,10 +134,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         ));
     }
     if file.bodies.is_some() {
-        facts.push(match file.joint.dofs {
-            DofSet::TRANSLATION => lap_fact::<1>(&joints),
-            DofSet::TRANSLATION_ROTATION => lap_fact::<2>(&joints),
-        });
+        facts.push(with_dofs!(file.joint.dofs.size(), D => lap_fact::<D>(&joints)));
     }
     let findings = passivity
         .active()

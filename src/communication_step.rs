@@ -89,31 +89,37 @@ fn neighbours(
     mass: [Inertia; 2],
     inertia: Option<[Inertia; 2]>,
 ) -> Result<Neighbours, CliError> {
-    let mut sides = mass.map(|mass| vec![mass]);
-    match (dofs, inertia) {
-        (DofSet::TRANSLATION, None) => {}
-        (DofSet::TRANSLATION_ROTATION, Some(inertia)) => {
-            for (side, inertia) in sides.iter_mut().zip(inertia) {
-                side.push(inertia);
-            }
-        }
-        (DofSet::TRANSLATION_ROTATION, None) => {
+    let turns = dofs.rows().any(|dof| dof.kind == DofKind::Rotation);
+    let inertia = match inertia {
+        Some(inertia) if turns => inertia,
+        // no row asks for it
+        None if !turns => mass,
+        None => {
             return Err(CliError::Option {
                 option: "--neighbour-inertia",
                 found: "none".to_owned(),
                 expected: "the moments of inertia of both neighbours, as the joint has rotation; `fixed,fixed` if they do not turn",
             });
         }
-        (DofSet::TRANSLATION, Some(_)) => {
+        Some(_) => {
             return Err(CliError::Option {
                 option: "--neighbour-inertia",
                 found: "a joint without rotation".to_owned(),
                 expected: "--neighbour-mass alone",
             });
         }
-    }
-    let [a, b] = sides;
-    Ok(Neighbours { a, b })
+    };
+    let side = |side: usize| {
+        let rows = dofs.rows().map(|dof| match dof.kind {
+            DofKind::Translation => mass[side],
+            DofKind::Rotation => inertia[side],
+        });
+        rows.collect()
+    };
+    Ok(Neighbours {
+        a: side(0),
+        b: side(1),
+    })
 }
 
 fn of_element(
@@ -174,9 +180,8 @@ fn of_lap(
     let restraints = [&restraint(0), &restraint(1)];
     let longest_s = step_size_max_s.unwrap_or(f64::INFINITY);
     let amplitude = arguments.amplitude.as_deref();
-    let bound = shortest(joints, |file| match file.joint.dofs {
-        DofSet::TRANSLATION => lap_bound::<1>(file, restraints, longest_s, amplitude),
-        DofSet::TRANSLATION_ROTATION => lap_bound::<2>(file, restraints, longest_s, amplitude),
+    let bound = shortest(joints, |file| {
+        with_dofs!(file.joint.dofs.size(), D => lap_bound::<D>(file, restraints, longest_s, amplitude))
     })?;
     let mut facts = vec![
             format!(
@@ -248,9 +253,7 @@ fn about(joints: &[JointFile], amplitude: Option<&[f64]>) -> Vec<String> {
 }
 
 fn about_amplitude(joints: &[JointFile], amplitude: Option<&[f64]>) -> String {
-    let is_linear = joints.iter().map(|file| &file.joint).all(|joint| {
-        joint.cubic.iter().all(|&cubic| cubic == 0.0) && !joint.has_terms_of_higher_order()
-    });
+    let is_linear = joints.iter().all(|file| file.joint.is_linear());
     match amplitude {
         _ if is_linear => {
             "communication step: the joint is linear, the bound holds for any amplitude".to_owned()

@@ -2,8 +2,11 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::{DOF_SETS, DOFS, Dof, DofCount, law::UnitRule};
-use serde::{Deserialize, Serialize};
+use bolted_joint_dynamics::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, law::UnitRule};
+use serde::{
+    Deserialize, Deserializer, Serialize,
+    de::{EnumAccess, Error as _, VariantAccess as _, Visitor},
+};
 
 use super::units::unit;
 
@@ -106,5 +109,52 @@ impl TryFrom<Vec<String>> for DofSet {
                 let known: Vec<String> = Self::all().map(|dofs| dofs.to_string()).collect();
                 format!("found {names:?}, expected {}", known.join(" or "))
             })
+    }
+}
+
+/// Names of all DOFs there are.
+const NAMES: [&str; DOF_COUNT] = {
+    let mut names = [""; DOF_COUNT];
+    let mut row = 0;
+    while row < DOF_COUNT {
+        names[row] = DOFS[row].name;
+        row += 1;
+    }
+    names
+};
+
+/// A DOF as files name it; the first one unless another is named.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct DofName(usize);
+
+impl DofName {
+    /// The DOF.
+    #[must_use]
+    pub fn dof(self) -> &'static Dof {
+        &DOFS[self.0]
+    }
+}
+
+impl<'de> Deserialize<'de> for DofName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_enum("DofName", &NAMES, DofNameVisitor)
+    }
+}
+
+struct DofNameVisitor;
+
+impl<'de> Visitor<'de> for DofNameVisitor {
+    type Value = DofName;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("enum DofName")
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<DofName, A::Error> {
+        let (found, rest) = data.variant::<String>()?;
+        rest.unit_variant()?;
+        let row = NAMES.iter().position(|name| *name == found);
+        row.map(DofName)
+            .ok_or_else(|| A::Error::unknown_variant(&found, &NAMES))
     }
 }

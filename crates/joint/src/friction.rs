@@ -3,7 +3,7 @@
 use std::fmt;
 
 use bolted_joint_dynamics::{
-    DOFS, Dof, Polynomial,
+    Dof, Polynomial,
     law::{DECLARATIONS, Declaration, Law, Parameter},
 };
 use serde::{
@@ -11,6 +11,8 @@ use serde::{
     de::{Error, MapAccess, Visitor},
     ser::SerializeMap as _,
 };
+
+use super::DofName;
 
 /// Key of [`Friction::dof`].
 pub(super) const DOF: &str = "dof";
@@ -86,7 +88,7 @@ impl<'de> Visitor<'de> for Entry {
         let mut values: Vec<(String, f64)> = Vec::new();
         while let Some(key) = map.next_key::<String>()? {
             let is_there = match key.as_str() {
-                DOF => dof.replace(map.next_value::<DofName>()?.0).is_some(),
+                DOF => dof.replace(map.next_value::<DofName>()?.dof()).is_some(),
                 LAW => law.replace(map.next_value::<LawName>()?.0).is_some(),
                 _ => {
                     let value = map.next_value()?;
@@ -127,18 +129,6 @@ fn unknown_field<E: Error>(found: &str, known: impl Iterator<Item = &'static str
     ))
 }
 
-/// A DOF by its name.
-struct DofName(&'static Dof);
-
-impl<'de> Deserialize<'de> for DofName {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let found = String::deserialize(deserializer)?;
-        let dof = DOFS.iter().find(|dof| dof.name == found);
-        dof.map(Self)
-            .ok_or_else(|| unknown_name(&found, DOFS.iter().map(|dof| dof.name)))
-    }
-}
-
 /// A law by its name.
 struct LawName(&'static Declaration);
 
@@ -146,16 +136,13 @@ impl<'de> Deserialize<'de> for LawName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let found = String::deserialize(deserializer)?;
         let law = Friction::laws().find(|law| law.name == found);
-        law.map(Self)
-            .ok_or_else(|| unknown_name(&found, Friction::laws().map(|law| law.name)))
+        law.map(Self).ok_or_else(|| {
+            let known: Vec<&str> = Friction::laws().map(|law| law.name).collect();
+            let expected = match known.as_slice() {
+                [] => "none: no such law is known".to_owned(),
+                _ => format!("one of {}", known.join(", ")),
+            };
+            D::Error::custom(format!("found {found:?}, expected {expected}"))
+        })
     }
-}
-
-fn unknown_name<E: Error>(found: &str, known: impl Iterator<Item = &'static str>) -> E {
-    let known: Vec<&str> = known.collect();
-    let expected = match known.as_slice() {
-        [] => "none: no such law is known".to_owned(),
-        _ => format!("one of {}", known.join(", ")),
-    };
-    E::custom(format!("found {found:?}, expected {expected}"))
 }

@@ -125,6 +125,13 @@ impl Joint {
             .collect()
     }
 
+    /// Whether there is nothing beside stiffness and damping, each constant.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        let mut terms = Term::ALL.into_iter().flat_map(|term| self.term(term));
+        self.friction.is_empty() && terms.all(|&term| term == 0.0)
+    }
+
     /// Whether a term of higher order is not zero.
     #[must_use]
     pub fn has_terms_of_higher_order(&self) -> bool {

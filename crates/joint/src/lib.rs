@@ -21,7 +21,7 @@ mod validate;
 mod write;
 
 pub use at_preload::PreloadError;
-pub use dofs::DofSet;
+pub use dofs::{DofName, DofSet};
 pub use error::JointFileError;
 pub use friction::Friction;
 pub use higher::HigherTerms;

@@ -22,12 +22,12 @@ impl References {
     /// `None` where a variable is missing, which the inspection tells of.
     pub(super) fn of(described: &Described, dofs: DofSet) -> Option<Self> {
         let one = |name: &str| Some(described.variable(name)?.reference);
-        let each = |prefixes: &[&str], name_of: fn(&Dof) -> &'static str| {
+        let each = |prefixes: &[&str], name: fn(&Dof) -> &str| -> Option<Vec<u32>> {
             prefixes
                 .iter()
-                .flat_map(|prefix| dofs.members().map(move |dof| (prefix, name_of(dof))))
+                .flat_map(|prefix| dofs.rows().map(move |dof| (prefix, name(dof))))
                 .map(|(prefix, name)| one(&format!("{prefix}.{name}")))
-                .collect::<Option<Vec<u32>>>()
+                .collect()
         };
         Some(Self {
             displacements: each(&["a", "b"], |dof| dof.name)?,

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use bolted_joint_dynamics::{Dof, with_dofs};
 use bolted_joint_harmonic::{Harmonics, Observed, Side};
 use bolted_joint_joint::{DofSet, JointFile};
 
 use super::super::RespondError;
 use super::tables::{
-    Direction, DofName, FrequencyTable, HarmonicsTable, Kind, LapTable, OneOrMore, ResponseTable,
-    StudyFile, TimeTable,
+    Direction, FrequencyTable, HarmonicsTable, Kind, LapTable, OneOrMore, ResponseTable, StudyFile,
+    TimeTable,
 };
 use super::{LoadPlace, Span, Start, StudyLap, Test, Times};
 
@@ -100,10 +101,7 @@ impl Checker<'_> {
                 path: path.clone(),
                 source,
             })?;
-            let is_lap = match file.joint.dofs {
-                DofSet::TRANSLATION => file.lap::<1>().map(drop),
-                DofSet::TRANSLATION_ROTATION => file.lap::<2>().map(drop),
-            };
+            let is_lap = with_dofs!(file.joint.dofs.size(), D => file.lap::<D>().map(drop));
             is_lap.map_err(|source| RespondError::Law {
                 path: path.clone(),
                 source,
@@ -144,7 +142,7 @@ impl Checker<'_> {
     fn motion(&self, key: &str, name: &str, dofs: DofSet) -> Result<Observed, RespondError> {
         let parts = name.split_once('.');
         let found = parts.and_then(|(place, dof)| {
-            let dof = dofs.names().iter().position(|name| *name == dof)?;
+            let dof = dofs.position(dof)?;
             match place {
                 "relative" => Some(Observed::Relative(dof)),
                 "a" => Some(Observed::Body(Side::A, dof)),
@@ -289,10 +287,7 @@ impl Checker<'_> {
         table: &std::collections::BTreeMap<String, f64>,
         dofs: DofSet,
     ) -> Result<Vec<Start>, RespondError> {
-        let expected = match dofs {
-            DofSet::TRANSLATION => "a.y, a.v, b.y or b.v",
-            DofSet::TRANSLATION_ROTATION => "a or b, a point, and y, theta, v or omega",
-        };
+        let expected = states(dofs);
         let one = |(name, &value): (&String, &f64)| {
             let key = format!("start.{name}");
             let parts = name.split_once('.');
@@ -302,24 +297,19 @@ impl Checker<'_> {
                     "b" => Side::B,
                     _ => return None,
                 };
-                let (dof, is_velocity) = match state {
-                    "y" => (0, false),
-                    "v" => (0, true),
-                    "theta" => (1, false),
-                    "omega" => (1, true),
-                    _ => return None,
-                };
-                (dof < dofs.count()).then_some(Start {
+                let is_of = |dof: &Dof| dof.name == state || dof.rate == state;
+                let dof = dofs.rows().position(is_of)?;
+                Some(Start {
                     side,
                     dof,
-                    is_velocity,
+                    is_velocity: dofs.row(dof).rate == state,
                     value,
                 })
             });
             match found {
                 Some(start) if value.is_finite() => Ok(start),
                 Some(_) => Err(self.refuse(&key, value, "a finite number")),
-                None => Err(self.refuse("start", format!("{name:?}"), expected)),
+                None => Err(self.refuse("start", format!("{name:?}"), &expected)),
             }
         };
         let start: Vec<Start> = table.iter().map(one).collect::<Result<_, _>>()?;
@@ -333,14 +323,11 @@ impl Checker<'_> {
         let nothing = |key: &str| self.refuse(key, "nothing", "a table");
         let load = match &file.load {
             Some(table) => {
-                let dof = match table.dof {
-                    DofName::Y => 0,
-                    DofName::Theta => 1,
-                };
-                if dof >= dofs.count() {
+                let name = table.dof.dof().name;
+                let dof = dofs.position(name).ok_or_else(|| {
                     let expected = format!("one of the joint's degrees of freedom, {dofs}");
-                    return Err(self.refuse("load.dof", "theta", expected));
-                }
+                    self.refuse("load.dof", name, expected)
+                })?;
                 LoadPlace {
                     body: table.on.body(),
                     dof,
@@ -470,5 +457,19 @@ impl Checker<'_> {
                 times: self.times(time)?,
             }),
         }
+    }
+}
+
+/// The states of a start, for people.
+fn states(dofs: DofSet) -> String {
+    let names: Vec<&str> = dofs
+        .rows()
+        .map(|dof| dof.name)
+        .chain(dofs.rows().map(|dof| dof.rate))
+        .collect();
+    match names.as_slice() {
+        [name, rate] => format!("a.{name}, a.{rate}, b.{name} or b.{rate}"),
+        [others @ .., last] => format!("a or b, a point, and {} or {last}", others.join(", ")),
+        [] => String::new(),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::archive::File;
 use super::{FmiVersion, Interface};
+use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::DofSet;
 
 /// A drawing and its image.
@@ -30,11 +31,12 @@ fn icon(interface: Interface) -> Picture {
 }
 
 fn diagram(interface: Interface, dofs: DofSet) -> Picture {
-    match (interface, dofs) {
-        (Interface::Element, DofSet::TRANSLATION) => picture!("diagram-element-1"),
-        (Interface::Element, DofSet::TRANSLATION_ROTATION) => picture!("diagram-element-2"),
-        (Interface::Lap, DofSet::TRANSLATION) => picture!("diagram-lap-1"),
-        (Interface::Lap, DofSet::TRANSLATION_ROTATION) => picture!("diagram-lap-2"),
+    let rotates = dofs.rows().any(|dof| dof.kind == DofKind::Rotation);
+    match (interface, rotates) {
+        (Interface::Element, false) => picture!("diagram-element-1"),
+        (Interface::Element, true) => picture!("diagram-element-2"),
+        (Interface::Lap, false) => picture!("diagram-lap-1"),
+        (Interface::Lap, true) => picture!("diagram-lap-2"),
     }
 }
 

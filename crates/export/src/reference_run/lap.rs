@@ -49,7 +49,8 @@ pub(super) fn run<const D: usize>(
     facts: &LapFacts,
     names: Names,
 ) -> Result<Option<ReferenceRun>, ExportError> {
-    let system = System { lap, laws };
+    let dofs = names.dofs;
+    let system = System { lap, laws, dofs };
     let Some(Course {
         plan,
         levels,
@@ -59,7 +60,6 @@ pub(super) fn run<const D: usize>(
     else {
         return Ok(None);
     };
-    let dofs = names.dofs;
 
     let time = |step: usize| step as f64 * plan.step_s;
     let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {
@@ -143,6 +143,7 @@ impl<const D: usize> Laws<D> {
 struct System<'a, const D: usize> {
     lap: &'a Lap<D>,
     laws: &'a Laws<D>,
+    dofs: DofSet,
 }
 
 impl<const D: usize> System<'_, D> {
@@ -218,7 +219,7 @@ impl Plan {
     /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
     fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
         let joint = &system.lap.joint;
-        let wanted = stimulus::relative_motion(joint);
+        let wanted = stimulus::relative_motion(joint, system.dofs);
         let mut amplitude: [f64; D] = std::array::from_fn(|i| {
             let load = FIRST_PART * joint.linear.stiffness[i][i] * wanted[i];
             if load > 0.0 { load } else { wanted[i] }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum};
+use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum, with_dofs};
 
 use super::archive::{File, archive};
 use super::assets::pictures;
@@ -18,7 +18,7 @@ use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
 use bolted_joint_files::whole_file;
-use bolted_joint_joint::{DofSet, JointFile, OverPreload, Passivity};
+use bolted_joint_joint::{JointFile, OverPreload, Passivity};
 
 /// What to export, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -310,9 +310,8 @@ fn lap_facts(
             Some(found_s) => Err(ExportError::StepOfElement { found_s }),
             None => Ok(None),
         },
-        (Interface::Lap, DofSet::TRANSLATION) => sized_lap_facts::<1>(subject, options).map(Some),
-        (Interface::Lap, DofSet::TRANSLATION_ROTATION) => {
-            sized_lap_facts::<2>(subject, options).map(Some)
+        (Interface::Lap, dofs) => {
+            with_dofs!(dofs.size(), D => sized_lap_facts::<D>(subject, options)).map(Some)
         }
     }
 }

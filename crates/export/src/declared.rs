@@ -1,5 +1,6 @@
 //! What the FMU of a joint must declare, for whoever looks into one.
 
+use bolted_joint_dynamics::law::DECLARATIONS;
 use bolted_joint_interface::{Interface as Declared, Joints};
 
 use super::description::Description;
@@ -22,10 +23,17 @@ pub fn declared(
     Ok(declared)
 }
 
-/// Whether the FMU's joint is a constant one or one over the preload.
+/// Whether the FMU's joint is a constant one, one over the preload, or one with memory.
 pub(super) fn kind(file: &JointFile) -> Joints {
-    match file.joint.over_preload {
-        Some(_) => Joints::OVER_PRELOAD,
-        None => Joints::CONSTANT,
+    if file.joint.over_preload.is_some() {
+        return Joints::OVER_PRELOAD;
     }
+    let of_laws = Joints::of_memory_laws(DECLARATIONS);
+    let own = file.joint.laws_with_memory();
+    of_laws
+        .into_iter()
+        .filter(|(name, _)| own.contains(name))
+        .map(|(_, joints)| joints)
+        .reduce(Joints::with)
+        .unwrap_or(Joints::CONSTANT)
 }

@@ -42,6 +42,11 @@ impl Description {
         if law == Joints::OVER_PRELOAD {
             make_factors_change(&mut tree, &expanded);
         }
+        if law.remembers() {
+            tree.model_exchange
+                .iter_mut()
+                .for_each(|exchange| exchange.needs_completed_integrator_step = Some(true));
+        }
         drop_unused_types(&mut tree);
         // Set last, by `finish`.
         tree.instantiation_token.clear();

@@ -12,7 +12,7 @@ use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
 use super::reference_run::ReferenceRun;
-use super::start_file::{parameter_lines, start_file, table_lines};
+use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
 use super::step::{Experiment, StepSize};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
@@ -224,7 +224,7 @@ fn fmu(
         description.set_preload(table.nominal, range);
         parameters.push(("preload".to_owned(), table.nominal));
     }
-    let table = table_lines(subject.table(), options.extrapolate);
+    let table = laws_line(subject.source()) + &table_lines(subject.table(), options.extrapolate);
     let library_name = description.model_identifier();
     let parameters = parameter_lines(&parameters);
     let resources = format!("{table}{parameters}");

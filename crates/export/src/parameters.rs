@@ -1,9 +1,12 @@
 //! Which number of the joint file each parameter of an FMU starts with.
 
-use bolted_joint_dynamics::DOFS;
+use bolted_joint_dynamics::{
+    DOFS,
+    law::{DECLARATIONS, Term},
+};
 use bolted_joint_interface::{At, Filling, LawParameter, law_parameters};
 
-use bolted_joint_joint::{Body, DofSet, HigherTerms, Joint, JointFile};
+use bolted_joint_joint::{Body, Joint, JointFile};
 
 /// Start value of the parameter `name`, or of the preload, or `None` where the joint file has no such number.
 ///
@@ -24,7 +27,7 @@ pub fn start_value(file: &JointFile, longest_step_s: Option<f64>, name: &str) ->
 }
 
 fn of_law(joint: &Joint, parameter: &LawParameter) -> Option<f64> {
-    let place = |row| place(joint.dofs, row);
+    let place = |row: usize| joint.dofs.indices().iter().position(|&own| own == row);
     match parameter.at {
         At::Pair(one, other) => {
             let matrix = match parameter.key {
@@ -35,32 +38,19 @@ fn of_law(joint: &Joint, parameter: &LawParameter) -> Option<f64> {
             matrix.get(place(one)?)?.get(place(other)?).copied()
         }
         At::Dof(row) => {
-            let list = list(joint, parameter.key)?;
-            if list.is_empty() {
-                Some(0.0)
-            } else {
-                list.get(place(row)?).copied()
+            if let Some(term) = Term::named(parameter.symbol) {
+                return match joint.term(term) {
+                    [] => Some(0.0),
+                    list => list.get(place(row)?).copied(),
+                };
+            }
+            let law = DECLARATIONS.get(parameter.law)?;
+            match joint.friction_on(DOFS.get(row)?, law) {
+                Some(own) => own.value(law.parameters.get(parameter.parameter)?),
+                None => Some(0.0),
             }
         }
     }
-}
-
-/// The list of the joint file with this key; empty where it is left out.
-fn list<'j>(joint: &'j Joint, key: &str) -> Option<&'j [f64]> {
-    let higher = |list: fn(&HigherTerms) -> &[f64]| joint.higher.as_ref().map_or(&[][..], list);
-    Some(match key {
-        "cubic" => &joint.cubic,
-        "quintic" => higher(|terms| &terms.quintic),
-        "septic" => higher(|terms| &terms.septic),
-        "damping_quadratic" => higher(|terms| &terms.damping_quadratic),
-        "damping_quartic" => higher(|terms| &terms.damping_quartic),
-        _ => return None,
-    })
-}
-
-/// Place of a row of the table of DOFs among the joint's DOFs.
-fn place(dofs: DofSet, row: usize) -> Option<usize> {
-    dofs.rows().iter().position(|&of_joint| of_joint == row)
 }
 
 fn of_bodies(file: &JointFile, name: &str) -> Option<f64> {
@@ -71,7 +61,7 @@ fn of_bodies(file: &JointFile, name: &str) -> Option<f64> {
         "b" => &bodies.b,
         _ => return None,
     };
-    let mut rows = file.joint.dofs.rows().iter().enumerate();
+    let mut rows = file.joint.dofs.indices().iter().enumerate();
     rows.find_map(|(place, &row)| of_body(body, quantity, place, row))
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Interface;
-use bolted_joint_joint::{DofSet, OverPreload};
+use bolted_joint_joint::{DofSet, JointFile, OverPreload};
 
 /// First line of the file.
 const HEADER: &str = "bolted-joint-start/1";
@@ -16,6 +16,14 @@ pub fn parameter_lines(parameters: &[(String, f64)]) -> String {
         let _ = writeln!(text, "{name} {value:?}");
     }
     text
+}
+
+/// The line with the joint's laws that remember the motion; empty where there are none.
+pub(crate) fn laws_line(file: &JointFile) -> String {
+    match file.joint.laws_with_memory().as_slice() {
+        [] => String::new(),
+        names => format!("laws {}\n", names.join(" ")),
+    }
 }
 
 /// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K

@@ -52,6 +52,12 @@ impl Joints {
         Self(4 << law)
     }
 
+    /// Whether they remember their motion.
+    #[must_use]
+    pub const fn remembers(self) -> bool {
+        self.0 & !Self::MEMORY.0 == 0
+    }
+
     /// Both sets together.
     #[must_use]
     pub const fn with(self, other: Self) -> Self {

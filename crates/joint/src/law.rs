@@ -115,6 +115,16 @@ impl Joint {
         all.find(|own| own.dof == dof && own.law == law)
     }
 
+    /// Names of the joint's laws that remember the motion, in the order in which laws are declared.
+    #[must_use]
+    pub fn laws_with_memory(&self) -> Vec<&'static str> {
+        Friction::laws()
+            .filter(|law| !law.memory.is_empty())
+            .filter(|law| self.friction.iter().any(|own| own.law.name == law.name))
+            .map(|law| law.name)
+            .collect()
+    }
+
     /// Whether there is nothing beside stiffness and damping, each constant.
     #[must_use]
     pub fn is_linear(&self) -> bool {

@@ -110,11 +110,16 @@ impl Filled {
         }
     }
 
+    /// Adds an unknown, or what it depends on to the same one for another DOF.
     fn add_unknown(&mut self, mut unknown: Unknown) -> Result<(), FrameProblem> {
         unknown.complete(&self.unknowns)?;
-        if !self.unknowns.contains(&unknown) {
-            self.parts.push(Part::Unknown(self.unknowns.len()));
-            self.unknowns.push(unknown);
+        let mut unknowns = self.unknowns.iter_mut();
+        match unknowns.find(|other| other.is_same_as(&unknown)) {
+            Some(same) => same.depend_also_as(unknown),
+            None => {
+                self.parts.push(Part::Unknown(self.unknowns.len()));
+                self.unknowns.push(unknown);
+            }
         }
         Ok(())
     }

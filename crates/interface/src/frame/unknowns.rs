@@ -75,6 +75,21 @@ impl Unknown {
         Ok(())
     }
 
+    /// Whether both are from one line and of one variable.
+    pub(super) fn is_same_as(&self, other: &Self) -> bool {
+        (self.line, &self.name) == (other.line, &other.name)
+    }
+
+    /// Takes over what the same unknown depends on for another DOF.
+    pub(super) fn depend_also_as(&mut self, other: Self) {
+        for (name, kind) in other.known.into_iter().flatten() {
+            let known = self.known.get_or_insert_default();
+            if !known.iter().any(|(earlier, _)| *earlier == name) {
+                known.push((name, kind));
+            }
+        }
+    }
+
     /// The element of FMI, dependencies in the order of their value references.
     pub(super) fn element(
         &self,

@@ -180,9 +180,10 @@ fn of_lap(
     let restraints = [&restraint(0), &restraint(1)];
     let longest_s = step_size_max_s.unwrap_or(f64::INFINITY);
     let amplitude = arguments.amplitude.as_deref();
-    let bound = shortest(joints, |file| {
-        with_dofs!(file.joint.dofs.size(), D => lap_bound::<D>(file, restraints, longest_s, amplitude))
-    })?;
+    let bound = shortest(
+        joints,
+        |file| with_dofs!(file.joint.dofs.size(), D => lap_bound::<D>(file, restraints, longest_s, amplitude)),
+    )?;
     let mut facts = vec![
             format!(
                 "communication step: loads of the attached springs and dampers held over the step: {}",

@@ -15,6 +15,8 @@ pub enum DofKind {
 pub struct Dof {
     /// Displacement or rotation, also the key in a joint file: `a.y`, `joint.k_yy`.
     pub name: &'static str,
+    /// Its symbol on pages for people.
+    pub symbol: &'static str,
     /// Its rate: `a.v`.
     pub rate: &'static str,
     /// Its acceleration: `a.acceleration`.
@@ -31,6 +33,7 @@ pub struct Dof {
 pub const DOFS: [Dof; 2] = [
     Dof {
         name: "y",
+        symbol: "y",
         rate: "v",
         acceleration: "acceleration",
         load: "F",
@@ -39,6 +42,7 @@ pub const DOFS: [Dof; 2] = [
     },
     Dof {
         name: "theta",
+        symbol: "θ",
         rate: "omega",
         acceleration: "alpha",
         load: "M",

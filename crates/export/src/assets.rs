@@ -2,7 +2,6 @@
 
 use super::archive::File;
 use super::{FmiVersion, Interface};
-use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::DofSet;
 
 /// A drawing and its image.
@@ -31,12 +30,12 @@ fn icon(interface: Interface) -> Picture {
 }
 
 fn diagram(interface: Interface, dofs: DofSet) -> Picture {
-    let rotates = dofs.rows().any(|dof| dof.kind == DofKind::Rotation);
-    match (interface, rotates) {
-        (Interface::Element, false) => picture!("diagram-element-1"),
-        (Interface::Element, true) => picture!("diagram-element-2"),
-        (Interface::Lap, false) => picture!("diagram-lap-1"),
-        (Interface::Lap, true) => picture!("diagram-lap-2"),
+    // those of two stand for more
+    match (interface, dofs.count()) {
+        (Interface::Element, 1) => picture!("diagram-element-1"),
+        (Interface::Element, _) => picture!("diagram-element-2"),
+        (Interface::Lap, 1) => picture!("diagram-lap-1"),
+        (Interface::Lap, _) => picture!("diagram-lap-2"),
     }
 }
 

@@ -35,4 +35,4 @@ pub use record::{
     NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
-pub use units::{superscript, unit};
+pub use units::{description, superscript, unit, unit_for_people, with_symbols};

@@ -14,7 +14,7 @@ use super::{
     DofSet, HigherTerms,
     friction::{self, Friction},
     higher,
-    units::unit,
+    units::{description, unit},
 };
 
 /// JSON Schema has a word for "greater than zero", the derive macro has none.
@@ -112,7 +112,11 @@ fn entry(law: &Declaration) -> Value {
     properties.insert(friction::LAW.to_owned(), json!({ "const": law.name }));
     for parameter in law.parameters {
         let mut number = json!({
-            "description": format!("{}, {}.", description(parameter), units(parameter)),
+            "description": format!(
+                "{}, {}.",
+                kinds().map(|kind| description(parameter, kind)).join(" / "),
+                units(parameter)
+            ),
             "type": "number",
             "format": "double"
         });
@@ -132,16 +136,7 @@ fn entry(law: &Declaration) -> Value {
     })
 }
 
-/// What a parameter is on whichever DOF.
-fn description(parameter: &Parameter) -> String {
-    let words = |of: fn(DofKind) -> &'static str| kinds().map(of).join(" or ");
-    parameter
-        .description
-        .replace("{load}", &words(DofKind::load))
-        .replace("{motion}", &words(DofKind::motion))
-        .replace("{rate}", &words(DofKind::rate))
-}
-
+/// Both kinds of DOFs.
 fn kinds() -> [DofKind; 2] {
     [DofKind::Translation, DofKind::Rotation]
 }

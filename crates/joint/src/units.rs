@@ -1,11 +1,14 @@
-//! Units of the numbers of a joint, as people write them.
+//! Units and names of the numbers of a joint, as people write them.
 
-use bolted_joint_dynamics::{DofKind, law::UnitRule};
+use bolted_joint_dynamics::{
+    DOFS, DofKind,
+    law::{Parameter, UnitRule},
+};
 
 /// The unit of a parameter between the load on a DOF of one kind and the motion of one of the other, such as `N·m·s/rad³`.
 #[must_use]
 pub fn unit(rule: UnitRule, load: DofKind, motion: DofKind) -> String {
-    let mut unit = load.load_unit().replace('.', "·");
+    let mut unit = unit_for_people(load.load_unit());
     if rule.seconds > 0 {
         unit += "·s";
         unit += &superscript(rule.seconds);
@@ -18,18 +21,48 @@ pub fn unit(rule: UnitRule, load: DofKind, motion: DofKind) -> String {
     unit
 }
 
+/// A unit as FMI writes it, such as `kg.m2`, as people do: `kg·m²`.
+#[must_use]
+pub fn unit_for_people(unit: &str) -> String {
+    let of = |c: char| match c {
+        '.' => '·',
+        '0'..='9' => raised(c as u8),
+        other => other,
+    };
+    unit.chars().map(of).collect()
+}
+
+/// A name of a variable with the symbols of the DOFs for their names: `ytheta` becomes `yθ`.
+#[must_use]
+pub fn with_symbols(name: &str) -> String {
+    DOFS.iter().fold(name.to_owned(), |name, dof| {
+        name.replace(dof.name, dof.symbol)
+    })
+}
+
+/// What a parameter is on a DOF of this kind.
+#[must_use]
+pub fn description(parameter: &Parameter, kind: DofKind) -> String {
+    parameter
+        .description
+        .replace("{load}", kind.load())
+        .replace("{motion}", kind.motion())
+        .replace("{rate}", kind.rate())
+}
+
 /// A power, none where it is 1.
 #[must_use]
 pub fn superscript(power: u8) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    if power == 1 {
-        return String::new();
+    match power {
+        1 => String::new(),
+        _ => power.to_string().bytes().map(raised).collect(),
     }
-    let digits = power.to_string();
-    let raised = digits
-        .bytes()
-        .map(|digit| DIGITS[usize::from(digit - b'0')]);
-    raised.collect()
+}
+
+/// A digit of a power.
+fn raised(digit: u8) -> char {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    DIGITS[usize::from(digit.wrapping_sub(b'0') % 10)]
 }
 
 #[cfg(test)]
@@ -51,5 +84,7 @@ mod tests {
         assert_eq!(of(5, 1, Rotation, Rotation), "N·m·s/rad⁵");
         assert_eq!(of(11, 0, Translation, Translation), "N/m¹¹");
         assert_eq!(of(0, 0, Translation, Translation), "N");
+        assert_eq!(unit_for_people("kg.m2"), "kg·m²");
+        assert_eq!(with_symbols("k_ytheta"), "k_yθ");
     }
 }

@@ -4,6 +4,7 @@ use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::super::lap::figure;
 use super::symbol;
 use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, spread, table};
+use bolted_joint_joint::with_symbols;
 use bolted_joint_predict::study::{Prediction, State, Unknown};
 
 /// Shares below this are not worth a row.
@@ -99,7 +100,7 @@ fn over_torque(found: &Prediction<'_>) -> String {
     }
     let unknowns = found.unknowns(found.nominal());
     let panels = unknowns.iter().enumerate().map(|(place, unknown)| Panel {
-        name: unknown.name.replace("theta", "θ"),
+        name: with_symbols(&unknown.name),
         unit: unknown.unit.to_owned(),
         colour: COLOURS[usize::from(unknown.name.starts_with('c'))],
         values: found

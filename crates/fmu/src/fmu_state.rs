@@ -127,7 +127,7 @@ impl fmt::Display for Damage {
 impl Snapshot {
     /// Number of bytes of the serialised state.
     pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 6;
+        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 9;
         header + 1 + 8 + Pace::SIZE + 4 + 8 * VALUE_COUNT + InputCourse::SIZE + 8
     }
 

@@ -15,7 +15,6 @@ pub(crate) use intermediate::Update;
 use std::sync::Arc;
 
 use crate::{
-    abi::Abi,
     fmu_state::Identity,
     input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Roles, Values, reference::TIME},
@@ -24,6 +23,7 @@ use crate::{
     pace::Pace,
     refusal::{Active, Refusal, Warning},
     start_file::StartFile,
+    version::Abi,
 };
 use intermediate::Access;
 

@@ -21,3 +21,4 @@ mod preload_table;
 mod refusal;
 mod resources;
 mod start_file;
+mod version;

@@ -4,7 +4,7 @@ use std::panic::catch_unwind;
 
 use crate::{
     abi::{
-        Abi, Function, Opaque, Text,
+        Function, Opaque, Text,
         arguments::{array, optional_text, text},
         conclude, handle, refuse_handle,
     },
@@ -13,6 +13,7 @@ use crate::{
     logging::{Category, Logger, Status},
     refusal::Refusal,
     resources::read_start_file,
+    version::Abi,
 };
 
 /// New instance of the FMU whose resources are at `resources`, if `token` is its token.

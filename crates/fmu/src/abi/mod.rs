@@ -21,6 +21,7 @@ use crate::{
     interface::InterfaceType,
     logging::Status,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
 
 /// Pointers to what the other side keeps to itself: instances, FMU states, the importer's environments.
@@ -29,64 +30,6 @@ pub(crate) type Opaque = *mut c_void;
 pub(crate) type ValueReference = u32;
 /// `fmi2String`, `fmi3String`.
 pub(crate) type Text = *const c_char;
-
-/// Which functions an instance was made by, and is used through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Abi {
-    /// FMI 2.0.
-    Fmi2,
-    /// FMI 3.0.
-    Fmi3,
-}
-
-impl Abi {
-    /// Name for messages.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "FMI 2.0",
-            Self::Fmi3 => "FMI 3.0",
-        }
-    }
-
-    /// The importer's name of the type that all variables have.
-    pub(crate) const fn real(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "Real",
-            Self::Fmi3 => "Float64",
-        }
-    }
-
-    /// Argument that holds the token.
-    pub(crate) const fn token_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "fmuGUID",
-            Self::Fmi3 => "instantiationToken",
-        }
-    }
-
-    /// Argument that tells where the resources are.
-    pub(crate) const fn resource_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "fmuResourceLocation",
-            Self::Fmi3 => "resourcePath",
-        }
-    }
-
-    /// Argument that counts continuous states.
-    pub(crate) const fn state_count_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "nx",
-            Self::Fmi3 => "nContinuousStates",
-        }
-    }
-
-    const fn other(self) -> Self {
-        match self {
-            Self::Fmi2 => Self::Fmi3,
-            Self::Fmi3 => Self::Fmi2,
-        }
-    }
-}
 
 /// A C function that works on an instance.
 #[derive(Clone, Copy, Debug)]

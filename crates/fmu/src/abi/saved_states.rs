@@ -67,7 +67,7 @@ pub(crate) unsafe fn serialized_size(state: Opaque, size: *mut usize) -> Result<
     // SAFETY: the caller's promise
     unsafe {
         let state = state_of(state)?;
-        output(size, "size")?.write(state.snapshot.serialized_size());
+        output(size, "size")?.write(state.snapshot.serialize().len());
     }
     Ok(Done::Silently)
 }

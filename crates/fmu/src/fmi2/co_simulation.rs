@@ -2,10 +2,11 @@
 
 use crate::{
     abi::{handle::Handle, shortcut::taken},
-    fmi2::{Abi, Boolean, Done, Opaque, call, call_for},
+    fmi2::{Boolean, Done, Opaque, call, call_for},
     interface::InterfaceType,
     logging::Status,
     refusal::Refusal,
+    version::Abi,
 };
 
 /// Advances the instance; it reaches the end of the step, or stays where it was.

@@ -6,14 +6,12 @@ use std::{
 };
 
 use crate::{
-    abi::{
-        Abi,
-        instantiation::{check_name, free, hand_over, new_instance, switch_logging},
-    },
+    abi::instantiation::{check_name, free, hand_over, new_instance, switch_logging},
     fmi2::{Boolean, Opaque, Text, function},
     interface::InterfaceType,
     logging::{Fmi2Callback, Logger, Status},
     refusal::Refusal,
+    version::Abi,
 };
 
 /// `fmi2CallbackFunctions`.

@@ -19,11 +19,12 @@ use std::ffi::c_int;
 
 // the functions name these as their own
 use crate::{
-    abi::{Abi, Done, Event, Function, Opaque, Text, ValueReference, arguments},
+    abi::{Done, Event, Function, Opaque, Text, ValueReference, arguments},
     instance::Instance,
     interface::InterfaceType,
     logging::Status,
     refusal::Refusal,
+    version::Abi,
 };
 
 /// `fmi2Boolean`: any other number than zero is true.

@@ -6,12 +6,13 @@ use crate::{
         shortcut::{arrays, arrays_mut, taken},
     },
     fmi2::{
-        Abi, Boolean, Done, Integer, Opaque, Text, ValueReference,
+        Boolean, Done, Integer, Opaque, Text, ValueReference,
         arguments::{array, array_mut},
         call, call_evaluating,
     },
     logging::Status,
     mode::Mode,
+    version::Abi,
 };
 
 /// States in which variables can be read: all but instantiated.

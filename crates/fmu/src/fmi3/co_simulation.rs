@@ -1,43 +1,23 @@
 //! The communication step, with and without the importer's part in it.
 
 use std::{
-    ffi::c_void,
     mem::MaybeUninit,
     panic::{AssertUnwindSafe, catch_unwind},
 };
 
 use crate::{
     abi::{
-        Abi, Done, Function, conclude,
+        Done, Function, conclude,
         handle::{self, Handle},
         refuse_handle,
         shortcut::taken,
     },
-    fmi3::{Boolean, Opaque, arguments::output, function},
+    fmi3::{Boolean, IntermediateUpdate, Opaque, arguments::output, function},
     instance::{Instance, Update},
     logging::Status,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
-
-/// `fmi3IntermediateUpdateCallback`.
-pub(super) type IntermediateUpdateCallback = unsafe extern "C" fn(
-    environment: *mut c_void,
-    intermediate_update_time: f64,
-    intermediate_variable_set_requested: Boolean,
-    intermediate_variable_get_allowed: Boolean,
-    intermediate_step_finished: Boolean,
-    can_return_early: Boolean,
-    early_return_requested: *mut Boolean,
-    early_return_time: *mut f64,
-);
-
-/// How the importer takes part in communication steps.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct IntermediateUpdate {
-    pub(super) callback: IntermediateUpdateCallback,
-    pub(super) environment: *mut c_void,
-    pub(super) early_return_allowed: bool,
-}
 
 /// What a communication step tells the importer beside its status.
 struct Results<'a> {

@@ -7,18 +7,18 @@ use std::{
 
 use crate::{
     abi::{
-        Abi,
         arguments::array,
         handle,
         instantiation::{check_name, free, hand_over, new_instance, switch_logging},
     },
     fmi3::{
-        Boolean, IntermediateUpdate, Opaque, Text, ValueReference,
-        co_simulation::IntermediateUpdateCallback, function,
+        Boolean, IntermediateUpdate, IntermediateUpdateCallback, Opaque, Text, ValueReference,
+        function,
     },
     interface::InterfaceType,
     logging::{Fmi3Callback, Logger, Status},
     refusal::Refusal,
+    version::Abi,
 };
 
 /// Version of the FMI header that this library implements.

@@ -15,18 +15,15 @@ mod model_exchange;
 mod not_provided;
 mod variables;
 
-pub(crate) use co_simulation::IntermediateUpdate;
-
 // the functions name these as their own
 use crate::{
-    abi::{Abi, Done, Event, Function, Opaque, Text, ValueReference, arguments},
+    abi::handle::{Boolean, IntermediateUpdate, IntermediateUpdateCallback},
+    abi::{Done, Event, Function, Opaque, Text, ValueReference, arguments},
     instance::Instance,
     logging::Status,
     refusal::Refusal,
+    version::Abi,
 };
-
-/// `fmi3Boolean`: a C `bool`, taken as a byte so that no value of it is undefined behaviour.
-type Boolean = u8;
 
 /// A function of FMI 3.0.
 const fn function(name: &'static str) -> Function {

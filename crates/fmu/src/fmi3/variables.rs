@@ -8,11 +8,12 @@ use crate::{
         shortcut::{arrays, arrays_mut, taken},
     },
     fmi3::{
-        Abi, Boolean, Done, Opaque, ValueReference,
+        Boolean, Done, Opaque, ValueReference,
         arguments::{array, array_mut, same_count},
         call, call_inside,
     },
     logging::Status,
+    version::Abi,
 };
 
 /// Reads variables of type Float64, which is that of all variables.

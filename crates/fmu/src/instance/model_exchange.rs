@@ -4,10 +4,10 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    abi::Abi,
     interface::{ContinuousState, InterfaceType, reference::TIME},
     mode::Mode,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
 
 /// Modes in which the states and what follows from them can be read.

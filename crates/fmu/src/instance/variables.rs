@@ -165,6 +165,8 @@ impl Instance {
             }
             self.values[memory::PRELOAD_RATE] = self.preload_rate();
             self.model.calculate_outputs(&mut self.values);
+            // it follows from the inputs' course, and is nothing to remember
+            self.values[memory::PRELOAD_RATE] = 0.0;
             self.outputs_stale = false;
         }
     }

@@ -6,8 +6,6 @@ mod loosening;
 mod sides;
 mod watch;
 
-pub(crate) use lap::SUBSTEPS_MAX;
-
 use loosening::{LooseningElement, LooseningLap};
 
 use std::num::NonZeroU32;

@@ -97,7 +97,7 @@ impl fmt::Display for Identity {
             kind.name(),
             dofs.count(),
             self.interface_type.name(),
-            self.abi.name(),
+            self.abi.words().version,
             self.token
         )
     }

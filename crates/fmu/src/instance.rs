@@ -23,7 +23,7 @@ use crate::{
     pace::Pace,
     refusal::{Active, Refusal, Warning},
     start_file::StartFile,
-    version::Abi,
+    version::{Abi, Words},
 };
 use intermediate::Access;
 
@@ -60,7 +60,7 @@ impl Instance {
         } = file;
         if token != expected {
             return Err(Refusal::Token {
-                argument: abi.token_argument(),
+                argument: abi.words().token,
                 found: token.to_owned(),
                 expected,
             });
@@ -90,6 +90,12 @@ impl Instance {
     /// State of the state machine.
     pub(crate) fn mode(&self) -> Mode {
         self.mode
+    }
+
+    /// The words of the version that the instance is used through.
+    #[inline]
+    pub(crate) fn words(&self) -> &'static Words {
+        self.identity.abi.words()
     }
 
     /// Current time, s.

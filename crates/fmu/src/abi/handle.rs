@@ -8,17 +8,17 @@ use crate::{
 };
 
 /// `fmi3Boolean`: a C `bool`, taken as a byte so that no value of it is undefined behaviour.
-pub(crate) type Boolean = u8;
+pub(crate) type Fmi3Boolean = u8;
 
 /// `fmi3IntermediateUpdateCallback`.
 pub(crate) type IntermediateUpdateCallback = unsafe extern "C" fn(
     environment: *mut c_void,
     intermediate_update_time: f64,
-    intermediate_variable_set_requested: Boolean,
-    intermediate_variable_get_allowed: Boolean,
-    intermediate_step_finished: Boolean,
-    can_return_early: Boolean,
-    early_return_requested: *mut Boolean,
+    intermediate_variable_set_requested: Fmi3Boolean,
+    intermediate_variable_get_allowed: Fmi3Boolean,
+    intermediate_step_finished: Fmi3Boolean,
+    can_return_early: Fmi3Boolean,
+    early_return_requested: *mut Fmi3Boolean,
     early_return_time: *mut f64,
 );
 

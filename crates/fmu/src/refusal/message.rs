@@ -22,8 +22,8 @@ impl fmt::Display for Refusal {
             Self::OtherAbi { found, expected } => write!(
                 f,
                 "belongs to {}, but the instance was made by the functions of {}; use only one of them",
-                expected.name(),
-                found.name()
+                expected.words().version,
+                found.words().version
             ),
             Self::InsideStep => f.write_str(
                 "is not allowed in state Intermediate Update Mode, only when the communication step has ended",

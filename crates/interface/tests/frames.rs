@@ -70,6 +70,7 @@ const DOFS: [Dof; 4] = [
     Filling::PRESENT.dofs[1],
     Dof {
         name: "z",
+        symbol: "z",
         rate: "vz",
         acceleration: "az",
         load: "Fz",

@@ -25,7 +25,7 @@ pub(super) fn run<const D: usize>(
 ) -> Result<ReferenceRun, ExportError> {
     let dofs = names.dofs;
     let step_s = step_s.unwrap_or(STEP_S);
-    let amplitude = stimulus::relative_motion(laws.nominal());
+    let amplitude = stimulus::relative_motion(laws.nominal(), dofs);
     let time = |step: usize| step as f64 * step_s;
     let level_s = STEPS_A_LEVEL as f64 * step_s;
     let motion = |on_b: bool, level: usize| {

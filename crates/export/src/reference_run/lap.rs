@@ -49,7 +49,11 @@ pub(super) fn run<const D: usize>(
     facts: &LapFacts,
     names: Names,
 ) -> Result<Option<ReferenceRun>, ExportError> {
-    let system = System { lap, laws };
+    let system = System {
+        lap,
+        laws,
+        dofs: names.dofs,
+    };
     let Some(Course {
         plan,
         levels,
@@ -143,6 +147,7 @@ impl<const D: usize> Laws<D> {
 struct System<'a, const D: usize> {
     lap: &'a Lap<D>,
     laws: &'a Laws<D>,
+    dofs: DofSet,
 }
 
 impl<const D: usize> System<'_, D> {
@@ -218,7 +223,7 @@ impl Plan {
     /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
     fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
         let joint = &system.lap.joint;
-        let wanted = stimulus::relative_motion(joint);
+        let wanted = stimulus::relative_motion(joint, system.dofs);
         let mut amplitude: [f64; D] = std::array::from_fn(|i| {
             let load = FIRST_PART * joint.linear.stiffness[i][i] * wanted[i];
             if load > 0.0 { load } else { wanted[i] }

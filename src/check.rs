@@ -5,13 +5,14 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use bolted_joint_dynamics::with_dofs;
 use bolted_joint_importer::FmiVersion;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
 use bolted_joint::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
 use bolted_joint::export::Interface;
-use bolted_joint::joint::{DofSet, JointFile};
+use bolted_joint::joint::JointFile;
 
 use super::communication_step::{NeighbourArguments, communication_step};
 use super::error::CliError;

@@ -1,5 +1,6 @@
 //! The part of `check` that says how long a communication step may be between given neighbours.
 
+use bolted_joint_dynamics::{DofKind, with_dofs};
 use clap::Args;
 use serde_json::{Value, json};
 

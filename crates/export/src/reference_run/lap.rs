@@ -49,8 +49,11 @@ pub(super) fn run<const D: usize>(
     facts: &LapFacts,
     names: Names,
 ) -> Result<Option<ReferenceRun>, ExportError> {
-    let dofs = names.dofs;
-    let system = System { lap, laws, dofs };
+    let system = System {
+        lap,
+        laws,
+        dofs: names.dofs,
+    };
     let Some(Course {
         plan,
         levels,
@@ -60,6 +63,7 @@ pub(super) fn run<const D: usize>(
     else {
         return Ok(None);
     };
+    let dofs = names.dofs;
 
     let time = |step: usize| step as f64 * plan.step_s;
     let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {

@@ -47,6 +47,10 @@ pub(crate) enum Dependence {
     Memory(u32),
 }
 
+/// Kinds of joints that remember nothing: their bits are the lowest ones, and a byte takes those of the laws with memory, the
+/// first of which are the linear and the polynomial law, which have none.
+const KINDS_WITHOUT_MEMORY: u32 = 2;
+
 impl Dependence {
     /// The joint whose laws with memory have these names, separated by spaces.
     pub(crate) fn on_memory_of(names: &str) -> Option<Self> {
@@ -58,18 +62,23 @@ impl Dependence {
     }
 
     /// As one number, for a state that is written down.
-    pub(crate) const fn number(self) -> u32 {
-        self.joints()
+    pub(crate) const fn number(self) -> u8 {
+        match self {
+            Self::Constant => 0,
+            Self::OverPreload => 1,
+            Self::Memory(laws) => (laws >> KINDS_WITHOUT_MEMORY) as u8,
+        }
     }
 
     /// The reverse of [`Dependence::number`].
-    pub(crate) fn from_number(number: u32) -> Option<Self> {
+    pub(crate) fn from_number(number: u8) -> Option<Self> {
         let known = MEMORY_LAWS.iter().fold(0, |all, (_, law)| all | law);
         match number {
-            CONSTANT_JOINTS => Some(Self::Constant),
-            JOINTS_OVER_PRELOAD => Some(Self::OverPreload),
-            laws if laws & !known == 0 && laws != 0 => Some(Self::Memory(laws)),
-            _ => None,
+            0 => Some(Self::Constant),
+            1 => Some(Self::OverPreload),
+            _ => Some(u32::from(number) << KINDS_WITHOUT_MEMORY)
+                .filter(|laws| laws & !known == 0)
+                .map(Self::Memory),
         }
     }
 

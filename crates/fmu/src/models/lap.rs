@@ -4,8 +4,6 @@ pub(super) mod faults;
 pub(super) mod loads;
 pub(super) mod prepared;
 
-pub(crate) use prepared::SUBSTEPS_MAX;
-
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{JointMemory, Lap, LapLoads, LapState, Motion, Number};

@@ -7,8 +7,6 @@ mod remembering;
 mod sides;
 mod watch;
 
-pub(crate) use lap::SUBSTEPS_MAX;
-
 use loosening::{LooseningElement, LooseningLap};
 use remembering::{RememberingElement, RememberingLap};
 

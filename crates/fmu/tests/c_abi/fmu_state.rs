@@ -276,6 +276,26 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         message.contains("its communication step is impossible"),
         "{message}"
     );
+    // more or fewer numbers than this build remembers, as another build would write
+    let count = steps_in_a_row + 1;
+    let values = (inputs - count - 4) / 8;
+    for found in [values + 1, values - 1, 0, u32::MAX as usize] {
+        let forged = forge(count, &(found as u32).to_le_bytes());
+        assert_eq!(instance.deserialize(&forged), Err(c::ERROR));
+        let message = instance.error();
+        let expected = format!(
+            "it has {found} values, this library remembers {values}: another build of the library wrote it"
+        );
+        assert!(message.contains(&expected), "{message}");
+    }
+    // what is remembered beside the variables is a finite number, too
+    let forged = forge(inputs - 8, &f64::INFINITY.to_le_bytes());
+    assert_eq!(instance.deserialize(&forged), Err(c::ERROR));
+    let message = instance.error();
+    assert!(
+        message.contains("of what it remembers beside the variables is impossible"),
+        "{message}"
+    );
     // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
     for (position, content) in [
         (inputs, &[0x00, 0x80][..]),

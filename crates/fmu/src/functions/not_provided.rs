@@ -1,10 +1,7 @@
 //! Functions that the FMU does not offer: they say so, and why.
 
-use crate::{
-    fmi3::{Opaque, ValueReference, call},
-    logging::Status,
-    refusal::Refusal,
-};
+use super::functions;
+use crate::{abi::ValueReference, refusal::Refusal};
 
 const DISCRETE_STATES: &str =
     "modelDescription.xml has no providesEvaluateDiscreteStates, there are no discrete states";
@@ -13,25 +10,14 @@ const DEPENDENCIES: &str =
     "modelDescription.xml has no providesPerElementDependencies; it lists all dependencies itself";
 const CLOCKS: &str = "there are no clocks";
 
-/// Defines functions that refuse with a reason.
+/// Defines functions that refuse with a reason, whatever their arguments.
 macro_rules! not_provided {
-    ($($function:ident($reason:expr; $($argument:ident: $type:ty),*);)*) => {$(
-        #[doc = concat!("Not provided: `", stringify!($function), "` logs why and returns fmi3Error.")]
-        ///
-        /// # Safety
-        ///
-        /// `instance` as for every function; nothing else is looked at.
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $function(instance: Opaque, $($argument: $type),*) -> Status {
-            $(let _ = $argument;)*
-            // SAFETY: the importer's promise
-            unsafe {
-                call(stringify!($function), instance, |_| {
-                    Err(Refusal::NotProvided { reason: $reason })
-                })
-            }
-        }
-    )*};
+    ($($name:ident($reason:expr; $($argument:ident: $type:ty),*);)*) => {
+        functions! {$(
+            #[doc = concat!("Not provided: `", stringify!($name), "` logs why and returns fmi3Error.")]
+            $name($($argument: $type),*) => |_| Err::<(), _>(Refusal::NotProvided { reason: $reason });
+        )*}
+    };
 }
 
 not_provided! {

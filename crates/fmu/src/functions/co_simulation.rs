@@ -1,48 +1,54 @@
 //! The communication step, with and without the importer's part in it.
 
-use std::{
-    ffi::c_void,
-    mem::MaybeUninit,
-    panic::{AssertUnwindSafe, catch_unwind},
-};
-
+use super::Fmi2Boolean;
 use crate::{
     abi::{
-        Abi, Done, Function, conclude,
-        handle::{self, Handle},
+        Done, Function, Opaque, Way,
+        arguments::{Output, output, outputs},
+        call, conclude, guarded,
+        handle::{self, Fmi3Boolean, Handle, IntermediateUpdate},
         refuse_handle,
         shortcut::taken,
     },
-    fmi3::{Boolean, Opaque, arguments::output, function},
     instance::{Instance, Update},
     logging::Status,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
 
-/// `fmi3IntermediateUpdateCallback`.
-pub(super) type IntermediateUpdateCallback = unsafe extern "C" fn(
-    environment: *mut c_void,
-    intermediate_update_time: f64,
-    intermediate_variable_set_requested: Boolean,
-    intermediate_variable_get_allowed: Boolean,
-    intermediate_step_finished: Boolean,
-    can_return_early: Boolean,
-    early_return_requested: *mut Boolean,
-    early_return_time: *mut f64,
-);
-
-/// How the importer takes part in communication steps.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct IntermediateUpdate {
-    pub(super) callback: IntermediateUpdateCallback,
-    pub(super) environment: *mut c_void,
-    pub(super) early_return_allowed: bool,
+/// Advances the instance; it reaches the end of the step, or stays where it was.
+///
+/// `fmi2Discard` would tell that a part of the step was done (FMI 2.0, 4.2.2). That never happens: a step that is not
+/// done at all is answered with `fmi2Error`.
+///
+/// # Safety
+///
+/// `instance` as for every function.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2DoStep(
+    instance: Opaque,
+    current_s: f64,
+    interval_s: f64,
+    _no_set_fmu_state_prior: Fmi2Boolean,
+) -> Status {
+    const FUNCTION: Function = Function::new("fmi2DoStep", Way::PLAIN);
+    let shortcut = |handle: &mut Handle| handle.instance.step_steadily(current_s, interval_s);
+    // SAFETY: the importer's promise
+    unsafe {
+        if taken(FUNCTION.abi, instance, shortcut) {
+            return Status::Ok;
+        }
+        call(FUNCTION, instance, |instance| {
+            instance.step(current_s, interval_s)
+        })
+    }
 }
 
 /// What a communication step tells the importer beside its status.
-struct Results<'a> {
-    early_return: &'a mut MaybeUninit<Boolean>,
-    last_successful_time: &'a mut MaybeUninit<f64>,
+#[derive(Clone, Copy)]
+struct Results {
+    early_return: Output<Fmi3Boolean>,
+    last_successful_time: Output<f64>,
 }
 
 /// Advances the instance: to the end of the step, or to where the importer has asked for an early return; after an
@@ -54,15 +60,14 @@ struct Results<'a> {
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi3DoStep(
     instance: Opaque,
-    current_communication_point: f64,
-    communication_step_size: f64,
-    _no_set_fmu_state_prior_to_current_point: Boolean,
-    event_handling_needed: *mut Boolean,
-    terminate_simulation: *mut Boolean,
-    early_return: *mut Boolean,
+    current_s: f64,
+    interval_s: f64,
+    _no_set_fmu_state_prior: Fmi3Boolean,
+    event_handling_needed: *mut Fmi3Boolean,
+    terminate_simulation: *mut Fmi3Boolean,
+    early_return: *mut Fmi3Boolean,
     last_successful_time: *mut f64,
 ) -> Status {
-    let (current_s, interval_s) = (current_communication_point, communication_step_size);
     let flags = [event_handling_needed, terminate_simulation, early_return];
     let shortcut = |handle: &mut Handle| {
         let is_steady = !event_handling_needed.is_null()
@@ -103,10 +108,10 @@ unsafe extern "C" fn fmi3DoStep(
 unsafe fn do_step(
     instance: Opaque,
     [current_s, interval_s]: [f64; 2],
-    [event_handling_needed, terminate_simulation, early_return]: [*mut Boolean; 3],
+    [event_handling_needed, terminate_simulation, early_return]: [*mut Fmi3Boolean; 3],
     last_successful_time: *mut f64,
 ) -> Status {
-    let this = function("fmi3DoStep");
+    let this = Function::new("fmi3DoStep", Way::PLAIN);
     // SAFETY: the importer's promise
     let Some(handle) = (unsafe { handle::from_c(Abi::Fmi3, instance) }) else {
         // SAFETY: the importer's promise
@@ -114,10 +119,15 @@ unsafe fn do_step(
     };
     // SAFETY: the importer's promise
     let results = || unsafe {
-        output(event_handling_needed, "eventHandlingNeeded")?.write(0);
-        output(terminate_simulation, "terminateSimulation")?.write(0);
-        let early_return = output(early_return, "earlyReturn")?;
-        early_return.write(0);
+        let flags = outputs([
+            (event_handling_needed, "eventHandlingNeeded"),
+            (terminate_simulation, "terminateSimulation"),
+            (early_return, "earlyReturn"),
+        ])?;
+        for flag in flags {
+            flag.write(0);
+        }
+        let [.., early_return] = flags;
         Ok(Results {
             early_return,
             last_successful_time: output(last_successful_time, "lastSuccessfulTime")?,
@@ -132,9 +142,7 @@ unsafe fn do_step(
         // SAFETY: the importer's promise; the reference to the instance is not used any more
         return unsafe { step_together(this, instance, update, [current_s, interval_s], results) };
     }
-    match guarded(&mut handle.instance, |instance| {
-        instance.step(current_s, interval_s)
-    }) {
+    match guarded(|| handle.instance.step(current_s, interval_s)) {
         Ok(warning) => {
             results.last_successful_time.write(handle.instance.time_s());
             match warning {
@@ -157,7 +165,7 @@ unsafe fn step_together(
     instance: Opaque,
     update: IntermediateUpdate,
     [current_s, interval_s]: [f64; 2],
-    results: Results<'_>,
+    results: Results,
 ) -> Status {
     // SAFETY: the caller's promise
     let outcome = unsafe { take_turns(instance, update, [current_s, interval_s]) };
@@ -250,14 +258,5 @@ unsafe fn with<T>(
 ) -> Result<T, Refusal> {
     // SAFETY: the caller's promise
     let handle = unsafe { handle::from_c(Abi::Fmi3, instance) }.ok_or(Refusal::Internal)?;
-    guarded(&mut handle.instance, body)
-}
-
-/// Runs `body`; no panic leaves.
-#[inline]
-fn guarded<T>(
-    instance: &mut Instance,
-    body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
-) -> Result<T, Refusal> {
-    catch_unwind(AssertUnwindSafe(|| body(instance))).unwrap_or_else(|_| Err(Refusal::Internal))
+    guarded(|| body(&mut handle.instance))
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     DofSet, Friction, HigherTerms,
-    schema::{entries_above_zero, without_empty_friction},
+    schema::{entries_above_zero, with_friction},
 };
 
 /// A bolted joint, with what is known about it.
@@ -60,7 +60,7 @@ impl Format {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
-#[schemars(transform = without_empty_friction)]
+#[schemars(transform = with_friction)]
 pub struct Joint {
     /// Relative motions that the joint resists.
     pub dofs: DofSet,
@@ -81,6 +81,7 @@ pub struct Joint {
     pub higher: Option<HigherTerms>,
     /// Laws with parameters of their own, at most one of a kind on each relative DOF.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(skip)]
     pub friction: Vec<Friction>,
     /// Stiffness, damping and cubic stiffness over the bolt's preload, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]

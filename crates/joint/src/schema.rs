@@ -27,14 +27,23 @@ pub(super) fn entries_above_zero(list: &mut Schema) {
     }
 }
 
-/// Takes the list of laws out of the joint as long as there is none that could stand in it.
-pub(super) fn without_empty_friction(joint: &mut Schema) {
-    if Friction::laws().next().is_none()
-        && let Some(properties) = joint
-            .get_mut("properties")
-            .and_then(|properties| properties.as_object_mut())
-    {
-        properties.shift_remove("friction");
+/// Adds the list of laws with parameters of their own, as soon as there is a law that can stand in it.
+pub(super) fn with_friction(joint: &mut Schema) {
+    let entries: Vec<Value> = Friction::laws().map(entry).collect();
+    if entries.is_empty() {
+        return;
+    }
+    let list = json!({
+        "description": "Laws with parameters of their own, each at most once on a relative DOF. Left out, there are none.",
+        "type": "array",
+        "items": { "oneOf": entries }
+    });
+    let properties = joint.get_mut("properties");
+    if let Some(properties) = properties.and_then(|properties| properties.as_object_mut()) {
+        // at its place among the others
+        let place = properties.keys().position(|key| key == "over_preload");
+        let place = place.unwrap_or(properties.len());
+        properties.shift_insert(place, "friction".to_owned(), list);
     }
 }
 
@@ -90,19 +99,6 @@ impl JsonSchema for HigherTerms {
 
 const AMPLITUDE: &str = "Largest relative displacement, m and rad, that the joint was observed at and its terms hold up to. \
                          Within it the joint\nmust take energy; left out, it must at every displacement.";
-
-impl JsonSchema for Friction {
-    fn schema_name() -> Cow<'static, str> {
-        "Friction".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "A law with parameters of its own on one relative DOF.",
-            "oneOf": Self::laws().map(entry).collect::<Vec<Value>>()
-        })
-    }
-}
 
 /// An entry of the list of laws.
 fn entry(law: &Declaration) -> Value {

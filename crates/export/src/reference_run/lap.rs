@@ -49,11 +49,8 @@ pub(super) fn run<const D: usize>(
     facts: &LapFacts,
     names: Names,
 ) -> Result<Option<ReferenceRun>, ExportError> {
-    let system = System {
-        lap,
-        laws,
-        dofs: names.dofs,
-    };
+    let dofs = names.dofs;
+    let system = System { lap, laws, dofs };
     let Some(Course {
         plan,
         levels,
@@ -63,7 +60,6 @@ pub(super) fn run<const D: usize>(
     else {
         return Ok(None);
     };
-    let dofs = names.dofs;
 
     let time = |step: usize| step as f64 * plan.step_s;
     let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {

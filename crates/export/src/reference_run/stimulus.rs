@@ -19,7 +19,7 @@ const TONES: [[(f64, f64); 2]; 4] = [
 const FURTHER_TONES: f64 = 0.004;
 
 /// Largest relative motion of a linear joint, m or rad: that of small vibration.
-const fn small_motion(kind: DofKind) -> f64 {
+fn small_motion(kind: DofKind) -> f64 {
     match kind {
         DofKind::Translation => 1e-4,
         DofKind::Rotation => 1e-3,
@@ -33,13 +33,13 @@ const FURTHER: f64 = 10.0;
 /// cubic load is its square of the linear one.
 const PART_OF_NONLINEAR: f64 = 0.3;
 
-/// The same of a joint that remembers the motion, so that it slips.
-const PART_OF_SLIP: f64 = 3.0;
+/// Times that amplitude which a joint with memory is moved by: far enough that its sliders slip and stick again.
+const TIMES_OF_MEMORY: f64 = 3.0;
 
 /// Significant digits of a level.
 const DIGITS: usize = 6;
 
-/// Values of both sides, a then b, in the order of the DOFs, from −1 to 1, and their derivatives by the level's number.
+/// Values of both sides, a then b, y before theta, from −1 to 1, and their derivatives by the level's number.
 pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
     let tones = TONES[2 * usize::from(on_b) + dof % 2];
     let above = FURTHER_TONES * (dof / 2) as f64;
@@ -55,18 +55,19 @@ pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
 
 /// Largest relative motion of each DOF in the run, m and rad.
 pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>, dofs: DofSet) -> [f64; D] {
+    let part = if law.has_memory() {
+        TIMES_OF_MEMORY
+    } else {
+        PART_OF_NONLINEAR
+    };
     std::array::from_fn(|i| {
-        let small = small_motion(dofs.row(i).kind);
-        let part = match law.on[i].have_memory() {
-            true => PART_OF_SLIP,
-            false => PART_OF_NONLINEAR,
-        };
+        let small_motion = small_motion(dofs.row(i).kind);
         // |k3| x³ = p² K x at x = p √(K/|k3|), and likewise for the terms of higher order
         let nonlinear = part * law.nonlinear_amplitude()[i];
         if law.linear.stiffness[i][i] > 0.0 && nonlinear.is_finite() && nonlinear > 0.0 {
-            nonlinear.min(FURTHER * small)
+            nonlinear.min(FURTHER * small_motion)
         } else {
-            small
+            small_motion
         }
     })
 }

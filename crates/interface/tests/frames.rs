@@ -97,7 +97,7 @@ fn with_more<T>(dofs: &[Dof], sets: &[&[usize]], test: impl FnOnce(&Filling<'_>)
 }
 
 /// Whether the variable is of the third row or of the law.
-fn is_new(name: &String) -> bool {
+fn is_new(name: &str) -> bool {
     name.ends_with('z') || name.contains("slip") || name.contains(".q_")
 }
 
@@ -138,7 +138,7 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
             Joints::with_memory_of(law),
         )
         .into_iter()
-        .filter(is_new)
+        .filter(|name| is_new(name))
         .collect();
         assert_eq!(
             new,
@@ -182,7 +182,7 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
             (Rows::of(&[0]), Joints::OVER_PRELOAD),
         ] {
             let names = names(&interfaces.lap, &lap, rows, joint);
-            assert!(!names.iter().any(is_new), "{names:?}");
+            assert!(!names.iter().any(|name| is_new(name)), "{names:?}");
         }
         let slip = interfaces.lap.variable("joint.slip_theta").unwrap();
         assert_eq!(slip.role, Role::Output);

@@ -100,7 +100,7 @@ fn groups(interface: &Interface, expanded: &Expanded) -> Vec<Group> {
                     pattern: pattern.clone(),
                     of_each_dof: true,
                 },
-                Origin::Parameter(_) | Origin::Memory(_) => continue,
+                Origin::Parameter { .. } | Origin::Memory(_) => continue,
             };
             let joints = declared.scope.joints;
             let same =

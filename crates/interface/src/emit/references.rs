@@ -105,16 +105,15 @@ impl References {
                         Origin::Dof { pattern, row } => {
                             entry(&mut found.dofs, pattern, nowhere)[*row] = reference;
                         }
-                        Origin::Parameter(parameter) => match parameter.at {
+                        Origin::Parameter { place, symbol, at } => match *at {
                             At::Dof(row) => {
-                                let place = [parameter.law, parameter.parameter];
-                                let of_dofs = found.parameters.entry(place).or_insert_with(nowhere);
+                                let of_dofs =
+                                    found.parameters.entry(*place).or_insert_with(nowhere);
                                 of_dofs[row] = reference;
                             }
                             At::Pair(one, other) => {
-                                let matrix = entry(&mut found.matrices, parameter.symbol, || {
-                                    vec![nowhere(); count]
-                                });
+                                let matrix =
+                                    entry(&mut found.matrices, symbol, || vec![nowhere(); count]);
                                 matrix[one][other] = reference;
                                 matrix[other][one] = reference;
                             }

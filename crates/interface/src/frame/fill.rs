@@ -183,10 +183,7 @@ impl<'a> Filler<'a> {
             self.filled.parts.push(Part::Text(text.to_owned()));
             return Ok(());
         };
-        let mut line = Line::parse(text).ok_or(FrameProblem::NotALine {
-            line: number,
-            tag: *tag,
-        })?;
+        let mut line = Line::parse(text).ok_or(FrameProblem::NotALine { line: number, tag })?;
         let each = line.take("each");
         let only = line.take("only");
         for instance in self.instances(each, number)? {
@@ -249,7 +246,11 @@ impl<'a> Filler<'a> {
             origins: vec![match instance {
                 Instance::Alone => Origin::Alone,
                 Instance::Dof(row) => Origin::Dof { pattern, row: *row },
-                Instance::Parameter(parameter) => Origin::Parameter((*parameter).clone()),
+                Instance::Parameter(parameter) => Origin::Parameter {
+                    place: [parameter.law, parameter.parameter],
+                    symbol: parameter.symbol,
+                    at: parameter.at,
+                },
                 Instance::Memory(memory) => Origin::Memory([memory.law, memory.number, memory.row]),
             }],
             line,

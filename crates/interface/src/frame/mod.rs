@@ -172,7 +172,14 @@ pub(crate) enum Origin {
         row: usize,
     },
     /// A parameter of a law.
-    Parameter(LawParameter),
+    Parameter {
+        /// Place of the law among the declarations, and of the parameter among its own.
+        place: [usize; 2],
+        /// Its symbol.
+        symbol: &'static str,
+        /// Where it is.
+        at: At,
+    },
     /// What a law remembers: place of the law, of the number, and row of the table of DOFs.
     Memory([usize; 3]),
 }

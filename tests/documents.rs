@@ -1,7 +1,6 @@
 //! What can be checked of the texts by a machine: links lead somewhere, paths exist, lines and the README stay short.
 #![allow(
     clippy::unwrap_used,
-    clippy::panic,
     reason = "helpers of tests fail as the tests do"
 )]
 

@@ -6,6 +6,8 @@ use std::{
     fs, ptr,
 };
 
+use bolted_joint::export::EMBEDDED_LIBRARY;
+
 use crate::start_file::TOKEN;
 
 const OK: c_int = 0;
@@ -52,14 +54,18 @@ pub(crate) struct Library {
     do_step: DoStep,
     /// Keeps the functions where they are.
     _library: libloading::Library,
+    /// Is deleted last.
+    _file: tempfile::TempPath,
 }
 
 impl Library {
     /// Loads the file that the executable embeds.
     pub(crate) fn load() -> Result<Self, Box<dyn Error>> {
+        let file = tempfile::NamedTempFile::new()?;
+        fs::write(file.path(), EMBEDDED_LIBRARY)?;
         // SAFETY: the library runs no code when it is loaded, and the types above are those of fmi3FunctionTypes.h
         unsafe {
-            let library = libloading::Library::new(env!("BOLTED_JOINT_LIBRARY"))?;
+            let library = libloading::Library::new(file.path())?;
             Ok(Self {
                 instantiate: *library.get("fmi3InstantiateCoSimulation")?,
                 enter_initialization: *library.get("fmi3EnterInitializationMode")?,
@@ -69,6 +75,7 @@ impl Library {
                 get: *library.get("fmi3GetFloat64")?,
                 do_step: *library.get("fmi3DoStep")?,
                 _library: library,
+                _file: file.into_temp_path(),
             })
         }
     }

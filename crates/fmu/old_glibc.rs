@@ -6,7 +6,7 @@
 //! are not asked for. docs/platforms.md states what is left, and a test holds it to that.
 //!
 //! Only for 64-bit Linux on x86-64 and AArch64, where glibc's `struct stat64` and `struct statx` are the kernel's own.
-//! The root `build.rs` compiles this file to an object and links it into the FMU library.
+//! The build script of `crates/export` compiles this file to an object and links it into the FMU library.
 
 #![no_std]
 

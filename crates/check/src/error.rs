@@ -1,0 +1,44 @@
+//! Why a file cannot be looked into as an FMU.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use bolted_joint_joint::JointFileError;
+
+/// Why a file cannot be looked into as an FMU.
+#[derive(Debug, Error)]
+pub enum InspectError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read ({source}); give the path of a joint file or an FMU", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// The file is no zip archive, or a damaged one.
+    #[error("{}: found no readable zip archive ({source}), expected an FMU; copy or export it again", path.display())]
+    Archive {
+        /// The file.
+        path: PathBuf,
+        /// What the archive reader says.
+        source: zip::result::ZipError,
+    },
+    /// A file that belongs into the FMU is missing or no text.
+    #[error("{}: `{entry}` is missing or no text; expected an FMU that `bolted-joint export` wrote; export it again", path.display())]
+    Entry {
+        /// The FMU.
+        path: PathBuf,
+        /// Path within it.
+        entry: &'static str,
+    },
+    /// The joint file within the FMU is not valid.
+    #[error("{}: {source}", path.display())]
+    JointFile {
+        /// The FMU.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<JointFileError>,
+    },
+}

@@ -1,0 +1,229 @@
+//! Looks into an FMU that this program exported: do its parts agree, and can it be simulated?
+
+use std::path::Path;
+
+use bolted_joint_dynamics::Lap;
+use bolted_joint_importer::FmiVersion;
+use bolted_joint_interface::Interface as Declared;
+use roxmltree::Document;
+
+use super::archive::Archive;
+use super::described::{Described, FILE};
+use super::{InspectError, attributes, parts, variables};
+use bolted_joint_export::{Interface, StartFile, declared, start_value, table_lines};
+use bolted_joint_joint::{DofSet, JointFile, Passivity};
+
+/// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
+const SAME_START: f64 = 1e-15;
+
+/// What an FMU holds, and what is wrong with it.
+#[derive(Debug)]
+pub struct Inspection {
+    /// Version of the standard.
+    pub version: FmiVersion,
+    /// Which of the two FMUs it is.
+    pub interface: Interface,
+    /// The joint that it was made of.
+    pub joint: JointFile,
+    /// Name of the model.
+    pub model_name: String,
+    /// Platform folders with a library.
+    pub platforms: Vec<String>,
+    /// Whether the joint is passive, by matrix.
+    pub passivity: Passivity,
+    /// Longest Runge–Kutta step, s, of a lap.
+    pub step_size_max_s: Option<f64>,
+    /// Communication step that the FMU suggests, s.
+    pub suggested_step_s: Option<f64>,
+    /// Which of the optional parts there are, in words.
+    pub parts: Vec<String>,
+    /// Everything that does not agree; empty if the FMU is sound.
+    pub findings: Vec<String>,
+    pub(super) described: Option<Described>,
+}
+
+/// Looks into the FMU at `path`; none of its code is run.
+///
+/// # Errors
+///
+/// [`InspectError`] if it is no FMU of this program at all; what is wrong with one of its own is in the findings.
+pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
+    let mut archive = Archive::open(path)?;
+    let xml = archive.text(FILE)?;
+    let start_text = archive.text("resources/start.txt")?;
+    let joint_text = archive.text("resources/joint.json")?;
+    let joint = JointFile::from_json(&joint_text, "resources/joint.json").map_err(|source| {
+        InspectError::JointFile {
+            path: path.to_owned(),
+            source: Box::new(source),
+        }
+    })?;
+    let Some(start) = StartFile::parse(&start_text) else {
+        return Err(InspectError::Entry {
+            path: path.to_owned(),
+            entry: "resources/start.txt",
+        });
+    };
+    let platforms = platforms(&archive.names());
+    let mut findings = Vec::new();
+    if platforms.is_empty() {
+        findings
+            .push("binaries: found no library, expected one for at least one platform".to_owned());
+    }
+    findings.extend(archive.damage());
+    if start.dof_count != joint.joint.dofs.count() {
+        findings.push(format!(
+            "resources/start.txt: found dofs {}, expected {} from resources/joint.json",
+            start.dof_count,
+            joint.joint.dofs.count()
+        ));
+    }
+    let described = match describe(&xml, &joint, &start, &mut findings) {
+        Ok(described) => Some(described),
+        Err(refused) => {
+            findings.push(refused);
+            None
+        }
+    };
+    findings.extend(against_joint_file(&start, &joint));
+    if start.table != table_lines(joint.joint.over_preload.as_ref(), start.extrapolates()) {
+        findings.push(
+            "resources/start.txt: found another table over the preload than that of resources/joint.json; export the FMU again"
+                .to_owned(),
+        );
+    }
+    let passivity = joint.passivity();
+    findings.extend(
+        passivity.active().map(|matrix| {
+            format!("resources/joint.json: {matrix}; a simulation with it can blow up")
+        }),
+    );
+    let step_size_max_s = start.value("step_size_max");
+    if let (Interface::Lap, Some(step_s)) = (start.interface, step_size_max_s) {
+        findings.extend(step_finding(&joint, step_s));
+    }
+    let mut facts = Vec::new();
+    if let Some(described) = &described {
+        let (found, wrong) = parts::look_at(&mut archive, described);
+        facts = found;
+        findings.extend(wrong);
+    }
+    Ok(Inspection {
+        version: described
+            .as_ref()
+            .map_or(FmiVersion::Three, |described| described.version),
+        interface: start.interface,
+        model_name: described
+            .as_ref()
+            .map_or_else(String::new, |described| described.model_name.clone()),
+        platforms,
+        passivity,
+        step_size_max_s,
+        suggested_step_s: described
+            .as_ref()
+            .and_then(|described| described.step_size_s),
+        parts: facts,
+        findings,
+        joint,
+        described,
+    })
+}
+
+/// Platform folders that hold a library of ours.
+fn platforms(names: &[String]) -> Vec<String> {
+    let mut platforms: Vec<String> = names
+        .iter()
+        .filter_map(|name| {
+            let (platform, _) = name
+                .strip_prefix("binaries/")?
+                .split_once("/bolted_joint.")?;
+            Some(platform.to_owned())
+        })
+        .collect();
+    platforms.sort();
+    platforms.dedup();
+    platforms
+}
+
+/// Reads the model description and compares it with what it should be.
+fn describe(
+    xml: &str,
+    joint: &JointFile,
+    start: &StartFile,
+    findings: &mut Vec<String>,
+) -> Result<Described, String> {
+    let document = Document::parse(xml).map_err(|refused| format!("{FILE}: {refused}"))?;
+    let described = Described::from_xml(&document)?;
+    match described.version {
+        // strict: all that the standard's text asks of variables, units and model structure
+        FmiVersion::Three => {
+            if let Err(refused) = Declared::from_xml(FILE, xml) {
+                findings.push(refused.to_string());
+            }
+        }
+        FmiVersion::Two => {
+            let parsed = fmi_schema::deserialize::<fmi_schema::fmi2::Fmi2ModelDescription>(xml);
+            if let Err(refused) = parsed {
+                findings.push(format!("{FILE}: {refused}"));
+            }
+        }
+    }
+    findings.extend(attributes::findings(
+        document.root_element(),
+        described.version,
+    ));
+    findings.extend(variables::starts_out_of_range(&described));
+    match declared(joint, start.interface, start.value("step_size_max")) {
+        Err(refused) => findings.push(format!("resources/joint.json: {refused}")),
+        Ok(expected) => findings.extend(variables::differences(&described, &expected)),
+    }
+    findings.extend(variables::against_start_file(&described, start));
+    Ok(described)
+}
+
+/// Where the start values are not those of the joint file.
+fn against_joint_file(start: &StartFile, joint: &JointFile) -> Vec<String> {
+    let step_size_max_s = start.value("step_size_max");
+    let mut findings = Vec::new();
+    for (name, value) in &start.parameters {
+        let expected = start_value(joint, step_size_max_s, name);
+        let same = expected.is_some_and(|e| (e - value).abs() <= SAME_START * e.abs());
+        if !same {
+            findings.push(format!(
+                "resources/start.txt: found {name} = {value:?}, expected {expected:?} from resources/joint.json"
+            ));
+        }
+    }
+    findings
+}
+
+fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
+    fn unstable<const D: usize>(laps: &[Lap<D>], step_s: f64) -> Option<String> {
+        laps.iter().find_map(|lap| match lap.spectrum() {
+            None => {
+                Some("resources/joint.json: the equations of motion have no eigenvalues".to_owned())
+            }
+            Some(spectrum) if !spectrum.is_stable_with(step_s) => Some(format!(
+                "step_size_max: found {step_s:?} s, with which RK4 is unstable (|λ|max = {:.4e} 1/s); export again without \
+                 --step-size-max",
+                spectrum.largest_modulus()
+            )),
+            Some(_) => None,
+        })
+    }
+    let at_one = |joint: &JointFile| {
+        let finding = match joint.joint.dofs {
+            DofSet::Translation => joint
+                .tangent_laps::<1>()
+                .map(|laps| unstable(&laps, step_s)),
+            DofSet::TranslationRotation => joint
+                .tangent_laps::<2>()
+                .map(|laps| unstable(&laps, step_s)),
+        };
+        finding.unwrap_or_else(|error| Some(format!("resources/joint.json: {error}")))
+    };
+    match joint.over_its_preloads() {
+        Ok(joints) => joints.iter().find_map(at_one),
+        Err(error) => Some(format!("resources/joint.json: {error}")),
+    }
+}

@@ -1,0 +1,19 @@
+//! Is an FMU of this program what it should be: do its parts agree, does its library run, and is the energy balanced?
+//!
+//! [`inspect`] reads the archive and runs nothing. [`run`] unpacks it and steps the library for this platform, in a child
+//! process, because a library that fails must not take the report with it.
+#![forbid(unsafe_code)]
+
+mod archive;
+mod attributes;
+mod described;
+mod error;
+mod inspect;
+mod parts;
+mod reference;
+mod run;
+mod variables;
+
+pub use error::InspectError;
+pub use inspect::{Inspection, inspect};
+pub use run::{BalanceReport, RunError, RunReport, RunVerdict, Runner, execute_script, run};

@@ -1,0 +1,186 @@
+//! A short run of the library that is in the FMU for this platform.
+
+mod balance;
+mod child;
+mod comparison;
+mod excitation;
+mod judge;
+mod names;
+mod plan;
+mod script;
+mod supervisor;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use bolted_joint_importer::FmiVersion;
+use thiserror::Error;
+
+pub use balance::BalanceReport;
+pub use child::execute_script;
+pub use supervisor::Runner;
+
+use super::archive::Archive;
+use super::described::Described;
+use super::reference::ReferenceRun;
+use super::{InspectError, Inspection};
+use bolted_joint_export::{self as export, EMBEDDED_PLATFORM};
+use comparison::Comparison;
+use excitation::Excitation;
+use names::References;
+use plan::Plan;
+use script::{Action, Script};
+
+/// Why the run could not even be tried.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The FMU is no longer what was inspected.
+    #[error(transparent)]
+    Inspect(#[from] InspectError),
+    /// The child process or its files cannot be made.
+    #[error(
+        "the FMU cannot be unpacked and run in a temporary folder: {0}; set TMPDIR to a folder with room, or leave the run out with --no-run"
+    )]
+    System(#[from] io::Error),
+}
+
+/// Whether the library was run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RunVerdict {
+    /// It was, to the end of the script.
+    Ran,
+    /// It was, but not to the end: the finding says why.
+    Failed,
+    /// There is no library for this platform, which is named.
+    NoLibrary(String),
+    /// The model description does not name the variables that are needed.
+    NoVariables,
+}
+
+/// What a run showed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunReport {
+    /// Whether the library was run.
+    pub verdict: RunVerdict,
+    /// Communication steps that were asked for.
+    pub steps: usize,
+    /// What the FMU logged.
+    pub messages: Vec<String>,
+    /// Energy balance, if the run went to its end.
+    pub balance: Option<BalanceReport>,
+    /// What else was tried and is right, in words.
+    pub facts: Vec<String>,
+    /// What is wrong.
+    pub findings: Vec<String>,
+}
+
+impl RunReport {
+    fn without_run(verdict: RunVerdict) -> Self {
+        Self {
+            verdict,
+            steps: 0,
+            messages: Vec::new(),
+            balance: None,
+            facts: Vec::new(),
+            findings: Vec::new(),
+        }
+    }
+}
+
+/// Runs the library in the FMU at `path`, which was inspected before, in a child process.
+///
+/// # Errors
+///
+/// [`RunError`] if the run cannot be tried; what the FMU does wrong is in the findings.
+pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunReport, RunError> {
+    // a joint over the preload is run at its nominal one
+    let Ok(constant) = inspection.joint.at_preload(None) else {
+        return Ok(RunReport::without_run(RunVerdict::NoVariables));
+    };
+    let joint = &constant.joint;
+    let Some((described, references)) = inspection.described.as_ref().and_then(|described| {
+        let references = References::of(described, joint.dofs.count())?;
+        Some((described, references))
+    }) else {
+        return Ok(RunReport::without_run(RunVerdict::NoVariables));
+    };
+    let mut archive = Archive::open(path)?;
+    let platform = platform(described.version);
+    let Some(library) = library_entry(&archive.names(), platform, described) else {
+        return Ok(RunReport::without_run(RunVerdict::NoLibrary(
+            platform.to_owned(),
+        )));
+    };
+    let folder = tempfile::Builder::new().prefix("bolted joint ").tempdir()?;
+    let unpacked = folder.path().join("fmu");
+    if let Err(refused) = archive.unpack(&unpacked) {
+        let mut report = RunReport::without_run(RunVerdict::Failed);
+        let finding = format!("run: the FMU cannot be unpacked and run: {refused}");
+        report.findings.push(finding);
+        return Ok(report);
+    }
+
+    let excitation = Excitation::of(&constant, inspection.interface, inspection.step_size_max_s);
+    let mut findings = Vec::new();
+    let comparison = match ReferenceRun::read(&mut archive)
+        .and_then(|run| run.map(|run| Comparison::new(run, described)).transpose())
+    {
+        Ok(comparison) => comparison,
+        Err(refused) => {
+            findings.push(refused);
+            None
+        }
+    };
+    let plan = Plan::new(excitation, references, described, comparison);
+    let script = Script {
+        library: unpacked.join(library),
+        version: described.version.into(),
+        token: described.token.clone(),
+        resources: unpacked.join("resources"),
+        actions: plan.actions.clone(),
+    };
+    let ran = runner.run(&script, folder.path(), &unpacked)?;
+    let mut report = RunReport::without_run(RunVerdict::Ran);
+    report.findings = findings;
+    report.steps = plan
+        .actions
+        .iter()
+        .filter(|action| matches!(action, Action::Step { .. }))
+        .count();
+    report.messages = ran.messages;
+    if ran.printed > 0 {
+        report.findings.push(format!(
+            "run: found {} bytes on standard output, expected the library to log by its callback alone",
+            ran.printed
+        ));
+    }
+    match ran.failure {
+        Some(failure) => {
+            report.verdict = RunVerdict::Failed;
+            report.findings.push(format!("run: {failure}"));
+        }
+        None => plan.judge(inspection, joint, &ran.values, &mut report),
+    }
+    Ok(report)
+}
+
+/// Folder of this platform below `binaries`.
+fn platform(version: FmiVersion) -> &'static str {
+    match version {
+        FmiVersion::Two => export::FmiVersion::V2,
+        FmiVersion::Three => export::FmiVersion::V3,
+    }
+    .platform_folder(EMBEDDED_PLATFORM)
+}
+
+fn library_entry(names: &[String], platform: &str, described: &Described) -> Option<PathBuf> {
+    let identifier = described.co_simulation.as_deref()?;
+    let beginning = format!("binaries/{platform}/{identifier}.");
+    names
+        .iter()
+        .find(|name| {
+            name.strip_prefix(&beginning)
+                .is_some_and(|extension| matches!(extension, "so" | "dll" | "dylib"))
+        })
+        .map(PathBuf::from)
+}

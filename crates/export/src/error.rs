@@ -1,0 +1,155 @@
+//! Why a joint file cannot be exported.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use bolted_joint_files::DateError;
+use bolted_joint_joint::{LawError, MatrixPassivity, PreloadError, Problem};
+
+/// Why a joint file cannot be exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The joint file contradicts itself.
+    #[error("the joint file is not valid: {}", lines(problems))]
+    Invalid {
+        /// Everything that is wrong, at least one.
+        problems: Vec<Problem>,
+    },
+    /// The joint can feed energy into a simulation.
+    #[error(
+        "{}; expected K and C positive semidefinite, or the joint can feed energy into a simulation that then blows up; \
+         use an estimate that is constrained to be passive, or insist with --allow-active",
+        lines(matrices)
+    )]
+    Active {
+        /// The matrices that are not positive semidefinite.
+        matrices: Vec<MatrixPassivity>,
+    },
+    /// The joint file does not give the equations of this FMU.
+    #[error(transparent)]
+    Law(#[from] LawError),
+    /// Extrapolation is asked for where there is no table in the FMU.
+    #[error(
+        "extrapolation: found no table over the preload to go beyond, expected a joint with joint.over_preload and no --preload; \
+         leave --extrapolate out"
+    )]
+    NothingToExtrapolate,
+    /// The joint has no such preload.
+    #[error(transparent)]
+    Preload(#[from] PreloadError),
+    /// A step size was given for the FMU that takes no steps.
+    #[error(
+        "step size: found {found_s:?} s for the element, expected none: the element has no states and takes no steps; \
+         leave it out, or export as lap"
+    )]
+    StepOfElement {
+        /// The step size, s.
+        found_s: f64,
+    },
+    /// A step size that is not positive and finite.
+    #[error(
+        "step size: found {found_s:?} s, expected a finite number of seconds greater than zero; leave --step-size-max out for an accurate one"
+    )]
+    StepNotPositive {
+        /// The step size, s.
+        found_s: f64,
+    },
+    /// A step size with which the Runge–Kutta method is unstable.
+    #[error(
+        "step size: found {found_s:?} s, with which RK4 is unstable: the model's largest eigenvalue is \
+         |λ| = {largest_modulus:.4e} 1/s; expected at most {limit_s:?} s, or none for a step that is also accurate"
+    )]
+    StepUnstable {
+        /// The step size, s.
+        found_s: f64,
+        /// Largest |λ|, 1/s.
+        largest_modulus: f64,
+        /// Longest stable step, s.
+        limit_s: f64,
+    },
+    /// The eigenvalues of the lap model cannot be found.
+    #[error(
+        "the eigenvalues of the lap model cannot be computed; \
+         check the orders of magnitude of joint and bodies in the joint file, or give a step size"
+    )]
+    NoSpectrum,
+    /// The environment variable for reproducible dates is malformed.
+    #[error(transparent)]
+    Date(#[from] DateError),
+    /// The folder of libraries cannot be read.
+    #[error("{}: cannot be read: {source}; give a folder with one folder for each platform, such as x86_64-windows", path.display())]
+    UnreadablePlatforms {
+        /// Path of the folder or file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// The folder of libraries holds none.
+    #[error("{}: found no platform's folder, expected at least one, such as x86_64-windows", path.display())]
+    NoPlatforms {
+        /// Path of the folder.
+        path: PathBuf,
+    },
+    /// A folder that is not named after a platform.
+    #[error(
+        "{}: is not the name of a platform in FMI 3.0, expected one of {} followed by one of {}, \
+         such as x86_64-windows; rename or remove the folder",
+        path.display(),
+        architectures.join(", "),
+        systems.join(", ")
+    )]
+    UnknownPlatform {
+        /// Path of the folder.
+        path: PathBuf,
+        /// Known architectures.
+        architectures: Vec<&'static str>,
+        /// Known systems, with the dash before them.
+        systems: Vec<&'static str>,
+    },
+    /// A platform's folder without its library.
+    #[error("{}: not found, expected the FMU library of that platform; build it, or remove the folder", path.display())]
+    NoLibrary {
+        /// Path of the library.
+        path: PathBuf,
+    },
+    /// A library in another platform's format.
+    #[error("{}: is not a shared library of that platform, expected one in {format} format", path.display())]
+    NotALibrary {
+        /// Path of the library.
+        path: PathBuf,
+        /// Format of shared libraries on that platform.
+        format: &'static str,
+    },
+    /// A parameter of the FMU that the joint file has no value for. A mistake in this program.
+    #[error(
+        "parameter {variable} of the model description has no counterpart in the joint file; please report this"
+    )]
+    NoValue {
+        /// Name of the variable.
+        variable: String,
+    },
+    /// The model description cannot be read or written. A mistake in this program.
+    #[error("model description: {0}; please report this")]
+    Description(#[from] fmi_schema::Error),
+    /// The model description that came out breaks the rules. A mistake in this program.
+    #[error("model description as exported: {0}; please report this")]
+    Interface(Box<bolted_joint_interface::InterfaceError>),
+    /// The archive cannot be made.
+    #[error("the FMU's archive cannot be made: {0}")]
+    Archive(#[from] zip::result::ZipError),
+    /// The FMU cannot be written.
+    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    Unwritable {
+        /// Path of the FMU.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+}
+
+fn lines<T: ToString>(items: &[T]) -> String {
+    let lines: Vec<String> = items.iter().map(T::to_string).collect();
+    lines.join("\n  ")
+}

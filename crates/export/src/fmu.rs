@@ -1,0 +1,383 @@
+//! Puts an FMU together.
+
+use std::path::{Path, PathBuf};
+
+use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum};
+
+use super::archive::{File, archive};
+use super::assets::pictures;
+use super::declared::dependence;
+use super::description::{self, Description};
+use super::documentation::{self, Page};
+use super::parameters::start_value;
+use super::platforms::{Library, binaries};
+use super::reference_run::ReferenceRun;
+use super::start_file::{parameter_lines, start_file, table_lines};
+use super::step::{Experiment, StepSize};
+use super::terminals::{self, terminals_and_icons};
+use super::token::token;
+use super::{ExportError, FmiVersion, Interface, Timestamp};
+use bolted_joint_files::whole_file;
+use bolted_joint_joint::{DofSet, JointFile, OverPreload, Passivity};
+
+/// What to export, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportOptions {
+    /// Which of the two FMUs.
+    pub interface: Interface,
+    /// Version of the FMI standard.
+    pub version: FmiVersion,
+    /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
+    pub step_size_max_s: Option<f64>,
+    /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
+    pub platforms: Option<PathBuf>,
+    /// Preload (N·m) at which a joint over the preload is exported as a constant one. Where it is not given, the FMU has the
+    /// preload as an input.
+    pub preload_n_m: Option<f64>,
+    /// Whether the FMU of a joint over the preload holds the ends of its table beyond them, instead of refusing such preloads.
+    pub extrapolate: bool,
+    /// Whether a joint that can feed energy into a simulation is exported all the same.
+    pub allow_active: bool,
+    /// Date in the FMU.
+    pub date: Timestamp,
+}
+
+/// An FMU, and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// Which of the two FMUs it is.
+    pub interface: Interface,
+    /// Version of the FMI standard that it follows.
+    pub version: FmiVersion,
+    /// Name of its model, which is the joint's.
+    pub model_name: String,
+    /// Instantiation token.
+    pub token: String,
+    /// Longest Runge–Kutta step; `None` for the element, which takes no steps.
+    pub step: Option<StepSize>,
+    /// Relative displacement (m, rad) of each DOF beyond which a softening lap runs away; `None` where it does not soften,
+    /// no entries for the element.
+    pub escape_amplitude: Vec<Option<f64>>,
+    /// Whether the joint is passive, by matrix.
+    pub passivity: Passivity,
+    /// Libraries in it.
+    pub libraries: Vec<Library>,
+    /// Its files.
+    pub entries: Vec<Entry>,
+    bytes: Vec<u8>,
+}
+
+/// A file of an FMU.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// Path in the FMU.
+    pub path: String,
+    /// Length before compression, bytes.
+    pub size: usize,
+}
+
+impl Exported {
+    /// The FMU itself.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Writes the FMU to `path`, whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// [`ExportError::Unwritable`] where the system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), ExportError> {
+        whole_file::write(path, &self.bytes).map_err(|source| ExportError::Unwritable {
+            path: path.to_path_buf(),
+            source,
+        })
+    }
+}
+
+/// What the equations of a lap model say about running it.
+pub(super) struct LapFacts {
+    pub(super) step: StepSize,
+    pub(super) experiment: Experiment,
+    pub(super) modes: Vec<Mode>,
+    pub(super) escape_amplitude: Vec<Option<f64>>,
+}
+
+/// A mode of the lap model about rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mode {
+    /// Undamped natural frequency, Hz.
+    pub(super) frequency_hz: f64,
+    /// Negative where the mode grows.
+    pub(super) damping_ratio: f64,
+}
+
+/// The FMU of the joint in `file`, whose very text is `source_json`. A joint over the preload has it as an input, unless it is
+/// taken at one preload; the FMU then keeps the whole table beside the constant joint.
+///
+/// The same file, options and program give the same bytes.
+///
+/// # Errors
+///
+/// [`ExportError`]: an invalid or active joint, a preload that the joint does not have, a lap without bodies, an unstable
+/// step size, libraries that cannot be read.
+pub fn fmu_bytes(
+    file: &JointFile,
+    source_json: &str,
+    options: &ExportOptions,
+) -> Result<Exported, ExportError> {
+    let problems = file.validate();
+    if !problems.is_empty() {
+        return Err(ExportError::Invalid { problems });
+    }
+    if options.extrapolate && (file.joint.over_preload.is_none() || options.preload_n_m.is_some()) {
+        return Err(ExportError::NothingToExtrapolate);
+    }
+    let source = File::text(JOINT_FILE, source_json);
+    if options.preload_n_m.is_none() {
+        // what is told of a joint over the preload by one number, or by a curve, is told at the nominal preload
+        let mut constant = file.at_preload(None)?;
+        constant.name.clone_from(&file.name);
+        let subject = Subject {
+            file: &constant,
+            over_preload: file.joint.over_preload.is_some().then_some(file),
+            has_table_beside: false,
+        };
+        return fmu(&subject, vec![source], options);
+    }
+    let constant = file.at_preload(options.preload_n_m)?;
+    let text = constant.to_json().map_err(|_| ExportError::Invalid {
+        problems: constant.validate(),
+    })?;
+    let sources = vec![
+        File::text(JOINT_FILE, text),
+        File::text(TABLE_FILE, source_json),
+    ];
+    let subject = Subject {
+        file: &constant,
+        over_preload: None,
+        has_table_beside: true,
+    };
+    fmu(&subject, sources, options)
+}
+
+/// The joint that the FMU has.
+const JOINT_FILE: &str = "resources/joint.json";
+/// The joint over the preload that it was taken from.
+const TABLE_FILE: &str = "resources/joint-over-preload.json";
+
+/// What an FMU is made of.
+struct Subject<'a> {
+    /// The joint at one preload: the one that the FMU has, or that it starts with.
+    file: &'a JointFile,
+    /// The joint over the preload where the FMU has the preload as an input.
+    over_preload: Option<&'a JointFile>,
+    /// Whether the FMU keeps a table that it does not use.
+    has_table_beside: bool,
+}
+
+impl Subject<'_> {
+    /// The joint file that the FMU has.
+    fn source(&self) -> &JointFile {
+        self.over_preload.unwrap_or(self.file)
+    }
+
+    fn table(&self) -> Option<&OverPreload> {
+        self.over_preload?.joint.over_preload.as_ref()
+    }
+}
+
+/// The FMU, with the files that it comes from.
+fn fmu(
+    subject: &Subject<'_>,
+    sources: Vec<File>,
+    options: &ExportOptions,
+) -> Result<Exported, ExportError> {
+    let file = subject.file;
+    let passivity = subject.source().passivity();
+    if !passivity.is_passive() && !options.allow_active {
+        return Err(ExportError::Active {
+            matrices: passivity.active().cloned().collect(),
+        });
+    }
+    let lap = lap_facts(subject, options)?;
+    let step = lap.as_ref().map(|lap| lap.step);
+
+    let dofs = file.joint.dofs;
+    let mut description = Description::new(options.interface, dofs, dependence(subject.source()))?;
+    description.set_version(options.version);
+    let summary = format!("{}: {}", file.name, options.interface.summary());
+    description.set_names(&file.name, summary);
+    let experiment = experiment(file, lap.as_ref());
+    if let Some(experiment) = experiment {
+        description.set_experiment(experiment);
+    }
+    let longest_step_s = step.map(|step| step.longest_s);
+    let mut parameters =
+        description.set_parameters(|name| start_value(file, longest_step_s, name))?;
+    if let Some(table) = subject.table() {
+        let range = match (table.preload.first(), table.preload.last()) {
+            (Some(&first), Some(&last)) if !options.extrapolate => Some([first, last]),
+            _ => None,
+        };
+        description.set_preload(table.nominal, range);
+        parameters.push(("preload".to_owned(), table.nominal));
+    }
+    let table = table_lines(subject.table(), options.extrapolate);
+    let library_name = description.model_identifier();
+    let parameters = parameter_lines(&parameters);
+    let resources = format!("{table}{parameters}");
+    let token = token(&[&description.text()?, &resources]);
+    let (xml, declared) = description.finish(&token, options.date)?;
+
+    let step_s = experiment.map(|experiment| experiment.communication_step_s);
+    let reference_run = ReferenceRun::new(
+        file,
+        subject.over_preload,
+        &declared,
+        options.interface,
+        lap.as_ref(),
+        step_s,
+    )?;
+    let page = documentation::html(&Page {
+        file,
+        interface: options.interface,
+        version: options.version,
+        declared: &declared,
+        lap: lap.as_ref(),
+        passivity: &passivity,
+        reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
+        over_preload: subject.table(),
+        has_table_beside: subject.has_table_beside,
+        token: &token,
+        date: options.date,
+    });
+    let mut files = vec![
+        File::text(description::FILE, xml),
+        File::text(
+            "resources/start.txt",
+            start_file(options.interface, dofs, &token, &table, &parameters),
+        ),
+    ];
+    files.extend(sources);
+    files.push(File::text("documentation/index.html", page));
+    files.extend(documentation::licences());
+    files.push(File::text(
+        terminals::FILE,
+        terminals_and_icons(&declared, dofs),
+    ));
+    if let Some(run) = &reference_run {
+        files.extend(run.files(&file.name));
+    }
+    files.extend(pictures(options.version, options.interface, dofs));
+    let mut libraries = Vec::new();
+    for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
+        libraries.push(binary.library);
+        files.push(File {
+            path: binary.path,
+            bytes: binary.bytes,
+            executable: true,
+        });
+    }
+    Ok(Exported {
+        interface: options.interface,
+        version: options.version,
+        model_name: file.name.clone(),
+        token,
+        step,
+        escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
+        passivity,
+        libraries,
+        bytes: archive(&files, options.date)?,
+        entries: files
+            .into_iter()
+            .map(|file| Entry {
+                path: file.path,
+                size: file.bytes.len(),
+            })
+            .collect(),
+    })
+}
+
+/// `None` for the element.
+fn lap_facts(
+    subject: &Subject<'_>,
+    options: &ExportOptions,
+) -> Result<Option<LapFacts>, ExportError> {
+    match (options.interface, subject.file.joint.dofs) {
+        (Interface::Element, _) => match options.step_size_max_s {
+            Some(found_s) => Err(ExportError::StepOfElement { found_s }),
+            None => Ok(None),
+        },
+        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(subject, options).map(Some),
+        (Interface::Lap, DofSet::TranslationRotation) => {
+            sized_lap_facts::<2>(subject, options).map(Some)
+        }
+    }
+}
+
+fn sized_lap_facts<const D: usize>(
+    subject: &Subject<'_>,
+    options: &ExportOptions,
+) -> Result<LapFacts, ExportError> {
+    let lap = subject.file.lap::<D>()?;
+    // of a joint over the preload, the bolt may come to any preload of the table
+    let joints = subject.source().over_its_preloads()?;
+    let laps = joints
+        .iter()
+        .map(JointFile::lap)
+        .collect::<Result<Vec<Lap<D>>, _>>()?;
+    let tangents = joints
+        .iter()
+        .map(JointFile::tangent_laps)
+        .collect::<Result<Vec<Vec<Lap<D>>>, _>>()?;
+    let mut step = StepSize::choose(&tangents.concat(), options.step_size_max_s)?;
+    if subject.over_preload.is_some() {
+        step = step.for_energy();
+    }
+    let spectrum = lap.spectrum();
+    let least = |one: Option<f64>, other: Option<f64>| match (one, other) {
+        (Some(one), Some(other)) => Some(f64::min(one, other)),
+        (amplitude, None) | (None, amplitude) => amplitude,
+    };
+    let mut escape_amplitude = vec![None; D];
+    for lap in &laps {
+        for (all, own) in escape_amplitude.iter_mut().zip(lap.escape_amplitude()) {
+            *all = least(*all, own);
+        }
+    }
+    Ok(LapFacts {
+        step,
+        experiment: Experiment::of_lap(spectrum.as_ref(), &step),
+        modes: spectrum.as_ref().map(modes).unwrap_or_default(),
+        escape_amplitude,
+    })
+}
+
+/// The oscillating modes, by frequency.
+fn modes(spectrum: &Spectrum) -> Vec<Mode> {
+    let negligible = 1e-6 * spectrum.largest_modulus();
+    let oscillates = |eigenvalue: &&Eigenvalue| eigenvalue.imaginary > negligible;
+    let mut modes: Vec<Mode> = spectrum
+        .eigenvalues()
+        .iter()
+        .filter(oscillates)
+        // λ = −ζω + jω√(1 − ζ²)
+        .map(|eigenvalue| Mode {
+            frequency_hz: eigenvalue.modulus() / std::f64::consts::TAU,
+            damping_ratio: -eigenvalue.real / eigenvalue.modulus(),
+        })
+        .collect();
+    modes.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
+    modes
+}
+
+/// `None` where the joint file says nothing about the times that matter.
+fn experiment(file: &JointFile, lap: Option<&LapFacts>) -> Option<Experiment> {
+    match (lap, &file.validity) {
+        (Some(lap), _) => Some(lap.experiment),
+        (None, Some(validity)) => Some(Experiment::of_element(validity.frequency_hz[1])),
+        (None, None) => None,
+    }
+}

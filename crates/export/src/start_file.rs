@@ -1,0 +1,159 @@
+//! `resources/start.txt`: what the library reads when it is instantiated.
+
+use std::fmt::Write as _;
+
+use super::Interface;
+use bolted_joint_joint::{DofSet, OverPreload};
+
+/// First line of the file.
+const HEADER: &str = "bolted-joint-start/1";
+
+/// The parameters as the file lists them, one `name value` on each line.
+pub fn parameter_lines(parameters: &[(String, f64)]) -> String {
+    let mut text = String::new();
+    for (name, value) in parameters {
+        // writing to a String cannot fail; {:?} gives the fewest digits that read back to the same value
+        let _ = writeln!(text, "{name} {value:?}");
+    }
+    text
+}
+
+/// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K
+/// and C row by row, and k3; empty for a constant joint.
+pub fn table_lines(table: Option<&OverPreload>, extrapolate: bool) -> String {
+    let Some(table) = table else {
+        return String::new();
+    };
+    let beyond = if extrapolate { "held" } else { "refused" };
+    let mut text = format!("table {} {beyond}\n", table.preload.len());
+    for (place, preload) in table.preload.iter().enumerate() {
+        let mut numbers = vec![*preload];
+        let mut order = 0;
+        for matrices in [&table.stiffness, &table.damping] {
+            let rows = matrices.get(place).map_or(&[][..], Vec::as_slice);
+            order = rows.len();
+            for (i, row) in rows.iter().enumerate() {
+                numbers.extend(row.iter().skip(i));
+            }
+        }
+        match table.cubic.get(place) {
+            Some(cubic) => numbers.extend(cubic),
+            None => numbers.extend(std::iter::repeat_n(0.0, order)),
+        }
+        let words: Vec<String> = numbers.iter().map(|number| format!("{number:?}")).collect();
+        text += &words.join(" ");
+        text.push('\n');
+    }
+    text
+}
+
+/// The whole file.
+pub(super) fn start_file(
+    interface: Interface,
+    dofs: DofSet,
+    token: &str,
+    table_lines: &str,
+    parameter_lines: &str,
+) -> String {
+    format!(
+        "{HEADER}\nmodel {interface}\ndofs {}\ntoken {token}\n{table_lines}{parameter_lines}",
+        dofs.count()
+    )
+}
+
+/// What such a file says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StartFile {
+    /// Which FMU it is for.
+    pub interface: Interface,
+    /// How many DOFs the joint has.
+    pub dof_count: usize,
+    /// The FMU's instantiation token.
+    pub token: String,
+    /// Heading and lines of the table over the preload; empty for a constant joint.
+    pub table: String,
+    /// Names and values.
+    pub parameters: Vec<(String, f64)>,
+}
+
+impl StartFile {
+    /// Reads the text back; `None` where it is not such a file.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        if lines.next()? != HEADER {
+            return None;
+        }
+        let mut field = |name: &str| lines.next()?.strip_prefix(name)?.strip_prefix(' ');
+        let interface = match field("model")? {
+            "element" => Interface::Element,
+            "lap" => Interface::Lap,
+            _ => return None,
+        };
+        let dof_count = field("dofs")?.parse().ok()?;
+        let token = field("token")?.to_owned();
+        let mut lines = lines.peekable();
+        let mut table = String::new();
+        if let Some(heading) = lines.next_if(|line| line.starts_with("table ")) {
+            let count = heading.split(' ').nth(1)?.parse::<usize>().ok()?;
+            let mut all = vec![heading];
+            all.extend(lines.by_ref().take(count));
+            for line in all {
+                table += line;
+                table.push('\n');
+            }
+        }
+        let parameters = lines
+            .map(|line| {
+                let (name, value) = line.split_once(' ')?;
+                Some((name.to_owned(), value.parse().ok()?))
+            })
+            .collect::<Option<_>>()?;
+        Some(Self {
+            interface,
+            dof_count,
+            token,
+            table,
+            parameters,
+        })
+    }
+
+    /// Whether the joint is one over the preload that is held beyond its table.
+    pub fn extrapolates(&self) -> bool {
+        let heading = self.table.lines().next();
+        heading.is_some_and(|heading| heading.ends_with(" held"))
+    }
+
+    /// Start value of the parameter `name`.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let found = self.parameters.iter().find(|(other, _)| other == name);
+        found.map(|&(_, value)| value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lines_are_those_that_the_library_reads() {
+        let parameters = [
+            ("joint.k_yy".to_owned(), 5.73e5),
+            ("step_size_max".to_owned(), 2e-5),
+        ];
+        let text = start_file(
+            Interface::Lap,
+            DofSet::Translation,
+            "0123",
+            "",
+            &parameter_lines(&parameters),
+        );
+        assert_eq!(
+            text,
+            "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken 0123\njoint.k_yy 573000.0\nstep_size_max 2e-5\n"
+        );
+        let read = StartFile::parse(&text).unwrap();
+        assert_eq!((read.interface, &*read.token), (Interface::Lap, "0123"));
+        assert_eq!(read.parameters, parameters);
+        assert_eq!(StartFile::parse(&text.replace("2e-5", "fast")), None);
+    }
+}

@@ -1,0 +1,82 @@
+//! Terminals of an FMU, one flange a side, and where they stand on its icon.
+
+use bolted_joint_interface::{Interface as Declared, Role};
+
+use super::xml::{Attributes, Document, number};
+use bolted_joint_joint::DofSet;
+
+/// Path in the FMU.
+pub(super) const FILE: &str = "terminalsAndIcons/terminalsAndIcons.xml";
+
+/// Half the width and height of the icon, and of a flange upon it; 0.1 mm each.
+const ICON: f64 = 100.0;
+const FLANGE: f64 = 10.0;
+
+/// The colour of connections between flanges, that of the flanges themselves.
+const CONNECTION_RGB: &str = "31 122 61";
+
+/// The text of `terminalsAndIcons.xml`, the same for FMI 2.0, which takes it over from 3.0.
+pub(super) fn terminals_and_icons(declared: &Declared, dofs: DofSet) -> String {
+    let mut document = Document::new();
+    let root = Attributes::new().with("fmiVersion", "3.0");
+    document.element("fmiTerminalsAndIcons", root, |document| {
+        document.element("GraphicalRepresentation", Attributes::new(), |document| {
+            let system =
+                extent(-ICON, -ICON, ICON, ICON).with("suggestedScalingFactorTo_mm", number(0.1));
+            document.empty("CoordinateSystem", system);
+            document.empty("Icon", extent(-ICON, -ICON, ICON, ICON));
+        });
+        document.element("Terminals", Attributes::new(), |document| {
+            for (side, middle) in [("a", -ICON), ("b", ICON)] {
+                terminal(document, declared, dofs, side, middle);
+            }
+        });
+    });
+    document.finish()
+}
+
+/// The flange of one side: motion, equal on both sides of a connection, and load, whose sum there is zero.
+fn terminal(document: &mut Document, declared: &Declared, dofs: DofSet, side: &str, middle: f64) {
+    let kind = match dofs {
+        DofSet::Translation => "_bolted_joint.TranslationalFlange",
+        DofSet::TranslationRotation => "_bolted_joint.TranslationalRotationalFlange",
+    };
+    let attributes = Attributes::new()
+        .with("name", side)
+        .with("matchingRule", "plug")
+        .with("terminalKind", kind)
+        .with("description", format!("Flange of side {side}"));
+    document.element("Terminal", attributes, |document| {
+        for member in ["y", "theta", "v", "omega", "F", "M"] {
+            let name = format!("{side}.{member}");
+            let Some(variable) = declared.variable(&name) else {
+                continue;
+            };
+            // Loads are counted as acting on the body: the lap's flow in, those that the element puts on its
+            // neighbours flow out.
+            let kind = match (member, variable.role) {
+                ("F" | "M", Role::Input) => "inflow",
+                ("F" | "M", _) => "outflow",
+                _ => "signal",
+            };
+            let attributes = Attributes::new()
+                .with("variableName", &name)
+                .with("memberName", member)
+                .with("variableKind", kind);
+            document.empty("TerminalMemberVariable", attributes);
+        }
+        let place = extent(middle - FLANGE, -FLANGE, middle + FLANGE, FLANGE)
+            .with("defaultConnectionColor", CONNECTION_RGB)
+            .with("defaultConnectionStrokeSize", 1)
+            .with("iconBaseName", format!("flange_{side}"));
+        document.empty("TerminalGraphicalRepresentation", place);
+    });
+}
+
+fn extent(x1: f64, y1: f64, x2: f64, y2: f64) -> Attributes {
+    Attributes::new()
+        .number("x1", Some(x1))
+        .number("y1", Some(y1))
+        .number("x2", Some(x2))
+        .number("y2", Some(y2))
+}

@@ -1,0 +1,132 @@
+//! Ticks: values that a reader expects on an axis, and how they are written.
+
+use super::series::{TICK_ROUNDING, mantissa, one_two_five, series_at_least};
+
+/// Ticks of a logarithmic axis are written as plain numbers if all lie within these powers of ten.
+const PLAIN_EXPONENTS: std::ops::RangeInclusive<i32> = -3..=3;
+
+/// Text beside a tick.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TickLabel {
+    /// Text as it stands.
+    Plain(String),
+    /// `mantissa · 10^exponent`, the mantissa 1 being left out.
+    Power {
+        /// 1, 2 or 5.
+        mantissa: u8,
+        /// Power of ten.
+        exponent: i32,
+    },
+}
+
+/// A labelled tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tick {
+    /// Where it is.
+    pub value: f64,
+    /// What is written beside it.
+    pub label: TickLabel,
+}
+
+/// The ticks of an axis in ascending order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ticks {
+    /// Labelled, with a grid line.
+    pub major: Vec<Tick>,
+    /// Between the major ones, without a label.
+    pub minor: Vec<f64>,
+}
+
+pub(super) fn phase_tick(degrees: i32) -> Tick {
+    Tick {
+        value: degrees.into(),
+        label: TickLabel::Plain(with_minus_sign(&degrees.to_string())),
+    }
+}
+
+pub(super) fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
+    let step_number = series_at_least((high - low) / f64::from(most.max(1)));
+    let step = one_two_five(step_number);
+    let parts = if mantissa(step_number) == 2 { 4 } else { 5 };
+    let decimals = usize::try_from(-step_number.div_euclid(3)).unwrap_or(0);
+    let minor_step = step / f64::from(parts);
+
+    let mut ticks = Ticks::default();
+    let first = (low / minor_step - TICK_ROUNDING).ceil();
+    let last = (high / minor_step + TICK_ROUNDING).floor();
+    let mut count = first;
+    while count <= last {
+        let value = count * minor_step;
+        if count % f64::from(parts) == 0.0 {
+            // Adding zero turns −0 into 0.
+            let text = format!("{:.decimals$}", count / f64::from(parts) * step + 0.0);
+            ticks.major.push(Tick {
+                value,
+                label: TickLabel::Plain(with_minus_sign(&text)),
+            });
+        } else {
+            ticks.minor.push(value);
+        }
+        count += 1.0;
+    }
+    ticks
+}
+
+pub(super) fn logarithmic_ticks(low: i32, high: i32, most: u32) -> Ticks {
+    let most = i32::try_from(most.max(2)).unwrap_or(i32::MAX);
+    let first_decade = low.div_euclid(3);
+    let last_decade = high.div_euclid(3);
+    let plain = PLAIN_EXPONENTS.contains(&first_decade) && PLAIN_EXPONENTS.contains(&last_decade);
+    // Up to 1 … 20: the powers of ten alone would be too few.
+    let between = high - low <= 4;
+    let stride = (last_decade - first_decade) / most + 1;
+
+    let mut ticks = Ticks::default();
+    for exponent in first_decade..=last_decade {
+        for digit in 1..=9_u8 {
+            let series = match digit {
+                1 => Some(3 * exponent),
+                2 => Some(3 * exponent + 1),
+                5 => Some(3 * exponent + 2),
+                _ => None,
+            };
+            let value = f64::from(digit) * 10_f64.powi(exponent);
+            let inside = series.map_or_else(
+                || value > one_two_five(low) && value < one_two_five(high),
+                |index| (low..=high).contains(&index),
+            );
+            if !inside {
+                continue;
+            }
+            let labelled = if between {
+                series.is_some()
+            } else {
+                digit == 1 && exponent.rem_euclid(stride) == 0
+            };
+            if labelled {
+                ticks.major.push(Tick {
+                    value,
+                    label: logarithmic_label(digit, exponent, plain),
+                });
+            } else if digit == 1 || stride == 1 {
+                ticks.minor.push(value);
+            }
+        }
+    }
+    ticks
+}
+
+fn logarithmic_label(mantissa: u8, exponent: i32, plain: bool) -> TickLabel {
+    if plain {
+        let decimals = usize::try_from(-exponent).unwrap_or(0);
+        let value = f64::from(mantissa) * 10_f64.powi(exponent);
+        TickLabel::Plain(format!("{value:.decimals$}"))
+    } else {
+        TickLabel::Power { mantissa, exponent }
+    }
+}
+
+/// `number` with the typographic minus sign, which is as wide as a plus.
+pub(crate) fn with_minus_sign(number: &str) -> String {
+    number.replace('-', "−")
+}

@@ -1,0 +1,172 @@
+//! Pieces of HTML that every page of this program is made of: escaped text, numbers, tables, one look.
+
+/// The look of every page.
+pub const STYLE: &str = include_str!("style.css");
+
+/// `text` as HTML text or attribute value; characters that HTML forbids are replaced.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(c),
+            c if c.is_control() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The first letter in upper case.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map(|first| first.to_uppercase().chain(letters).collect())
+        .unwrap_or_default()
+}
+
+/// A number to six significant digits, with a power of ten where it is large or small.
+pub fn number(value: f64) -> String {
+    shown(value, 6)
+}
+
+/// A standard deviation to two significant digits: it is not known better.
+pub fn spread(value: f64) -> String {
+    shown(value, 2)
+}
+
+/// A number to so many significant digits at most, with a power of ten where it is large or small.
+pub fn shown(value: f64, digits: usize) -> String {
+    written(value, digits, true)
+}
+
+/// A number to as many digits as beside a standard deviation of which two are known.
+pub fn beside(value: f64, deviation: f64) -> String {
+    let decade = |size: f64| size.abs().log10().floor();
+    let digits = decade(value) - decade(deviation) + 2.0;
+    match digits.is_finite() {
+        true => written(value, digits.clamp(2.0, 12.0) as usize, false),
+        false => number(value),
+    }
+}
+
+fn written(value: f64, digits: usize, without_zeros: bool) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return rounded;
+    };
+    let short = |text: &str| {
+        let text = if without_zeros && text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            text
+        };
+        text.replace('-', "−")
+    };
+    match exponent.parse::<i32>() {
+        Ok(power @ -3..=5) => {
+            let decimals = (digits as i32 - 1 - power).max(0) as usize;
+            short(&format!("{value:.decimals$}"))
+        }
+        Ok(_) => format!(
+            "{} × 10<sup>{}</sup>",
+            short(mantissa),
+            exponent.replace('-', "−")
+        ),
+        Err(_) => rounded,
+    }
+}
+
+/// A fraction in per cent: three digits say enough of a residual.
+pub fn percent(fraction: f64) -> String {
+    format!("{} %", shown(100.0 * fraction, 3))
+}
+
+/// A number and its unit.
+pub fn quantity(value: f64, unit: &str) -> String {
+    format!("{} {unit}", number(value))
+}
+
+/// A table; `rows` hold finished cells, `<td>…</td>`.
+pub fn table(headings: &[&str], rows: &[String]) -> String {
+    let headings: String = headings
+        .iter()
+        .map(|heading| format!("<th>{heading}</th>"))
+        .collect();
+    let rows: String = rows.iter().map(|row| format!("<tr>{row}</tr>\n")).collect();
+    format!(
+        "<div class=\"scroll\"><table>\n<thead><tr>{headings}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+    )
+}
+
+/// A cell of finished HTML.
+pub fn cell(html: &str) -> String {
+    format!("<td>{html}</td>")
+}
+
+/// A cell whose content is aligned as numbers are.
+pub fn number_cell(html: &str) -> String {
+    format!("<td class=\"number\">{html}</td>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_leave_its_place() {
+        assert_eq!(
+            escaped("<script>\"&'\u{7}</script>"),
+            "&lt;script&gt;&quot;&amp;&#39;\u{fffd}&lt;/script&gt;"
+        );
+    }
+
+    #[test]
+    fn deviations_are_shorter() {
+        for (value, expected) in [
+            (268.147, "268"),
+            (0.152_178, "0.15"),
+            (1.381e-4, "1.4 × 10<sup>−4</sup>"),
+        ] {
+            assert_eq!(spread(value), expected);
+        }
+    }
+
+    #[test]
+    fn values_have_the_digits_of_their_deviation() {
+        for (value, deviation, expected) in [
+            (572_892.0, 271.0, "572892"),
+            (5818.123, 7.0, "5818.1"),
+            (10.0, 0.15, "10.00"),
+            (-0.8333, 0.004_4, "−0.8333"),
+            (4.5678e8, 1.2e6, "4.568 × 10<sup>8</sup>"),
+            (0.0, 1.0, "0"),
+            (3.25, 0.0, "3.25"),
+            (3.25, f64::INFINITY, "3.25"),
+        ] {
+            assert_eq!(beside(value, deviation), expected);
+        }
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (-0.83, "−0.83"),
+            (573_000.0, "573000"),
+            (4.56e6, "4.56 × 10<sup>6</sup>"),
+            (2e-5, "2 × 10<sup>−5</sup>"),
+            (0.083, "0.083"),
+            (1.0 / 3.0, "0.333333"),
+            (999_999.99, "1 × 10<sup>6</sup>"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(number(value), expected);
+        }
+    }
+}

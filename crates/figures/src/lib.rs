@@ -1,0 +1,19 @@
+//! Drawing of charts as SVG and writing of HTML, for reports, FMU documentation and responses alike; knows nothing of joints.
+#![forbid(unsafe_code)]
+
+mod axis;
+pub mod curve;
+pub mod html;
+mod line_figure;
+mod look;
+mod response_figure;
+mod strip;
+mod svg;
+pub mod text;
+
+pub use axis::{Axis, Tick, TickLabel, Ticks};
+pub use line_figure::{Line, LineFigure, Scale, Shape};
+pub use look::Look;
+pub use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
+pub use strip::{FAINT_TEXT, Strip, TEXT, VALUE_LABELS, draw_path};
+pub use svg::{PathData, Point, Svg};

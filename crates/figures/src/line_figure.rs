@@ -1,0 +1,253 @@
+//! A small figure of calculated curves over one quantity, for a page rather than for a report.
+
+use super::axis::Axis;
+use super::curve;
+use super::strip::{Strip, TEXT, VALUE_LABELS};
+use super::svg::{PathData, Point, Svg};
+use super::text;
+
+const WIDTH: f64 = 640.0;
+const STRIP_HEIGHT: f64 = 240.0;
+const MARGIN: f64 = 14.0;
+/// Room for the half of the last label that goes beyond the strip.
+const RIGHT: f64 = 24.0;
+const LEGEND: f64 = 30.0;
+const LABELS_BELOW: f64 = 46.0;
+const FONT: f64 = 12.5;
+const FONTS: &str = "system-ui, sans-serif";
+const SAMPLE_WIDTH: f64 = 26.0;
+const BETWEEN_ENTRIES: f64 = 24.0;
+/// Radius of a point.
+const MARK: f64 = 2.6;
+/// Decades that a logarithmic axis shows at most.
+const DECADES: i32 = 9;
+
+/// Blue, vermilion, green and orange of the palette of Okabe and Ito, which the colour-blind can tell apart, and the
+/// dashes that tell them apart in print.
+const LOOKS: [(&str, Option<&str>); 4] = [
+    ("#0072b2", None),
+    ("#d55e00", Some("7 3")),
+    ("#009e73", Some("2 3")),
+    ("#e69f00", Some("9 3 2 3")),
+];
+
+/// How an axis spreads its values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// By decades.
+    Logarithmic,
+}
+
+/// How the points of a line are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// Connected.
+    Curve,
+    /// One by one, as what was measured.
+    Marks,
+}
+
+/// A curve, or points, and its name.
+#[derive(Debug)]
+pub struct Line {
+    /// Its name in the key.
+    pub name: String,
+    /// How its points are shown.
+    pub shape: Shape,
+    /// Abscissa and ordinate, by abscissa.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Curves in one strip.
+#[derive(Debug)]
+pub struct LineFigure<'a> {
+    /// Read out to those who cannot see the picture.
+    pub title: &'a str,
+    /// Name and unit of the abscissa, and how it is spread.
+    pub across: (&'a str, Scale),
+    /// Name and unit of the ordinate, and how it is spread.
+    pub up: (&'a str, Scale),
+    /// At most four.
+    pub lines: Vec<Line>,
+}
+
+impl LineFigure<'_> {
+    /// The figure as an SVG document; `None` if there is nothing that can be drawn.
+    pub fn to_svg(&self) -> Option<String> {
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        let strip = Strip {
+            // Half a pixel off, thin lines are sharp.
+            left: MARGIN + VALUE_LABELS + 0.5,
+            top: LEGEND + 0.5,
+            width: WIDTH - MARGIN - RIGHT - VALUE_LABELS,
+            height: STRIP_HEIGHT,
+            frequency: axis(self.across.1, points().map(|point| point.0))?,
+            value: Some(axis(self.up.1, points().map(|point| point.1))?),
+        };
+        let height = LEGEND + STRIP_HEIGHT + LABELS_BELOW;
+        let mut svg = Svg::new(WIDTH, height, self.title);
+        svg.element("rect")
+            .number("width", WIDTH)
+            .number("height", height)
+            .number("rx", 6.0)
+            .word("fill", "#ffffff")
+            .empty();
+        svg.element("g").word("font-family", FONTS).open();
+        self.draw_legend(&strip, &mut svg);
+        strip.draw_grid(&mut svg);
+        for (line, look) in self.lines.iter().zip(LOOKS) {
+            let points = line.points.iter().map(|&point| strip.place(point));
+            match line.shape {
+                Shape::Curve => {
+                    let mut path = PathData::default();
+                    curve::line(points, strip.height, &mut path);
+                    draw(&path, look, &mut svg);
+                }
+                Shape::Marks => points
+                    .flatten()
+                    .filter(|point| (0.0..=strip.height).contains(&point.y))
+                    .for_each(|point| draw_mark(point, look.0, &mut svg)),
+            }
+        }
+        strip.draw_frame(&mut svg);
+        strip.draw_value_labels(self.up.0, &mut svg);
+        strip.draw_labels_below(self.across.0, &mut svg);
+        Some(svg.finish())
+    }
+
+    fn draw_legend(&self, strip: &Strip, svg: &mut Svg) {
+        let (mut x, baseline) = (strip.left, LEGEND - 10.0);
+        for (line, look) in self.lines.iter().zip(LOOKS) {
+            let y = baseline - 0.36 * FONT;
+            match line.shape {
+                Shape::Curve => {
+                    let end = x + SAMPLE_WIDTH;
+                    let mut sample = PathData::default();
+                    sample.polyline(&[Point { x, y }, Point { x: end, y }]);
+                    draw(&sample, look, svg);
+                }
+                Shape::Marks => draw_mark(
+                    Point {
+                        x: x + 0.5 * SAMPLE_WIDTH,
+                        y,
+                    },
+                    look.0,
+                    svg,
+                ),
+            }
+            x += SAMPLE_WIDTH + 7.0;
+            svg.element("text")
+                .number("x", x)
+                .number("y", baseline)
+                .number("font-size", FONT)
+                .word("fill", TEXT)
+                .containing(&line.name);
+            x += text::width(&line.name, FONT) + BETWEEN_ENTRIES;
+        }
+    }
+}
+
+pub(crate) fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Axis> {
+    match scale {
+        Scale::Linear => Some(Axis::linear(values)),
+        Scale::Logarithmic => Axis::logarithmic(values, DECADES),
+    }
+}
+
+fn draw_mark(point: Point, colour: &str, svg: &mut Svg) {
+    svg.element("circle")
+        .number("cx", point.x)
+        .number("cy", point.y)
+        .number("r", MARK)
+        .word("fill", colour)
+        .empty();
+}
+
+fn draw(path: &PathData, (colour, dashes): (&str, Option<&str>), svg: &mut Svg) {
+    if path.is_empty() {
+        return;
+    }
+    let element = svg
+        .element("path")
+        .word("d", path.as_str())
+        .word("fill", "none")
+        .word("stroke", colour)
+        .number("stroke-width", 1.8)
+        .word("stroke-linejoin", "round");
+    match dashes {
+        Some(dashes) => element.word("stroke-dasharray", dashes),
+        None => element,
+    }
+    .empty();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figure(points: Vec<(f64, f64)>) -> Option<String> {
+        LineFigure {
+            title: "a < b",
+            across: ("frequency, Hz", Scale::Logarithmic),
+            up: ("force, N", Scale::Linear),
+            lines: vec![Line {
+                name: "F & M".to_owned(),
+                shape: Shape::Curve,
+                points,
+            }],
+        }
+        .to_svg()
+    }
+
+    #[test]
+    fn a_power_law_is_straight_between_the_ends_of_its_axes() {
+        let frequencies = (0..=100).map(|k| 10_f64.powf(1.0 + 0.02 * f64::from(k)));
+        let svg = figure(frequencies.map(|f| (f, f.log10())).collect()).expect("drawable");
+        assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(">F &amp; M</text>"));
+        assert!(svg.contains(">100</text>") && svg.contains(">frequency, Hz</text>"));
+        // The axis goes from 5 to 2000 Hz; the curve from 10 to 1000 Hz, from the bottom to the top.
+        let curves: Vec<&str> = svg.split("<path d=\"m").skip(1).collect();
+        let curve = curves.iter().find(|path| path.matches('l').count() > 50);
+        let start = curve
+            .and_then(|path| path.split('l').next())
+            .expect("a curve");
+        let (x, y) = start.split_once(' ').expect("a point");
+        let width = WIDTH - MARGIN - RIGHT - VALUE_LABELS;
+        let expected = width * 2_f64.log10() / 400_f64.log10();
+        assert!(
+            (x.parse::<f64>().expect("x") - expected).abs() < 0.01,
+            "{x}"
+        );
+        assert!(
+            (y.parse::<f64>().expect("y") - STRIP_HEIGHT).abs() < 0.01,
+            "{y}"
+        );
+    }
+
+    #[test]
+    fn what_was_measured_is_drawn_point_by_point() {
+        let points = vec![(1.0, 1.0), (2.0, 4.0), (3.0, 9.0)];
+        let svg = LineFigure {
+            title: "points",
+            across: ("x", Scale::Linear),
+            up: ("y", Scale::Linear),
+            lines: vec![Line {
+                name: "measured".to_owned(),
+                shape: Shape::Marks,
+                points,
+            }],
+        }
+        .to_svg()
+        .expect("drawable");
+        // Three points and the one of the legend.
+        assert_eq!(svg.matches("<circle ").count(), 4);
+    }
+
+    #[test]
+    fn nothing_to_draw_is_no_figure() {
+        assert_eq!(figure(vec![(-1.0, 1.0)]), None);
+        assert_eq!(figure(Vec::new()), None);
+    }
+}

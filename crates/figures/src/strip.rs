@@ -1,0 +1,230 @@
+//! A rectangle of the figure with a frequency axis and one other: its grid, its frame, its ticks and their labels.
+
+use super::axis::{Axis, TickLabel, Ticks};
+use super::curve::Sample;
+use super::svg::{PathData, Point, Svg};
+
+/// Colour of text.
+pub const TEXT: &str = "#1f2328";
+/// Colour of text that may be overlooked.
+pub const FAINT_TEXT: &str = "#57606a";
+const GRID: &str = "#e3e6ea";
+const MINOR_GRID: &str = "#f3f4f6";
+const FRAME: &str = "#6e7781";
+
+const TICK_FONT: f64 = 12.0;
+const EXPONENT_FONT: f64 = 9.5;
+/// Room to the left of a strip for the labels of its value axis (pixels).
+pub const VALUE_LABELS: f64 = 64.0;
+/// Distance of the value axis' name from the strip (pixels).
+const NAME_DISTANCE: f64 = 50.0;
+/// How far the baseline of a text lies below its middle, part of the font size.
+const MIDDLE: f64 = 0.36;
+const TICK: f64 = 5.0;
+const MINOR_TICK: f64 = 3.0;
+/// Distance between labelled ticks at which they are easy to read (pixels).
+const FREQUENCY_TICK_DISTANCE: f64 = 44.0;
+const VALUE_TICK_DISTANCE: f64 = 26.0;
+
+/// Where a strip lies on the page (pixels) and what its axes show. Its own points count from its upper left corner.
+#[derive(Debug)]
+pub struct Strip {
+    /// Distance from the left edge of the page.
+    pub left: f64,
+    /// Distance from the upper edge of the page.
+    pub top: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+    /// Abscissa.
+    pub frequency: Axis,
+    /// `None` if there is nothing to scale it by.
+    pub value: Option<Axis>,
+}
+
+impl Strip {
+    /// Where `sample` lies, counted from the strip's corner; `None` if it cannot be drawn.
+    pub fn place(&self, (frequency_hz, value): Sample) -> Option<Point> {
+        let up = self.value?.position(value)?;
+        Some(Point {
+            x: self.place_frequency(frequency_hz)?,
+            y: self.height * (1.0 - up),
+        })
+    }
+
+    /// How far from the strip's left edge `frequency_hz` lies.
+    pub fn place_frequency(&self, frequency_hz: f64) -> Option<f64> {
+        Some(self.width * self.frequency.position(frequency_hz)?)
+    }
+
+    /// Opens a group that counts from the strip's corner, and draws the grid. Close it by [`Strip::draw_frame`].
+    pub fn draw_grid(&self, svg: &mut Svg) {
+        let place = format!("translate({} {})", self.left, self.top);
+        svg.element("g").word("transform", &place).open();
+        let (across, up) = (self.frequency_ticks(), self.value_ticks());
+        let mut minor = PathData::default();
+        let mut major = PathData::default();
+        for &value in &up.minor {
+            self.level(value, 0.0, self.width, &mut minor);
+        }
+        for tick in &up.major {
+            self.level(tick.value, 0.0, self.width, &mut major);
+        }
+        for tick in &across.major {
+            self.upright(tick.value, 0.0, self.height, &mut major);
+        }
+        for (path, colour) in [(minor, MINOR_GRID), (major, GRID)] {
+            draw_path(svg, &path, colour, 1.0);
+        }
+    }
+
+    /// Draws frame and ticks over the curves and closes the group that [`Strip::draw_grid`] opened.
+    pub fn draw_frame(&self, svg: &mut Svg) {
+        let (across, up) = (self.frequency_ticks(), self.value_ticks());
+        let mut ticks = PathData::default();
+        for &value in &up.minor {
+            self.level(value, 0.0, MINOR_TICK, &mut ticks);
+        }
+        for tick in &up.major {
+            self.level(tick.value, 0.0, TICK, &mut ticks);
+        }
+        for &value in &across.minor {
+            self.upright(value, self.height, self.height - MINOR_TICK, &mut ticks);
+        }
+        for tick in &across.major {
+            self.upright(tick.value, self.height, self.height - TICK, &mut ticks);
+        }
+        draw_path(svg, &ticks, FRAME, 1.0);
+        svg.element("rect")
+            .number("width", self.width)
+            .number("height", self.height)
+            .word("fill", "none")
+            .word("stroke", FRAME)
+            .empty();
+        svg.close();
+    }
+
+    /// Writes the value ticks' labels to the left of the strip and `name` upright beside them.
+    pub fn draw_value_labels(&self, name: &str, svg: &mut Svg) {
+        svg.element("g")
+            .number("font-size", TICK_FONT)
+            .word("text-anchor", "end")
+            .word("fill", TEXT)
+            .open();
+        for tick in self.value_ticks().major {
+            let Some(up) = self.value.and_then(|axis| axis.position(tick.value)) else {
+                continue;
+            };
+            let baseline = self.top + self.height * (1.0 - up) + MIDDLE * TICK_FONT;
+            let text = svg
+                .element("text")
+                .number("x", self.left - 6.0)
+                .number("y", baseline);
+            text.open();
+            write_label(tick.label, svg);
+            svg.close();
+        }
+        svg.close();
+        let (x, y) = (self.left - NAME_DISTANCE, self.top + 0.5 * self.height);
+        svg.element("text")
+            .word("transform", &format!("translate({x} {y}) rotate(-90)"))
+            .number("font-size", TICK_FONT)
+            .word("text-anchor", "middle")
+            .word("fill", TEXT)
+            .containing(name);
+    }
+
+    /// Writes the frequency ticks' labels below the strip and the axis' name below them.
+    pub fn draw_frequency_labels(&self, svg: &mut Svg) {
+        self.draw_labels_below("frequency, Hz", svg);
+    }
+
+    /// Writes the labels of the ticks below the strip and `name` below them.
+    pub fn draw_labels_below(&self, name: &str, svg: &mut Svg) {
+        let below = self.top + self.height;
+        svg.element("g")
+            .number("font-size", TICK_FONT)
+            .word("text-anchor", "middle")
+            .word("fill", TEXT)
+            .open();
+        for tick in self.frequency_ticks().major {
+            if let Some(x) = self.place_frequency(tick.value) {
+                svg.element("text")
+                    .number("x", self.left + x)
+                    .number("y", below + 16.0)
+                    .open();
+                write_label(tick.label, svg);
+                svg.close();
+            }
+        }
+        svg.element("text")
+            .number("x", self.left + 0.5 * self.width)
+            .number("y", below + 34.0)
+            .containing(name);
+        svg.close();
+    }
+
+    fn frequency_ticks(&self) -> Ticks {
+        self.frequency
+            .ticks(count(self.width / FREQUENCY_TICK_DISTANCE))
+    }
+
+    fn value_ticks(&self) -> Ticks {
+        self.value.map_or_else(Ticks::default, |axis| {
+            axis.ticks(count(self.height / VALUE_TICK_DISTANCE))
+        })
+    }
+
+    fn level(&self, value: f64, from: f64, to: f64, path: &mut PathData) {
+        if let Some(up) = self.value.and_then(|axis| axis.position(value)) {
+            let y = self.height * (1.0 - up);
+            path.polyline(&[Point { x: from, y }, Point { x: to, y }]);
+        }
+    }
+
+    /// Adds an upright line at `frequency_hz` to `path`, between two heights counted from the strip's upper edge.
+    pub fn upright(&self, frequency_hz: f64, from: f64, to: f64, path: &mut PathData) {
+        if let Some(x) = self.place_frequency(frequency_hz) {
+            path.polyline(&[Point { x, y: from }, Point { x, y: to }]);
+        }
+    }
+}
+
+/// The text of a tick, inside an open text element.
+fn write_label(label: TickLabel, svg: &mut Svg) {
+    match label {
+        TickLabel::Plain(label) => svg.characters(&label),
+        TickLabel::Power { mantissa, exponent } => {
+            if mantissa != 1 {
+                svg.characters(&format!("{mantissa}·"));
+            }
+            svg.characters("10");
+            svg.element("tspan")
+                .number("dy", -0.36 * TICK_FONT)
+                .number("font-size", EXPONENT_FONT)
+                .containing_inline(&super::axis::with_minus_sign(&exponent.to_string()));
+        }
+    }
+}
+
+/// A plain line along `path`, nothing if that is empty.
+pub fn draw_path(svg: &mut Svg, path: &PathData, colour: &str, width: f64) {
+    if !path.is_empty() {
+        svg.element("path")
+            .word("d", path.as_str())
+            .word("fill", "none")
+            .word("stroke", colour)
+            .number("stroke-width", width)
+            .empty();
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few ticks; `as` saturates for any other"
+)]
+fn count(ticks: f64) -> u32 {
+    ticks.floor().max(1.0) as u32
+}

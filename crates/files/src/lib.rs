@@ -1,0 +1,16 @@
+//! Reading and writing of files as every part of the program does it: small texts with one set of messages, outputs that
+//! are written whole or not at all, and who wrote them and when.
+#![forbid(unsafe_code)]
+
+pub mod text_file;
+mod timestamp;
+pub mod whole_file;
+
+pub use text_file::TextFileError;
+pub use timestamp::{Civil, DateError, Timestamp};
+
+/// The program's name, as it stands in the files that it writes.
+pub const TOOL: &str = "bolted-joint";
+
+/// The program's version, which all its crates share.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

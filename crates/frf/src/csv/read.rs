@@ -1,0 +1,272 @@
+//! A table from its first line to its last, one line at a time.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+use num_complex::Complex64;
+
+use super::CsvProblem;
+use super::header::{Columns, Form, Header, Keys, unquoted};
+use super::number::Decimal;
+use crate::gathered::Gathered;
+use crate::statement::{Stated, Statement};
+use crate::summary::Statements;
+use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions};
+
+/// The longest line that is still taken for a table, bytes.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// Reads the functions of a table (CSV).
+///
+/// The first row names the columns: `frequency [Hz]`, then for each function two columns such as
+/// `11:+Y/2:+Y real [m/N]` and `11:+Y/2:+Y imaginary [m/N]`, or `… magnitude [m/N]` and `… phase [deg]`, and perhaps
+/// `… coherence`. Lines that begin with `#` are comments; `# quantity = …`, `# unit = …` and `# averages = …` hold for all
+/// functions that do not say otherwise. Values become receptances in SI units.
+///
+/// # Errors
+/// [`FrfError::Read`] if the file cannot be read, [`FrfError::Csv`] with line and cause if it cannot be used.
+pub fn read_csv(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+    let path = path.as_ref();
+    let file = File::open(path).map_err(|source| FrfError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    read_csv_from(BufReader::new(file), path, options)
+}
+
+/// As [`read_csv`], from any reader; `name` stands for the path in messages.
+///
+/// # Errors
+/// As [`read_csv`].
+pub fn read_csv_from(
+    reader: impl BufRead,
+    name: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    let path = name.as_ref();
+    let mut rows = Rows {
+        reader,
+        path,
+        number: 0,
+        line: Vec::new(),
+    };
+    let mut keys = Keys::default();
+    let header = loop {
+        if !rows.advance()? {
+            return Err(rows.problem(CsvProblem::NoHeader));
+        }
+        let text = rows.text();
+        match text.trim() {
+            "" => {}
+            comment if comment.starts_with('#') => {
+                keys.read(comment)
+                    .map_err(|problem| rows.problem(problem))?;
+            }
+            row => break Header::read(row).map_err(|problem| rows.problem(problem))?,
+        }
+    };
+    let header_line = rows.number;
+    let at_header = |problem| FrfError::Csv {
+        path: path.to_owned(),
+        line: header_line,
+        problem: Box::new(problem),
+    };
+    let mut not_selected = BTreeSet::new();
+    let mut wanted = Vec::new();
+    for columns in header.functions.iter() {
+        let (response, reference) = (columns.response, columns.reference);
+        if !options.selection.wants(response, reference) {
+            not_selected.insert((response, reference));
+            continue;
+        }
+        let statement = Statement {
+            response,
+            reference,
+            quantity: columns.quantity.or(keys.quantity),
+            unit: columns.unit.as_deref().or(keys.unit.as_deref()),
+        };
+        let stated = statement
+            .decide(options)
+            .map_err(|problem| at_header(CsvProblem::Statement(problem)))?;
+        wanted.push(Wanted {
+            columns,
+            stated,
+            lines: Gathered::default(),
+            coherence: Gathered::default(),
+        });
+    }
+    rows.read_all(&header, &mut wanted, options)?;
+    let function = |source| match source {
+        // No fault of the function: the file has other lines than those that are asked for.
+        source @ FrfError::EmptyBand { .. } => FrfError::InFile {
+            path: path.to_owned(),
+            source: Box::new(source),
+        },
+        source => at_header(CsvProblem::Function(Box::new(source))),
+    };
+    let (mut functions, mut coherences) = (Vec::new(), Vec::new());
+    let mut statements = Statements::default();
+    for Wanted {
+        columns,
+        stated,
+        lines,
+        coherence,
+    } in wanted
+    {
+        let pair = (columns.response, columns.reference);
+        functions.push(
+            lines
+                .into_frf(pair, stated.quantity.0, stated.to_si, &options.selection)
+                .map_err(function)?,
+        );
+        statements.add(FileFormat::Table, stated.quantity, stated.units);
+        if columns.coherence.is_some() {
+            let gamma_squared = coherence.values.iter().map(|value| value.re).collect();
+            coherences.push(
+                Coherence::new(pair.0, pair.1, coherence.frequency_hz, gamma_squared)
+                    .map_err(function)?,
+            );
+        }
+    }
+    Ok(FrfReading {
+        path: path.to_owned(),
+        functions,
+        coherences,
+        averages: options.averages_or(keys.averages),
+        not_selected,
+        skipped_functions: Vec::new(),
+        skipped_datasets: 0,
+        statements,
+    })
+}
+
+/// A function that is asked for, as far as it has been read.
+struct Wanted<'header> {
+    columns: &'header Columns,
+    stated: Stated,
+    lines: Gathered,
+    coherence: Gathered,
+}
+
+/// The lines of a file with their numbers.
+struct Rows<'path, R> {
+    reader: R,
+    path: &'path Path,
+    number: usize,
+    line: Vec<u8>,
+}
+
+impl<R: BufRead> Rows<'_, R> {
+    fn advance(&mut self) -> Result<bool, FrfError> {
+        self.line.clear();
+        self.number += 1;
+        let read = (&mut self.reader)
+            .take(LONGEST_LINE as u64 + 1)
+            .read_until(b'\n', &mut self.line)
+            .map_err(|source| FrfError::Read {
+                path: self.path.to_owned(),
+                source,
+            })?;
+        if self.line.len() > LONGEST_LINE {
+            let limit = LONGEST_LINE;
+            return Err(self.problem(CsvProblem::LineTooLong { limit }));
+        }
+        if self.number == 1 {
+            if self.line.starts_with(b"\xFF\xFE") || self.line.starts_with(b"\xFE\xFF") {
+                return Err(self.problem(CsvProblem::Utf16));
+            }
+            if self.line.starts_with(b"\xEF\xBB\xBF") {
+                self.line.drain(..3);
+            }
+        }
+        Ok(read > 0)
+    }
+
+    /// The current line: UTF-8 where it is valid, Latin-1 where it is not.
+    fn text(&self) -> String {
+        match std::str::from_utf8(&self.line) {
+            Ok(text) => text.to_owned(),
+            Err(_) => self.line.iter().copied().map(char::from).collect(),
+        }
+    }
+
+    fn problem(&self, problem: CsvProblem) -> FrfError {
+        FrfError::Csv {
+            path: self.path.to_owned(),
+            line: self.number,
+            problem: Box::new(problem),
+        }
+    }
+
+    fn read_all(
+        &mut self,
+        header: &Header,
+        wanted: &mut [Wanted<'_>],
+        options: &ReadOptions,
+    ) -> Result<(), FrfError> {
+        let mut decimal = match header.separator {
+            ',' => Decimal::Point,
+            _ => Decimal::Either,
+        };
+        while self.advance()? {
+            let text = self.text();
+            if text.trim().is_empty() || text.starts_with('#') {
+                continue;
+            }
+            let cells: Vec<&str> = text
+                .trim_end_matches(['\n', '\r'])
+                .split(header.separator)
+                .map(unquoted)
+                .collect();
+            if cells.len() != header.column_count {
+                return Err(self.problem(CsvProblem::Fields {
+                    found: cells.len(),
+                    expected: header.column_count,
+                }));
+            }
+            let mut number = |index: usize| {
+                let (number, used) = decimal.parse(cells[index]).ok_or_else(|| {
+                    self.problem(CsvProblem::NotANumber {
+                        column: index + 1,
+                        found: crate::shown(cells[index]),
+                        comma_used: cells[index].contains(',') || decimal == Decimal::Comma,
+                    })
+                })?;
+                decimal = used;
+                Ok::<f64, FrfError>(number)
+            };
+            let hz = number(0)?;
+            for function in &mut *wanted {
+                let value = match function.columns.form {
+                    Form::Cartesian { real, imaginary } => {
+                        Complex64::new(number(real)?, number(imaginary)?)
+                    }
+                    Form::Polar {
+                        magnitude,
+                        phase,
+                        radians,
+                    } => {
+                        let found = number(magnitude)?;
+                        if found < 0.0 {
+                            let column = magnitude + 1;
+                            return Err(
+                                self.problem(CsvProblem::NegativeMagnitude { column, found })
+                            );
+                        }
+                        Complex64::from_polar(found, number(phase)? * radians)
+                    }
+                };
+                function.lines.push(&options.selection, hz, value);
+                if let Some(column) = function.columns.coherence {
+                    let gamma_squared = Complex64::from(number(column)?);
+                    function
+                        .coherence
+                        .push(&options.selection, hz, gamma_squared);
+                }
+            }
+        }
+        Ok(())
+    }
+}

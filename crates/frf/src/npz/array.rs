@@ -1,0 +1,392 @@
+//! One array of an archive: its header, and its elements one after the other.
+//!
+//! The format is that of NumPy Enhancement Proposal 1: a magic number, a version, the length of a header, the header as a Python
+//! dictionary, and then the elements.
+
+use std::io::Read;
+
+use num_complex::Complex64;
+
+use super::NpzProblem;
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+/// A header longer than this belongs to no array of numbers.
+const LONGEST_HEADER: usize = 1 << 16;
+/// A text longer than this names no degree of freedom.
+const LONGEST_TEXT: usize = 1 << 12;
+
+/// What the elements are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Float,
+    Complex,
+    Signed,
+    Unsigned,
+    /// Characters of four bytes.
+    Text,
+    Bytes,
+}
+
+/// Type of the elements.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Type {
+    pub(super) kind: Kind,
+    big_endian: bool,
+    /// Bytes of one element.
+    size: usize,
+}
+
+impl Type {
+    fn from_descr(descr: &str) -> Option<Self> {
+        let (order, rest) = descr.split_at_checked(1)?;
+        let (kind, digits) = rest.split_at_checked(1)?;
+        let count: usize = digits.parse().ok()?;
+        let (kind, size) = match (kind, count) {
+            ("f", 4 | 8) => (Kind::Float, count),
+            ("c", 8 | 16) => (Kind::Complex, count),
+            ("i", 1 | 2 | 4 | 8) => (Kind::Signed, count),
+            ("u", 1 | 2 | 4 | 8) => (Kind::Unsigned, count),
+            ("U", 1..=LONGEST_TEXT) => (Kind::Text, 4 * count),
+            ("S", 1..=LONGEST_TEXT) => (Kind::Bytes, count),
+            _ => return None,
+        };
+        let big_endian = match order {
+            "<" | "|" => false,
+            ">" => true,
+            "=" => cfg!(target_endian = "big"),
+            _ => return None,
+        };
+        Some(Self {
+            kind,
+            big_endian,
+            size,
+        })
+    }
+
+    fn number<const N: usize>(&self, bytes: &[u8]) -> [u8; N] {
+        let mut number = [0; N];
+        number.copy_from_slice(&bytes[..N]);
+        if self.big_endian {
+            number.reverse();
+        }
+        number
+    }
+
+    fn real(&self, bytes: &[u8]) -> f64 {
+        match bytes.len() {
+            4 => f64::from(f32::from_le_bytes(self.number(bytes))),
+            _ => f64::from_le_bytes(self.number(bytes)),
+        }
+    }
+
+    fn integer(&self, bytes: &[u8]) -> f64 {
+        match (self.kind, bytes.len()) {
+            (Kind::Signed, 1) => f64::from(i8::from_le_bytes(self.number(bytes))),
+            (Kind::Signed, 2) => f64::from(i16::from_le_bytes(self.number(bytes))),
+            (Kind::Signed, 4) => f64::from(i32::from_le_bytes(self.number(bytes))),
+            (Kind::Signed, _) => i64::from_le_bytes(self.number(bytes)) as f64,
+            (_, 1) => f64::from(bytes[0]),
+            (_, 2) => f64::from(u16::from_le_bytes(self.number(bytes))),
+            (_, 4) => f64::from(u32::from_le_bytes(self.number(bytes))),
+            _ => u64::from_le_bytes(self.number(bytes)) as f64,
+        }
+    }
+
+    fn complex(&self, bytes: &[u8]) -> Complex64 {
+        match self.kind {
+            Kind::Complex => {
+                let (re, im) = bytes.split_at(self.size / 2);
+                Complex64::new(self.real(re), self.real(im))
+            }
+            Kind::Float => Complex64::from(self.real(bytes)),
+            _ => Complex64::from(self.integer(bytes)),
+        }
+    }
+
+    fn text(&self, bytes: &[u8]) -> String {
+        let text: String = match self.kind {
+            Kind::Text => bytes
+                .chunks_exact(4)
+                .map(|c| char::from_u32(u32::from_le_bytes(self.number(c))).unwrap_or('\u{fffd}'))
+                .collect(),
+            _ => String::from_utf8_lossy(bytes).into_owned(),
+        };
+        text.trim_end_matches('\0').trim().to_owned()
+    }
+}
+
+/// The header of an array.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Header {
+    pub(super) array_type: Type,
+    pub(super) fortran_order: bool,
+    pub(super) shape: Vec<usize>,
+}
+
+/// An array whose elements are still to be read.
+pub(super) struct Array<R> {
+    name: String,
+    pub(super) header: Header,
+    reader: R,
+}
+
+impl<R: Read> Array<R> {
+    /// Reads the header of the member `name`, which has `member_bytes` bytes in all.
+    pub(super) fn open(name: &str, mut reader: R, member_bytes: u64) -> Result<Self, NpzProblem> {
+        let problem = |found: String, expected| NpzProblem::Header {
+            array: name.to_owned(),
+            found,
+            expected,
+        };
+        let mut fixed = [0; 8];
+        let magic = "a NumPy array (.npy)";
+        let read = |reader: &mut R, bytes: &mut [u8]| {
+            reader
+                .read_exact(bytes)
+                .map_err(|error| problem(error.to_string(), magic))
+        };
+        read(&mut reader, &mut fixed)?;
+        if !fixed.starts_with(MAGIC) {
+            return Err(problem(format!("{:02x?}", &fixed[..6]), magic));
+        }
+        let length_bytes = match fixed[6] {
+            1 => 2,
+            2 | 3 => 4,
+            version => return Err(problem(format!("version {version}"), "version 1, 2 or 3")),
+        };
+        let mut length = [0; 4];
+        read(&mut reader, &mut length[..length_bytes])?;
+        let length = u32::from_le_bytes(length) as usize;
+        if length > LONGEST_HEADER {
+            return Err(problem(
+                format!("a header of {length} bytes"),
+                "at most 65536",
+            ));
+        }
+        let mut text = vec![0; length];
+        read(&mut reader, &mut text)?;
+        let header = Header::from_text(name, &String::from_utf8_lossy(&text))?;
+        let expected = header
+            .shape
+            .iter()
+            .try_fold(header.array_type.size as u64, |bytes, &n| {
+                bytes.checked_mul(n as u64)
+            });
+        let found = member_bytes.saturating_sub((fixed.len() + length_bytes + length) as u64);
+        if expected != Some(found) {
+            return Err(NpzProblem::Length {
+                array: name.to_owned(),
+                found,
+                expected: expected.unwrap_or(u64::MAX),
+            });
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            header,
+            reader,
+        })
+    }
+
+    /// Elements of the array.
+    pub(super) fn len(&self) -> usize {
+        self.header.shape.iter().product()
+    }
+
+    /// Whether its elements are numbers.
+    pub(super) fn is_numeric(&self) -> bool {
+        !matches!(self.header.array_type.kind, Kind::Text | Kind::Bytes)
+    }
+
+    fn each(
+        &mut self,
+        mut take: impl FnMut(&Type, &[u8]) -> Result<(), NpzProblem>,
+    ) -> Result<(), NpzProblem> {
+        let size = self.header.array_type.size;
+        let mut element = vec![0; size];
+        for index in 0..self.len() {
+            self.reader
+                .read_exact(&mut element)
+                .map_err(|_| NpzProblem::Length {
+                    array: self.name.clone(),
+                    found: (index * size) as u64,
+                    expected: (self.len() * size) as u64,
+                })?;
+            take(&self.header.array_type, &element)?;
+        }
+        Ok(())
+    }
+
+    /// Hands every element, in the order of the file, to `take`.
+    pub(super) fn each_complex(
+        mut self,
+        mut take: impl FnMut(Complex64) -> Result<(), NpzProblem>,
+    ) -> Result<(), NpzProblem> {
+        self.refuse_unless(self.is_numeric(), "numbers, such as complex128")?;
+        self.each(|array_type, bytes| take(array_type.complex(bytes)))
+    }
+
+    /// All elements as real numbers, as long as `good` holds for each and the one before it.
+    pub(super) fn reals(
+        mut self,
+        mut good: impl FnMut(Option<f64>, f64) -> Result<(), NpzProblem>,
+    ) -> Result<Vec<f64>, NpzProblem> {
+        let is_real = self.is_numeric() && self.header.array_type.kind != Kind::Complex;
+        self.refuse_unless(is_real, "real numbers, such as float64")?;
+        let mut numbers: Vec<f64> = Vec::new();
+        self.each(|array_type, bytes| {
+            let number = array_type.complex(bytes).re;
+            good(numbers.last().copied(), number)?;
+            numbers.push(number);
+            Ok(())
+        })?;
+        Ok(numbers)
+    }
+
+    /// All elements as texts, as long as `good` holds for each.
+    pub(super) fn texts(
+        mut self,
+        mut good: impl FnMut(&str) -> Result<(), NpzProblem>,
+    ) -> Result<Vec<String>, NpzProblem> {
+        self.refuse_unless(!self.is_numeric(), "texts such as \"11:+Y\"")?;
+        let mut texts = Vec::new();
+        self.each(|array_type, bytes| {
+            let text = array_type.text(bytes);
+            good(&text)?;
+            texts.push(text);
+            Ok(())
+        })?;
+        Ok(texts)
+    }
+
+    fn refuse_unless(&self, good: bool, expected: &'static str) -> Result<(), NpzProblem> {
+        match good {
+            true => Ok(()),
+            false => Err(NpzProblem::Type {
+                array: self.name.clone(),
+                found: format!("{:?}", self.header.array_type.kind).to_lowercase(),
+                expected,
+            }),
+        }
+    }
+}
+
+impl Header {
+    /// From a dictionary such as `{'descr': '<c16', 'fortran_order': False, 'shape': (3, 3, 2048), }`.
+    fn from_text(array: &str, text: &str) -> Result<Self, NpzProblem> {
+        let value = |key: &str| {
+            let (_, after) = text.split_once(&format!("'{key}'"))?;
+            Some(after.trim_start().strip_prefix(':')?.trim_start())
+        };
+        let problem = |expected| NpzProblem::Header {
+            array: array.to_owned(),
+            found: crate::shown(text),
+            expected,
+        };
+        let descr = value("descr").ok_or_else(|| problem("a key 'descr'"))?;
+        let type_problem = |found: &str| NpzProblem::Type {
+            array: array.to_owned(),
+            found: crate::shown(found),
+            expected: "float32 or 64, complex64 or 128, integers, or texts; no Python objects and no records",
+        };
+        let name = descr
+            .strip_prefix('\'')
+            .and_then(|rest| rest.split_once('\''))
+            .map(|(name, _)| name)
+            .ok_or_else(|| type_problem(descr))?;
+        let array_type = Type::from_descr(name).ok_or_else(|| type_problem(name))?;
+        let fortran_order = match value("fortran_order") {
+            Some(text) if text.starts_with("False") => false,
+            Some(text) if text.starts_with("True") => true,
+            _ => return Err(problem("a key 'fortran_order' of True or False")),
+        };
+        let shape = value("shape")
+            .and_then(|rest| rest.strip_prefix('(')?.split_once(')'))
+            .and_then(|(inner, _)| {
+                inner
+                    .split(',')
+                    .map(|number| number.trim().trim_end_matches('L'))
+                    .filter(|number| !number.is_empty())
+                    .map(|number| number.parse().ok())
+                    .collect::<Option<Vec<usize>>>()
+            })
+            .ok_or_else(|| problem("a key 'shape' with whole numbers"))?;
+        Ok(Self {
+            array_type,
+            fortran_order,
+            shape,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header(text: &str) -> Result<Header, NpzProblem> {
+        Header::from_text("frf", text)
+    }
+
+    #[test]
+    fn headers_of_numpy_are_read() {
+        let found = header("{'descr': '>c8', 'fortran_order': True, 'shape': (3, 2, 2048), }   \n")
+            .unwrap();
+        assert_eq!(found.shape, [3, 2, 2048]);
+        assert!(found.fortran_order && found.array_type.big_endian);
+        assert_eq!(
+            (found.array_type.kind, found.array_type.size),
+            (Kind::Complex, 8)
+        );
+        assert!(
+            header("{'descr': '<f8', 'fortran_order': False, 'shape': (), }")
+                .unwrap()
+                .shape
+                .is_empty()
+        );
+        assert_eq!(
+            header("{'descr': '<U5', 'fortran_order': False, 'shape': (3L,), }")
+                .unwrap()
+                .shape,
+            [3]
+        );
+    }
+
+    #[test]
+    fn other_headers_are_refused_with_what_they_hold() {
+        for (text, named) in [
+            (
+                "{'descr': '|O', 'fortran_order': False, 'shape': (3,), }",
+                "|O",
+            ),
+            (
+                "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,), }",
+                "[(",
+            ),
+            (
+                "{'descr': '<f16', 'fortran_order': False, 'shape': (3,), }",
+                "<f16",
+            ),
+            (
+                "{'descr': '<U99999', 'fortran_order': False, 'shape': (3,), }",
+                "<U99999",
+            ),
+            (
+                "{'descr': '<f8', 'fortran_order': 0, 'shape': (3,), }",
+                "fortran_order",
+            ),
+            (
+                "{'descr': '<f8', 'fortran_order': False, 'shape': (-3,), }",
+                "shape",
+            ),
+            (
+                "{'descr': '<f8', 'fortran_order': False, 'shape': 3, }",
+                "shape",
+            ),
+            ("", "descr"),
+            ("{'descr': ''}", "type"),
+            ("{'descr': 'µ8', ", "µ8"),
+        ] {
+            let message = header(text).unwrap_err().to_string();
+            assert!(message.contains(named), "{text}: {message}");
+        }
+    }
+}

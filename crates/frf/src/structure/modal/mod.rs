@@ -1,0 +1,341 @@
+//! A substructure given by its measured modes: shapes, frequencies, damping ratios and residuals.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use num_complex::Complex64;
+use serde::Deserialize;
+
+use crate::Dof;
+use bolted_joint_files::text_file;
+
+mod error;
+
+pub use error::ModalError;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    #[expect(dead_code, reason = "a note for people who read the file")]
+    source: String,
+    points: Vec<Dof>,
+    #[serde(default, rename = "mode")]
+    modes: Vec<Mode>,
+    #[serde(default, rename = "residual")]
+    residuals: Vec<Residual>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mode {
+    frequency_hz: f64,
+    damping_ratio: f64,
+    /// Mass normalised, real and imaginary part at each point, 1/√kg.
+    shape: Vec<[f64; 2]>,
+}
+
+/// Residuals of the receptances of all points for a load at `reference`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Residual {
+    reference: Dof,
+    /// UA of each point, m/N.
+    upper: Vec<f64>,
+    /// LA of each point, m/(N·s²).
+    lower: Vec<f64>,
+}
+
+/// Modes of a substructure, mass normalised, with the residuals of the modes outside the measured range.
+#[derive(Clone, Debug)]
+pub struct ModalModel {
+    path: PathBuf,
+    points: Vec<Dof>,
+    modes: Vec<Mode>,
+    residuals: Vec<Residual>,
+}
+
+impl ModalModel {
+    /// Reads modal data from a TOML file.
+    ///
+    /// # Errors
+    /// [`ModalError`], which names the file and the line or key.
+    pub fn read(path: &Path) -> Result<Self, ModalError> {
+        let text = text_file::read(path, "modal data (TOML)")?;
+        Self::from_toml(&text, path)
+    }
+
+    /// Modal data from the text of a TOML file; `path` is what messages call it.
+    ///
+    /// # Errors
+    /// [`ModalError`], which names the file and the line or key.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, ModalError> {
+        let path = path.to_owned();
+        let file: File = toml::from_str(text).map_err(|error| ModalError::Syntax {
+            path: path.clone(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let model = Self {
+            path,
+            points: file.points,
+            modes: file.modes,
+            residuals: file.residuals,
+        };
+        model.check()?;
+        Ok(model)
+    }
+
+    /// The same modes without residuals.
+    ///
+    /// Residuals belong to single functions. Where those of one load alone are known, a rotation by finite differences
+    /// would take them for a difference between points.
+    #[must_use]
+    pub fn without_residuals(&self) -> Self {
+        Self {
+            residuals: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Degrees of freedom that the mode shapes cover.
+    #[must_use]
+    pub fn points(&self) -> &[Dof] {
+        &self.points
+    }
+
+    /// Receptance of `response` for a load at `reference`, one value for each frequency.
+    ///
+    /// Residuals are added where the file has them for this pair or, by reciprocity, for the transposed one.
+    ///
+    /// # Errors
+    /// [`ModalError::MissingPoint`] if there is no shape at one of the two.
+    pub fn receptance(
+        &self,
+        response: Dof,
+        reference: Dof,
+        frequency_hz: &[f64],
+    ) -> Result<Vec<Complex64>, ModalError> {
+        let (p, p_sign) = self.place(response)?;
+        let (q, q_sign) = self.place(reference)?;
+        let (upper, lower) = self.residual(p, q).unwrap_or((0.0, 0.0));
+        let value = |&frequency_hz: &f64| {
+            let omega = TAU * frequency_hz;
+            let j_omega = Complex64::new(0.0, omega);
+            let mut sum = Complex64::from(upper - lower_term(lower, omega));
+            for mode in &self.modes {
+                let natural = TAU * mode.frequency_hz;
+                let damped = natural * (1.0 - mode.damping_ratio * mode.damping_ratio).sqrt();
+                // λ_r = −ζ_r ω_r + j ω_r √(1 − ζ_r²),  a_r = 1/(2j m_r ω_r √(1 − ζ_r²)),  m_r = 1
+                let pole = Complex64::new(-mode.damping_ratio * natural, damped);
+                let [u_p, u_q] = [p, q].map(|i| Complex64::new(mode.shape[i][0], mode.shape[i][1]));
+                let residue = u_p * u_q / Complex64::new(0.0, 2.0 * damped);
+                // H_pq = Σ_r [a_r U_pr U_qr/(jω − λ_r) + conj(a_r U_pr U_qr)/(jω − λ_r*)] + UA − LA/ω²   (Tol 3.50)
+                sum += residue / (j_omega - pole) + residue.conj() / (j_omega - pole.conj());
+            }
+            sum * (p_sign * q_sign)
+        };
+        Ok(frequency_hz.iter().map(value).collect())
+    }
+
+    fn place(&self, dof: Dof) -> Result<(usize, f64), ModalError> {
+        let position = |wanted: Dof| self.points.iter().position(|&point| point == wanted);
+        position(dof)
+            .map(|index| (index, 1.0))
+            .or_else(|| position(dof.flipped()).map(|index| (index, -1.0)))
+            .ok_or_else(|| ModalError::MissingPoint {
+                path: self.path.clone(),
+                dof,
+                present: self.points.clone(),
+            })
+    }
+
+    fn residual(&self, p: usize, q: usize) -> Option<(f64, f64)> {
+        [(p, q), (q, p)]
+            .into_iter()
+            .find_map(|(response, reference)| {
+                self.residuals
+                    .iter()
+                    .find(|residual| residual.reference == self.points[reference])
+                    .map(|residual| (residual.upper[response], residual.lower[response]))
+            })
+    }
+
+    fn check(&self) -> Result<(), ModalError> {
+        let content = |found: &str, expected| ModalError::Content {
+            path: self.path.clone(),
+            found: found.to_owned(),
+            expected,
+        };
+        if self.points.is_empty() || self.modes.is_empty() {
+            return Err(content(
+                "found no point or no mode",
+                "`points` and at least one [[mode]]",
+            ));
+        }
+        for (index, point) in self.points.iter().enumerate() {
+            if self.points[..index].contains(point) {
+                return Err(content(
+                    &format!("found point {point} twice"),
+                    "every point once",
+                ));
+            }
+        }
+        for (index, mode) in self.modes.iter().enumerate() {
+            let key = |name: &str| format!("mode {}, {name}", index + 1);
+            self.check_length(key("shape"), mode.shape.len())?;
+            for &[re, im] in &mode.shape {
+                self.check_value(key("shape"), re + im, f64::is_finite, "finite numbers")?;
+            }
+            let positive = |value: f64| value.is_finite() && value > 0.0;
+            self.check_value(
+                key("frequency_hz"),
+                mode.frequency_hz,
+                positive,
+                "a positive frequency in Hz",
+            )?;
+            let underdamped = |ratio: f64| (0.0..1.0).contains(&ratio);
+            self.check_value(
+                key("damping_ratio"),
+                mode.damping_ratio,
+                underdamped,
+                "a ratio from 0 to below 1 (not per cent)",
+            )?;
+        }
+        for residual in &self.residuals {
+            if !self.points.contains(&residual.reference) {
+                return Err(content(
+                    &format!("found a residual with reference {}", residual.reference),
+                    "a reference among `points`",
+                ));
+            }
+            for (name, values) in [("upper", &residual.upper), ("lower", &residual.lower)] {
+                let key = format!("residual of {}, {name}", residual.reference);
+                self.check_length(key.clone(), values.len())?;
+                for &value in values {
+                    self.check_value(key.clone(), value, f64::is_finite, "finite numbers")?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_length(&self, key: String, found: usize) -> Result<(), ModalError> {
+        let expected = self.points.len();
+        if found == expected {
+            return Ok(());
+        }
+        Err(ModalError::Length {
+            path: self.path.clone(),
+            key,
+            found,
+            expected,
+        })
+    }
+
+    fn check_value(
+        &self,
+        key: String,
+        found: f64,
+        allowed: impl Fn(f64) -> bool,
+        expected: &'static str,
+    ) -> Result<(), ModalError> {
+        if allowed(found) {
+            return Ok(());
+        }
+        Err(ModalError::Value {
+            path: self.path.clone(),
+            key,
+            found,
+            expected,
+        })
+    }
+}
+
+/// LA/ω², which is left out at 0 Hz, where it has no value.
+fn lower_term(lower: f64, omega: f64) -> f64 {
+    if omega > 0.0 {
+        lower / (omega * omega)
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ONE_MODE: &str = r#"
+        points = ["1:+Y", "2:+Y"]
+        [[mode]]
+        frequency_hz = 10.0
+        damping_ratio = 0.02
+        shape = [[2.0, 0.0], [-1.0, 0.0]]
+        [[residual]]
+        reference = "2:+Y"
+        upper = [1e-6, 2e-6]
+        lower = [3e-2, 4e-2]
+    "#;
+
+    fn model(text: &str) -> Result<ModalModel, ModalError> {
+        ModalModel::from_toml(text, Path::new("modes.toml"))
+    }
+
+    fn dof(text: &str) -> Dof {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn a_real_mode_is_the_oscillator_of_its_modal_mass() {
+        let frequencies = [1.0, 9.9, 10.0, 30.0];
+        let found = model(ONE_MODE)
+            .unwrap()
+            .receptance(dof("1:+Y"), dof("1:+Y"), &frequencies)
+            .unwrap();
+        for (found, frequency) in found.iter().zip(frequencies) {
+            // H = φ²/(ω_r² − ω² + 2jζω_r ω)
+            let (natural, omega) = (TAU * 10.0, TAU * frequency);
+            let denominator =
+                Complex64::new(natural * natural - omega * omega, 0.04 * natural * omega);
+            let exact = 4.0 / denominator;
+            assert!((found - exact).norm() < 1e-13 * exact.norm());
+        }
+    }
+
+    #[test]
+    fn residuals_belong_to_their_reference_and_its_transpose() {
+        let model = model(ONE_MODE).unwrap();
+        let at = |response: &str, reference: &str| {
+            model
+                .receptance(dof(response), dof(reference), &[20.0])
+                .unwrap()[0]
+        };
+        let omega = TAU * 20.0;
+        let without = at("1:+Y", "1:+Y") * -0.5;
+        let expected = without + 1e-6 - 3e-2 / (omega * omega);
+        assert!((at("1:+Y", "2:+Y") - expected).norm() < 1e-18);
+        assert_eq!(at("1:+Y", "2:+Y"), at("2:+Y", "1:+Y"));
+        assert_eq!(at("1:-Y", "2:+Y"), -at("1:+Y", "2:+Y"));
+    }
+
+    #[test]
+    fn errors_say_where_and_what() {
+        let message =
+            |from: &str, to: &str| model(&ONE_MODE.replace(from, to)).unwrap_err().to_string();
+        assert!(
+            message("[-1.0, 0.0]]", "]").contains("mode 1, shape: found 1 entries, expected 2")
+        );
+        assert!(message("0.02", "2.0").contains("mode 1, damping_ratio: found 2"));
+        assert!(message("= 10.0", "= -1").contains("frequency_hz: found -1"));
+        assert!(message("upper", "uper").contains("uper"));
+        assert!(message("\"2:+Y\"]", "\"1:+Y\"]").contains("1:+Y twice"));
+        assert!(message("reference = \"2:+Y\"", "reference = \"9:+Y\"").contains("9:+Y"));
+        let missing = model(ONE_MODE)
+            .unwrap()
+            .receptance(dof("5:+Y"), dof("1:+Y"), &[1.0])
+            .unwrap_err();
+        assert_eq!(
+            missing.to_string(),
+            "modes.toml: no mode shape at 5:+Y; the points are 1:+Y, 2:+Y; correct the point in the study, or add its shape"
+        );
+    }
+}

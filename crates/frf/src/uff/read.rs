@@ -1,0 +1,372 @@
+//! The data sets of a universal file from first to last.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use super::binary::Form;
+use super::function_type::{COHERENCE, FREQUENCY_RESPONSE, function_type_name};
+use super::header::{Header, InRecord, RECORDS, function_type};
+use super::lines::Lines;
+use super::meaning::{check_abscissa, decide};
+use super::{UffProblem, UnitSystem, binary, values};
+use crate::gathered::Gathered;
+use crate::shown;
+use crate::summary::Statements;
+use crate::{
+    Coherence, Dof, FileFormat, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
+};
+
+/// Reads the frequency response functions of a universal file.
+///
+/// Values become receptances in SI units (m/N, rad/N, m/(N·m), rad/(N·m)). What was measured follows from the specific
+/// data types of records 9 and 10; unit and axis labels must agree with them, or decide where the types are unknown.
+/// Units follow from data set 164 and from unit labels, which must agree; with neither, values are taken as SI.
+/// Lines at 0 Hz of mobilities and accelerances are left out. Real ordinates are taken as real receptances and so on.
+/// Ordinary coherences are read too. Functions that are not selected are passed over without a look at their values.
+///
+/// # Errors
+/// [`FrfError::Read`] if the file cannot be read, [`FrfError::Uff`] with line and cause if it cannot be used.
+pub fn read_uff58(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+    let path = path.as_ref();
+    let file = File::open(path).map_err(|source| FrfError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    let length = file
+        .metadata()
+        .ok()
+        .filter(|m| m.is_file())
+        .map(|m| m.len());
+    read_uff58_of(BufReader::new(file), path, length, options)
+}
+
+/// As [`read_uff58`], from any reader; `name` stands for the path in messages.
+///
+/// # Errors
+/// As [`read_uff58`].
+pub fn read_uff58_from(
+    reader: impl BufRead,
+    name: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    read_uff58_of(reader, name.as_ref(), None, options)
+}
+
+/// As [`read_uff58_from`], where the file's length (bytes) is known.
+pub(crate) fn read_uff58_of(
+    reader: impl BufRead,
+    name: &Path,
+    length: Option<u64>,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    let mut scan = Scan {
+        lines: Lines::new(reader, name, length),
+        selection: &options.selection,
+        pending: Vec::new(),
+        coherences: Vec::new(),
+        not_selected: BTreeSet::new(),
+        units: None,
+        skipped_functions: Vec::new(),
+        skipped_datasets: 0,
+    };
+    while scan.dataset()? {}
+    scan.finish(options)
+}
+
+/// Records of data set 164 that are looked at.
+const MOST_UNIT_RECORDS: usize = 8;
+
+/// A function whose units may still be stated further down the file.
+struct Pending {
+    begun_at: usize,
+    format: FileFormat,
+    header: Header,
+    lines: Gathered,
+}
+
+struct Scan<'options, R> {
+    lines: Lines<R>,
+    selection: &'options Selection,
+    pending: Vec<Pending>,
+    coherences: Vec<Coherence>,
+    not_selected: BTreeSet<(Dof, Dof)>,
+    /// Units of the first data set 164 and the line at which it begins.
+    units: Option<(usize, UnitSystem)>,
+    skipped_functions: Vec<SkippedFunction>,
+    skipped_datasets: usize,
+}
+
+impl<R: BufRead> Scan<'_, R> {
+    /// Reads or skips one data set; `false` at the end of the file.
+    fn dataset(&mut self) -> Result<bool, FrfError> {
+        loop {
+            if !self.lines.advance()? {
+                return Ok(false);
+            }
+            if self.lines.is_delimiter() {
+                break;
+            }
+            if !self.lines.is_blank() {
+                let found = shown(&self.lines.text());
+                return Err(self.lines.problem(match self.nothing_yet() {
+                    true => UffProblem::NotUniversalFile { found },
+                    false => UffProblem::BetweenDatasets { found },
+                }));
+            }
+        }
+        let begun_at = self.lines.number();
+        if !self.lines.advance()? {
+            return Err(self.ends_inside("without a number", begun_at));
+        }
+        let text = self.lines.text();
+        let number = text
+            .split_whitespace()
+            .next()
+            .unwrap_or_default()
+            .to_lowercase();
+        match number.as_str() {
+            "58" => self.function(None, begun_at)?,
+            "58b" => {
+                let form = Form::from_line(&text).map_err(|problem| self.lines.problem(problem))?;
+                self.function(Some(form), begun_at)?;
+            }
+            "164" => self.units(begun_at)?,
+            _ if is_binary(&number) => {
+                if !self.lines.skip_to_delimiter()? {
+                    return Err(self.ends_inside(&number, begun_at));
+                }
+                self.skip_rest(&number, begun_at)?;
+                self.skipped_datasets += 1;
+            }
+            _ if number.starts_with(|c: char| c.is_ascii_digit()) => {
+                self.skip_rest(&number, begun_at)?;
+                self.skipped_datasets += 1;
+            }
+            _ => {
+                let found = shown(&self.lines.text());
+                return Err(self.lines.problem(UffProblem::DatasetNumber { found }));
+            }
+        }
+        Ok(true)
+    }
+
+    fn nothing_yet(&self) -> bool {
+        self.pending.is_empty()
+            && self.coherences.is_empty()
+            && self.not_selected.is_empty()
+            && self.units.is_none()
+            && self.skipped_functions.is_empty()
+            && self.skipped_datasets == 0
+    }
+
+    fn ends_inside(&self, dataset: &str, begun_at: usize) -> FrfError {
+        let dataset = dataset.to_owned();
+        self.lines
+            .problem(UffProblem::EndsInside { dataset, begun_at })
+    }
+
+    /// Goes on to the closing `-1`.
+    fn skip_rest(&mut self, dataset: &str, begun_at: usize) -> Result<(), FrfError> {
+        loop {
+            if !self.lines.advance()? {
+                return Err(self.ends_inside(dataset, begun_at));
+            }
+            if self.lines.is_delimiter() {
+                return Ok(());
+            }
+        }
+    }
+
+    fn function(&mut self, form: Option<Form>, begun_at: usize) -> Result<(), FrfError> {
+        let records = self.records(begun_at)?;
+        for _ in RECORDS..form.map_or(RECORDS, |form| form.text_lines) {
+            self.lines.advance()?;
+        }
+        let in_header = |lines: &Lines<R>, problem| in_header(lines, begun_at, problem);
+        let kind = function_type(&records).map_err(|problem| in_header(&self.lines, problem))?;
+        let skipped = |line| SkippedFunction {
+            line,
+            kind: function_type_name(kind),
+        };
+        let header = match Header::from_records(&records) {
+            Ok(header) => header,
+            // What is passed over need not be understood, unless it takes that to know where it ends.
+            Err(_) if kind != FREQUENCY_RESPONSE && form.is_none() => {
+                self.skip_rest("58", begun_at)?;
+                self.skipped_functions.push(skipped(begun_at));
+                return Ok(());
+            }
+            Err(problem) => return Err(in_header(&self.lines, problem)),
+        };
+        let (response, reference) = (header.response, header.reference);
+        let is_read = matches!(kind, FREQUENCY_RESPONSE | COHERENCE);
+        let selection = Some(self.selection).filter(|s| is_read && s.wants(response, reference));
+        let gathered = match (form, selection) {
+            (Some(form), selection) => {
+                binary::read(&mut self.lines, header.layout, form, begun_at, selection)?
+            }
+            (None, Some(selection)) => {
+                values::read(&mut self.lines, header.layout, begun_at, selection)?
+            }
+            (None, None) => {
+                self.skip_rest("58", begun_at)?;
+                Gathered::default()
+            }
+        };
+        match (kind, selection) {
+            (FREQUENCY_RESPONSE, Some(_)) => self.pending.push(Pending {
+                begun_at,
+                format: form.map_or(FileFormat::UniversalText, |form| {
+                    FileFormat::UniversalBinary(form.order)
+                }),
+                header,
+                lines: gathered,
+            }),
+            (FREQUENCY_RESPONSE, None) => {
+                self.not_selected.insert((response, reference));
+            }
+            (COHERENCE, Some(_)) => self.coherence(&header, gathered, begun_at)?,
+            (COHERENCE, None) => {}
+            _ => self.skipped_functions.push(skipped(begun_at)),
+        }
+        Ok(())
+    }
+
+    fn records(&mut self, begun_at: usize) -> Result<[String; RECORDS], FrfError> {
+        let mut records: [String; RECORDS] = Default::default();
+        for (index, record) in records.iter_mut().enumerate() {
+            if !self.lines.advance()? {
+                return Err(self.ends_inside("58", begun_at));
+            }
+            if self.lines.is_delimiter() {
+                return Err(self.lines.problem(UffProblem::HeaderEnds {
+                    dataset: 58,
+                    begun_at,
+                    found: index,
+                    expected: RECORDS,
+                }));
+            }
+            *record = self.lines.text().into_owned();
+        }
+        Ok(records)
+    }
+
+    fn coherence(
+        &mut self,
+        header: &Header,
+        lines: Gathered,
+        begun_at: usize,
+    ) -> Result<(), FrfError> {
+        check_abscissa(&header.abscissa)
+            .map_err(|problem| in_header(&self.lines, begun_at, problem))?;
+        let gamma_squared = lines.values.iter().map(|value| value.re).collect();
+        let coherence = Coherence::new(
+            header.response,
+            header.reference,
+            lines.frequency_hz,
+            gamma_squared,
+        );
+        self.coherences.push(coherence.map_err(|source| {
+            self.lines
+                .problem_at(begun_at, UffProblem::Function(Box::new(source)))
+        })?);
+        Ok(())
+    }
+
+    fn units(&mut self, begun_at: usize) -> Result<(), FrfError> {
+        let mut records = Vec::new();
+        loop {
+            if !self.lines.advance()? {
+                return Err(self.ends_inside("164", begun_at));
+            }
+            if self.lines.is_delimiter() {
+                break;
+            }
+            // Two records are what the standard has; more than a few are not looked at, however long the data set is.
+            if records.len() < MOST_UNIT_RECORDS {
+                records.push(self.lines.text().into_owned());
+            }
+        }
+        if records.len() < 2 {
+            return Err(self.lines.problem(UffProblem::HeaderEnds {
+                dataset: 164,
+                begun_at,
+                found: records.len(),
+                expected: 2,
+            }));
+        }
+        // The first record is two lines below the opening `-1`.
+        let units = UnitSystem::from_records(&records)
+            .map_err(|(index, problem)| self.lines.problem_at(begun_at + 2 + index, problem))?;
+        match self.units {
+            None => self.units = Some((begun_at, units)),
+            Some((_, first)) if first.agrees_with(units) => {}
+            Some((first_line, _)) => {
+                return Err(self
+                    .lines
+                    .problem_at(begun_at, UffProblem::SecondUnits { first_line }));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+        if self.nothing_yet() {
+            return Err(self.lines.problem_at(1, UffProblem::Empty));
+        }
+        let units = self.units.map(|(_, units)| units);
+        let mut statements = Statements::default();
+        let mut functions = Vec::with_capacity(self.pending.len());
+        for function in self.pending {
+            let begun_at = function.begun_at;
+            let meaning = decide(&function.header, units, options)
+                .map_err(|problem| in_header(&self.lines, begun_at, problem))?;
+            statements.add(function.format, meaning.quantity, meaning.units);
+            let pair = (function.header.response, function.header.reference);
+            let frf: Result<Frf, FrfError> =
+                function
+                    .lines
+                    .into_frf(pair, meaning.quantity.0, meaning.to_si, self.selection);
+            functions.push(frf.map_err(|source| {
+                match source {
+                    // No fault of the function: the file has other lines than those that are asked for.
+                    source @ FrfError::EmptyBand { .. } => FrfError::InFile {
+                        path: self.lines.path().to_owned(),
+                        source: Box::new(source),
+                    },
+                    source => self
+                        .lines
+                        .problem_at(begun_at, UffProblem::Function(Box::new(source))),
+                }
+            })?);
+        }
+        Ok(FrfReading {
+            path: self.lines.path().to_owned(),
+            functions,
+            coherences: self.coherences,
+            averages: options.averages_or(None),
+            not_selected: self.not_selected,
+            skipped_functions: self.skipped_functions,
+            skipped_datasets: self.skipped_datasets,
+            statements,
+        })
+    }
+}
+
+/// Whether a data set's number is that of a binary one, such as `2414b`.
+fn is_binary(number: &str) -> bool {
+    number.strip_suffix('b').is_some_and(|digits| {
+        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}
+
+/// An error in a header record, at that record's line: record 1 is two lines below the opening `-1`.
+fn in_header<R: BufRead>(
+    lines: &Lines<R>,
+    begun_at: usize,
+    (record, problem): InRecord,
+) -> FrfError {
+    lines.problem_at(begun_at + 1 + record, problem)
+}

@@ -1,0 +1,232 @@
+//! Receptances of a substructure between the joint's degrees of freedom and its points: read, synthesised or computed.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use super::super::error::IdentifyError;
+use super::super::from_modes::FromModes;
+use super::super::lines::{Lines, independent};
+use super::super::receptances::{MeasuredSubstructure, Receptances};
+use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
+use super::axis::Axis;
+use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
+use super::reader::{Reader, in_file};
+use bolted_joint_frf::Dof;
+use bolted_joint_frf::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion};
+
+/// Lines without the assembly: what A and B contribute.
+pub(super) fn substructures(
+    study: &Study,
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<Lines, IdentifyError> {
+    let points = &study.points;
+    Ok(Lines {
+        frequency_hz: axis.frequency_hz.to_vec(),
+        a: joint_and_points(study, "a", &[], axis, reader)?,
+        b: joint_and_points(study, "b", points, axis, reader)?,
+        assembly: Vec::new(),
+        points: points.clone(),
+        measured: Vec::new(),
+        relative_variance: None,
+        repeats: None,
+    })
+}
+
+/// Receptance matrices of a substructure at each line: the joint's DOFs first, bolt by bolt, then `points`.
+fn joint_and_points(
+    study: &Study,
+    key: &'static str,
+    points: &[Dof],
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<Receptances, IdentifyError> {
+    let dofs_of_a_bolt = study.dofs_of_a_bolt();
+    let substructure = if key == "a" { &study.a } else { &study.b };
+    match substructure {
+        Substructure::Beam {
+            beam,
+            joints_m,
+            positions_m,
+        } => {
+            let dofs = beam_dofs(dofs_of_a_bolt, joints_m, points, positions_m);
+            let receptances =
+                beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
+                    path: study.path.clone(),
+                    key,
+                    source,
+                })?;
+            Ok(Receptances::Exact(receptances))
+        }
+        Substructure::Measured { source, joints } => {
+            let motions = Motions::new(joints, dofs_of_a_bolt, points);
+            let labelled = labelled_receptances(key, source, &motions.labels, axis, reader)?;
+            // (joint, points) = W (labels): H = W H_labels Wᵀ   (Tol 3.54)
+            let whole = motions.transformation();
+            if labelled.measured.is_empty() {
+                let complex = whole.map(Complex64::from);
+                let transposed = complex.transpose();
+                let lines = 0..axis.frequency_hz.len();
+                let formed = lines.map(|line| &complex * labelled.matrix(line) * &transposed);
+                return Ok(Receptances::Exact(formed.collect()));
+            }
+            let (measured, variance) = (
+                labelled.measured.clone(),
+                labelled.relative_variance.clone(),
+            );
+            let functions = labelled.symmetrised();
+            let measured = MeasuredSubstructure::new(whole, functions, measured, variance);
+            Ok(Receptances::Measured(Arc::new(measured)))
+        }
+    }
+}
+
+/// Motions of the joint's DOFs and of the points as combinations of labelled ones. A label that serves several of them,
+/// whatever its sign, is one measurement.
+struct Motions {
+    labels: Vec<Dof>,
+    /// For each motion, labels by number and their factors.
+    rows: Vec<Vec<(usize, f64)>>,
+}
+
+impl Motions {
+    fn new(joints: &[MeasuredJoint], dofs_of_a_bolt: usize, points: &[Dof]) -> Self {
+        let mut motions = Self {
+            labels: Vec::new(),
+            rows: Vec::new(),
+        };
+        for joint in joints {
+            match &joint.theta {
+                Some(Rotation::Difference { points, difference }) if dofs_of_a_bolt == 2 => {
+                    for row in difference.transformation().row_iter() {
+                        let factors = row.iter().map(|factor| factor.re);
+                        motions.add(points.iter().copied().zip(factors));
+                    }
+                }
+                Some(Rotation::Measured(theta)) if dofs_of_a_bolt == 2 => {
+                    motions.add([(joint.y, 1.0)]);
+                    motions.add([(*theta, 1.0)]);
+                }
+                _ => motions.add([(joint.y, 1.0)]),
+            }
+        }
+        for &point in points {
+            motions.add([(point, 1.0)]);
+        }
+        motions
+    }
+
+    fn add(&mut self, parts: impl IntoIterator<Item = (Dof, f64)>) {
+        let row = parts.into_iter().map(|(dof, factor)| {
+            let known = |wanted: Dof| self.labels.iter().position(|&label| label == wanted);
+            match (known(dof), known(dof.flipped())) {
+                (Some(index), _) => (index, factor),
+                (None, Some(index)) => (index, -factor),
+                (None, None) => {
+                    self.labels.push(dof);
+                    (self.labels.len() - 1, factor)
+                }
+            }
+        });
+        let row = row.collect();
+        self.rows.push(row);
+    }
+
+    fn transformation(&self) -> DMatrix<f64> {
+        let mut whole = DMatrix::zeros(self.rows.len(), self.labels.len());
+        for (row, parts) in self.rows.iter().enumerate() {
+            for &(label, factor) in parts {
+                whole[(row, label)] += factor;
+            }
+        }
+        whole
+    }
+}
+
+/// The joint's DOFs on a beam, bolt by bolt, then its points, each with the sign of its label.
+fn beam_dofs(
+    dofs_of_a_bolt: usize,
+    joints_m: &[f64],
+    points: &[Dof],
+    positions_m: &BTreeMap<Dof, f64>,
+) -> Vec<(BeamPoint, f64)> {
+    let joint = joints_m.iter().flat_map(|&position_m| {
+        [Motion::Translation, Motion::Rotation]
+            .into_iter()
+            .take(dofs_of_a_bolt)
+            .map(move |motion| (BeamPoint { position_m, motion }, 1.0))
+    });
+    let labelled = points.iter().filter_map(|point| {
+        let motion = if point.direction().is_rotation() {
+            Motion::Rotation
+        } else {
+            Motion::Translation
+        };
+        let position_m = *positions_m.get(point)?;
+        Some((BeamPoint { position_m, motion }, point.sign().factor()))
+    });
+    joint.chain(labelled).collect()
+}
+
+fn beam_receptances(
+    beam: &Beam,
+    dofs: &[(BeamPoint, f64)],
+    axis: &Axis<'_>,
+) -> Result<Vec<ComplexMatrix>, BeamError> {
+    let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
+    let mut receptances = beam.receptances(&points, axis.frequency_hz)?;
+    for receptance in &mut receptances {
+        for (p, (_, row_sign)) in dofs.iter().enumerate() {
+            for (q, (_, column_sign)) in dofs.iter().enumerate() {
+                receptance[(p, q)] *= row_sign * column_sign;
+            }
+        }
+    }
+    Ok(receptances)
+}
+
+/// Receptances between all `labels` of a measured substructure.
+fn labelled_receptances(
+    key: &'static str,
+    source: &Source,
+    labels: &[Dof],
+    axis: &Axis<'_>,
+    reader: &mut Reader,
+) -> Result<Labelled, IdentifyError> {
+    match source {
+        Source::Frf { file, modes } => {
+            let (from_hz, to_hz) = axis.ends();
+            let set = reader.read(file, labels, [from_hz, to_hz])?;
+            let set = set
+                .restricted_to(from_hz, to_hz)
+                .map_err(|source| in_file(&file.path, source))?;
+            axis.compare(&file.path, set.frequency_hz())?;
+            let modal = modes.as_deref().map(ModalModel::read).transpose()?;
+            let completeness = modal
+                .as_ref()
+                .map_or(Completeness::All, Completeness::WithModes);
+            let mut labelled = labelled_functions(&set, labels, completeness, &file.path)?;
+            let is_symmetric = |p, q| labelled.function(p, q) == labelled.function(q, p);
+            let measured = independent(&labelled.measured, is_symmetric);
+            labelled.relative_variance = relative_variances(&set, labels, &measured);
+            labelled.measured = measured;
+            if let (Some(path), Some(modal)) = (modes, &modal) {
+                let pairs = labelled.from_modes.iter();
+                reader.from_modes.push(FromModes {
+                    substructure: key,
+                    path: path.clone(),
+                    functions: pairs.map(|&(p, q)| (labels[p], labels[q])).collect(),
+                    deviation: labelled.deviation_of(modal, labels, axis.frequency_hz),
+                });
+            }
+            Ok(labelled)
+        }
+        Source::Modal(path) => {
+            let model = ModalModel::read(path)?;
+            Labelled::of_modes(&model, labels, axis.frequency_hz)
+        }
+    }
+}

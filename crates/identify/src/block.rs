@@ -1,0 +1,214 @@
+//! One assembly's receptances in the form in which the estimator runs through them: flat, by line, reciprocal pairs merged.
+//!
+//! With symmetric substructures and a symmetric joint H^C_pq and H^C_qp are one number. Two measurements of it enter as
+//! their mean; their difference tells noise alone.
+
+use std::ops::Range;
+
+use num_complex::Complex64;
+
+use bolted_joint_frf::structure::ComplexMatrix;
+
+use super::layout::Place;
+use super::lines::Lines;
+
+/// A matrix of the joint's DOFs at one line, or at several side by side.
+pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
+
+/// One entry of the symmetric H^C_ss, measured once or more often.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Entry {
+    pub(super) row: usize,
+    pub(super) column: usize,
+    /// Independent measurements of it.
+    pub(super) count: u32,
+}
+
+/// Receptances of one assembly and of what it was made from, over its lines.
+#[derive(Clone, Debug)]
+pub(super) struct Block<const N: usize> {
+    /// Which of the joints that are sought is in this assembly.
+    pub(super) joint: usize,
+    pub(super) points: usize,
+    pub(super) entries: Vec<Entry>,
+    /// ω of each line.
+    pub(super) omega: Vec<f64>,
+    /// H_jj + H_kk of each line.
+    pub(super) free: Vec<Small<N>>,
+    /// Median over the lines of 1/|H_jj + H_kk| on each DOF.
+    pub(super) dynamic_stiffness: [f64; N],
+    /// H_ks: one column for each point, of each line.
+    pub(super) transfer: Vec<[Complex64; N]>,
+    /// H_ss at the entries, of each line.
+    pub(super) own: Vec<Complex64>,
+    /// Mean of the measured H^C_ss at the entries, of each line.
+    pub(super) measured: Vec<Complex64>,
+    /// Σ|y − mean|² over the measurements of each entry and line.
+    pub(super) scatter: Vec<f64>,
+    /// Variance of one measurement as a fraction of |H|², where it is known line by line; else empty.
+    pub(super) known: Vec<f64>,
+}
+
+/// No measurement is taken for better than that: its reciprocal is a number.
+const LEAST_VARIANCE: f64 = 1e-300;
+
+impl<const N: usize> Block<N> {
+    /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
+    pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
+        let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
+        let measured = lines.independent();
+        let mut entries: Vec<Entry> = Vec::new();
+        let mut places: Vec<Vec<(usize, usize)>> = Vec::new();
+        for &(p, q) in &measured {
+            let (row, column) = (p.min(q), p.max(q));
+            let known = entries
+                .iter()
+                .position(|entry| (entry.row, entry.column) == (row, column));
+            if let Some(known) = known {
+                entries[known].count += repeats;
+                places[known].push((p, q));
+            } else {
+                let count = repeats;
+                entries.push(Entry { row, column, count });
+                places.push(vec![(p, q)]);
+            }
+        }
+        let points = lines.points.len();
+        let chosen = || (0..lines.frequency_hz.len()).step_by(stride);
+        let count = chosen().count();
+        let mut block = Self {
+            joint,
+            points,
+            omega: chosen()
+                .map(|line| std::f64::consts::TAU * lines.frequency_hz[line])
+                .collect(),
+            free: Vec::with_capacity(count),
+            dynamic_stiffness: [0.0; N],
+            transfer: Vec::with_capacity(count * points),
+            own: Vec::with_capacity(count * entries.len()),
+            measured: Vec::with_capacity(count * entries.len()),
+            scatter: Vec::with_capacity(count * entries.len()),
+            known: Vec::new(),
+            entries,
+        };
+        let variances = variances(lines, &places);
+        for line in chosen() {
+            block.push_substructures(lines, line);
+            block.push_assembly(lines, &places, variances.as_deref(), line);
+        }
+        block.dynamic_stiffness = std::array::from_fn(|dof| {
+            let diagonal = block.free.iter().map(|free| free[dof][dof]);
+            let mut sizes: Vec<f64> = diagonal.map(|value| value.norm_sqr()).collect();
+            if sizes.is_empty() {
+                return 1.0;
+            }
+            // The upper median of the reciprocals is the lower one of the receptances.
+            let middle = (sizes.len() - 1) / 2;
+            let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+            median.sqrt().recip()
+        });
+        block
+    }
+
+    fn push_substructures(&mut self, lines: &Lines, line: usize) {
+        let (a, b) = (lines.a.at(line), lines.b.at(line));
+        let (a, b) = (Columns::of(&a), Columns::of(&b));
+        self.free.push(std::array::from_fn(|i| {
+            std::array::from_fn(|j| a.symmetric(i, j) + b.symmetric(i, j))
+        }));
+        let points = N..N + self.points;
+        self.transfer
+            .extend(points.map(|point| std::array::from_fn(|i| b.symmetric(i, point))));
+        let own = self.entries.iter();
+        self.own
+            .extend(own.map(|entry| b.symmetric(N + entry.row, N + entry.column)));
+    }
+
+    /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
+    fn push_assembly(
+        &mut self,
+        lines: &Lines,
+        places: &[Vec<(usize, usize)>],
+        variances: Option<&[Vec<&[f64]>]>,
+        line: usize,
+    ) {
+        let assembly = &lines.assembly[line];
+        for (entry, places) in places.iter().enumerate() {
+            let known = variances.map(|variances| &variances[entry]);
+            if let ([place], None) = (&places[..], &lines.repeats) {
+                self.measured.push(assembly[*place]);
+                self.scatter.push(0.0);
+                self.known.extend(known.map(|known| known[0][line]));
+                continue;
+            }
+            // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
+            let weight =
+                |index: usize| known.map_or(1.0, |k| k[index][line].max(LEAST_VARIANCE).recip());
+            let weighted = || (0..places.len()).map(|index| (weight(index), places[index]));
+            let total: f64 = weighted().map(|(weight, _)| weight).sum();
+            let sum: Complex64 = weighted()
+                .map(|(weight, place)| assembly[place] * weight)
+                .sum();
+            let mean = sum / total;
+            self.measured.push(mean);
+            let common = places.len() as f64 / total;
+            self.known.extend(known.map(|_| common));
+            let between: f64 = weighted()
+                .map(|(weight, place)| common * weight * (assembly[place] - mean).norm_sqr())
+                .sum();
+            self.scatter.push(match &lines.repeats {
+                Some(repeats) => {
+                    let scatter = &repeats.scatter[line];
+                    let within: f64 = places.iter().map(|&place| scatter[place]).sum();
+                    within + f64::from(repeats.count) * between
+                }
+                None => between,
+            });
+        }
+    }
+
+    /// Where the unknowns of its joint are among those of all, each joint having these entries.
+    pub(super) fn unknowns(&self, entries: &[Place]) -> Range<usize> {
+        let size = 2 * entries.len();
+        self.joint * size..(self.joint + 1) * size
+    }
+
+    pub(super) fn lines(&self) -> usize {
+        self.omega.len()
+    }
+}
+
+/// A square matrix as it is stored, column by column: there are many to go through.
+struct Columns<'m> {
+    values: &'m [Complex64],
+    size: usize,
+}
+
+impl<'m> Columns<'m> {
+    fn of(matrix: &'m ComplexMatrix) -> Self {
+        Self {
+            values: matrix.as_slice(),
+            size: matrix.nrows(),
+        }
+    }
+
+    /// Mean of the entry and its transpose.
+    #[inline(always)]
+    fn symmetric(&self, i: usize, j: usize) -> Complex64 {
+        (self.values[i + j * self.size] + self.values[j + i * self.size]) * 0.5
+    }
+}
+
+/// σ²/|H|² of each place over the lines, where it is known.
+fn variances<'lines>(
+    lines: &'lines Lines,
+    places: &[Vec<(usize, usize)>],
+) -> Option<Vec<Vec<&'lines [f64]>>> {
+    let known = lines.relative_variance.as_ref()?;
+    let of_place = |place: &(usize, usize)| {
+        let index = lines.measured.iter().position(|other| other == place)?;
+        Some(known.get(index)?.as_slice())
+    };
+    let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
+    places.iter().map(of_entry).collect()
+}

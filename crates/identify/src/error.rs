@@ -1,0 +1,137 @@
+//! What can be wrong with a study and with the data that it names.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use bolted_joint_files::text_file::TextFileError;
+use bolted_joint_frf::FrfError;
+use bolted_joint_frf::structure::{BeamError, CouplingError, ModalError};
+
+use super::model::JointModel;
+
+/// Why a joint cannot be identified.
+#[derive(Debug, Error)]
+pub enum IdentifyError {
+    /// A text file cannot be read.
+    #[error(transparent)]
+    File(#[from] TextFileError),
+    /// The study is not TOML, or has keys or types that do not belong.
+    #[error("{}: {message}", path.display())]
+    Syntax {
+        /// The study.
+        path: PathBuf,
+        /// What is wrong, with line and column.
+        message: String,
+    },
+    /// A value in the study cannot be used.
+    #[error("{}: `{key}`: found {found}, expected {expected}", path.display())]
+    Study {
+        /// The study.
+        path: PathBuf,
+        /// Key in the study.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A universal file cannot be used.
+    #[error(transparent)]
+    Frf(#[from] FrfError),
+    /// Modal data cannot be used.
+    #[error(transparent)]
+    Modal(#[from] ModalError),
+    /// A function is not in the file of functions, and its modes do not have it either.
+    #[error("{frf}; nor do the modes have it: {modal}")]
+    NeitherMeasuredNorModal {
+        /// What the file of functions lacks.
+        frf: Box<IdentifyError>,
+        /// What the modes lack.
+        modal: Box<ModalError>,
+    },
+    /// The beam cannot be computed.
+    #[error("{}: `{key}`: {source}", path.display())]
+    Beam {
+        /// The study.
+        path: PathBuf,
+        /// Key of the substructure.
+        key: &'static str,
+        /// What is wrong with it.
+        source: BeamError,
+    },
+    /// Two files have different frequency axes.
+    #[error(
+        "{} and {} have different frequencies within {from_hz} to {to_hz} Hz: line {line} of the band is at {first} in the \
+         first and {second} in the second; expected the same lines in both, so export them with the same analyser settings",
+        first_path.display(),
+        second_path.display()
+    )]
+    DifferingAxes {
+        /// The file that sets the axis.
+        first_path: PathBuf,
+        /// The file that differs.
+        second_path: PathBuf,
+        /// Lower end of the band, Hz.
+        from_hz: f64,
+        /// Upper end of the band, Hz.
+        to_hz: f64,
+        /// First line that differs, from 1.
+        line: usize,
+        /// Frequency there in the first file, or that it has ended.
+        first: String,
+        /// Frequency there in the second file, or that it has ended.
+        second: String,
+    },
+    /// Fewer lines than unknowns need.
+    #[error(
+        "{}: found {found} line(s) from {from_hz} to {to_hz} Hz, expected at least {needed} for joint model \"{model}\" from \
+         {functions} function(s); widen `frequency` in the study or measure with finer lines",
+        path.display()
+    )]
+    TooFewLines {
+        /// File of the assembly's functions.
+        path: PathBuf,
+        /// Lines found in the band.
+        found: usize,
+        /// Lowest frequency of them, Hz.
+        from_hz: f64,
+        /// Highest frequency of them, Hz.
+        to_hz: f64,
+        /// Lines needed.
+        needed: usize,
+        /// Joint model.
+        model: JointModel,
+        /// Measured functions.
+        functions: usize,
+    },
+    /// Each torque is to have its joint, but there are not several.
+    #[error(
+        "found torques {found_n_m:?} N·m of {assemblies} assemblies, expected one of each assembly and at least two different ones, for \
+         each torque to have a joint of its own"
+    )]
+    Torques {
+        /// Assemblies.
+        assemblies: usize,
+        /// Torques given, N·m.
+        found_n_m: Vec<f64>,
+    },
+    /// The computed receptances have no finite value at some line.
+    #[error("{source}")]
+    Coupling {
+        /// What is wrong.
+        #[from]
+        source: CouplingError,
+    },
+    /// No start led anywhere.
+    #[error(
+        "no estimate was found from any of {starts} starts: the receptances at the points {points} do not depend on the joint \
+         within the frequency range; choose a wider range or other points"
+    )]
+    NoEstimate {
+        /// How many starts were tried.
+        starts: usize,
+        /// The points.
+        points: String,
+    },
+}

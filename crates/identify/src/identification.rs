@@ -1,0 +1,201 @@
+//! The identification itself, from lines to a joint with its uncertainty.
+
+use bolted_joint_frf::structure::ComplexMatrix;
+use bolted_joint_frf::{Dof, FileSummary};
+use bolted_joint_joint::Provenance;
+
+use super::assemble::{self, Assembled};
+use super::bootstrap::Bootstrap;
+use super::error::IdentifyError;
+use super::from_modes::FromModes;
+use super::layout::Bolts;
+use super::level;
+use super::lines::Lines;
+use super::lines_estimate::{LinesEstimate, Options, identify_lines};
+use super::model::{JointMatrices, JointModel};
+use super::provenance;
+use super::study::Study;
+use super::watch::Watch;
+
+/// What was identified, and from what.
+#[derive(Clone, Debug)]
+pub struct Identification {
+    /// Name of the joint.
+    pub name: String,
+    /// Joint model.
+    pub model: JointModel,
+    /// The data of the first assembly.
+    pub lines: Lines,
+    /// The bolts.
+    pub bolts: Bolts,
+    /// Average of the decoupled values over bands, where every entry had lines; at the first bolt where every bolt has its own.
+    pub band_average: Option<JointMatrices>,
+    /// The passive estimate, which is the free one where that is passive: of the first assembly's joint, where each torque has
+    /// its own, and at the first bolt where every bolt has. `estimate` has all of them.
+    pub joint: JointMatrices,
+    /// One standard deviation of each entry of `joint`; infinite where the data do not determine the joint.
+    pub standard_deviation: JointMatrices,
+    /// The assembly's receptances H^C_ss with the estimated joint, line by line.
+    pub regenerated: Vec<ComplexMatrix>,
+    /// Fit of each measured function of the first assembly.
+    pub fits: Vec<FunctionFit>,
+    /// The assemblies beside the first one, with the fit of their functions.
+    pub further: Vec<AssemblyFit>,
+    /// Root mean square of |measured − computed|/|computed| over all lines and functions.
+    pub relative_rms: f64,
+    /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
+    pub reduced_chi_squared: Option<f64>,
+    /// How many starts were tried, and how many of them led to this estimate.
+    pub starts: (usize, usize),
+    /// What the user should know before using the result.
+    pub warnings: Vec<String>,
+    /// What modes supplied beside measured functions of a substructure.
+    pub from_modes: Vec<FromModes>,
+    /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
+    pub estimate: LinesEstimate,
+    /// What each file of functions states.
+    pub files: Vec<FileSummary>,
+    /// Of each bolt's joint.
+    pub(super) provenance: Vec<Provenance>,
+    pub(super) torque_n_m: Option<[f64; 2]>,
+    pub(super) level: Option<String>,
+    pub(super) noise_is_stated: bool,
+    pub(super) bodies: Option<bolted_joint_joint::Bodies>,
+}
+
+/// An assembly beside the first one.
+#[derive(Clone, Debug)]
+pub struct AssemblyFit {
+    /// Its data.
+    pub lines: Lines,
+    /// Its receptances with the estimated joint, line by line.
+    pub regenerated: Vec<ComplexMatrix>,
+    /// Fit of each of its measured functions.
+    pub fits: Vec<FunctionFit>,
+}
+
+/// Fit of one measured function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FunctionFit {
+    /// Response.
+    pub response: Dof,
+    /// Reference.
+    pub reference: Dof,
+    /// Row and column in H^C_ss.
+    pub place: (usize, usize),
+    /// Root mean square of |measured − computed|/|computed| over the lines.
+    pub relative_rms: f64,
+}
+
+/// Identifies the joint of a study.
+///
+/// # Errors
+/// [`IdentifyError`] if a file or the study cannot be used, or the data do not lead to an estimate.
+pub fn identify(study: &Study) -> Result<Identification, IdentifyError> {
+    identify_and_draw(study, None, &|| ())
+}
+
+/// Identifies the joint of a study, and repeats the estimate on data drawn from the fitted model; `watch` is told how far it
+/// has come.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_and_draw(
+    study: &Study,
+    bootstrap: Option<Bootstrap>,
+    watch: &dyn Watch,
+) -> Result<Identification, IdentifyError> {
+    let Assembled {
+        lines: all,
+        files,
+        mut warnings,
+        from_modes,
+    } = assemble::lines(study, watch)?;
+    let options = Options {
+        bolts: study.bolts.clone(),
+        noise: study.noise,
+        bands: study.bands.clone(),
+        start: study.start.clone(),
+        compare_models: true,
+        torques_n_m: torques(study).unwrap_or_default(),
+        dependence: study.torques,
+        bootstrap,
+        progress: Some(&|| watch.drawn()),
+    };
+    let estimate = identify_lines(&all, study.model, &options)?;
+    let mut fitted = Vec::with_capacity(all.len());
+    for (number, lines) in all.into_iter().enumerate() {
+        let regenerated = lines.regenerated(estimate.joint_of(number).whole())?;
+        let fits: Vec<FunctionFit> = lines
+            .measured
+            .iter()
+            .map(|&place| FunctionFit {
+                response: lines.points[place.0],
+                reference: lines.points[place.1],
+                place,
+                relative_rms: relative_rms(&lines.assembly, &regenerated, place),
+            })
+            .collect();
+        fitted.push(AssemblyFit {
+            lines,
+            regenerated,
+            fits,
+        });
+    }
+    let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
+    let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
+    let relative_rms = (squares / functions().count() as f64).sqrt();
+    let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
+    warnings.extend(estimate.warnings().iter().cloned());
+    let first = fitted.remove(0);
+    Ok(Identification {
+        name: study.name.clone(),
+        model: study.model,
+        bolts: study.bolts.clone(),
+        band_average: estimate.band_average().cloned(),
+        joint: estimate.joint().clone(),
+        standard_deviation: estimate.standard_deviation(study.model),
+        lines: first.lines,
+        regenerated: first.regenerated,
+        fits: first.fits,
+        further: fitted,
+        relative_rms,
+        reduced_chi_squared: (estimate.assessment().noise_is_stated
+            || estimate.assessment().noise_is_known)
+            .then_some(estimate.assessment().reduced_chi_squared)
+            .flatten(),
+        starts: estimate.starts(),
+        warnings,
+        from_modes,
+        files,
+        provenance,
+        torque_n_m: torques(study).and_then(range),
+        level: level::in_words(study),
+        noise_is_stated: study.noise.is_stated(),
+        bodies: study.bodies.clone(),
+        estimate,
+    })
+}
+
+/// The torque of each of a study's assemblies, N·m, where all state theirs.
+fn torques(study: &Study) -> Option<Vec<f64>> {
+    let further = study.further.iter().map(|assembly| assembly.torque_n_m);
+    std::iter::once(study.torque_n_m).chain(further).collect()
+}
+
+/// Lowest and highest.
+fn range(values: Vec<f64>) -> Option<[f64; 2]> {
+    let lowest = values.iter().copied().reduce(f64::min)?;
+    Some([lowest, values.into_iter().fold(lowest, f64::max)])
+}
+
+fn relative_rms(
+    measured: &[ComplexMatrix],
+    computed: &[ComplexMatrix],
+    place: (usize, usize),
+) -> f64 {
+    let squares = measured.iter().zip(computed).map(|(measured, computed)| {
+        (measured[place] - computed[place]).norm_sqr() / computed[place].norm_sqr()
+    });
+    (squares.sum::<f64>() / measured.len() as f64).sqrt()
+}

@@ -1,0 +1,227 @@
+//! K* of each line of an assembly by (3.21), as `decoupling` computes it, in matrices of fixed size: there are many lines.
+
+use bolted_joint_frf::structure::{ComplexMatrix, Partition};
+
+use super::block::Small;
+use super::decoupling;
+use super::kernel::{dot, inverse};
+use super::lanes::{Complexes, LANES, Number, Reals};
+use super::layout::Layout;
+use super::lines::Lines;
+
+/// A column of unit length of which less than this is left beside those before it depends on them.
+const DEPENDENT: f64 = 1e-10;
+
+/// Whether every pair of points was measured, at least as its transpose.
+pub(super) fn is_complete(lines: &Lines) -> bool {
+    let count = lines.points.len();
+    let has = |place: (usize, usize)| {
+        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
+    };
+    (0..count).all(|p| (0..count).all(|q| has((p, q))))
+}
+
+/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
+pub(super) fn decouple<const N: usize>(
+    lines: &Lines,
+    layout: &Layout,
+) -> Vec<Option<ComplexMatrix>> {
+    let count = lines.frequency_hz.len();
+    if !is_complete(lines) {
+        return vec![None; count];
+    }
+    let used = layout.used_dofs();
+    let is_fixed = lines.points.len() > N && used.len() == N && lines.joint_dofs() == N;
+    let mut least_squares = LeastSquares::<N>::default();
+    let mut decoupled = Vec::with_capacity(count);
+    for first in (0..count).step_by(LANES) {
+        let last = LANES.min(count - first) - 1;
+        let index: [usize; LANES] = std::array::from_fn(|lane| first + lane.min(last));
+        let found = is_fixed.then(|| least_squares.solve(lines, index));
+        let found = found.flatten();
+        decoupled.extend(index[..=last].iter().enumerate().map(|(lane, &line)| {
+            let Some(found) = found else {
+                return alone(lines, &used, line);
+            };
+            let stiffness = ComplexMatrix::from_fn(N, N, |i, j| found[i][j].lane(lane));
+            is_finite(&stiffness).then_some(stiffness)
+        }));
+    }
+    decoupled
+}
+
+/// One line, whatever its matrices are, at the joint's DOFs that are `used`.
+fn alone(lines: &Lines, used: &[usize], line: usize) -> Option<ComplexMatrix> {
+    let a_joint = lines.a.at(line).select_rows(used).select_columns(used);
+    // Equation (3.21) needs nothing of A but H_jj.
+    let a = Partition::of(&a_joint, used.len());
+    let b = lines.b_at(line);
+    let b = Partition {
+        joint: b.joint.select_rows(used).select_columns(used),
+        joint_points: b.joint_points.select_rows(used),
+        points_joint: b.points_joint.select_columns(used),
+        points: b.points,
+    };
+    decoupling::from_ss(&a, &b, &lines.assembly[line])
+}
+
+fn is_finite(matrix: &ComplexMatrix) -> bool {
+    let mut values = matrix.iter();
+    values.all(|value| value.re.is_finite() && value.im.is_finite())
+}
+
+/// The least-squares solution of (3.21) from more points than joint DOFs, for lines side by side.
+#[derive(Default)]
+struct LeastSquares<const N: usize> {
+    left: PseudoInverse<N>,
+    right: PseudoInverse<N>,
+}
+
+impl<const N: usize> LeastSquares<N> {
+    /// `None` where columns depend on each other, or a matrix is singular, at any of the lines.
+    fn solve(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
+        let a = index.map(|line| lines.a.at(line));
+        let b = index.map(|line| lines.b.at(line));
+        let (a, b) = (a.each_ref().map(|a| &**a), b.each_ref().map(|b| &**b));
+        let assembly = index.map(|line| &lines.assembly[line]);
+        let points = lines.points.len();
+        let of = |matrix: [&ComplexMatrix; LANES], i, j| Complexes::of(|lane| matrix[lane][(i, j)]);
+        self.left.of(points, |p, i| of(b, N + p, i))?;
+        self.right.of(points, |p, i| of(b, i, N + p))?;
+        // Z⁻¹ = H_sk⁺ (H_ss − H^C_ss) H_ks⁺
+        let mut z_inverse = [[Complexes::ZERO; N]; N];
+        for (q, right) in self.right.columns.iter().enumerate() {
+            let mut product = [Complexes::ZERO; N];
+            for (p, left) in self.left.columns.iter().enumerate() {
+                let difference = of(b, N + p, N + q) - of(assembly, p, q);
+                for i in 0..N {
+                    product[i] += left[i] * difference;
+                }
+            }
+            for i in 0..N {
+                for j in 0..N {
+                    z_inverse[i][j] += product[i] * right[j];
+                }
+            }
+        }
+        // K* = (Z − H_jj − H_kk)⁻¹
+        let mut z = inverse(z_inverse)?;
+        for i in 0..N {
+            for j in 0..N {
+                z[i][j] -= of(a, i, j) + of(b, i, j);
+            }
+        }
+        inverse(z)
+    }
+}
+
+/// M⁺ of a matrix with N columns, as many rows as there are points.
+#[derive(Default)]
+struct PseudoInverse<const N: usize> {
+    /// M by rows, then its orthonormal basis.
+    rows: Vec<[Complexes; N]>,
+    /// M⁺, a column for each point.
+    columns: Vec<[Complexes; N]>,
+}
+
+impl<const N: usize> PseudoInverse<N> {
+    /// M = Q R by Gram and Schmidt, twice over, from columns of unit length; M⁺ = R⁻¹ Qᴴ.
+    fn of(&mut self, points: usize, entry: impl Fn(usize, usize) -> Complexes) -> Option<()> {
+        self.rows.clear();
+        let row = |point| std::array::from_fn(|i| entry(point, i));
+        self.rows.extend((0..points).map(row));
+        // Q = M A: A takes the part of every operation that R⁻¹ is made of.
+        let mut factor = [[Complexes::ZERO; N]; N];
+        for i in 0..N {
+            let scale = self.length(i).reciprocal();
+            self.scale(i, scale);
+            factor[i][i].re = scale;
+        }
+        for i in 0..N {
+            for _ in 0..2 {
+                for before in 0..i {
+                    let mut part = Complexes::ZERO;
+                    for row in &self.rows {
+                        part += row[before].conj() * row[i];
+                    }
+                    for row in self.rows.iter_mut().chain(&mut factor) {
+                        let taken = row[before] * part;
+                        row[i] -= taken;
+                    }
+                }
+            }
+            let left = self.length(i);
+            let is_independent = |&left: &f64| left > DEPENDENT && left.is_finite();
+            if !left.0.iter().all(is_independent) {
+                return None;
+            }
+            let scale = left.reciprocal();
+            self.scale(i, scale);
+            for row in &mut factor {
+                row[i] = row[i].scaled(scale);
+            }
+        }
+        // M⁺ = A Qᴴ
+        self.columns.clear();
+        self.columns.extend(self.rows.iter().map(|row| {
+            let conjugate = row.map(Complexes::conj);
+            std::array::from_fn(|i| dot(&factor[i], &conjugate))
+        }));
+        Some(())
+    }
+
+    fn length(&self, column: usize) -> Reals {
+        let mut squares = Reals::ZERO;
+        for row in &self.rows {
+            squares += row[column].norm_sqr();
+        }
+        squares.sqrt()
+    }
+
+    fn scale(&mut self, column: usize, factor: Reals) {
+        for row in &mut self.rows {
+            row[column] = row[column].scaled(factor);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_complex::Complex64;
+
+    #[test]
+    fn the_pseudo_inverse_obeys_its_definition_for_columns_of_any_size() {
+        let c = Complex64::new;
+        let matrix = [
+            [c(1.0, 2.0), c(1e-6, 3e-6)],
+            [c(-1.0, 0.5), c(2e-6, 0.0)],
+            [c(0.25, -2.0), c(-1e-6, 5e-6)],
+        ];
+        let of = |point: usize, i: usize| {
+            Complexes::of(|lane| matrix[point][i] + matrix[(point + lane) % 3][i])
+        };
+        let mut inverse = PseudoInverse::<2>::default();
+        inverse.of(3, of).unwrap();
+        for i in 0..2 {
+            for j in 0..2 {
+                for lane in 0..LANES {
+                    let products = (0..3).map(|p| (inverse.columns[p][i] * of(p, j)).lane(lane));
+                    let product: Complex64 = products.sum();
+                    let scale = [1.0, 1e-6][j] / [1.0, 1e-6][i];
+                    let unit = if i == j { 1.0 } else { 0.0 };
+                    assert!((product - unit).norm() < 1e-14 * scale, "{i} {j} {product}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn columns_that_depend_on_each_other_are_refused() {
+        let mut inverse = PseudoInverse::<2>::default();
+        let of = inverse.of(3, |point, i| {
+            Complexes::of(|_| Complex64::from((point * 7 + 1) as f64 * [1.0, 3.0][i]))
+        });
+        assert_eq!(of, None);
+    }
+}

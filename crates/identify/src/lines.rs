@@ -1,0 +1,94 @@
+//! What the estimator works on: receptances of the substructures and of the assembly, line by line.
+
+use nalgebra::DMatrix;
+
+use bolted_joint_frf::Dof;
+use bolted_joint_frf::structure::{ComplexMatrix, CouplingError, Partition, transmission};
+
+use super::model::JointMatrices;
+use super::receptances::Receptances;
+
+/// Receptances at the lines of one frequency axis.
+#[derive(Clone, Debug)]
+pub struct Lines {
+    /// Frequency of each line, Hz.
+    pub frequency_hz: Vec<f64>,
+    /// H_jj of A.
+    pub a: Receptances,
+    /// H_kk, H_ks, H_sk, H_ss of B: the joint's DOFs, then the points.
+    pub b: Receptances,
+    /// H^C_ss at each line.
+    pub assembly: Vec<ComplexMatrix>,
+    /// Points of B at which the assembly was measured: rows and columns of H^C_ss.
+    pub points: Vec<Dof>,
+    /// Entries (row, column) of H^C_ss that were measured; the others follow from them by reciprocity.
+    pub measured: Vec<(usize, usize)>,
+    /// Variance of each of `measured` at each line as a fraction of |H|², where it is known line by line.
+    pub relative_variance: Option<Vec<Vec<f64>>>,
+    /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
+    pub repeats: Option<Repeats>,
+}
+
+/// Repeated measurements of the same functions.
+#[derive(Clone, Debug)]
+pub struct Repeats {
+    /// Measurements of each function.
+    pub count: u32,
+    /// Σ|y − mean|² over them at each line.
+    pub scatter: Vec<DMatrix<f64>>,
+}
+
+impl Lines {
+    /// The measured entries that are not the exact copy of their transpose, as reciprocity fills them in.
+    #[must_use]
+    pub fn independent(&self) -> Vec<(usize, usize)> {
+        let is_symmetric = |p, q| {
+            self.assembly
+                .iter()
+                .all(|matrix| matrix[(p, q)] == matrix[(q, p)])
+        };
+        independent(&self.measured, is_symmetric)
+    }
+
+    /// DOFs of the joint, those of all bolts; 0 without lines.
+    #[must_use]
+    pub fn joint_dofs(&self) -> usize {
+        self.a.size()
+    }
+
+    /// H_kk, H_ks, H_sk, H_ss of B at a line.
+    #[must_use]
+    pub fn b_at(&self, line: usize) -> Partition {
+        Partition::of(&self.b.at(line), self.joint_dofs())
+    }
+
+    /// H^C_ss at each line, as coupling with this joint gives it.
+    ///
+    /// # Errors
+    /// [`CouplingError::Singular`] at an undamped resonance.
+    pub fn regenerated(&self, joint: &JointMatrices) -> Result<Vec<ComplexMatrix>, CouplingError> {
+        (0..self.frequency_hz.len())
+            .map(|line| {
+                let stiffness = joint.complex_stiffness(self.frequency_hz[line]);
+                let b = self.b_at(line);
+                let z_inverse = transmission(&self.a.at(line), &b.joint, &stiffness)?;
+                // H^C_ss = H_ss − H_sk Z⁻¹ H_ks   (Tol 3.17)
+                Ok(&b.points - &b.points_joint * z_inverse * &b.joint_points)
+            })
+            .collect()
+    }
+}
+
+/// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by
+/// reciprocity writes such copies, which are no measurements.
+pub(super) fn independent(
+    measured: &[(usize, usize)],
+    is_symmetric: impl Fn(usize, usize) -> bool,
+) -> Vec<(usize, usize)> {
+    let is_copy = |&(row, column): &(usize, usize)| {
+        row > column && measured.contains(&(column, row)) && is_symmetric(row, column)
+    };
+    let mut independent = measured.to_vec();
+    independent.retain(|place| !is_copy(place));
+    independent
+}

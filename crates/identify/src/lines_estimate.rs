@@ -1,0 +1,490 @@
+//! From lines to a joint: decoupling, averages, the search, the passive estimate, and how sure all of it is.
+
+use nalgebra::{DMatrix, DVector};
+
+use bolted_joint_frf::Dof;
+use bolted_joint_frf::structure::{ComplexMatrix, CouplingError};
+
+use super::assessment::Assessment;
+use super::averages::{Decoupled, band_averages, first_bands, used_bands};
+use super::bands::{BandChoices, UsedBands};
+use super::bootstrap::{self, Bootstrap};
+use super::choice::{self, ModelChoice};
+use super::decoupling;
+use super::error::IdentifyError;
+use super::group::{Group, Side};
+use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
+use super::layout::{Bolts, Layout};
+use super::line_by_line::{decouple, is_complete};
+use super::lines::Lines;
+use super::model::{JointMatrices, JointModel};
+use super::noise::{Noise, NoiseLevel};
+use super::parallel;
+use super::passive;
+use super::search::{self, Data, Effort, Found};
+use super::sensitivity::{self, Sensitivity};
+use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
+use super::uncertainty::Covariance;
+
+/// What an identification from lines is to do beyond the estimate itself.
+#[derive(Clone, Default)]
+pub struct Options<'a> {
+    /// The bolts, whose DOFs follow one another in the lines.
+    pub bolts: Bolts,
+    /// Noise of everything measured.
+    pub noise: Noise,
+    /// Bands of the averages.
+    pub bands: BandChoices,
+    /// A joint to start from at every bolt, beside the starts that the data give.
+    pub start: Option<JointMatrices>,
+    /// Whether to compare the joint models and, where there are several torques, a common joint with separate ones.
+    pub compare_models: bool,
+    /// Tightening torque of each assembly, N·m; empty where not all are known.
+    pub torques_n_m: Vec<f64>,
+    /// Whether each torque has a joint of its own.
+    pub dependence: TorqueDependence,
+    /// Bootstrap to run, if any.
+    pub bootstrap: Option<Bootstrap>,
+    /// Called after each draw of the bootstrap.
+    pub progress: Option<&'a (dyn Fn() + Sync)>,
+}
+
+/// The estimate from lines alone, with what led to it.
+#[derive(Clone, Debug)]
+pub struct LinesEstimate {
+    decoupled: Vec<Vec<Option<ComplexMatrix>>>,
+    /// That of the first assembly first, at least one.
+    joints: Vec<JointEstimate>,
+    joint_of_assembly: Vec<usize>,
+    layout: Layout,
+    covariance_of_all: DMatrix<f64>,
+    assessment: Assessment,
+    noise_level: Option<NoiseLevel>,
+    starts: (usize, usize),
+    choice: Option<ModelChoice>,
+    torque_choice: Option<TorqueChoice>,
+    warnings: Vec<String>,
+}
+
+/// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own, and
+/// at the first bolt where every bolt has its own.
+impl LinesEstimate {
+    /// K* of each line of each assembly by (3.21), over the DOFs of all bolts; `None` where it cannot be had.
+    #[must_use]
+    pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
+        &self.decoupled
+    }
+
+    /// K* of each line of each assembly at the bolts that have joint number `bolt`, a list for each of them.
+    #[must_use]
+    pub fn decoupled_of(&self, bolt: usize) -> Vec<Vec<Vec<Option<ComplexMatrix>>>> {
+        let dofs = self.layout.model().dofs();
+        let at = |bolt| {
+            let lists = self.decoupled.iter();
+            lists
+                .map(|list| decoupling::of_bolt(list, bolt, dofs))
+                .collect()
+        };
+        self.layout.bolts_with(bolt).map(at).collect()
+    }
+
+    /// All joints: the common one, or one for each torque in the order of their first assemblies.
+    #[must_use]
+    pub fn joints(&self) -> &[JointEstimate] {
+        &self.joints
+    }
+
+    /// The joint in one of the assemblies; the first one's if there are not so many.
+    #[must_use]
+    pub fn joint_of(&self, assembly: usize) -> &JointEstimate {
+        let joint = self.joint_of_assembly.get(assembly).copied().unwrap_or(0);
+        &self.joints[joint]
+    }
+
+    /// Whether an assembly has the joint of the first one.
+    #[must_use]
+    pub fn has_first_joint(&self, assembly: usize) -> bool {
+        self.joint_of_assembly.get(assembly) == Some(&0)
+    }
+
+    /// The joints by torque.
+    #[must_use]
+    pub fn by_torque(&self) -> Vec<&JointEstimate> {
+        let mut joints: Vec<&JointEstimate> = self.joints.iter().collect();
+        let torque = |joint: &JointEstimate| joint.torque_n_m.unwrap_or(0.0);
+        joints.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
+        joints
+    }
+
+    /// Covariance of the unknowns of one torque after the other, in the order of [`Self::joints`]: common errors of the
+    /// substructures correlate them.
+    #[must_use]
+    pub fn covariance_of_all(&self) -> &DMatrix<f64> {
+        &self.covariance_of_all
+    }
+
+    /// The joint: the passive estimate where there is one.
+    #[must_use]
+    pub fn joint(&self) -> &JointMatrices {
+        self.joints[0].joint()
+    }
+
+    /// The joint of each bolt that has one of its own, or the one for all.
+    #[must_use]
+    pub fn bolts(&self) -> &[JointMatrices] {
+        self.joints[0].bolts()
+    }
+
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`] takes them.
+    #[must_use]
+    pub fn whole(&self) -> &JointMatrices {
+        &self.joints[0].whole
+    }
+
+    /// The estimate that is free to be active.
+    #[must_use]
+    pub fn free(&self) -> &JointMatrices {
+        &self.joints[0].free[0]
+    }
+
+    /// Covariance of the unknowns, and which of them are identified.
+    #[must_use]
+    pub fn covariance(&self) -> &Covariance {
+        &self.joints[0].covariance
+    }
+
+    /// One standard deviation of each entry.
+    #[must_use]
+    pub fn standard_deviation(&self, model: JointModel) -> JointMatrices {
+        self.joints[0].standard_deviation(model)
+    }
+
+    /// How much each measured receptance of `lines`, those of an assembly, depends on each unknown entry, at this estimate.
+    ///
+    /// # Errors
+    /// [`CouplingError::Singular`] at an undamped resonance.
+    pub fn sensitivities(
+        &self,
+        assembly: usize,
+        lines: &Lines,
+    ) -> Result<Vec<Sensitivity>, CouplingError> {
+        sensitivity::to_unknowns(lines, &self.layout, self.joint_of(assembly).whole())
+    }
+
+    /// Whether the residual is noise.
+    #[must_use]
+    pub fn assessment(&self) -> &Assessment {
+        &self.assessment
+    }
+
+    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
+    /// degrees of freedom to estimate it.
+    #[must_use]
+    pub fn noise_level(&self) -> Option<NoiseLevel> {
+        self.noise_level
+    }
+
+    /// Average of the decoupled values, one of the starts.
+    #[must_use]
+    pub fn band_average(&self) -> Option<&JointMatrices> {
+        self.joints[0].band_average()
+    }
+
+    /// The bands that each entry of each bolt's joint is averaged over.
+    #[must_use]
+    pub fn bands(&self) -> &[Vec<UsedBands>] {
+        &self.joints[0].bands
+    }
+
+    /// How many starts were tried, and how many of them led to this estimate.
+    #[must_use]
+    pub fn starts(&self) -> (usize, usize) {
+        self.starts
+    }
+
+    /// The joint models beside each other, where they were compared.
+    #[must_use]
+    pub fn model_choice(&self) -> Option<&ModelChoice> {
+        self.choice.as_ref()
+    }
+
+    /// A common joint beside one for each torque, where there are several torques and they were compared.
+    #[must_use]
+    pub fn torque_choice(&self) -> Option<&TorqueChoice> {
+        self.torque_choice.as_ref()
+    }
+
+    /// The bootstrap, where one was asked for.
+    #[must_use]
+    pub fn bootstrap(&self) -> Option<&BootstrapResult> {
+        self.joints[0].bootstrap.as_ref()
+    }
+
+    /// What the user should know before using the estimate.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
+
+/// Identifies a joint from the lines of one or more assemblies that have it in common, or one joint for each torque to
+/// which they are tightened.
+///
+/// # Errors
+/// [`IdentifyError::NoEstimate`] if no start leads to an estimate, [`IdentifyError::Torques`] if each torque is to have its
+/// joint and there are not several of them.
+pub fn identify_lines(
+    all: &[Lines],
+    model: JointModel,
+    options: &Options<'_>,
+) -> Result<LinesEstimate, IdentifyError> {
+    let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
+    let dofs = first.map_or(0, Lines::joint_dofs);
+    let layout = Layout::new(model, &options.bolts, dofs);
+    let is_empty = all.iter().any(|lines| lines.measured.is_empty());
+    let Some(layout) = layout.filter(|_| !is_empty) else {
+        return Err(no_estimate(all, 0));
+    };
+    match dofs {
+        1 => identify_with::<1>(all, layout, options),
+        2 => identify_with::<2>(all, layout, options),
+        3 => identify_with::<3>(all, layout, options),
+        4 => identify_with::<4>(all, layout, options),
+        6 => identify_with::<6>(all, layout, options),
+        8 => identify_with::<8>(all, layout, options),
+        _ => Err(no_estimate(all, 0)),
+    }
+}
+
+fn identify_with<const N: usize>(
+    all: &[Lines],
+    layout: Layout,
+    options: &Options<'_>,
+) -> Result<LinesEstimate, IdentifyError> {
+    let torques = Torques::of(&options.torques_n_m, all.len());
+    let dependence = options.dependence;
+    let separate = match (dependence, &torques) {
+        (TorqueDependence::Common, _) => None,
+        (TorqueDependence::Separate, Some(torques)) => Some(torques),
+        (TorqueDependence::Separate, None) => {
+            return Err(IdentifyError::Torques {
+                assemblies: all.len(),
+                found_n_m: options.torques_n_m.clone(),
+            });
+        }
+    };
+    let assignment = match separate {
+        None => Assignment::common(all),
+        Some(torques) => Assignment::separate(all, torques),
+    };
+    let (joint_of_assembly, count): (Vec<usize>, usize) = (
+        assignment.all.iter().map(|&(_, joint)| joint).collect(),
+        assignment.joints,
+    );
+    let noise = &options.noise;
+    let (problem, decoupled) = parallel::both(
+        || Problem::<N>::new(assignment, noise),
+        || {
+            let lines = all.iter();
+            lines
+                .map(|lines| decouple::<N>(lines, &layout))
+                .collect::<Vec<_>>()
+        },
+    );
+    let decoupled_of = |joint: usize| -> Vec<Decoupled<'_>> {
+        let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
+        own.filter(|(_, own)| **own == joint)
+            .map(|((lines, values), _)| Decoupled { lines, values })
+            .collect()
+    };
+    let first_bands = first_bands(&layout, &options.bands);
+    let first_averages: Vec<Option<Vec<JointMatrices>>> = (0..count)
+        .map(|joint| band_averages(&decoupled_of(joint), &layout, &first_bands))
+        .collect();
+    let starts: Vec<Vec<DVector<f64>>> = first_averages
+        .iter()
+        .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
+        .collect();
+    let found = problem
+        .best(&layout, &starts, Effort::Whole)
+        .map_err(|starts| no_estimate(all, starts))?;
+    let places = layout.places();
+    let objective = problem.objective(&places);
+    let estimate = &found.estimate;
+    let names = options.bolts.with_own_joint();
+    let covariance = CovarianceOfAll::of(&objective, noise, &found);
+    let passive = passive::passive(&objective, &layout, noise, estimate);
+    let draws = options.bootstrap.and_then(|bootstrap| {
+        let progress = options.progress.unwrap_or(&|| ());
+        let draws = bootstrap::draws(&objective, noise, estimate, bootstrap, progress)?;
+        Some((bootstrap, draws))
+    });
+    let size = layout.unknowns();
+    let of_torque = |joint: usize| {
+        let own = joint * size..(joint + 1) * size;
+        let (data, unknowns) = (
+            decoupled_of(joint),
+            &estimate.unknowns.as_slice()[own.clone()],
+        );
+        let bands = used_bands::<N>(&data, &layout, &options.bands, unknowns);
+        let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
+        let free = matrices(&estimate.unknowns);
+        let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
+        JointEstimate {
+            torque_n_m: separate.map(|torques| torques.values_n_m[joint]),
+            band_averages: if bands == first_bands {
+                first_averages[joint].clone()
+            } else {
+                band_averages(&data, &layout, &bands)
+            },
+            bands,
+            covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
+            bootstrap: draws
+                .as_ref()
+                .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
+            whole: layout.whole(passive.as_ref().unwrap_or(&free)),
+            layout: layout.clone(),
+            free,
+            passive,
+        }
+    };
+    let joints: Vec<JointEstimate> = (0..count).map(of_torque).collect();
+    drop(passive);
+    let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
+        .then_some(estimate.levels.assembly)
+        .filter(|_| !found.assessment.noise_is_known);
+    let found = found.without_corrections();
+    let choice = options
+        .compare_models
+        .then(|| choice::compare(&problem, &layout, &found));
+    drop(problem);
+    let torque_choice = torques
+        .filter(|_| options.compare_models)
+        .and_then(|torques| {
+            torque::compare::<N>(all, &torques, noise, &layout, dependence, &found)
+        });
+    let mut warnings = warnings(all, &layout, &found, &joints);
+    warnings.extend(joints.iter().flat_map(|joint| joint.warnings(names)));
+    warnings.extend(
+        torque_choice
+            .as_ref()
+            .and_then(|choice| choice.complaint(dependence)),
+    );
+    Ok(LinesEstimate {
+        decoupled,
+        noise_level,
+        joints,
+        joint_of_assembly,
+        layout,
+        covariance_of_all: covariance.matrix,
+        assessment: found.assessment,
+        starts: (found.tried, found.agreeing),
+        choice,
+        torque_choice,
+        warnings,
+    })
+}
+
+/// Starts from a `given` joint and from the `averages` at one torque.
+fn starts(
+    layout: &Layout,
+    given: Option<&JointMatrices>,
+    averages: Option<&[JointMatrices]>,
+) -> Vec<DVector<f64>> {
+    let given = given.map(std::slice::from_ref);
+    [given, averages]
+        .into_iter()
+        .flatten()
+        .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
+        .filter(|start| start.iter().all(|value| value.is_finite()))
+        .collect()
+}
+
+impl<const N: usize> Data<N> {
+    /// Assemblies, each with the number of its joint, in the forms that a search goes through.
+    pub(super) fn of(all: &[(&Lines, usize)], noise: &Noise) -> Self {
+        let stride = search::stride(all);
+        let noisy = |side: Side| noise.acts_on(side);
+        let whole = Group::all(all, 1, noisy);
+        let has_sources = whole.iter().any(|group| !group.sources.is_empty());
+        let thinned = Group::all(all, stride, noisy);
+        if !has_sources {
+            return Self {
+                thinned,
+                thinned_whole: Vec::new(),
+                whole,
+            };
+        }
+        Self {
+            thinned: thinned.iter().flat_map(Group::with_exact_sources).collect(),
+            thinned_whole: thinned,
+            whole,
+        }
+    }
+}
+
+pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
+    let points = all.iter().flat_map(|lines| &lines.points);
+    IdentifyError::NoEstimate {
+        starts,
+        points: points.map(Dof::to_string).collect::<Vec<_>>().join(", "),
+    }
+}
+
+fn warnings(
+    all: &[Lines],
+    layout: &Layout,
+    found: &Found,
+    joints: &[JointEstimate],
+) -> Vec<String> {
+    let dofs = layout.used_dofs().len();
+    let mut warnings = Vec::new();
+    if found.estimate.degrees_of_freedom == 0 {
+        warnings.push(format!(
+            "{} measured values for {} unknowns: the residual does not show how well they fit; use more lines",
+            2 * found.estimate.measurements,
+            found.estimate.unknowns.len()
+        ));
+    }
+    let once = |warnings: &mut Vec<String>, warning: String| {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    };
+    for lines in all {
+        if lines.points.len() < dofs {
+            let warning = format!(
+                "{} response point{} for a joint with {dofs} DOFs: H_ks (H_ss − H^C_ss)⁻¹ H_sk has rank {} on every line and does not \
+                 determine the joint there, so the band averages are no estimate; the refined values rest on the lines together",
+                lines.points.len(),
+                if lines.points.len() == 1 { "" } else { "s" },
+                lines.points.len()
+            );
+            once(&mut warnings, warning);
+        }
+    }
+    for lines in all {
+        if !is_complete(lines) {
+            let warning = format!(
+                "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
+                 refined estimate does not need them",
+                lines.independent().len(),
+                lines.points.len() * lines.points.len()
+            );
+            once(&mut warnings, warning);
+        }
+    }
+    if !found.estimate.converged {
+        warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
+    }
+    if let Some(complaint) = found.assessment.complaint() {
+        let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
+        let most = inflation.copied().fold(1.0, f64::max);
+        warnings.push(format!(
+            "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
+             fit, or every one of {} starts ended in a local minimum; the intervals are wider for it, by up to a factor of {most:.1}",
+            found.tried
+        ));
+    }
+    warnings
+}

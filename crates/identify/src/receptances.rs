@@ -1,0 +1,123 @@
+//! Receptances of a substructure, computed or measured.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use bolted_joint_frf::structure::ComplexMatrix;
+
+/// Receptances of a substructure between the joint's DOFs, bolt by bolt, and then its points, at each line.
+#[derive(Clone, Debug)]
+pub enum Receptances {
+    /// Computed, or taken for exact.
+    Exact(Vec<ComplexMatrix>),
+    /// Formed from what was measured line by line. Assemblies may share it.
+    Measured(Arc<MeasuredSubstructure>),
+}
+
+impl Receptances {
+    /// H at a line.
+    #[must_use]
+    pub fn at(&self, line: usize) -> Cow<'_, ComplexMatrix> {
+        match self {
+            Self::Exact(matrices) => Cow::Borrowed(&matrices[line]),
+            Self::Measured(measured) => Cow::Owned(measured.formed(line)),
+        }
+    }
+
+    /// What they were formed from, if measured.
+    #[must_use]
+    pub fn measured(&self) -> Option<&Arc<MeasuredSubstructure>> {
+        match self {
+            Self::Exact(_) => None,
+            Self::Measured(measured) => Some(measured),
+        }
+    }
+
+    /// Rows and columns of each matrix; 0 without lines.
+    pub(super) fn size(&self) -> usize {
+        match self {
+            Self::Exact(matrices) => matrices.first().map_or(0, |matrix| matrix.nrows()),
+            Self::Measured(measured) => measured.transformation.nrows(),
+        }
+    }
+}
+
+/// Measured receptances from which those of a substructure are formed.
+#[derive(Clone, Debug)]
+pub struct MeasuredSubstructure {
+    transformation: DMatrix<f64>,
+    /// W as complex numbers.
+    complex: ComplexMatrix,
+    /// The upper triangle of U column by column, each entry over all lines.
+    functions: Vec<Arc<Vec<Complex64>>>,
+    measured: Vec<(usize, usize)>,
+    relative_variance: Option<Vec<Vec<f64>>>,
+}
+
+impl MeasuredSubstructure {
+    /// From W, the motion of the joint's DOFs, then of the points, by that of the measured DOFs; the upper triangle of the
+    /// symmetric U, column by column, each entry over all lines; the entries (row, column) of U that were `measured`, each
+    /// independently of the others; and the variance of each of these at each line as a fraction of |U|², where it is known.
+    ///
+    /// # Panics
+    /// If there are not as many `functions` as the triangle has entries.
+    #[must_use]
+    pub fn new(
+        transformation: DMatrix<f64>,
+        functions: Vec<Vec<Complex64>>,
+        measured: Vec<(usize, usize)>,
+        relative_variance: Option<Vec<Vec<f64>>>,
+    ) -> Self {
+        let labels = transformation.ncols();
+        assert_eq!(functions.len(), labels * (labels + 1) / 2);
+        Self {
+            complex: transformation.map(Complex64::from),
+            transformation,
+            functions: functions.into_iter().map(Arc::new).collect(),
+            measured,
+            relative_variance,
+        }
+    }
+
+    /// W: motion of the joint's DOFs, then of the points, by that of the measured DOFs: H = W U Wᵀ.
+    #[must_use]
+    pub fn transformation(&self) -> &DMatrix<f64> {
+        &self.transformation
+    }
+
+    /// Entries (row, column) of U that were measured.
+    #[must_use]
+    pub fn measured(&self) -> &[(usize, usize)] {
+        &self.measured
+    }
+
+    /// Variance of each of the measured entries at each line as a fraction of |U|², where it is known line by line.
+    #[must_use]
+    pub fn relative_variance(&self) -> Option<&[Vec<f64>]> {
+        self.relative_variance.as_deref()
+    }
+
+    /// An entry of U over all lines.
+    #[must_use]
+    pub fn function(&self, row: usize, column: usize) -> &Arc<Vec<Complex64>> {
+        let (row, column) = (row.min(column), row.max(column));
+        &self.functions[column * (column + 1) / 2 + row]
+    }
+
+    /// U at a line.
+    #[must_use]
+    pub fn receptance(&self, line: usize) -> ComplexMatrix {
+        let labels = self.transformation.ncols();
+        ComplexMatrix::from_fn(labels, labels, |row, column| {
+            self.function(row, column)[line]
+        })
+    }
+
+    /// H = W U Wᵀ at a line   (Tol 3.54).
+    fn formed(&self, line: usize) -> ComplexMatrix {
+        &self.complex * self.receptance(line) * self.complex.transpose()
+    }
+}

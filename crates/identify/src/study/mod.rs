@@ -1,0 +1,363 @@
+//! A study: what the user's TOML file asks for, checked before anything is read or computed.
+
+mod check;
+mod tables;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use bolted_joint_files::text_file;
+use bolted_joint_frf::structure::{Beam, FiniteDifference};
+use bolted_joint_frf::{Dof, Quantity, UnitSystem};
+use bolted_joint_joint::Bodies;
+
+use super::band_choice;
+use super::bands::{BandChoices, Bands};
+use super::error::IdentifyError;
+use super::layout::{Bolts, Layout};
+use super::level::Level;
+use super::lines::Lines;
+use super::model::{JointMatrices, JointModel};
+use super::noise::Noise;
+use super::torque::TorqueDependence;
+use check::Checker;
+use tables::StudyFile;
+
+/// A validated study of method `frf-decoupling`.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The study's own file.
+    pub path: PathBuf,
+    /// Name of the joint.
+    pub name: String,
+    /// Substructure A.
+    pub a: Substructure,
+    /// Substructure B.
+    pub b: Substructure,
+    /// File with the first assembly's FRFs.
+    pub assembly: FrfFile,
+    /// Points of B at which the first assembly was measured.
+    pub points: Vec<Dof>,
+    /// Further measurements of the first assembly's functions.
+    pub repeats: Vec<FrfFile>,
+    /// Tightening torque of the first assembly, N·m.
+    pub torque_n_m: Option<f64>,
+    /// Level at which the first assembly was measured.
+    pub level: Option<Level>,
+    /// Further assemblies with the same joint.
+    pub further: Vec<FurtherAssembly>,
+    /// Joint model to identify.
+    pub model: JointModel,
+    /// Whether assemblies with different torques have one joint.
+    pub torques: TorqueDependence,
+    /// The bolts that the substructures' joints belong to, in their order.
+    pub bolts: Bolts,
+    /// Lowest and highest frequency to use, Hz.
+    pub frequency_range_hz: [f64; 2],
+    /// Bands of the averages.
+    pub bands: BandChoices,
+    /// Noise of the measured receptances, as far as the study states it.
+    pub noise: Noise,
+    /// A presumed joint, one of the starts of the search at every bolt.
+    pub start: Option<JointMatrices>,
+    /// Bodies of a lap model, which go into the joint file.
+    pub bodies: Option<Bodies>,
+    /// Remarks that go into the joint file.
+    pub notes: Vec<String>,
+}
+
+/// An assembly beside the first one, with the same joint in it.
+#[derive(Clone, Debug)]
+pub struct FurtherAssembly {
+    /// File with its FRFs.
+    pub file: FrfFile,
+    /// Points of B at which it was measured.
+    pub points: Vec<Dof>,
+    /// Further measurements of the same functions.
+    pub repeats: Vec<FrfFile>,
+    /// Tightening torque, N·m.
+    pub torque_n_m: Option<f64>,
+    /// Level at which it was measured.
+    pub level: Option<Level>,
+    /// Its substructure A.
+    pub a: Substructure,
+    /// Its substructure B.
+    pub b: Substructure,
+}
+
+/// One substructure: where its receptances come from, and where its joint is.
+#[derive(Clone, Debug)]
+pub enum Substructure {
+    /// Measured at labelled points.
+    Measured {
+        /// The data.
+        source: Source,
+        /// The joint's DOFs at each bolt.
+        joints: Vec<MeasuredJoint>,
+    },
+    /// A computed beam.
+    Beam {
+        /// The beam.
+        beam: Beam,
+        /// Distance of the joint at each bolt from the beam's first end, m.
+        joints_m: Vec<f64>,
+        /// Distance of labelled points from the beam's first end, m.
+        positions_m: BTreeMap<Dof, f64>,
+    },
+}
+
+/// The joint's DOFs at one bolt of a measured substructure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredJoint {
+    /// Its translation.
+    pub y: Dof,
+    /// Its rotation, where the study names one.
+    pub theta: Option<Rotation>,
+}
+
+impl MeasuredJoint {
+    /// The DOFs that can be those of this bolt alone: points of a difference may serve a neighbour, too.
+    pub(super) fn own_dofs(&self) -> Vec<Dof> {
+        let measured = match self.theta {
+            Some(Rotation::Measured(theta)) => Some(theta),
+            _ => None,
+        };
+        std::iter::once(self.y).chain(measured).collect()
+    }
+}
+
+/// Where a measured substructure's receptances come from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// FRFs, and a file with modes that supplies those that were not measured.
+    Frf {
+        /// The FRFs.
+        file: FrfFile,
+        /// The modes.
+        modes: Option<PathBuf>,
+    },
+    /// File with modes.
+    Modal(PathBuf),
+}
+
+/// A file of functions, and what the study says about it.
+#[derive(Clone, Debug)]
+pub struct FrfFile {
+    /// The file.
+    pub path: PathBuf,
+    /// What was measured, where the file contradicts itself or does not say.
+    pub quantity: Option<Quantity>,
+    /// Its units, where the file contradicts itself or does not say.
+    pub units: Option<UnitSystem>,
+    /// Averages behind every function, which its coherence needs to become a variance.
+    pub averages: Option<f64>,
+}
+
+/// Where rotational receptances come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rotation {
+    /// Measured as such.
+    Measured(Dof),
+    /// A finite difference over neighbouring translations.
+    Difference {
+        /// The points, one of which is the joint's.
+        points: Vec<Dof>,
+        /// The difference over them.
+        difference: FiniteDifference,
+    },
+}
+
+impl Substructure {
+    /// Whether both are the same functions of the same file at the same joint.
+    pub(super) fn is_same_measurement(&self, other: &Self) -> bool {
+        let key = |substructure: &Self| match substructure {
+            Self::Measured { source, joints } => match source {
+                Source::Frf { file, modes } => {
+                    Some((file.path.clone(), modes.clone(), joints.clone()))
+                }
+                Source::Modal(_) => None,
+            },
+            Self::Beam { .. } => None,
+        };
+        key(self).is_some() && key(self) == key(other)
+    }
+
+    /// Whether the joint's rotation is known at every bolt: measured or computed.
+    fn has_rotation(&self) -> bool {
+        match self {
+            Self::Measured { joints, .. } => joints.iter().all(|joint| joint.theta.is_some()),
+            Self::Beam { .. } => true,
+        }
+    }
+}
+
+impl Study {
+    /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
+    /// can neither be identified nor compared.
+    #[must_use]
+    pub fn without_rotation(&self) -> Vec<&'static str> {
+        let further = || self.further.iter();
+        [
+            (
+                "a",
+                self.a.has_rotation() && further().all(|further| further.a.has_rotation()),
+            ),
+            (
+                "b",
+                self.b.has_rotation() && further().all(|further| further.b.has_rotation()),
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(key, has_rotation)| (!has_rotation).then_some(key))
+        .collect()
+    }
+
+    /// Bands for the averages by sensitivity and distance, for a test whose assembly has these joints: those of each joint.
+    /// Bands that the study gives stay.
+    ///
+    /// # Errors
+    /// [`IdentifyError::Coupling`] at an undamped resonance.
+    pub fn choose_bands(
+        &self,
+        lines: &Lines,
+        joints: &[JointMatrices],
+    ) -> Result<Vec<Bands>, IdentifyError> {
+        let given = self.bands.given();
+        Ok(band_choice::for_joints(
+            lines,
+            &self.layout(),
+            joints,
+            &given,
+        )?)
+    }
+
+    /// Why the joint models cannot be compared, if they cannot.
+    #[must_use]
+    pub fn models_not_compared(&self) -> Option<String> {
+        let keys: Vec<String> = self
+            .without_rotation()
+            .iter()
+            .map(|key| format!("{key}.joint.theta"))
+            .collect();
+        (!keys.is_empty()).then(|| {
+            format!(
+                "{} {} not given, and without the rotation only \"translation\" can be identified",
+                keys.join(" and "),
+                if keys.len() == 1 { "is" } else { "are" }
+            )
+        })
+    }
+
+    /// Where the unknowns stand in the matrices of all bolts.
+    pub(super) fn layout(&self) -> Layout {
+        Layout::of_bolts(self.model, &self.bolts, self.dofs_of_a_bolt())
+    }
+
+    /// DOFs of each bolt in the data: the joint model's, and the rotation wherever it is given.
+    pub(super) fn dofs_of_a_bolt(&self) -> usize {
+        if self.without_rotation().is_empty() {
+            2
+        } else {
+            self.model.dofs()
+        }
+    }
+    /// Reads and checks a study. Paths in it are relative to its own folder.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] that names the file and the key or line.
+    pub fn read(path: &Path) -> Result<Self, IdentifyError> {
+        let text = text_file::read(path, "a study (TOML)")?;
+        Self::from_toml(&text, path)
+    }
+
+    /// A study from the text of its file; `path` tells where that lies.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] that names the file and the key or line.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, IdentifyError> {
+        let file: StudyFile = toml::from_str(text).map_err(|error| IdentifyError::Syntax {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let check = Checker { path };
+        check.method(file.method)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let model = file.joint.model;
+        let bolts = check.bolts(&file.a.joint.0, file.joint.bolts)?;
+        let a = check.substructure("a", file.a, folder, model, &bolts)?;
+        let b = check.substructure("b", file.b, folder, model, &bolts)?;
+        check.name(&file.name)?;
+        check.at_least_one(&file.assembly.0)?;
+        let mut assemblies = Vec::new();
+        for table in file.assembly.0 {
+            let own = |key, table: Option<_>, otherwise: &Substructure| match table {
+                Some(table) => check.substructure(key, table, folder, model, &bolts),
+                None => Ok(otherwise.clone()),
+            };
+            let measured_in = |path: PathBuf| {
+                let (units, averages) = (table.units.as_ref(), table.averages);
+                check.frf_file(
+                    "assembly",
+                    folder.join(path),
+                    table.quantity,
+                    units,
+                    averages,
+                )
+            };
+            let assembly = FurtherAssembly {
+                file: measured_in(table.frf)?,
+                points: check.points(table.points)?,
+                repeats: table
+                    .repeats
+                    .into_iter()
+                    .map(measured_in)
+                    .collect::<Result<_, _>>()?,
+                torque_n_m: check.torque(table.torque)?,
+                level: check.level(table.level.as_ref())?,
+                a: own("assembly.a", table.a, &a)?,
+                b: own("assembly.b", table.b, &b)?,
+            };
+            if let Substructure::Beam { positions_m, .. } = &assembly.b {
+                check.points_on_beam(&assembly.points, positions_m)?;
+            }
+            assemblies.push(assembly);
+        }
+        check.torques(file.joint.torques, &assemblies)?;
+        let first = assemblies.remove(0);
+        let frequency_range_hz = check.frequency_range(&file.frequency)?;
+        check.bands(&file.bands.0)?;
+        let noise = file
+            .noise
+            .map(|table| check.noise(&table))
+            .transpose()?
+            .unwrap_or_default();
+        let start = file
+            .start
+            .map(|table| check.start(&table, model))
+            .transpose()?;
+        if let Some(bodies) = &file.bodies {
+            check.bodies(bodies, model.dofs(), &bolts)?;
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            name: file.name,
+            a: first.a,
+            b: first.b,
+            assembly: first.file,
+            points: first.points,
+            repeats: first.repeats,
+            torque_n_m: first.torque_n_m,
+            level: first.level,
+            further: assemblies,
+            model,
+            torques: file.joint.torques,
+            bolts,
+            frequency_range_hz,
+            bands: file.bands.0,
+            noise,
+            start,
+            bodies: file.bodies,
+            notes: file.notes,
+        })
+    }
+}

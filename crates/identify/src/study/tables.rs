@@ -1,0 +1,350 @@
+//! The tables of a study as they stand in its TOML file, before anything is checked.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use bolted_joint_frf::structure::{Boundary, Difference};
+use bolted_joint_frf::{Dof, Quantity};
+use bolted_joint_joint::Bodies;
+
+use super::super::bands::{BandChoice, BandChoices};
+use super::super::level::LevelMeasure;
+use super::super::model::JointModel;
+use super::super::torque::TorqueDependence;
+use crate::StudyMethod;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StudyFile {
+    pub(super) method: StudyMethod,
+    pub(super) name: String,
+    pub(super) a: SubstructureTable,
+    pub(super) b: SubstructureTable,
+    pub(super) assembly: AssemblyTables,
+    pub(super) joint: JointTable,
+    #[serde(default)]
+    pub(super) frequency: FrequencyTable,
+    #[serde(default)]
+    pub(super) bands: BandsTable,
+    pub(super) noise: Option<NoiseTable>,
+    pub(super) start: Option<StartTable>,
+    pub(super) bodies: Option<Bodies>,
+    #[serde(default)]
+    pub(super) notes: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SubstructureTable {
+    pub(super) frf: Option<PathBuf>,
+    pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
+    pub(super) modal: Option<PathBuf>,
+    pub(super) beam: Option<BeamTable>,
+    pub(super) joint: JointPlaces,
+    #[serde(default)]
+    pub(super) points: BTreeMap<Dof, f64>,
+}
+
+/// Units of a file of functions, by name.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UnitsTable {
+    pub(super) length: String,
+    pub(super) force: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BeamTable {
+    pub(super) length: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) youngs_modulus: f64,
+    pub(super) density: f64,
+    pub(super) boundary: Boundary,
+    pub(super) damping_ratio: Option<OneOrMore>,
+    pub(super) loss_factor: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+pub(super) enum OneOrMore {
+    One(f64),
+    More(Vec<f64>),
+}
+
+/// One place of a bolt, or several.
+pub(super) struct JointPlaces(pub(super) Vec<JointPlaceTable>);
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for JointPlaces {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PlacesVisitor;
+        impl<'de> Visitor<'de> for PlacesVisitor {
+            type Value = JointPlaces;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the joint's place as a table, or a list of such tables for several bolts",
+                )
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<JointPlaces, A::Error> {
+                JointPlaceTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(|place| JointPlaces(vec![place]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<JointPlaces, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(JointPlaces)
+            }
+        }
+        deserializer.deserialize_any(PlacesVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointPlaceTable {
+    pub(super) name: Option<String>,
+    pub(super) y: Option<Dof>,
+    pub(super) theta: Option<ThetaTable>,
+    pub(super) x: Option<f64>,
+}
+
+pub(super) enum ThetaTable {
+    Measured(Dof),
+    Difference(DifferenceTable),
+}
+
+/// By hand, since an untagged enum would not say which key of the table is wrong.
+impl<'de> Deserialize<'de> for ThetaTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ThetaVisitor;
+        impl<'de> Visitor<'de> for ThetaVisitor {
+            type Value = ThetaTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a rotation such as \"2:+RZ\", or { points = [points], spacing = metres }",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<ThetaTable, E> {
+                text.parse().map(ThetaTable::Measured).map_err(E::custom)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ThetaTable, A::Error> {
+                DifferenceTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(ThetaTable::Difference)
+            }
+        }
+        deserializer.deserialize_any(ThetaVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DifferenceTable {
+    pub(super) points: Vec<Dof>,
+    pub(super) spacing: f64,
+    #[serde(default)]
+    pub(super) difference: Difference,
+}
+
+/// One `[assembly]`, or several `[[assembly]]`.
+pub(super) struct AssemblyTables(pub(super) Vec<AssemblyTable>);
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for AssemblyTables {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TablesVisitor;
+        impl<'de> Visitor<'de> for TablesVisitor {
+            type Value = AssemblyTables;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table [assembly], or several [[assembly]]")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<AssemblyTables, A::Error> {
+                AssemblyTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(|table| AssemblyTables(vec![table]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<AssemblyTables, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(AssemblyTables)
+            }
+        }
+        deserializer.deserialize_any(TablesVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AssemblyTable {
+    pub(super) frf: PathBuf,
+    pub(super) quantity: Option<Quantity>,
+    pub(super) units: Option<UnitsTable>,
+    pub(super) averages: Option<f64>,
+    pub(super) points: Vec<Dof>,
+    #[serde(default)]
+    pub(super) repeats: Vec<PathBuf>,
+    pub(super) torque: Option<f64>,
+    pub(super) level: Option<ExcitationTable>,
+    pub(super) a: Option<SubstructureTable>,
+    pub(super) b: Option<SubstructureTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointTable {
+    pub(super) model: JointModel,
+    #[serde(default)]
+    pub(super) torques: TorqueDependence,
+    pub(super) bolts: Option<BoltsKey>,
+}
+
+/// Level at which an assembly was measured.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExcitationTable {
+    pub(super) force: Option<f64>,
+    pub(super) displacement: Option<f64>,
+    pub(super) velocity: Option<f64>,
+    pub(super) acceleration: Option<f64>,
+    #[serde(default)]
+    pub(super) measure: LevelMeasure,
+}
+
+/// `[bands]`: one word for every entry, or a choice for each.
+#[derive(Default)]
+pub(super) struct BandsTable(pub(super) BandChoices);
+
+/// What an entry is averaged over.
+#[derive(Default)]
+pub(super) struct BandKey(BandChoice);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BandsOfEntries {
+    #[serde(default)]
+    yy: BandKey,
+    #[serde(default)]
+    ytheta: BandKey,
+    #[serde(default)]
+    thetatheta: BandKey,
+}
+
+fn band_word<E: de::Error>(word: &str) -> Result<BandChoice, E> {
+    match word {
+        "automatic" => Ok(BandChoice::Automatic),
+        "median" => Ok(BandChoice::Median),
+        _ => Err(E::invalid_value(
+            de::Unexpected::Str(word),
+            &"\"automatic\" or \"median\"",
+        )),
+    }
+}
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for BandsTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct BandsVisitor;
+        impl<'de> Visitor<'de> for BandsVisitor {
+            type Value = BandsTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"automatic\", \"median\", or a table with yy, ytheta and thetatheta")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<BandsTable, E> {
+                band_word(word).map(|choice| BandsTable(BandChoices::all(choice)))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BandsTable, A::Error> {
+                let BandsOfEntries {
+                    yy: BandKey(yy),
+                    ytheta: BandKey(ytheta),
+                    thetatheta: BandKey(thetatheta),
+                } = BandsOfEntries::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(BandsTable(BandChoices {
+                    yy,
+                    ytheta,
+                    thetatheta,
+                }))
+            }
+        }
+        deserializer.deserialize_any(BandsVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for BandKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ChoiceVisitor;
+        impl<'de> Visitor<'de> for ChoiceVisitor {
+            type Value = BandKey;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of bands [from, to], \"automatic\" or \"median\"")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<BandKey, E> {
+                band_word(word).map(BandKey)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<BandKey, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence))
+                    .map(|bands| BandKey(BandChoice::Given(bands)))
+            }
+        }
+        deserializer.deserialize_any(ChoiceVisitor)
+    }
+}
+
+/// What several bolts have to do with each other.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum BoltsKey {
+    Alike,
+    Different,
+}
+
+/// A joint to start the search from.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StartTable {
+    pub(super) stiffness: Vec<Vec<f64>>,
+    pub(super) damping: Vec<Vec<f64>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FrequencyTable {
+    pub(super) from: Option<f64>,
+    pub(super) to: Option<f64>,
+}
+
+/// Noise of the assembly's functions, and of the measured substructures' where that is another.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NoiseTable {
+    pub(super) relative: Option<f64>,
+    pub(super) floor: Option<f64>,
+    #[serde(default)]
+    pub(super) a: LevelTable,
+    #[serde(default)]
+    pub(super) b: LevelTable,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LevelTable {
+    pub(super) relative: Option<f64>,
+    pub(super) floor: Option<f64>,
+}

@@ -1,0 +1,31 @@
+//! The joint file, `*.joint.json`: what identification and prediction write, and what the export turns into an FMU.
+//!
+//! All quantities are in SI units. [`JointFile::read`] refuses what it does not understand and says where;
+//! [`Passivity`] tells whether the joint can feed energy into a simulation, which reading does not judge.
+#![forbid(unsafe_code)]
+
+mod at_preload;
+mod dofs;
+mod error;
+mod law;
+mod nearest;
+mod passivity;
+mod problem;
+mod read;
+mod record;
+mod validate;
+mod write;
+
+pub use at_preload::PreloadError;
+pub use dofs::DofSet;
+pub use error::JointFileError;
+pub use law::LawError;
+pub use law::displacements;
+pub use passivity::{MatrixPassivity, Passivity};
+pub use problem::Problem;
+pub use record::{
+    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
+    FreeEstimate, FromModesRecord, FunctionResidual, HigherTerms, InputFile, Intervals, Joint,
+    JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+};

@@ -1,0 +1,25 @@
+//! Identification of the symmetric lap model (Pirdayr): from natural frequencies, which determine little, and from responses
+//! at several levels, which determine its springs, dampers and their dependence on amplitude.
+//!
+//!   m ẍ₁ + c ẋ₁ + k x₁ + c₁₂(ẋ₁ − ẋ₂) + k₁₂(x₁ − x₂) + k_N (x₁ − x₂)³ = F₁, and the same for x₂ with the joint's load reversed
+#![forbid(unsafe_code)]
+
+mod error;
+mod input;
+mod parameter;
+mod response;
+mod update;
+
+pub use bolted_joint_identify::StudyMethod;
+pub use error::LapError;
+pub use parameter::{LapParameter, LapParameters};
+pub use response::{
+    BackboneLine, BackboneRun, Estimate, Fit, FitError, LapResponse, LapResponseStudy, Model,
+    ModelComparison, Noise, Place, Prediction, Resonance, ResponseDataError, ResponseUnknown,
+    SineLine, SineRun, Term, TermSet, Use, Values, fit_responses, measured_resonance,
+    predicted_resonance,
+};
+pub use update::{
+    Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,
+    Range, TorqueData, TorqueUpdate, UpdateProblem, fireflies, least_squares,
+};

@@ -1,0 +1,237 @@
+//! Measured responses to stepped sines: force, response and phase at each line, as displacement over force.
+
+use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use thiserror::Error;
+
+use super::table::NumberTable;
+use bolted_joint_files::text_file::TextFileError;
+
+/// Why a table of responses cannot be used.
+#[derive(Debug, Error)]
+pub enum ResponseDataError {
+    /// It cannot be read.
+    #[error(transparent)]
+    File(#[from] TextFileError),
+    /// A row or the header is not as it should be.
+    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// The response feeds energy into the exciter at most lines.
+    #[error(
+        "{}: found a phase that leads at {leading} of {lines} lines, so that the structure would feed the exciter, expected a displacement that \
+         lags behind the force; the phase is probably that of another quantity than the column with the amplitude, or reversed: state \
+         `sine.phase_of` as \"displacement\", \"velocity\" or \"acceleration\", or `sine.phase_sign = -1`",
+        path.display()
+    )]
+    Leading {
+        /// The file.
+        path: PathBuf,
+        /// Lines with a leading response.
+        leading: usize,
+        /// All lines.
+        lines: usize,
+    },
+}
+
+/// What a run is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Use {
+    /// It goes into the estimate.
+    #[default]
+    Fit,
+    /// It is left out, and its resonance predicted.
+    Predict,
+}
+
+/// What a phase belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum PhaseOf {
+    Displacement,
+    Velocity,
+    Acceleration,
+}
+
+impl PhaseOf {
+    const ALL: [Self; 3] = [Self::Displacement, Self::Velocity, Self::Acceleration];
+
+    /// Derivatives of the displacement.
+    fn order(self) -> i32 {
+        self as i32
+    }
+}
+
+/// A run of stepped sines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SineRun {
+    /// Its name.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// What it is for.
+    pub used_for: Use,
+    /// Its lines, ascending in frequency.
+    pub lines: Vec<SineLine>,
+}
+
+/// One line of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SineLine {
+    /// Frequency, rad/s.
+    pub omega: f64,
+    /// Amplitude of the force, N.
+    pub force_n: f64,
+    /// Amplitude of the displacement, m.
+    pub displacement_m: f64,
+    /// Phase of the displacement against the force, rad, from −π to π.
+    pub phase_rad: f64,
+}
+
+impl SineRun {
+    /// The largest displacement, m.
+    #[must_use]
+    pub fn amplitude_m(&self) -> f64 {
+        let lines = self.lines.iter().map(|line| line.displacement_m);
+        lines.fold(0.0, f64::max)
+    }
+}
+
+/// How a file of stepped sines is to be read.
+pub(super) struct SineOptions {
+    pub(super) name: String,
+    pub(super) used_for: Use,
+    pub(super) phase_of: Option<PhaseOf>,
+    /// +1, or −1 where the file counts the lag as positive.
+    pub(super) phase_sign: f64,
+    /// Frequencies to use, Hz.
+    pub(super) range_hz: [f64; 2],
+    /// Whether force and response are at the same place, so that the structure can only take energy.
+    pub(super) is_drive_point: bool,
+}
+
+const FREQUENCY: [&str; 2] = ["frequency_hz", "omega_rad_per_s"];
+pub(super) const RESPONSE: [&str; 3] = [
+    "displacement_m",
+    "velocity_m_per_s",
+    "acceleration_m_per_s2",
+];
+const PHASE: [&str; 2] = ["phase_rad", "phase_deg"];
+
+/// Reads a run.
+pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, ResponseDataError> {
+    let table = NumberTable::read(path)?;
+    let problem = |line: usize, found: String, expected: String| ResponseDataError::Table {
+        path: path.to_owned(),
+        line,
+        found,
+        expected,
+    };
+    let column = |names: &[&str], what: &str| {
+        table.column(names).ok_or_else(|| {
+            problem(
+                1,
+                format!("the columns {}", table.names()),
+                format!("a column {}{what}", names.join(" or ")),
+            )
+        })
+    };
+    let frequency = column(&FREQUENCY, "")?;
+    let force = column(&["force_n"], "")?;
+    let response = column(&RESPONSE, "")?;
+    let phase = column(
+        &PHASE,
+        ": a level without phase does not tell damping from stiffness",
+    )?;
+    let own = PhaseOf::ALL[response.1];
+    let phase_of = options.phase_of.unwrap_or(own);
+    let mut lines = Vec::new();
+    for (number, values) in table.rows() {
+        let value = |(place, _): (usize, usize), name: &str, expected: &str| {
+            values[place].ok_or_else(|| problem(*number, format!("no {name}"), expected.to_owned()))
+        };
+        let frequency_value = value(frequency, "frequency", "a number")?;
+        let hz = match frequency.1 {
+            0 => frequency_value,
+            _ => frequency_value / TAU,
+        };
+        let force_n = value(force, "force", "a number")?;
+        let amplitude = value(response, "response", "a number")?;
+        let phase_value = value(
+            phase,
+            "phase",
+            "a number: a level without phase does not tell damping from stiffness",
+        )?;
+        for (what, found) in [
+            ("frequency", hz),
+            ("force", force_n),
+            ("response", amplitude),
+        ] {
+            if found <= 0.0 {
+                return Err(problem(
+                    *number,
+                    format!("a {what} of {found}"),
+                    "a value above zero".to_owned(),
+                ));
+            }
+        }
+        if !(options.range_hz[0]..=options.range_hz[1]).contains(&hz) {
+            continue;
+        }
+        let omega = TAU * hz;
+        let radian = match phase.1 {
+            0 => phase_value,
+            _ => phase_value.to_radians(),
+        };
+        // v = jω x, a = (jω)² x
+        let displacement_phase =
+            options.phase_sign * radian - 0.5 * PI * f64::from(phase_of.order());
+        lines.push(SineLine {
+            omega,
+            force_n,
+            displacement_m: amplitude / omega.powi(own.order()),
+            phase_rad: wrapped(displacement_phase),
+        });
+    }
+    if lines.len() < 2 {
+        return Err(problem(
+            1,
+            format!("{} line(s) in the frequency range", lines.len()),
+            "at least two".to_owned(),
+        ));
+    }
+    lines.sort_by(|a, b| a.omega.total_cmp(&b.omega));
+    let leading = lines
+        .iter()
+        .filter(|line| line.phase_rad.sin() > 0.0)
+        .count();
+    if options.is_drive_point && 2 * leading > lines.len() {
+        return Err(ResponseDataError::Leading {
+            path: path.to_owned(),
+            leading,
+            lines: lines.len(),
+        });
+    }
+    Ok(SineRun {
+        name: options.name,
+        path: path.to_owned(),
+        used_for: options.used_for,
+        lines,
+    })
+}
+
+/// An angle between −π and π.
+pub(super) fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}

@@ -1,0 +1,234 @@
+//! The joint file of a lap model identified from responses.
+
+use std::f64::consts::TAU;
+
+use super::data::Use;
+use super::model::ResponseUnknown;
+use super::result::LapResponse;
+use super::study::LapResponseStudy;
+use super::terms::Term;
+use bolted_joint_joint::{
+    Bodies, Body, Correlation, DofSet, Format, FunctionResidual, HigherTerms, Intervals, Joint,
+    JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
+};
+
+impl LapResponse {
+    /// The joint file: law, bodies, uncertainty, amplitudes that it holds for.
+    #[must_use]
+    pub fn joint_file(&self, study: &LapResponseStudy) -> JointFile {
+        let values = &self.fit.values;
+        let of = |term: Term| match values.term(term) {
+            0.0 => Vec::new(),
+            value => vec![value],
+        };
+        let higher = HigherTerms {
+            quintic: of(Term::Quintic),
+            septic: of(Term::Septic),
+            damping_quadratic: of(Term::DampingQuadratic),
+            damping_quartic: of(Term::DampingQuartic),
+            amplitude: vec![self.amplitude_m],
+        };
+        let has_higher = self
+            .model
+            .terms
+            .terms()
+            .iter()
+            .any(|term| *term != Term::Cubic);
+        let body = Body {
+            inertia: vec![values.mass],
+            stiffness: vec![values.support_stiffness.max(0.0)],
+            damping: vec![values.support_damping.max(0.0)],
+        };
+        JointFile {
+            format: Format::V1,
+            name: self.name.clone(),
+            joint: Joint {
+                dofs: DofSet::Translation,
+                stiffness: vec![vec![values.joint_stiffness]],
+                damping: vec![vec![values.joint_damping]],
+                cubic: vec![values.term(Term::Cubic)],
+                higher: has_higher.then_some(higher),
+                over_preload: None,
+            },
+            bodies: Some(Bodies {
+                a: body.clone(),
+                b: body,
+            }),
+            uncertainty: self.uncertainty(study),
+            validity: Some(validity(study)),
+            residual: Some(self.residual(study)),
+            provenance: Some(self.provenance.clone()),
+        }
+    }
+
+    fn uncertainty(&self, study: &LapResponseStudy) -> Option<Uncertainty> {
+        if self
+            .estimates
+            .iter()
+            .any(|estimate| !estimate.standard_deviation.is_finite())
+        {
+            return None;
+        }
+        let entry = |unknown| vec![vec![self.deviation(unknown)]];
+        let interval = |unknown: ResponseUnknown| {
+            let found = self
+                .estimates
+                .iter()
+                .find(|estimate| estimate.unknown == unknown);
+            let known = self.fit.values.of(unknown);
+            vec![vec![
+                found.map_or([known, known], |estimate| estimate.interval_95),
+            ]]
+        };
+        let size = self.estimates.len();
+        let deviation: Vec<f64> = self
+            .estimates
+            .iter()
+            .map(|estimate| estimate.standard_deviation)
+            .collect();
+        let correlation = |i: usize, j: usize| match i == j {
+            true => 1.0,
+            false => (self.covariance[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0),
+        };
+        let noise = match study.noise.is_stated {
+            true => "the stated noise",
+            false => "the noise that the residual shows",
+        };
+        let others = self.estimates.iter().map(|estimate| {
+            format!(
+                "{} = {:.4e} ± {:.1e} {}",
+                estimate.unknown.symbol(),
+                estimate.value,
+                estimate.standard_deviation,
+                estimate.unknown.unit()
+            )
+        });
+        Some(Uncertainty {
+            standard_deviation: StandardDeviation {
+                stiffness: entry(ResponseUnknown::JointStiffness),
+                damping: entry(ResponseUnknown::JointDamping),
+            },
+            basis: format!(
+                "information matrix of the maximum-likelihood estimate with {noise}, raised by the residual; {}",
+                others.collect::<Vec<_>>().join(", ")
+            ),
+            correlation: Some(Correlation {
+                unknowns: self
+                    .estimates
+                    .iter()
+                    .map(|estimate| estimate.unknown.symbol().to_owned())
+                    .collect(),
+                matrix: (0..size)
+                    .map(|i| (0..size).map(|j| correlation(i, j)).collect())
+                    .collect(),
+            }),
+            interval_95: Some(Intervals {
+                stiffness: interval(ResponseUnknown::JointStiffness),
+                damping: interval(ResponseUnknown::JointDamping),
+            }),
+            inflation: (study.noise.is_stated && self.inflation > 1.0).then_some(self.inflation),
+            not_identified: self
+                .not_identified()
+                .into_iter()
+                .map(str::to_owned)
+                .collect(),
+            free_estimate: None,
+            bootstrap: None,
+            over_preload: None,
+        })
+    }
+
+    fn residual(&self, study: &LapResponseStudy) -> Residual {
+        let runs = self.run_residuals(study);
+        let lines: usize = runs.iter().map(|(_, lines, _)| lines).sum();
+        let squares: f64 = runs
+            .iter()
+            .map(|(_, lines, rms)| rms * rms * *lines as f64)
+            .sum();
+        let reduced = self.fit.chi_squared / self.fit.degrees_of_freedom.max(1) as f64;
+        let level = if study.noise.is_stated {
+            1.0
+        } else {
+            self.inflation
+        };
+        Residual {
+            relative_rms: (squares / lines.max(1) as f64).sqrt(),
+            lines,
+            functions: runs
+                .into_iter()
+                .map(|(name, _, relative_rms)| FunctionResidual {
+                    response: name,
+                    reference: "force".to_owned(),
+                    relative_rms,
+                })
+                .collect(),
+            reduced_chi_squared: study.noise.is_stated.then_some(reduced),
+            line_correlation: None,
+            noise: Some(NoiseRecord {
+                relative: study.noise.response.hypot(study.noise.force) * level,
+                floor: 0.0,
+                stated: study.noise.is_stated,
+            }),
+        }
+    }
+
+    /// Name, lines and relative residual of the receptance at the fitted amplitudes, of each run in the estimate.
+    #[must_use]
+    pub fn run_residuals(&self, study: &LapResponseStudy) -> Vec<(String, usize, f64)> {
+        let mut amplitudes = self.fit.amplitudes_m.iter();
+        let runs = study.sines.iter().filter(|run| run.used_for == Use::Fit);
+        let residuals = runs.map(|run| {
+            let squares: f64 = run
+                .lines
+                .iter()
+                .zip(amplitudes.by_ref())
+                .map(|(line, &amplitude)| {
+                    let (computed, _) =
+                        self.model
+                            .receptance(&self.fit.values, amplitude, line.omega);
+                    let measured = num_complex::Complex64::from_polar(
+                        line.displacement_m / line.force_n,
+                        line.phase_rad,
+                    );
+                    ((measured - computed) / computed).norm_sqr()
+                })
+                .sum();
+            let count = run.lines.len();
+            (run.name.clone(), count, (squares / count as f64).sqrt())
+        });
+        residuals.collect()
+    }
+}
+
+fn validity(study: &LapResponseStudy) -> Validity {
+    let runs = || study.sines.iter().filter(|run| run.used_for == Use::Fit);
+    let backbones = || {
+        study
+            .backbones
+            .iter()
+            .filter(|run| run.used_for == Use::Fit)
+    };
+    let of_runs = runs().flat_map(|run| {
+        run.lines
+            .iter()
+            .map(|line| (line.omega, line.displacement_m))
+    });
+    let of_backbones =
+        backbones().flat_map(|run| run.lines.iter().map(|line| (line.omega, line.amplitude_m)));
+    let unbounded = [f64::INFINITY, 0.0];
+    let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+    let (omega, amplitude) = of_runs.chain(of_backbones).fold(
+        (unbounded, unbounded),
+        |(omegas, amplitudes), (omega, amplitude)| {
+            (wider(omegas, omega), wider(amplitudes, amplitude))
+        },
+    );
+    Validity {
+        frequency_hz: omega.map(|omega| omega / TAU),
+        torque_n_m: study.torque_n_m.map(|torque| [torque, torque]),
+        level: Some(format!(
+            "displacement amplitudes from {:.3e} to {:.3e} m",
+            amplitude[0], amplitude[1]
+        )),
+    }
+}

@@ -1,0 +1,203 @@
+//! The identified lap model: its unknowns with intervals, which of them the data determine, and how it does on every run.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+use serde::Serialize;
+
+use super::super::input;
+use super::choice::{self, ModelComparison};
+use super::data::{SineRun, Use};
+use super::fit::Fit;
+use super::model::{Model, ResponseUnknown, Values};
+use super::prediction::Prediction;
+use super::study::LapResponseStudy;
+use crate::error::LapError;
+use bolted_joint_identify::Watch;
+use bolted_joint_identify::unit_covariance;
+use bolted_joint_joint::Provenance;
+use bolted_joint_statistics::student_975;
+
+/// Share of the linear stiffness or damping that a term's standard deviation may be at the largest amplitude for the term to count as
+/// determined although it may be zero.
+const NEGLIGIBLE: f64 = 0.01;
+
+/// An unknown with what is known of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Estimate {
+    /// Which.
+    pub unknown: ResponseUnknown,
+    /// Its value in its SI unit.
+    pub value: f64,
+    /// One standard deviation.
+    pub standard_deviation: f64,
+    /// Interval of 95 %.
+    pub interval_95: [f64; 2],
+    /// Whether the data determine it.
+    pub is_identified: bool,
+}
+
+/// A lap model identified from responses.
+#[derive(Clone, Debug)]
+pub struct LapResponse {
+    /// Name of the joint.
+    pub name: String,
+    /// The model.
+    pub model: Model,
+    /// The fit.
+    pub fit: Fit,
+    /// The unknowns.
+    pub estimates: Vec<Estimate>,
+    /// Covariance of the unknowns.
+    pub covariance: DMatrix<f64>,
+    /// By how much the standard deviations were raised because the residual is larger than the stated noise, or the factor that makes
+    /// the nominal noise that of the residual.
+    pub inflation: f64,
+    /// Models beside each other.
+    pub comparison: Vec<ModelComparison>,
+    /// Starts tried, and how many came to the same estimate.
+    pub starts: (usize, usize),
+    /// Resonances of all runs, measured and of the model.
+    pub predictions: Vec<Prediction>,
+    /// Largest amplitude of the relative motion that was fitted, m.
+    pub amplitude_m: f64,
+    /// Where the joint comes from.
+    pub provenance: Provenance,
+}
+
+impl LapResponse {
+    /// Identifies the study's lap model.
+    ///
+    /// # Errors
+    /// [`LapError`] if the data determine no model, or if a file has vanished meanwhile.
+    pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
+        let (chosen, comparison) = choice::choose(study)?;
+        let model = Model {
+            harmonics: chosen.harmonics,
+            ..study.model(&chosen.terms)
+        };
+        let fit = chosen.fit;
+        let reduced = fit.chi_squared / fit.degrees_of_freedom.max(1) as f64;
+        let factor = if study.noise.is_stated {
+            reduced.max(1.0)
+        } else {
+            reduced
+        };
+        // The covariance of χ²'s information is its inverse; the function gives half of it.
+        let covariance = 2.0 * factor * unit_covariance(&fit.information);
+        let backbone = choice::fitted_backbone(study);
+        let of_backbone = backbone.iter().map(|line| line.amplitude_m);
+        let amplitude_m = fit
+            .amplitudes_m
+            .iter()
+            .copied()
+            .chain(of_backbone)
+            .fold(0.0, f64::max);
+        let quantile = if study.noise.is_stated {
+            student_975(usize::MAX)
+        } else {
+            student_975(fit.degrees_of_freedom)
+        };
+        let estimates = model.unknowns.iter().enumerate().map(|(place, &unknown)| {
+            let value = fit.values.of(unknown);
+            let deviation = covariance[(place, place)].sqrt();
+            Estimate {
+                unknown,
+                value,
+                standard_deviation: deviation,
+                interval_95: [value - quantile * deviation, value + quantile * deviation],
+                is_identified: is_identified(unknown, deviation, &fit.values, amplitude_m),
+            }
+        });
+        let estimates = estimates.collect();
+        let predictions = match model.sees_sum() {
+            true => Vec::new(),
+            false => {
+                let runs = study.sines.iter();
+                runs.filter_map(|run| Prediction::of(&model, &fit.values, run))
+                    .collect()
+            }
+        };
+        let role = |used: Use, what: &str| match used {
+            Use::Fit => what.to_owned(),
+            Use::Predict => format!("{what}, predicted"),
+        };
+        let sines = study
+            .sines
+            .iter()
+            .map(|run| (role(run.used_for, "stepped sine"), run.path.clone()));
+        let backbones = study
+            .backbones
+            .iter()
+            .map(|run| (role(run.used_for, "backbone"), run.path.clone()));
+        let files: Vec<_> = sines.chain(backbones).collect();
+        Ok(Self {
+            name: study.name.clone(),
+            provenance: input::origin(
+                "lap-response",
+                chosen.terms.to_string(),
+                &study.path,
+                &files,
+                study.notes.clone(),
+                watch,
+            )?,
+            model,
+            fit,
+            estimates,
+            covariance,
+            inflation: factor.sqrt(),
+            comparison,
+            starts: chosen.starts,
+            predictions,
+            amplitude_m,
+        })
+    }
+
+    /// The receptance of the model at the lines of a run, at the relative amplitudes that its measured responses mean.
+    #[must_use]
+    pub fn regenerated(&self, run: &SineRun) -> Vec<Complex64> {
+        let values = &self.fit.values;
+        let lines = run.lines.iter().map(|line| {
+            let amplitude = self.model.relative_amplitude(values, line);
+            self.model.receptance(values, amplitude, line.omega).0
+        });
+        lines.collect()
+    }
+
+    /// The symbols of the unknowns that the data do not determine.
+    #[must_use]
+    pub fn not_identified(&self) -> Vec<&'static str> {
+        let open = self
+            .estimates
+            .iter()
+            .filter(|estimate| !estimate.is_identified);
+        open.map(|estimate| estimate.unknown.symbol()).collect()
+    }
+
+    /// The standard deviation of an unknown; zero of what is known.
+    #[must_use]
+    pub fn deviation(&self, unknown: ResponseUnknown) -> f64 {
+        let mut estimates = self.estimates.iter();
+        let found = estimates.find(|estimate| estimate.unknown == unknown);
+        found.map_or(0.0, |estimate| estimate.standard_deviation)
+    }
+}
+
+/// Known better than its own size, or so well that it has no visible effect if it is zero.
+fn is_identified(
+    unknown: ResponseUnknown,
+    deviation: f64,
+    values: &Values,
+    amplitude_m: f64,
+) -> bool {
+    let negligible = match unknown {
+        ResponseUnknown::Term(term) => {
+            let linear = match term.is_damping() {
+                false => 0.5 * values.support_stiffness + values.joint_stiffness,
+                true => 0.5 * values.support_damping + values.joint_damping,
+            };
+            NEGLIGIBLE * linear / (term.describing() * amplitude_m.powi(term.power()))
+        }
+        _ => 0.0,
+    };
+    deviation <= values.of(unknown).abs().max(negligible)
+}

@@ -1,0 +1,481 @@
+//! A study of method `lap-response`, read with its data and checked before anything is computed.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::super::input::{check_name, refuse};
+use super::backbone::{BackboneRun, read_backbone, read_decay};
+use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
+use super::model::{Model, ResponseUnknown, Values};
+use super::terms::{Term, TermSet};
+use crate::error::LapError;
+use bolted_joint_files::text_file;
+use bolted_joint_identify::{IdentifyError, StudyMethod};
+
+/// Where a force acts or a motion is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Place {
+    /// Body a.
+    A,
+    /// Body b.
+    B,
+    /// The relative motion: a force on a with its opposite on b, or x_a − x_b.
+    Relative,
+}
+
+/// Standard deviations of what was measured, as fractions of it: of the complex errors of response and force, so that each part and
+/// each logarithm and angle has the √2-th part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of the response.
+    pub response: f64,
+    /// Of the force.
+    pub force: f64,
+    /// Part of the response's that does not depend on it, m.
+    pub floor_m: f64,
+    /// Of the frequencies of a backbone.
+    pub frequency: f64,
+    /// Of damping ratios and forces of a backbone.
+    pub damping: f64,
+    /// Whether the study stated them; else their common factor is estimated from the residual.
+    pub is_stated: bool,
+}
+
+impl Noise {
+    /// Stated noise of force and response.
+    #[must_use]
+    pub fn stated(response: f64, force: f64) -> Self {
+        Self {
+            response,
+            force,
+            is_stated: true,
+            ..Self::default()
+        }
+    }
+
+    /// Reciprocal standard deviations of ln F, ln x and the phase. A force without error would leave its line without an amplitude
+    /// to adjust, so that it has a very small one.
+    pub(super) fn weights(&self, line: &SineLine) -> [f64; 3] {
+        let floor = self.floor_m / line.displacement_m;
+        let response = self.response * self.response + floor * floor;
+        let force = (self.force * self.force).max(EXACT * EXACT * response);
+        [force, response, force + response].map(|variance| (0.5 * variance).sqrt().recip())
+    }
+}
+
+/// Highest harmonic where the study names none, and the highest that it may name.
+const HARMONICS: usize = 3;
+const MOST_HARMONICS: usize = 99;
+
+/// A force without error counts as one with this part of the response's.
+const EXACT: f64 = 1e-4;
+
+impl Default for Noise {
+    fn default() -> Self {
+        Self {
+            response: 0.01,
+            force: 0.01,
+            floor_m: 0.0,
+            frequency: 1e-4,
+            damping: 0.01,
+            is_stated: false,
+        }
+    }
+}
+
+/// A validated study of method `lap-response`, with its data.
+#[derive(Clone, Debug)]
+pub struct LapResponseStudy {
+    /// The study's own file.
+    pub path: PathBuf,
+    /// Name of the joint.
+    pub name: String,
+    /// Where the force acts.
+    pub drive: Place,
+    /// What is measured.
+    pub response: Place,
+    /// The terms of the model; `None` leaves the choice to the data.
+    pub terms: Option<TermSet>,
+    /// Highest harmonic of the relative motion.
+    pub harmonics: usize,
+    /// Whether other modes may add a constant to the receptance.
+    pub other_modes: bool,
+    /// What is known of k, m, c, k12, c12; the others are unknown.
+    pub known: Vec<(ResponseUnknown, f64)>,
+    /// Noise.
+    pub noise: Noise,
+    /// Tightening torque, N·m.
+    pub torque_n_m: Option<f64>,
+    /// Stepped sines.
+    pub sines: Vec<SineRun>,
+    /// Backbones, and free decays turned into them.
+    pub backbones: Vec<BackboneRun>,
+    /// Remarks that go into the joint file.
+    pub notes: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StudyFile {
+    method: StudyMethod,
+    name: String,
+    #[serde(default)]
+    notes: Vec<String>,
+    torque: Option<f64>,
+    model: ModelTable,
+    #[serde(default)]
+    known: KnownTable,
+    #[serde(default)]
+    noise: NoiseTable,
+    #[serde(default)]
+    frequency: FrequencyTable,
+    #[serde(default)]
+    sine: Vec<SineTable>,
+    #[serde(default)]
+    backbone: Vec<FileTable>,
+    #[serde(default)]
+    decay: Vec<FileTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModelTable {
+    drive: Place,
+    response: Place,
+    terms: Option<Vec<Term>>,
+    harmonics: Option<usize>,
+    #[serde(default)]
+    other_modes: bool,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KnownTable {
+    k: Option<f64>,
+    m: Option<f64>,
+    c: Option<f64>,
+    k12: Option<f64>,
+    c12: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NoiseTable {
+    response: Option<f64>,
+    force: Option<f64>,
+    floor_m: Option<f64>,
+    frequency: Option<f64>,
+    damping: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrequencyTable {
+    from: Option<f64>,
+    to: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SineTable {
+    file: PathBuf,
+    name: Option<String>,
+    #[serde(default, rename = "use")]
+    used_for: Use,
+    phase_of: Option<PhaseOf>,
+    phase_sign: Option<i8>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileTable {
+    file: PathBuf,
+    name: Option<String>,
+    #[serde(default, rename = "use")]
+    used_for: Use,
+}
+
+/// A run's name: the stated one, or the file's.
+fn name_of(stated: Option<String>, file: &Path) -> String {
+    stated.unwrap_or_else(|| {
+        file.file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    })
+}
+
+impl LapResponseStudy {
+    /// Reads and checks a study and its data.
+    ///
+    /// # Errors
+    /// [`LapError`] that names the file and the key or line.
+    pub fn read(path: &Path) -> Result<Self, LapError> {
+        let text = text_file::read(path, "a study (TOML)")?;
+        let file: StudyFile = toml::from_str(&text).map_err(|error| IdentifyError::Syntax {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        if file.method != StudyMethod::LapResponse {
+            return refuse(path, "method", "another method", "\"lap-response\"");
+        }
+        check_name(path, &file.name)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let noise = noise(path, &file.noise)?;
+        let terms = file.model.terms.as_deref();
+        if let Some(twice) = terms.and_then(|terms| {
+            let mut terms = terms.iter().enumerate();
+            let all = file.model.terms.as_deref().unwrap_or_default();
+            terms.find_map(|(place, term)| all[..place].contains(term).then_some(*term))
+        }) {
+            return refuse(
+                path,
+                "model.terms",
+                format!("{} twice", twice.symbol()),
+                "every term once",
+            );
+        }
+        if let Some(torque) = file
+            .torque
+            .filter(|torque| !(*torque >= 0.0 && torque.is_finite()))
+        {
+            return refuse(path, "torque", torque.to_string(), "N·m, not negative");
+        }
+        let harmonics = file.model.harmonics.unwrap_or(HARMONICS);
+        if harmonics.is_multiple_of(2) || harmonics > MOST_HARMONICS {
+            return refuse(
+                path,
+                "model.harmonics",
+                harmonics.to_string(),
+                format!(
+                    "an odd number up to {MOST_HARMONICS}: the joint's law is odd, so the even harmonics vanish"
+                ),
+            );
+        }
+        let range_hz = [
+            file.frequency.from.unwrap_or(f64::MIN_POSITIVE),
+            file.frequency.to.unwrap_or(f64::MAX),
+        ];
+        if !(range_hz[0] > 0.0 && range_hz[0] < range_hz[1]) {
+            return refuse(
+                path,
+                "frequency",
+                format!("from {} to {}", range_hz[0], range_hz[1]),
+                "frequencies in Hz with 0 < from < to",
+            );
+        }
+        let known = known(path, &file)?;
+        let sines = file.sine.into_iter().map(|table| {
+            let phase_sign = match table.phase_sign {
+                None | Some(1) => 1.0,
+                Some(-1) => -1.0,
+                Some(other) => {
+                    return refuse(path, "sine.phase_sign", other.to_string(), "1 or -1");
+                }
+            };
+            let options = SineOptions {
+                name: name_of(table.name, &table.file),
+                used_for: table.used_for,
+                phase_of: table.phase_of,
+                phase_sign,
+                range_hz,
+                is_drive_point: file.model.drive == file.model.response,
+            };
+            Ok(read_sine(&folder.join(&table.file), options)?)
+        });
+        let sines: Vec<SineRun> = sines.collect::<Result<_, LapError>>()?;
+        let share = match file.model.response {
+            Place::Relative => 1.0,
+            Place::A | Place::B => 0.5,
+        };
+        let mut backbones = Vec::new();
+        for table in file.backbone {
+            let name = name_of(table.name, &table.file);
+            backbones.push(read_backbone(
+                &folder.join(&table.file),
+                name,
+                table.used_for,
+                share,
+            )?);
+        }
+        for table in file.decay {
+            let name = name_of(table.name, &table.file);
+            backbones.push(read_decay(
+                &folder.join(&table.file),
+                name,
+                table.used_for,
+                share,
+            )?);
+        }
+        let fitted = sines.iter().any(|run| run.used_for == Use::Fit)
+            || backbones.iter().any(|run| run.used_for == Use::Fit);
+        if !fitted {
+            return refuse(
+                path,
+                "sine",
+                "no run for the estimate",
+                "at least one [[sine]], [[backbone]] or [[decay]] whose `use` is \"fit\"",
+            );
+        }
+        let study = Self {
+            path: path.to_owned(),
+            name: file.name,
+            drive: file.model.drive,
+            response: file.model.response,
+            terms: file.model.terms.map(|terms| TermSet::of(&terms)),
+            harmonics,
+            other_modes: file.model.other_modes,
+            known,
+            noise,
+            torque_n_m: file.torque,
+            sines,
+            backbones,
+            notes: file.notes,
+        };
+        if study.model(&TermSet::default()).sees_sum() && !study.backbones.is_empty() {
+            return refuse(
+                path,
+                "backbone",
+                "a curve of one mode beside responses of both bodies",
+                "model.drive or model.response = \"relative\" with backbones and decays",
+            );
+        }
+        Ok(study)
+    }
+
+    /// The model with some terms: what is not known is unknown. Where the bodies' motion together is not seen, their supports count
+    /// as part of the joint, unless they are known: k and c are then zero.
+    #[must_use]
+    pub fn model(&self, terms: &TermSet) -> Model {
+        let mut model = Model {
+            drive: self.drive,
+            response: self.response,
+            terms: terms.clone(),
+            unknowns: Vec::new(),
+            harmonics: self.harmonics,
+        };
+        let linear = [
+            ResponseUnknown::Mass,
+            ResponseUnknown::SupportStiffness,
+            ResponseUnknown::SupportDamping,
+            ResponseUnknown::JointStiffness,
+            ResponseUnknown::JointDamping,
+        ];
+        let sees_sum = model.sees_sum();
+        let of_support = |unknown: &ResponseUnknown| {
+            matches!(
+                unknown,
+                ResponseUnknown::SupportStiffness | ResponseUnknown::SupportDamping
+            )
+        };
+        let is_known =
+            |unknown: &ResponseUnknown| self.known.iter().any(|(known, _)| known == unknown);
+        model.unknowns = linear
+            .into_iter()
+            .filter(|unknown| !is_known(unknown) && (sees_sum || !of_support(unknown)))
+            .chain(
+                terms
+                    .terms()
+                    .iter()
+                    .map(|term| ResponseUnknown::Term(*term)),
+            )
+            .collect();
+        if self.other_modes {
+            model.unknowns.extend([
+                ResponseUnknown::OtherModesReal,
+                ResponseUnknown::OtherModesImaginary,
+            ]);
+        }
+        model
+    }
+
+    /// What is known, zero elsewhere.
+    #[must_use]
+    pub fn known_values(&self) -> Values {
+        let mut values = Values::default();
+        for (unknown, value) in &self.known {
+            *values.place(*unknown) = *value;
+        }
+        values
+    }
+}
+
+fn known(path: &Path, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, LapError> {
+    let table = &file.known;
+    let all = [
+        (ResponseUnknown::Mass, table.m),
+        (ResponseUnknown::SupportStiffness, table.k),
+        (ResponseUnknown::SupportDamping, table.c),
+        (ResponseUnknown::JointStiffness, table.k12),
+        (ResponseUnknown::JointDamping, table.c12),
+    ];
+    let mut known = Vec::new();
+    for (unknown, value) in all {
+        let Some(value) = value else { continue };
+        let least = if unknown == ResponseUnknown::Mass {
+            f64::MIN_POSITIVE
+        } else {
+            0.0
+        };
+        if !(value >= least && value.is_finite()) {
+            return refuse(
+                path,
+                format!("known.{}", unknown.symbol()),
+                value.to_string(),
+                format!(
+                    "a value in {} that is not negative, a mass above zero",
+                    unknown.unit()
+                ),
+            );
+        }
+        known.push((unknown, value));
+    }
+    Ok(known)
+}
+
+fn noise(path: &Path, table: &NoiseTable) -> Result<Noise, LapError> {
+    let all = [
+        ("response", table.response),
+        ("force", table.force),
+        ("floor_m", table.floor_m),
+        ("frequency", table.frequency),
+        ("damping", table.damping),
+    ];
+    for (key, value) in all {
+        if let Some(value) = value.filter(|value| !(*value >= 0.0 && value.is_finite())) {
+            return refuse(
+                path,
+                format!("noise.{key}"),
+                value.to_string(),
+                "a number that is not negative",
+            );
+        }
+    }
+    for (key, value) in [
+        ("response", table.response),
+        ("frequency", table.frequency),
+        ("damping", table.damping),
+    ] {
+        if value == Some(0.0) {
+            return refuse(
+                path,
+                format!("noise.{key}"),
+                "0",
+                "a fraction above zero: a measurement has errors",
+            );
+        }
+    }
+    let otherwise = Noise::default();
+    let response = table.response.unwrap_or(otherwise.response);
+    Ok(Noise {
+        response,
+        // What is not said of the force is as of the response.
+        force: table.force.unwrap_or(response),
+        floor_m: table.floor_m.unwrap_or(0.0),
+        frequency: table.frequency.unwrap_or(otherwise.frequency),
+        damping: table.damping.unwrap_or(otherwise.damping),
+        is_stated: table.response.is_some() || table.frequency.is_some(),
+    })
+}

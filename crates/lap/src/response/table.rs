@@ -1,0 +1,92 @@
+//! Columns of numbers with units in their names, as the tables of responses have them.
+
+use std::path::Path;
+
+use super::data::ResponseDataError;
+use bolted_joint_files::text_file;
+
+/// A table of numbers.
+pub(super) struct NumberTable {
+    names: Vec<String>,
+    /// Number of the line in the file, and its values; an empty cell is none.
+    rows: Vec<(usize, Vec<Option<f64>>)>,
+}
+
+impl NumberTable {
+    /// Reads a table: comment lines with `#`, a header, rows of numbers.
+    pub(super) fn read(path: &Path) -> Result<Self, ResponseDataError> {
+        let text = text_file::read(path, "a table of responses (CSV)")?;
+        let problem = |line: usize, found: String, expected: &str| ResponseDataError::Table {
+            path: path.to_owned(),
+            line,
+            found,
+            expected: expected.to_owned(),
+        };
+        let lines = text.lines().enumerate();
+        let mut lines = lines.filter(|(_, line)| {
+            let line = line.trim_start_matches('\u{feff}').trim();
+            !line.is_empty() && !line.starts_with('#')
+        });
+        let Some((header_line, header)) = lines.next() else {
+            return Err(problem(
+                1,
+                "nothing but comments".to_owned(),
+                "a header and rows of numbers",
+            ));
+        };
+        let header = header.trim_start_matches('\u{feff}');
+        let names: Vec<String> = header
+            .split(',')
+            .map(|name| name.trim().to_owned())
+            .collect();
+        if let Some(name) = names
+            .iter()
+            .find(|name| names.iter().filter(|n| n == name).count() > 1)
+        {
+            return Err(problem(
+                header_line + 1,
+                format!("the column {name:?} twice"),
+                "every column once",
+            ));
+        }
+        let mut rows = Vec::new();
+        for (place, line) in lines {
+            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+            if cells.len() != names.len() {
+                return Err(problem(
+                    place + 1,
+                    format!("{} cells", cells.len()),
+                    &format!("{} as in the header", names.len()),
+                ));
+            }
+            let number = |cell: &&str| match *cell {
+                "" => Ok(None),
+                text => match text.parse::<f64>() {
+                    Ok(value) if value.is_finite() => Ok(Some(value)),
+                    _ => Err(problem(place + 1, format!("{text:?}"), "a finite number")),
+                },
+            };
+            let values = cells.iter().map(number).collect::<Result<_, _>>()?;
+            rows.push((place + 1, values));
+        }
+        Ok(Self { names, rows })
+    }
+
+    /// The line of the file and the values of some columns in each row. `wanted` are places of columns.
+    pub(super) fn rows(&self) -> &[(usize, Vec<Option<f64>>)] {
+        &self.rows
+    }
+
+    /// The place of the column with one of these names, and which name it has.
+    pub(super) fn column(&self, names: &[&str]) -> Option<(usize, usize)> {
+        names.iter().enumerate().find_map(|(which, wanted)| {
+            let place = self.names.iter().position(|name| name == wanted)?;
+            Some((place, which))
+        })
+    }
+
+    /// The names of the columns.
+    pub(super) fn names(&self) -> String {
+        self.names.join(", ")
+    }
+}

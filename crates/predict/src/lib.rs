@@ -1,0 +1,21 @@
+//! Joints from physics, before anything is built: surfaces, materials, bolts and preload give a joint by contact mechanics.
+//!
+//! Three models: [`fractal`] contact under an uneven pressure (Zhao), the [`virtual_material`] of the layer between two
+//! parts (Tian), and [`layered_beam`]s whose interfaces slip (Kavi). [`surface`] gives the roughness, [`pressure`] the
+//! field that the fasteners make, [`patch`] integrates over the interface, [`uncertain`] carries what is not known well.
+#![forbid(unsafe_code)]
+
+mod columns;
+pub mod fractal;
+mod growth;
+pub mod layered_beam;
+mod material;
+pub mod patch;
+pub mod pressure;
+pub mod study;
+pub mod surface;
+pub mod uncertain;
+pub mod virtual_material;
+
+pub use columns::ColumnsError;
+pub use material::{Material, MaterialError, Pair};

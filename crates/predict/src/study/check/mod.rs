@@ -1,0 +1,341 @@
+//! From the tables of a study's file to values that make sense.
+
+mod contact;
+mod interface;
+mod surfaces;
+mod tightening;
+
+use crate::patch::{LossFactor, NormalDamping, Planar};
+use crate::study::clamping::Clamping;
+use crate::study::error::{ModelError, PredictError};
+use crate::study::geometry::Geometry;
+use crate::study::method::PredictionMethod;
+use crate::study::origin;
+use crate::study::tables::{MaterialTable, NormalWord, StudyFile, UncertaintyTable};
+use crate::surface::ProfileFit;
+use crate::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
+use crate::virtual_material::Layers;
+use bolted_joint_files::text_file;
+use bolted_joint_joint::InputFile;
+use interface::pressure_in_words;
+use std::path::{Path, PathBuf};
+
+/// Draws where a study has uncertain values and does not say how many.
+const DRAWS: u64 = 2000;
+/// More than anybody waits for.
+const MOST_DRAWS: u64 = 1_000_000;
+/// Elements along x and y where a study does not say.
+const ELEMENTS: [usize; 2] = [60, 60];
+
+/// A validated study of an interface: method `fractal-contact` or `virtual-material`.
+#[derive(Debug, Clone)]
+pub struct InterfaceStudy {
+    /// The study's own file.
+    pub path: PathBuf,
+    /// Which model it asks for.
+    pub method: PredictionMethod,
+    /// Name of the joint.
+    pub name: String,
+    /// Remarks that go into the joint file.
+    pub notes: Vec<String>,
+    /// Every number that may be uncertain.
+    pub inputs: Inputs,
+    /// The files behind it.
+    pub files: Vec<InputFile>,
+    /// Profiles' fits, with the surface they are of.
+    pub fits: Vec<(&'static str, ProfileFit)>,
+    /// Tightening torques, N·m, ascending; empty for one joint.
+    pub torques_n_m: Vec<f64>,
+    /// The torque at the start of a simulation, N·m: one of the torques.
+    pub nominal_n_m: Option<f64>,
+    /// Which motions become the joint file's.
+    pub planar: Planar,
+    /// Where they are taken, m.
+    pub reference_m: [f64; 3],
+    /// Frequency at which hysteretic damping is converted, Hz.
+    pub frequency_hz: f64,
+    /// What the model's energy ratios are taken for.
+    pub loss_factor: LossFactor,
+    /// How the interface dissipates along its normal.
+    pub normal_damping: NormalDamping,
+    /// Draws, where a value is uncertain.
+    pub monte_carlo: Option<MonteCarlo>,
+    /// How the pressure is spread, in words.
+    pub pressure: String,
+    pub(super) materials: [MaterialInputs; 2],
+    pub(super) surfaces: SurfaceInputs,
+    pub(super) contact: ContactInputs,
+    pub(super) clamping: Clamping,
+    pub(super) geometry: Geometry,
+}
+
+/// Elastic constants of a part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MaterialInputs {
+    pub(super) youngs_modulus: InputPlace,
+    pub(super) poissons_ratio: InputPlace,
+}
+
+/// Fractal dimension and roughness of a surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SurfaceInput {
+    pub(super) fractal_dimension: InputPlace,
+    pub(super) roughness: InputPlace,
+}
+
+/// What is known of the surfaces.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SurfaceInputs {
+    /// Of the two together.
+    Together(SurfaceInput),
+    /// Of each, and the wavelengths, m, over which their sum is taken.
+    Each([SurfaceInput; 2], [f64; 2]),
+}
+
+/// Which contact model, and its numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum ContactInputs {
+    /// Zhao's.
+    Fractal {
+        hardness: InputPlace,
+        friction: InputPlace,
+        shear_strength: InputPlace,
+    },
+    /// Tian's layer.
+    Layer {
+        hardness: InputPlace,
+        friction_ratio: InputPlace,
+        layers: Layers,
+        loss_factor: InputPlace,
+    },
+}
+
+impl InterfaceStudy {
+    /// Reads and checks a study, and the profiles and the field that it names.
+    ///
+    /// # Errors
+    /// [`PredictError`] that names the file and the key or line.
+    pub fn read(path: &Path) -> Result<Self, PredictError> {
+        let text = text_file::read(path, "a study (TOML)")?;
+        Self::from_toml(&text, path)
+    }
+
+    /// A study from the text of its file; `path` tells where that lies.
+    ///
+    /// # Errors
+    /// [`PredictError`] that names the file and the key or line.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, PredictError> {
+        let file: StudyFile = toml::from_str(text).map_err(|error| PredictError::Syntax {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Checker {
+            path,
+            folder,
+            inputs: Inputs::default(),
+            files: vec![origin::of_text("study", path, folder, text)],
+            fits: Vec::new(),
+        }
+        .study(file)
+    }
+}
+
+struct Checker<'p> {
+    path: &'p Path,
+    folder: &'p Path,
+    inputs: Inputs,
+    files: Vec<InputFile>,
+    fits: Vec<(&'static str, ProfileFit)>,
+}
+
+type Checked<T> = Result<T, PredictError>;
+
+impl Checker<'_> {
+    fn study(mut self, file: StudyFile) -> Checked<InterfaceStudy> {
+        let name = &file.name;
+        if name.trim().is_empty() || name.chars().any(char::is_control) {
+            return self.refuse("name", format!("{name:?}"), "one line of text");
+        }
+        let method = file.method;
+        if method == PredictionMethod::LayeredBeam {
+            return self.refuse("method", "\"layered-beam\"", "the method of an interface");
+        }
+        let materials = [
+            self.material("a", &file.materials.a)?,
+            self.material("b", &file.materials.b)?,
+        ];
+        let surfaces = self.surfaces(&file.surface)?;
+        let contact = self.contact(&file)?;
+        let (torques_n_m, nominal_n_m) = self.torques(file.tightening.as_ref())?;
+        let clamping = self.clamping(&file, !torques_n_m.is_empty())?;
+        let geometry = self.geometry(&file, &clamping, nominal_n_m)?;
+        let (planar, reference_m) = self.joint(&file.joint, &geometry)?;
+        let frequency_hz = file.damping.frequency;
+        if !(frequency_hz.is_finite() && frequency_hz > 0.0) {
+            return self.refuse(
+                "damping.frequency",
+                frequency_hz,
+                "the frequency in Hz, above zero, at which hysteretic damping becomes viscous",
+            );
+        }
+        let normal_damping = match (file.damping.normal, file.damping.mass) {
+            (NormalWord::Viscous, Some(mass_kg)) if mass_kg.is_finite() && mass_kg > 0.0 => {
+                NormalDamping::Viscous { mass_kg }
+            }
+            (NormalWord::Viscous, found) => {
+                let found = found.map_or("nothing".to_owned(), |found| found.to_string());
+                return self.refuse(
+                    "damping.mass",
+                    found,
+                    "the mass of the structure in kg, above zero, for C_N = η_N √(M K_N)",
+                );
+            }
+            (NormalWord::Hysteretic, None) => NormalDamping::Hysteretic,
+            (NormalWord::Hysteretic, Some(mass)) => {
+                return self.refuse(
+                    "damping.mass",
+                    mass,
+                    "a mass only beside normal = \"viscous\", which takes it",
+                );
+            }
+        };
+        let monte_carlo = self.monte_carlo(file.uncertainty.as_ref())?;
+        Ok(InterfaceStudy {
+            path: self.path.to_owned(),
+            method,
+            pressure: pressure_in_words(&file),
+            name: file.name,
+            notes: file.notes,
+            inputs: self.inputs,
+            files: self.files,
+            fits: self.fits,
+            torques_n_m,
+            nominal_n_m,
+            planar,
+            reference_m,
+            frequency_hz,
+            loss_factor: file.damping.loss_factor,
+            normal_damping,
+            monte_carlo,
+            materials,
+            surfaces,
+            contact,
+            clamping,
+            geometry,
+        })
+    }
+
+    fn refuse<T>(
+        &self,
+        key: impl Into<String>,
+        found: impl ToString,
+        expected: impl Into<String>,
+    ) -> Checked<T> {
+        Err(PredictError::Study {
+            path: self.path.to_owned(),
+            key: key.into(),
+            found: found.to_string(),
+            expected: expected.into(),
+        })
+    }
+
+    fn model<T, E: Into<ModelError>>(
+        &self,
+        key: impl Into<String>,
+        result: Result<T, E>,
+    ) -> Checked<T> {
+        result.map_err(|reason| PredictError::Model {
+            path: self.path.to_owned(),
+            key: key.into(),
+            reason: Box::new(reason.into()),
+        })
+    }
+
+    /// A quantity above zero, drawn from a lognormal distribution.
+    fn positive(
+        &mut self,
+        key: &str,
+        name: impl Into<String>,
+        of: Uncertain,
+    ) -> Checked<InputPlace> {
+        if of.value <= 0.0 {
+            return self.refuse(key, of, "a number above zero");
+        }
+        Ok(self
+            .inputs
+            .add(name, Distribution::new(Spread::Lognormal, of)))
+    }
+
+    /// The same, or zero without doubt.
+    fn not_negative(
+        &mut self,
+        key: &str,
+        name: impl Into<String>,
+        of: Uncertain,
+    ) -> Checked<InputPlace> {
+        if of.value < 0.0 || of.value == 0.0 && !of.is_exact() {
+            return self.refuse(
+                key,
+                of,
+                "a number above zero, or 0 without a standard deviation",
+            );
+        }
+        Ok(self
+            .inputs
+            .add(name, Distribution::new(Spread::Lognormal, of)))
+    }
+
+    fn material(&mut self, side: &str, table: &MaterialTable) -> Checked<MaterialInputs> {
+        let key = |name: &str| format!("materials.{side}.{name}");
+        let youngs_modulus = self.positive(
+            &key("youngs_modulus"),
+            format!("Young's modulus of {side}"),
+            table.youngs_modulus,
+        )?;
+        let (low, high) = (-1.0, 0.5);
+        let ratio = table.poissons_ratio;
+        if !(ratio.value > low && ratio.value < high) {
+            return self.refuse(
+                key("poissons_ratio"),
+                ratio,
+                "more than −1 and less than 0.5 (0.5 is incompressible: contact formulas divide by its compliance)",
+            );
+        }
+        if let Some(density) = table.density
+            && !(density.is_finite() && density > 0.0)
+        {
+            return self.refuse(key("density"), density, "kg/m³ above zero");
+        }
+        let distribution = Distribution::new(Spread::NormalWithin { low, high }, ratio);
+        Ok(MaterialInputs {
+            youngs_modulus,
+            poissons_ratio: self
+                .inputs
+                .add(format!("Poisson's ratio of {side}"), distribution),
+        })
+    }
+
+    fn monte_carlo(&self, table: Option<&UncertaintyTable>) -> Checked<Option<MonteCarlo>> {
+        let (draws, seed) = match table {
+            Some(table) => (table.draws, table.seed.unwrap_or(1)),
+            None => (DRAWS, 1),
+        };
+        if !(2..=MOST_DRAWS).contains(&draws) {
+            return self.refuse(
+                "uncertainty.draws",
+                draws,
+                format!("a number from 2 to {MOST_DRAWS}"),
+            );
+        }
+        match (self.inputs.are_exact(), table) {
+            (true, Some(_)) => self.refuse(
+                "uncertainty",
+                "no value with a standard deviation",
+                "one at least, such as fractal_dimension = \"1.42 ± 0.02\"",
+            ),
+            (true, None) => Ok(None),
+            (false, _) => Ok(Some(MonteCarlo { draws, seed })),
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! The joint file of a prediction: the planar part of the interface, its intervals, and what it rests on.
+
+use crate::uncertain::{Estimate, Outcome};
+use bolted_joint_joint::{
+    Correlation, DofSet, Format, Intervals, Joint, JointFile, OverPreload, Provenance,
+    StandardDeviation, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+};
+
+use super::model::State;
+use super::prediction::Prediction;
+use super::results::{at, unknowns};
+
+impl Prediction<'_> {
+    /// The joint file: one joint, or one over the torques of the table.
+    #[must_use]
+    pub fn joint_file(&self) -> JointFile {
+        let nominal = self.nominal();
+        let dofs = self.study.planar.dofs();
+        let joint = Joint {
+            dofs,
+            stiffness: nominal.planar.stiffness.clone(),
+            damping: nominal.planar.damping.clone(),
+            cubic: Vec::new(),
+            higher: None,
+            over_preload: None,
+        };
+        JointFile {
+            format: Format::V1,
+            name: self.study.name.clone(),
+            joint: match self.study.nominal_n_m {
+                Some(nominal_n_m) => self.over_preload(joint, nominal_n_m),
+                None => joint,
+            },
+            bodies: None,
+            uncertainty: self
+                .outcome
+                .as_ref()
+                .map(|outcome| self.uncertainty(outcome)),
+            validity: Some(self.validity()),
+            residual: None,
+            provenance: Some(self.provenance()),
+        }
+    }
+
+    fn over_preload(&self, constant: Joint, nominal_n_m: f64) -> Joint {
+        let states = self.states.iter();
+        Joint {
+            stiffness: Vec::new(),
+            damping: Vec::new(),
+            over_preload: Some(OverPreload {
+                preload: self.study.torques_n_m.clone(),
+                nominal: nominal_n_m,
+                stiffness: states
+                    .clone()
+                    .map(|state| state.planar.stiffness.clone())
+                    .collect(),
+                damping: states.map(|state| state.planar.damping.clone()).collect(),
+                cubic: Vec::new(),
+            }),
+            ..constant
+        }
+    }
+
+    fn uncertainty(&self, outcome: &Outcome) -> Uncertainty {
+        let dofs = self.study.planar.dofs();
+        let nominal = self.nominal().torque_n_m;
+        let refused = match outcome.of.draws - outcome.accepted {
+            0 => String::new(),
+            refused => format!(", {refused} of them refused"),
+        };
+        let names = unknowns(dofs).into_iter().map(|(name, ..)| name.to_owned());
+        let over = self.study.torques_n_m.iter().map(|&torque| Some(torque));
+        let at_all: Vec<String> = over
+            .clone()
+            .flat_map(|torque| {
+                let names = unknowns(dofs).into_iter();
+                names.map(move |(name, ..)| at(name, torque))
+            })
+            .collect();
+        let at_nominal: Vec<String> = unknowns(dofs)
+            .into_iter()
+            .map(|(name, ..)| at(name, nominal))
+            .collect();
+        Uncertainty {
+            standard_deviation: deviation(outcome, dofs, nominal),
+            basis: format!(
+                "Monte Carlo over {}: {} draws{refused}, seed {}; scatter of what was put into the model, not the model's own error",
+                outcome.inputs.join(", "),
+                outcome.of.draws,
+                outcome.of.seed
+            ),
+            correlation: Some(Correlation {
+                unknowns: names.collect(),
+                matrix: correlation(outcome, &at_nominal),
+            }),
+            interval_95: Some(intervals(outcome, dofs, nominal)),
+            inflation: None,
+            not_identified: Vec::new(),
+            free_estimate: None,
+            bootstrap: None,
+            over_preload: (!self.study.torques_n_m.is_empty()).then(|| UncertaintyOverPreload {
+                at: self
+                    .study
+                    .torques_n_m
+                    .iter()
+                    .map(|&torque| UncertaintyAtPreload {
+                        preload: torque,
+                        standard_deviation: deviation(outcome, dofs, Some(torque)),
+                        interval_95: Some(intervals(outcome, dofs, Some(torque))),
+                        not_identified: Vec::new(),
+                        free_estimate: None,
+                        bootstrap: None,
+                    })
+                    .collect(),
+                correlation: Some(Correlation {
+                    matrix: correlation(outcome, &at_all),
+                    unknowns: at_all,
+                }),
+            }),
+        }
+    }
+
+    fn validity(&self) -> Validity {
+        let frequency_hz = self.study.frequency_hz;
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(
+                [f64::INFINITY, f64::NEG_INFINITY],
+                |[low, high]: [f64; 2], value| [low.min(value), high.max(value)],
+            )
+        };
+        let [low_pa, high_pa] = ends(&mut self.states.iter().map(State::largest_pressure_pa));
+        let total_n = |state: &State| state.bolts.iter().map(|bolt| bolt.preload_n).sum();
+        let [low_n, high_n] = ends(&mut self.states.iter().map(total_n));
+        let range = |low: f64, high: f64| match low == high {
+            true => format!("{low:.4}"),
+            false => format!("{low:.4} to {high:.4}"),
+        };
+        let preload = match high_n > 0.0 {
+            true => format!(
+                "bolts' preloads of {} kN together, ",
+                range(1e-3 * low_n, 1e-3 * high_n)
+            ),
+            false => String::new(),
+        };
+        Validity {
+            // an octave about the frequency at which hysteretic damping was converted: there it is right, at the ends it is
+            // √2 too large or too small
+            frequency_hz: [
+                frequency_hz * std::f64::consts::FRAC_1_SQRT_2,
+                frequency_hz * std::f64::consts::SQRT_2,
+            ],
+            torque_n_m: match self.study.torques_n_m.as_slice() {
+                [first, .., last] => Some([*first, *last]),
+                _ => None,
+            },
+            level: Some(format!(
+                "{preload}pressures of up to {} MPa; motion small enough for the interface neither to open nor to slide",
+                range(1e-6 * low_pa, 1e-6 * high_pa)
+            )),
+        }
+    }
+
+    fn provenance(&self) -> Provenance {
+        let study = self.study;
+        let [x, y, z] = study.reference_m;
+        let motions = match study.planar.rotation() {
+            Some(rotation) => format!(
+                "y is the translation along {}, theta the rotation about {}",
+                study.planar.translation(),
+                rotation
+            ),
+            None => format!("y is the translation along {}", study.planar.translation()),
+        };
+        let mut notes = vec![
+            format!(
+                "Computed from surfaces, materials and bolts, not measured: {}.",
+                study.pressure
+            ),
+            format!(
+                "{motions} of the interface (normal z) at x = {x} m, y = {y} m, z = {z} m; the other relative motions are held at zero."
+            ),
+            format!(
+                "Hysteretic damping is viscous as at {} Hz.",
+                study.frequency_hz
+            ),
+        ];
+        notes.extend(study.notes.iter().cloned());
+        Provenance {
+            tool: bolted_joint_files::TOOL.to_owned(),
+            version: bolted_joint_files::VERSION.to_owned(),
+            method: study.method.name().to_owned(),
+            model: match study.planar.dofs() {
+                DofSet::Translation => "translation".to_owned(),
+                DofSet::TranslationRotation => "full".to_owned(),
+            },
+            inputs: study.files.clone(),
+            bolts: Vec::new(),
+            bands: None,
+            from_modes: Vec::new(),
+            notes,
+        }
+    }
+}
+
+/// The estimate of an unknown; there is one of each.
+fn estimate<'o>(outcome: &'o Outcome, name: &str, torque_n_m: Option<f64>) -> Option<&'o Estimate> {
+    outcome.estimate(&at(name, torque_n_m))
+}
+
+/// A matrix of stiffness and one of damping, filled by what `of` makes of each unknown's estimate.
+fn filled<T: Copy>(
+    outcome: &Outcome,
+    dofs: DofSet,
+    torque_n_m: Option<f64>,
+    empty: T,
+    of: impl Fn(&Estimate) -> T,
+) -> [Vec<Vec<T>>; 2] {
+    let count = dofs.count();
+    let mut matrices = [
+        vec![vec![empty; count]; count],
+        vec![vec![empty; count]; count],
+    ];
+    for (name, is_stiffness, [i, j]) in unknowns(dofs) {
+        if let Some(found) = estimate(outcome, name, torque_n_m) {
+            let value = of(found);
+            let matrix = &mut matrices[usize::from(!is_stiffness)];
+            matrix[i][j] = value;
+            matrix[j][i] = value;
+        }
+    }
+    matrices
+}
+
+fn deviation(outcome: &Outcome, dofs: DofSet, torque_n_m: Option<f64>) -> StandardDeviation {
+    let [stiffness, damping] = filled(outcome, dofs, torque_n_m, 0.0, |found| {
+        found.standard_deviation
+    });
+    StandardDeviation { stiffness, damping }
+}
+
+fn intervals(outcome: &Outcome, dofs: DofSet, torque_n_m: Option<f64>) -> Intervals {
+    let [stiffness, damping] = filled(outcome, dofs, torque_n_m, [0.0; 2], |found| {
+        found.interval_95
+    });
+    Intervals { stiffness, damping }
+}
+
+/// Correlation of the results of these names.
+fn correlation(outcome: &Outcome, names: &[String]) -> Vec<Vec<f64>> {
+    let place = |name: &String| {
+        let mut estimates = outcome.estimates.iter();
+        estimates.position(|estimate| estimate.name == *name)
+    };
+    let places: Vec<usize> = names.iter().filter_map(place).collect();
+    let row = |&i: &usize| {
+        let row = places.iter();
+        row.map(|&j| outcome.correlation[i][j]).collect()
+    };
+    places.iter().map(row).collect()
+}

@@ -1,0 +1,125 @@
+//! A prediction: the joint at the values given, and how it scatters with those that are uncertain.
+
+use super::check::InterfaceStudy;
+use super::error::{ModelError, PredictError};
+use super::model::State;
+use super::results;
+use crate::uncertain::{Estimate, Outcome, Refusal};
+use crate::virtual_material::VirtualMaterial;
+
+/// A predicted joint.
+#[derive(Debug, Clone)]
+pub struct Prediction<'s> {
+    /// What it was predicted from.
+    pub study: &'s InterfaceStudy,
+    /// The joint at the values given, at each torque of the table in ascending order, or once.
+    pub states: Vec<State>,
+    /// Fractal dimension and roughness (m) of both surfaces together, at the values given.
+    pub roughness: [f64; 2],
+    /// What the draws came to, where a value is uncertain. The names of its results are those of the joint file's unknowns, of the
+    /// diagonal of the 6×6 stiffness (`K_zz`) and of the loss factors (`eta_n`), with `@` and the torque behind them where
+    /// there are several.
+    pub outcome: Option<Outcome>,
+}
+
+impl<'s> Prediction<'s> {
+    /// Computes a study. `progress` is called after each draw, from any thread.
+    ///
+    /// # Errors
+    /// [`PredictError::Model`] where the values given are outside the model, or hardly any draw is inside.
+    pub fn of(
+        study: &'s InterfaceStudy,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, PredictError> {
+        let refused = |reason: ModelError| PredictError::Model {
+            path: study.path.clone(),
+            key: key_of(&reason).to_owned(),
+            reason: Box::new(reason),
+        };
+        let torques = study.torques();
+        let nominal = study.inputs.nominal();
+        let roughness = study.roughness(&nominal).map_err(refused)?;
+        let law = study.law(&nominal).map_err(refused)?;
+        let states = torques
+            .iter()
+            .map(|&torque| study.state(&nominal, &law, torque))
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(refused)?;
+        let dofs = study.planar.dofs();
+        let names: Vec<String> = torques
+            .iter()
+            .flat_map(|&torque| results::names(dofs, torque))
+            .collect();
+        let outcome = study.monte_carlo.map(|monte_carlo| {
+            monte_carlo.run(
+                &study.inputs,
+                &names,
+                |values| {
+                    let law = study.law(values)?;
+                    let mut all = Vec::with_capacity(names.len());
+                    for &torque in &torques {
+                        let (interface, planar) = study.drawn_joint(values, &law, torque)?;
+                        all.extend(results::values(dofs, &interface, &planar));
+                    }
+                    Ok::<_, Refusal>(all)
+                },
+                progress,
+            )
+        });
+        let outcome = outcome
+            .transpose()
+            .map_err(|error| refused(ModelError::from(error)))?;
+        Ok(Self {
+            study,
+            states,
+            roughness: [roughness.fractal_dimension(), roughness.roughness_m()],
+            outcome,
+        })
+    }
+
+    /// The joint at the nominal torque, or the only one.
+    #[must_use]
+    pub fn nominal(&self) -> &State {
+        let nominal = self.study.nominal_n_m;
+        let found = self.states.iter().find(|state| state.torque_n_m == nominal);
+        // There is a state at every torque, and the nominal one is one of them.
+        found.unwrap_or(&self.states[0])
+    }
+
+    /// The isotropic material of the virtual layer at the nominal torque.
+    ///
+    /// # Errors
+    /// [`PredictError::Model`] where the model has no layer, or its moduli are those of no isotropic material.
+    pub fn material(&self) -> Result<VirtualMaterial, PredictError> {
+        let refused = |reason: ModelError| PredictError::Model {
+            path: self.study.path.clone(),
+            key: "layer".to_owned(),
+            reason: Box::new(reason),
+        };
+        let layer = self.nominal().layer.as_ref();
+        let layer = layer.ok_or_else(|| refused(ModelError::NoLayer))?;
+        layer.material.map_err(|reason| refused(reason.into()))
+    }
+
+    /// What the draws say of a result, such as `k_yy`, at a torque.
+    #[must_use]
+    pub fn estimate(&self, name: &str, torque_n_m: Option<f64>) -> Option<&Estimate> {
+        let outcome = self.outcome.as_ref()?;
+        outcome.estimate(&results::at(name, torque_n_m))
+    }
+}
+
+/// The key of the study that an error is about.
+fn key_of(error: &ModelError) -> &'static str {
+    match error {
+        ModelError::Material(_) => "materials",
+        ModelError::Roughness(_) | ModelError::Fit(_) => "surface",
+        ModelError::Fractal(_) | ModelError::VirtualMaterial(_) | ModelError::NoLayer => "contact",
+        ModelError::Pressure(_) => "pressure",
+        ModelError::Tightening(_) => "tightening",
+        ModelError::Field(_) => "interface.field",
+        ModelError::Damping(_) => "damping",
+        ModelError::Planar(_) => "joint",
+        ModelError::Input(_) | ModelError::MonteCarlo(_) => "uncertainty",
+    }
+}

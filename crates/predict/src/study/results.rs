@@ -1,0 +1,112 @@
+//! The numbers of a joint that draws give intervals of, by name.
+
+use super::model::State;
+use super::prediction::Prediction;
+use crate::patch::{InterfaceJoint, PlanarJoint};
+use bolted_joint_joint::DofSet;
+
+/// Names of the rows and columns of the 6×6 stiffness.
+pub(super) const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Names of the unknowns of a planar joint's stiffness, and of its damping, with the place of each in its matrix.
+pub(super) fn unknowns(dofs: DofSet) -> Vec<(&'static str, bool, [usize; 2])> {
+    let all = [
+        ("k_yy", true, [0, 0]),
+        ("k_ytheta", true, [0, 1]),
+        ("k_thetatheta", true, [1, 1]),
+        ("c_yy", false, [0, 0]),
+        ("c_ytheta", false, [0, 1]),
+        ("c_thetatheta", false, [1, 1]),
+    ];
+    let count = dofs.count();
+    all.into_iter()
+        .filter(|(_, _, [i, j])| (*i).max(*j) < count)
+        .collect()
+}
+
+/// Name of a result at a torque of the table.
+pub(super) fn at(name: &str, torque_n_m: Option<f64>) -> String {
+    match torque_n_m {
+        Some(torque) => format!("{name}@{torque}"),
+        None => name.to_owned(),
+    }
+}
+
+/// Names of all results at a torque, in the order of [`values`].
+pub(super) fn names(dofs: DofSet, torque_n_m: Option<f64>) -> Vec<String> {
+    let planar = unknowns(dofs)
+        .into_iter()
+        .map(|(name, ..)| at(name, torque_n_m));
+    let diagonal = DOFS
+        .iter()
+        .map(|dof| at(&format!("K_{dof}{dof}"), torque_n_m));
+    let loss = ["eta_n", "eta_t"].map(|name| at(name, torque_n_m));
+    planar.chain(diagonal).chain(loss).collect()
+}
+
+/// The results themselves.
+pub(super) fn values(dofs: DofSet, interface: &InterfaceJoint, planar: &PlanarJoint) -> Vec<f64> {
+    let of_planar = unknowns(dofs).into_iter().map(|(_, is_stiffness, [i, j])| {
+        let matrix = match is_stiffness {
+            true => &planar.stiffness,
+            false => &planar.damping,
+        };
+        matrix[i][j]
+    });
+    let diagonal = (0..6).map(|i| interface.stiffness()[i][i]);
+    let loss = [
+        interface.normal_loss_factor(),
+        interface.tangential_loss_factor(),
+    ];
+    of_planar.chain(diagonal).chain(loss).collect()
+}
+
+/// A number of the joint file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unknown {
+    /// Its name, such as `k_yy`.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+impl Prediction<'_> {
+    /// The numbers of the joint file at one of the states.
+    #[must_use]
+    pub fn unknowns(&self, state: &State) -> Vec<Unknown> {
+        let unknowns = unknowns(self.study.planar.dofs()).into_iter();
+        let valued = unknowns.map(|(name, is_stiffness, [i, j])| {
+            let (matrix, units) = match is_stiffness {
+                true => (&state.planar.stiffness, ["N/m", "N/rad", "N·m/rad"]),
+                false => (&state.planar.damping, ["N·s/m", "N·s/rad", "N·m·s/rad"]),
+            };
+            Unknown {
+                name,
+                value: matrix[i][j],
+                unit: units[i + j],
+            }
+        });
+        valued.collect()
+    }
+
+    /// Inputs that account for `at_least` this share of the scatter of a result, the largest first.
+    #[must_use]
+    pub fn main_inputs(
+        &self,
+        name: &str,
+        torque_n_m: Option<f64>,
+        at_least: f64,
+    ) -> Vec<(&str, f64)> {
+        let (Some(outcome), Some(estimate)) = (&self.outcome, self.estimate(name, torque_n_m))
+        else {
+            return Vec::new();
+        };
+        let inputs = outcome.inputs.iter().map(String::as_str);
+        let pairs = inputs.zip(estimate.shares.iter().copied());
+        let mut named: Vec<(&str, f64)> = pairs.filter(|(_, share)| *share >= at_least).collect();
+        named.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        named
+    }
+}

@@ -1,0 +1,125 @@
+//! Which surface would give moduli that are known of a layer.
+
+use thiserror::Error;
+
+use super::{Loading, Moduli, VirtualMaterialError};
+use crate::Pair;
+use crate::surface::{Roughness, RoughnessError};
+use problem::Problem;
+
+mod problem;
+mod result;
+mod search;
+
+/// A layer whose moduli are known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Its load, or its real area.
+    pub loading: Loading,
+    /// Its moduli.
+    pub moduli: Moduli,
+}
+
+/// What is taken from the equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Magnitudes {
+    /// Both moduli as they are.
+    Stated,
+    /// Only how they go with the load: each modulus is multiplied by a factor, the same for all layers, that is found too.
+    Free,
+}
+
+/// The surface that comes closest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Fractal dimension and roughness.
+    pub roughness: Roughness,
+    /// Standard deviation of D, from the residual and the curvature there; `None` if the moduli do not determine it or there is no residual to tell.
+    pub dimension_deviation: Option<f64>,
+    /// The same of ln G.
+    pub log_roughness_deviation: Option<f64>,
+    /// Factors of E and G_x; 1 with [`Magnitudes::Stated`].
+    pub magnitudes: [f64; 2],
+    /// Root mean square of ln(fitted/known) over both moduli of all layers.
+    pub log_residual: f64,
+    /// Whether the best is at the edge of what was searched: the moduli then follow from no surface inside.
+    pub is_at_bound: bool,
+    /// The layers, in their order.
+    pub layers: Vec<FittedLayer>,
+}
+
+/// A layer of the fitted surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FittedLayer {
+    /// Fitted moduli, factors included.
+    pub moduli: Moduli,
+    /// Real over critical real area, A_t/A_rc; more than 1.
+    pub area_ratio: f64,
+}
+
+/// A fit that cannot be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FitError {
+    /// There are not enough layers.
+    #[error(
+        "{found} layers for {unknowns} unknowns; expected {expected} or more, with two moduli each"
+    )]
+    TooFew {
+        /// How many there are.
+        found: usize,
+        /// How many unknowns.
+        unknowns: usize,
+        /// How many are needed.
+        expected: usize,
+    },
+    /// A load, area or modulus is not a positive number.
+    #[error("layer {number}: the {quantity} is {found}; expected a positive number")]
+    Observation {
+        /// Its place, counted from 1.
+        number: usize,
+        /// "load or area", "Young's modulus" or "shear modulus".
+        quantity: &'static str,
+        /// What was found.
+        found: f64,
+    },
+    /// No surface of the search has elastic contacts in all layers.
+    #[error("no surface between the bounds of the search has elastic contacts under all loads")]
+    Nothing,
+    /// The contact cannot be made.
+    #[error(transparent)]
+    Contact(#[from] VirtualMaterialError),
+    /// The roughness cannot be made.
+    #[error(transparent)]
+    Roughness(#[from] RoughnessError),
+}
+
+/// Finds D and G by least squares on the logarithms of both moduli, for a pair of materials of a hardness (Pa) under β/f times the friction force.
+///
+/// All surfaces with elastic contacts in every layer are searched on a grid; the best minima of it are refined by the method of
+/// Levenberg and Marquardt.
+///
+/// # Errors
+/// Too few layers, or numbers that are not positive.
+pub fn fit(
+    observations: &[Observation],
+    pair: &Pair,
+    hardness_pa: f64,
+    friction_ratio: f64,
+    magnitudes: Magnitudes,
+) -> Result<Fit, FitError> {
+    let problem = Problem {
+        observations,
+        pair,
+        hardness_pa,
+        friction_ratio,
+        magnitudes,
+    };
+    problem.check()?;
+    let best = problem
+        .starts()
+        .into_iter()
+        .map(|start| problem.refined(start))
+        .min_by(|one, other| one.1.total_cmp(&other.1))
+        .ok_or(FitError::Nothing)?;
+    problem.result(best.0)
+}

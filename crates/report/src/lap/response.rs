@@ -1,0 +1,307 @@
+//! The report of a lap model identified from responses.
+
+use std::f64::consts::TAU;
+
+use bolted_joint_export::provenance;
+use bolted_joint_figures::html::{beside, cell, escaped, number_cell, shown, spread, table};
+use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_files::Timestamp;
+use bolted_joint_lap::{LapResponse, LapResponseStudy, SineRun, Use};
+
+/// Points of a computed curve.
+const POINTS: usize = 400;
+
+/// The report of a lap model identified from responses.
+#[derive(Debug, Clone, Copy)]
+pub struct LapResponseReport<'a> {
+    /// What was asked for.
+    pub study: &'a LapResponseStudy,
+    /// What was found.
+    pub found: &'a LapResponse,
+    /// What the reader should know before using the result.
+    pub warnings: &'a [String],
+    /// When the report was written.
+    pub written: Timestamp,
+}
+
+impl LapResponseReport<'_> {
+    /// The page as an HTML document.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        let sections = [
+            super::warnings(self.warnings),
+            self.parameters(),
+            self.resonances(),
+            self.models(),
+            self.runs(),
+            format!(
+                "<h2>Provenance</h2>\n{}",
+                provenance(&self.found.provenance)
+            ),
+        ]
+        .concat();
+        super::page(
+            &self.found.name,
+            "Lap model identified from responses at several levels",
+            self.written,
+            &sections,
+        )
+    }
+
+    fn parameters(&self) -> String {
+        let rows = self.found.estimates.iter().map(|estimate| {
+            let deviation = estimate.standard_deviation;
+            let [low, high] = estimate.interval_95;
+            let values = match estimate.is_identified {
+                true => [
+                    number_cell(&beside(estimate.value, deviation)),
+                    number_cell(&spread(deviation)),
+                    number_cell(&format!(
+                        "{} … {}",
+                        beside(low, deviation),
+                        beside(high, deviation)
+                    )),
+                ]
+                .concat(),
+                false => "<td colspan=\"3\">not identified</td>".to_owned(),
+            };
+            format!(
+                "<th scope=\"row\">{}</th>{values}{}",
+                escaped(estimate.unknown.symbol()),
+                cell(estimate.unknown.unit())
+            )
+        });
+        let rows: Vec<String> = rows.collect();
+        let reduced = self.found.fit.chi_squared / self.found.fit.degrees_of_freedom.max(1) as f64;
+        let noise = match self.study.noise.is_stated {
+            true => "stated",
+            false => "nominal, and the intervals follow the residual",
+        };
+        format!(
+            "<h2>Identified parameters</h2>\n{}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise of {} % of the \
+             response and {} % of the force ({noise}); {} of {} starts agree.</p>\n",
+            table(
+                &["", "Estimate", "Std. dev.", "95 % interval", "Unit"],
+                &rows
+            ),
+            escaped(&self.found.model.terms.to_string()),
+            shown(reduced, 4),
+            shown(100.0 * self.study.noise.response, 3),
+            shown(100.0 * self.study.noise.force, 3),
+            self.found.starts.1,
+            self.found.starts.0,
+        )
+    }
+
+    fn resonances(&self) -> String {
+        if self.found.predictions.is_empty() {
+            return String::new();
+        }
+        let signed = |value: String| value.replace('-', "−");
+        let rows = self.found.predictions.iter().map(|row| {
+            let optional = |value: Option<String>| value.unwrap_or_else(|| "none".to_owned());
+            [
+                cell(&escaped(&row.run)),
+                cell(if row.left_out {
+                    "<b>left out</b>"
+                } else {
+                    "fitted"
+                }),
+                number_cell(&shown(row.measured.force_n, 3)),
+                number_cell(&format!("{:.3}", row.measured.frequency_hz)),
+                number_cell(&optional(
+                    row.predicted.map(|at| format!("{:.3}", at.frequency_hz)),
+                )),
+                number_cell(&optional(
+                    row.frequency_error_hz()
+                        .map(|error| signed(format!("{error:+.3}"))),
+                )),
+                number_cell(&shown(1e6 * row.measured.displacement_m, 4)),
+                number_cell(&optional(
+                    row.predicted.map(|at| shown(1e6 * at.displacement_m, 4)),
+                )),
+                number_cell(&optional(
+                    row.amplitude_error()
+                        .map(|error| signed(format!("{:+.1} %", 100.0 * error))),
+                )),
+            ]
+            .concat()
+        });
+        let rows: Vec<String> = rows.collect();
+        format!(
+            "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90°: measured, and of the model at the force that was \
+             measured there. The last column is the error of the acceleration’s amplitude.</p>\n{}{}",
+            table(
+                &[
+                    "Run",
+                    "",
+                    "Force, N",
+                    "Measured, Hz",
+                    "Model, Hz",
+                    "Error, Hz",
+                    "Measured, µm",
+                    "Model, µm",
+                    "Error"
+                ],
+                &rows
+            ),
+            self.backbone().unwrap_or_default()
+        )
+    }
+
+    /// Resonance and damping over amplitude.
+    fn backbone(&self) -> Option<String> {
+        let found = self.found;
+        let measured: Vec<(f64, f64)> = {
+            let mut points: Vec<(f64, f64)> = found
+                .predictions
+                .iter()
+                .map(|row| (1e6 * row.measured.displacement_m, row.measured.frequency_hz))
+                .collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points
+        };
+        let values = &found.fit.values;
+        let model: Vec<(f64, f64)> = (1..=POINTS)
+            .map(|n| {
+                let amplitude = found.amplitude_m * n as f64 / POINTS as f64;
+                // Re z_r at no frequency is the equivalent stiffness K; ω² = K/(m/2)
+                let stiffness = found.model.equivalent_stiffness(values, amplitude);
+                (
+                    1e6 * amplitude,
+                    (stiffness / (0.5 * values.mass)).sqrt() / TAU,
+                )
+            })
+            .collect();
+        let svg = LineFigure {
+            title: "Frequency of resonance over amplitude",
+            across: ("relative displacement, µm", Scale::Linear),
+            up: ("frequency, Hz", Scale::Linear),
+            lines: vec![
+                Line {
+                    name: "model without other modes".to_owned(),
+                    shape: Shape::Curve,
+                    points: model,
+                },
+                Line {
+                    name: "measured (−90°)".to_owned(),
+                    shape: Shape::Marks,
+                    points: measured,
+                },
+            ],
+        }
+        .to_svg()?;
+        Some(super::figure(
+            "backbone",
+            "<b>Backbone</b>: the frequency of resonance over the amplitude of the relative displacement.",
+            &svg,
+        ))
+    }
+
+    fn models(&self) -> String {
+        let rows = self.found.comparison.iter().map(|model| {
+            [
+                cell(&escaped(&model.terms.to_string())),
+                number_cell(&model.unknowns.to_string()),
+                number_cell(&shown(model.reduced_chi_squared, 4)),
+                number_cell(&format!("{:.1}", model.bic_difference)),
+                cell(if model.terms == self.found.model.terms {
+                    "used"
+                } else {
+                    ""
+                }),
+            ]
+            .concat()
+        });
+        let rows: Vec<String> = rows.collect();
+        format!(
+            "<h2>Models by likelihood</h2>\n{}",
+            table(
+                &["Terms", "Unknowns", "χ²/ν", "BIC above the best", ""],
+                &rows
+            )
+        )
+    }
+
+    fn runs(&self) -> String {
+        let residuals = self.found.run_residuals(self.study);
+        let runs = self.study.sines.iter().enumerate().map(|(place, run)| {
+            let residual = residuals
+                .iter()
+                .find(|(name, ..)| *name == run.name && run.used_for == Use::Fit);
+            let remark = residual.map_or_else(
+                || "left out of the estimate".to_owned(),
+                |(_, lines, rms)| {
+                    format!(
+                        "{lines} lines, residual of the receptance {} % r.m.s.",
+                        shown(100.0 * rms, 3)
+                    )
+                },
+            );
+            let svg = run_figure(self.found, run).unwrap_or_default();
+            super::figure(
+                &format!("run-{place}"),
+                &format!("<b>{}</b>: {remark}.", escaped(&run.name)),
+                &svg,
+            )
+        });
+        format!(
+            "<h2>Runs</h2>\n<p>Receptance measured and regenerated at the measured amplitude of each line.</p>\n{}",
+            runs.collect::<String>()
+        )
+    }
+}
+
+/// |H| of one run, measured and regenerated.
+fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
+    let regenerated = found.regenerated(run);
+    let points = |of: &dyn Fn(usize) -> f64| {
+        let lines = run.lines.iter().enumerate();
+        lines
+            .map(|(n, line)| (line.omega / TAU, of(n)))
+            .collect::<Vec<_>>()
+    };
+    LineFigure {
+        title: "Receptance measured and regenerated",
+        across: ("frequency, Hz", Scale::Linear),
+        up: ("receptance, m/N", Scale::Logarithmic),
+        lines: vec![
+            Line {
+                name: "measured".to_owned(),
+                shape: Shape::Marks,
+                points: points(&|n| run.lines[n].displacement_m / run.lines[n].force_n),
+            },
+            Line {
+                name: "regenerated".to_owned(),
+                shape: Shape::Curve,
+                points: points(&|n| regenerated[n].norm()),
+            },
+        ],
+    }
+    .to_svg()
+}
+
+/// Receptances regenerated of up to four runs, of the lowest to the highest level.
+pub fn level_figure(study: &LapResponseStudy, found: &LapResponse) -> Option<String> {
+    let mut runs: Vec<&SineRun> = study.sines.iter().collect();
+    runs.sort_by(|a, b| a.amplitude_m().total_cmp(&b.amplitude_m()));
+    let stride = runs.len().div_ceil(4).max(1);
+    let lines = runs.iter().step_by(stride).map(|run| {
+        let regenerated = found.regenerated(run);
+        let lines = run.lines.iter().zip(regenerated);
+        Line {
+            name: escaped(&run.name),
+            shape: Shape::Curve,
+            points: lines
+                .map(|(line, value)| (line.omega / TAU, value.norm()))
+                .collect(),
+        }
+    });
+    LineFigure {
+        title: "Receptances of the identified model",
+        across: ("frequency, Hz", Scale::Linear),
+        up: ("receptance, m/N", Scale::Logarithmic),
+        lines: lines.collect(),
+    }
+    .to_svg()
+}

@@ -1,0 +1,28 @@
+//! Pictures and pages of what was measured and what was found, for people who read structural dynamics every day.
+#![forbid(unsafe_code)]
+
+mod chart;
+mod chart_data;
+mod frf_column;
+mod frf_figure;
+mod interval_figure;
+mod lap;
+mod layered_beam_figure;
+mod legend;
+mod page;
+mod prediction;
+mod pressure_figure;
+mod resonance_labels;
+mod spectrum_figure;
+
+pub use frf_figure::{FrfFigure, FrfPanel};
+pub use lap::{LapResponseReport, LapUpdateReport};
+pub use lap::{convergence_figure, level_figure};
+pub use layered_beam_figure::LayeredBeamFigure;
+pub use page::IdentificationReport;
+pub use prediction::PredictionReport;
+pub use pressure_figure::PressureFigure;
+pub use spectrum_figure::spectrum_figure;
+
+#[cfg(test)]
+mod tests;

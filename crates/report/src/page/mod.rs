@@ -1,0 +1,111 @@
+//! The report of an identification: one page without any reference to the network, for a screen and for paper.
+
+mod beside;
+mod decoupled;
+mod figure;
+mod files;
+mod functions;
+mod judgement;
+mod measured;
+mod origin;
+mod over_torque;
+mod parameters;
+mod sensitivity;
+
+use bolted_joint_figures::html::{self, escaped};
+use bolted_joint_files::Timestamp;
+use bolted_joint_identify::{Identification, Study};
+use bolted_joint_joint::JointFile;
+
+/// The report of an identification.
+#[derive(Debug, Clone, Copy)]
+pub struct IdentificationReport<'a> {
+    /// What was asked for.
+    pub study: &'a Study,
+    /// What was found.
+    pub found: &'a Identification,
+    /// What the reader should know before using the result.
+    pub warnings: &'a [String],
+    /// When the report was written.
+    pub written: Timestamp,
+}
+
+impl IdentificationReport<'_> {
+    /// The page as an HTML document. Its figures are drawn without the script that it contains; the script adds a cursor
+    /// and lets the reader zoom.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        let name = escaped(&self.found.name);
+        let files: Vec<JointFile> = self
+            .found
+            .joint_files()
+            .into_iter()
+            .map(|(_, file)| file)
+            .collect();
+        let sections = [
+            judgement::summary(self, &files),
+            measured::section(self),
+            parameters::section(self),
+            judgement::section(self, &files),
+            functions::section(self),
+            decoupled::section(self),
+            sensitivity::section(self),
+            files.first().map(origin::section).unwrap_or_default(),
+        ]
+        .concat();
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{name}: identification of a bolted joint</title>\n<style>\n{common}{own}</style>\n</head>\n<body>\n<header>\n\
+             <h1>{name}</h1>\n<p>Identification of a bolted joint by {tool} {version}, <time>{date}</time>.</p>\n</header>\n\
+             <main>\n{sections}</main>\n<script>\n{script}</script>\n</body>\n</html>\n",
+            common = html::STYLE,
+            own = include_str!("page.css"),
+            script = include_str!("charts.js"),
+            tool = bolted_joint_files::TOOL,
+            version = bolted_joint_files::VERSION,
+            date = self.written,
+        )
+    }
+
+    /// The first assembly and the further ones: their lines, receptances with the estimated joint, and fits.
+    fn assemblies(&self) -> Vec<Assembly<'_>> {
+        let found = self.found;
+        let first = Assembly {
+            lines: &found.lines,
+            regenerated: &found.regenerated,
+            fits: &found.fits,
+        };
+        let further = found.further.iter().map(|assembly| Assembly {
+            lines: &assembly.lines,
+            regenerated: &assembly.regenerated,
+            fits: &assembly.fits,
+        });
+        std::iter::once(first).chain(further).collect()
+    }
+}
+
+/// One assembly of a study.
+#[derive(Clone, Copy)]
+struct Assembly<'a> {
+    lines: &'a bolted_joint_identify::Lines,
+    regenerated: &'a [bolted_joint_frf::structure::ComplexMatrix],
+    fits: &'a [bolted_joint_identify::FunctionFit],
+}
+
+impl Assembly<'_> {
+    /// Numbers of its fits, those at the points of excitation first.
+    fn drive_points_first(&self) -> Vec<usize> {
+        let is_drive_point =
+            |&index: &usize| self.fits[index].response == self.fits[index].reference;
+        let (drive, others): (Vec<usize>, Vec<usize>) =
+            (0..self.fits.len()).partition(is_drive_point);
+        drive.into_iter().chain(others).collect()
+    }
+}
+
+/// A number and the thing it counts.
+fn counted(count: usize, thing: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {thing}{ending}")
+}

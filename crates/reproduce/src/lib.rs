@@ -1,0 +1,66 @@
+//! The case studies of Tol's thesis, the tables of Pirdayr's and Tian's papers and the specimens of Kavi's thesis computed anew:
+//! published and obtained values side by side.
+#![forbid(unsafe_code)]
+
+mod approaches;
+mod beams;
+mod bolted;
+mod draws;
+mod error;
+mod kavi;
+mod kavi_figure;
+mod lumped;
+mod outcome;
+mod pirdayr;
+mod published;
+mod receptances;
+mod tian;
+
+pub use draws::Draws;
+pub use error::ReproduceError;
+pub use kavi::{
+    AMPLITUDE_M, AtBoundary, BOUNDARIES, Claim, KaviReproduction, PrintedNumber, SpecimenMaterial,
+    SpecimenRow, Verdict, kavi,
+};
+pub use kavi_figure::KaviFigure;
+pub use outcome::{Reproduction, Row, Spread};
+pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
+pub use published::{PublishedTable, UnknownTable};
+pub use tian::{TianFit, TianLayer, TianReproduction, tian};
+
+use draws::Repetition;
+
+/// Computes a published table anew. `progress` is called after each draw of the noise, of which there are `draws.count` for each of
+/// [`PublishedTable::noisy_cases`].
+///
+/// # Errors
+/// [`ReproduceError`] if the numbers of `draws` make no sense.
+pub fn reproduce(
+    table: PublishedTable,
+    draws: &Draws,
+    progress: &(dyn Fn() + Sync),
+) -> Result<Reproduction, ReproduceError> {
+    let draws = Repetition { draws, progress };
+    match table {
+        PublishedTable::Table4_2 => lumped::table_4_2(draws),
+        PublishedTable::Table4_3 => Ok(beams::table_4_3()),
+        PublishedTable::Table4_4 => beams::table_4_4(draws),
+        PublishedTable::Table4_5 => beams::table_4_5(draws),
+        PublishedTable::Table4_6 => approaches::table_4_6(draws),
+        PublishedTable::Table4_7 => approaches::table_4_7(draws),
+        PublishedTable::Table4_8 => approaches::table_4_8(draws),
+        PublishedTable::Table4_9 => approaches::table_4_9(draws),
+        PublishedTable::Table5_2 => bolted::table_5_2(draws),
+        PublishedTable::M10x16 => bolted::m10x16_chain(draws),
+        PublishedTable::M8x16 => bolted::m8x16_chain(draws),
+        PublishedTable::M10x35 => bolted::m10x35_chain(draws),
+        PublishedTable::M8x35 => bolted::m8x35_chain(draws),
+        PublishedTable::LongM8x35 => bolted::long_m8x35(draws),
+        PublishedTable::Torques => bolted::torques(draws),
+        PublishedTable::M6x30 => bolted::m6x30_chain(draws),
+        PublishedTable::TwoM6x30 => bolted::two_m6x30(),
+        PublishedTable::Table5_10 => bolted::table_5_10(draws),
+        PublishedTable::Table5_11 => bolted::table_5_11(draws),
+        PublishedTable::Table5_12 => bolted::table_5_12(draws),
+    }
+}

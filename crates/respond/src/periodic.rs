@@ -1,0 +1,268 @@
+//! Responses in the frequency domain: receptances, curves by harmonic balance, backbones.
+
+use std::f64::consts::TAU;
+
+use bolted_joint_dynamics::{HigherTerms, JointLaw, Lap};
+
+use bolted_joint_harmonic::{
+    CurveOptions, CurvePoint, Derivative, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics,
+    Observed, Side, Target,
+};
+
+use super::study::{LoadPlace, Span};
+use super::table::{Column, Role};
+
+/// The load of amplitude one at a place.
+pub(super) fn unit_load<const D: usize>(place: LoadPlace) -> HarmonicLoads<D> {
+    let mut loads = HarmonicLoads::NONE;
+    match place.body {
+        Some(Side::A) => loads.a[place.dof] = 1.0.into(),
+        Some(Side::B) => loads.b[place.dof] = 1.0.into(),
+        None => {
+            loads.a[place.dof] = 1.0.into();
+            loads.b[place.dof] = (-1.0).into();
+        }
+    }
+    loads
+}
+
+pub(super) fn name(observed: Observed) -> String {
+    let dof = ["y", "theta"].get(observed.dof()).copied().unwrap_or("?");
+    match observed {
+        Observed::Relative(_) => format!("relative.{dof}"),
+        Observed::Body(Side::A, _) => format!("a.{dof}"),
+        Observed::Body(Side::B, _) => format!("b.{dof}"),
+    }
+}
+
+pub(super) fn unit(observed: Observed, quantity: Derivative) -> &'static str {
+    let units = match quantity {
+        Derivative::Displacement => ["m", "rad"],
+        Derivative::Velocity => ["m/s", "rad/s"],
+        Derivative::Acceleration => ["m/s²", "rad/s²"],
+    };
+    units[observed.dof().min(1)]
+}
+
+pub(super) fn load_unit(place: LoadPlace) -> &'static str {
+    ["N", "N·m"][place.dof.min(1)]
+}
+
+pub(super) fn column(name: impl Into<String>, unit: &'static str, role: Role) -> Column {
+    Column {
+        name: name.into(),
+        unit,
+        role,
+    }
+}
+
+/// Columns of a curve over frequency or of one over amplitude.
+pub(super) fn curve_columns(
+    motions: &[Observed],
+    quantity: Derivative,
+    is_over_frequency: bool,
+) -> Vec<Column> {
+    let frequency = if is_over_frequency {
+        Role::Across
+    } else {
+        Role::Up
+    };
+    let mut columns = vec![column("frequency", "Hz", frequency)];
+    for (n, &observed) in motions.iter().enumerate() {
+        let (name, unit) = (name(observed), unit(observed, quantity));
+        let role = match (is_over_frequency, n) {
+            (true, _) => Role::Up,
+            (false, 0) => Role::Across,
+            (false, _) => Role::Aside,
+        };
+        columns.push(column(format!("{name} amplitude"), unit, role));
+        columns.push(column(format!("{name} phase"), "°", Role::Aside));
+        columns.push(column(format!("{name} third harmonic"), unit, Role::Aside));
+        columns.push(column(
+            format!("{name} peak displacement"),
+            self::unit(observed, Derivative::Displacement),
+            Role::Aside,
+        ));
+    }
+    columns
+}
+
+/// Amplitude of the fundamental, its phase, that of the third harmonic, and the peak, of each motion.
+fn measured<const D: usize>(
+    balance: &HarmonicBalance<D>,
+    point: &CurvePoint<D>,
+    motions: &[Observed],
+    quantity: Derivative,
+) -> Vec<f64> {
+    let solution = &point.solution;
+    let omega = solution.omega_rad_s();
+    let mut row = vec![solution.frequency_hz()];
+    for &observed in motions {
+        let amplitude = |order: usize| {
+            let rate = order as f64 * omega;
+            let turns = num_complex::Complex64::new(0.0, rate).powi(quantity.order());
+            turns * balance.amplitude_of(solution, observed, order)
+        };
+        let fundamental = amplitude(1);
+        row.push(fundamental.norm());
+        row.push(fundamental.arg().to_degrees());
+        row.push(amplitude(3).norm());
+        row.push(balance.peak_of(solution, observed));
+    }
+    row
+}
+
+fn flag(is_so: bool) -> f64 {
+    if is_so { 1.0 } else { 0.0 }
+}
+
+/// The lap without what is not linear.
+pub(super) fn linear_part<const D: usize>(lap: &Lap<D>) -> Lap<D> {
+    Lap {
+        joint: JointLaw {
+            cubic: [0.0; D],
+            higher: HigherTerms::NONE,
+            ..lap.joint
+        },
+        ..*lap
+    }
+}
+
+/// So many frequencies of a span, Hz.
+pub(super) fn frequencies(span: Span, lines: usize) -> impl Iterator<Item = f64> {
+    let [from, to] = span.ends_hz;
+    (0..lines).map(move |line| {
+        let share = line as f64 / (lines - 1) as f64;
+        (1.0 - share) * from + share * to
+    })
+}
+
+/// Frequency, then of each motion over the load modulus, real and imaginary part.
+pub(super) fn receptances<const D: usize>(
+    lap: &Lap<D>,
+    frequencies_hz: impl Iterator<Item = f64>,
+    place: LoadPlace,
+    motions: &[Observed],
+    quantity: Derivative,
+) -> Result<Vec<Vec<f64>>, HarmonicError> {
+    let balance = HarmonicBalance::new(&linear_part(lap), Harmonics::odd(1)?)?;
+    let load = unit_load(place);
+    frequencies_hz
+        .map(|frequency_hz| {
+            let omega = TAU * frequency_hz;
+            let solution = balance.forced(omega, &load, None)?;
+            let turns = num_complex::Complex64::new(0.0, omega).powi(quantity.order());
+            let mut row = vec![frequency_hz];
+            for &observed in motions {
+                let value = turns * balance.amplitude_of(&solution, observed, 1);
+                row.extend([value.norm(), value.re, value.im]);
+            }
+            Ok(row)
+        })
+        .collect()
+}
+
+/// What one series of a curve is computed from.
+pub(super) struct Curve<'a> {
+    pub(super) harmonics: &'a Harmonics,
+    pub(super) motions: &'a [Observed],
+    pub(super) quantity: Derivative,
+}
+
+impl Curve<'_> {
+    /// Measured columns, amplitude of the load, whether it persists and whether the frequency turns.
+    pub(super) fn forced<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        span: Span,
+        place: LoadPlace,
+        level: f64,
+    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+        let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
+        let loads = unit_load(place).scaled(level);
+        let options = CurveOptions {
+            with_stability: true,
+            ..CurveOptions::default()
+        };
+        let curve = balance.forced_curve(span.ends_hz.map(|hz| TAU * hz), &loads, &options)?;
+        let row = |point: &CurvePoint<D>| {
+            let mut row = measured(&balance, point, self.motions, self.quantity);
+            let stable = point.stability.as_ref().map(|s| flag(s.is_stable()));
+            row.extend([stable.unwrap_or(f64::NAN), flag(point.is_fold)]);
+            row
+        };
+        Ok(curve.iter().map(row).collect())
+    }
+
+    /// Measured columns and the amplitude of the load.
+    pub(super) fn controlled<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        span: Span,
+        place: LoadPlace,
+        target: Target,
+    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+        let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
+        let ends = span.ends_hz.map(|hz| TAU * hz);
+        let options = CurveOptions::default();
+        let curve = balance.controlled_curve(ends, &unit_load(place), target, &options)?;
+        Ok(self.with_load(&balance, &curve))
+    }
+
+    /// Measured columns and the amplitude of the load.
+    pub(super) fn resonance<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        amplitudes: [f64; 2],
+        place: LoadPlace,
+        target: Target,
+    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+        let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
+        let options = CurveOptions::default();
+        let curve = balance.resonance_curve(amplitudes, &unit_load(place), target, &options)?;
+        Ok(self.with_load(&balance, &curve))
+    }
+
+    fn with_load<const D: usize>(
+        &self,
+        balance: &HarmonicBalance<D>,
+        curve: &[CurvePoint<D>],
+    ) -> Vec<Vec<f64>> {
+        let row = |point: &CurvePoint<D>| {
+            let mut row = measured(balance, point, self.motions, self.quantity);
+            row.push(point.solution.load_factor().abs());
+            row
+        };
+        curve.iter().map(row).collect()
+    }
+
+    /// Measured columns and the damping ratio.
+    pub(super) fn backbone<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        amplitudes: [f64; 2],
+        target: Target,
+        is_undamped: bool,
+    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+        let lap = if is_undamped { undamped(lap) } else { *lap };
+        let balance = HarmonicBalance::new(&lap, self.harmonics.clone())?;
+        let curve = balance.backbone(amplitudes, target, &CurveOptions::default())?;
+        let row = |point: &CurvePoint<D>| {
+            let mut row = measured(&balance, point, self.motions, self.quantity);
+            row.push(point.solution.damping_ratio());
+            row
+        };
+        Ok(curve.iter().map(row).collect())
+    }
+}
+
+/// The lap without dampers.
+fn undamped<const D: usize>(lap: &Lap<D>) -> Lap<D> {
+    let mut lap = *lap;
+    lap.joint.damping = [[0.0; D]; D];
+    lap.joint.higher.damping_quadratic = [0.0; D];
+    lap.joint.higher.damping_quartic = [0.0; D];
+    lap.a.damping = [0.0; D];
+    lap.b.damping = [0.0; D];
+    lap
+}

@@ -1,0 +1,318 @@
+//! From a study to its table: every lap at every level.
+
+use bolted_joint_dynamics::Lap;
+
+use bolted_joint_harmonic::{Derivative, HarmonicError, Observed, Target};
+use bolted_joint_joint::DofSet;
+
+use super::RespondError;
+use super::histories::{Drive, Ended, MOST_STEPS, SteppedSine, history};
+use super::periodic::{
+    Curve, column, curve_columns, frequencies, load_unit, name, receptances, unit,
+};
+use super::study::{RespondStudy, StudyLap, Test, Times};
+use super::table::{Column, ResponseTable, Role, Series};
+
+/// Rows of one lap at one level.
+type Rows = Result<Vec<Vec<f64>>, Failure>;
+
+enum Failure {
+    Harmonic(HarmonicError),
+    Time(Ended),
+}
+
+impl From<HarmonicError> for Failure {
+    fn from(error: HarmonicError) -> Self {
+        Self::Harmonic(error)
+    }
+}
+
+impl From<Ended> for Failure {
+    fn from(ended: Ended) -> Self {
+        Self::Time(ended)
+    }
+}
+
+impl RespondStudy {
+    /// Computes the response.
+    ///
+    /// # Errors
+    /// [`RespondError`] that names lap and level.
+    pub fn run(&self) -> Result<ResponseTable, RespondError> {
+        match self.laps[0].file.joint.dofs {
+            DofSet::Translation => self.run_with::<1>(),
+            DofSet::TranslationRotation => self.run_with::<2>(),
+        }
+    }
+
+    fn run_with<const D: usize>(&self) -> Result<ResponseTable, RespondError> {
+        let motions = self.seen();
+        let (columns, level_unit) = self.columns(&motions);
+        let levels: Vec<Option<f64>> = match self.levels() {
+            Some(levels) => levels.iter().map(|&level| Some(level)).collect(),
+            None => vec![None],
+        };
+        let mut series = Vec::new();
+        for lap in &self.laps {
+            let model = lap.file.lap::<D>().map_err(|source| RespondError::Law {
+                path: lap.path.clone(),
+                source,
+            })?;
+            for &level in &levels {
+                let rows = self.rows(&model, &motions, level.unwrap_or(0.0));
+                let refuse = |failure| self.failed(lap, level, level_unit, failure);
+                series.push(Series {
+                    lap: lap.name.clone(),
+                    level,
+                    rows: rows.map_err(refuse)?,
+                });
+            }
+        }
+        Ok(ResponseTable {
+            level_unit,
+            columns,
+            series,
+        })
+    }
+
+    /// The motions that are written; the one whose amplitude is followed first.
+    fn seen(&self) -> Vec<Observed> {
+        let mut motions = self.motions.clone();
+        if let Test::Backbone { of, .. } | Test::PhaseResonance { of, .. } = &self.test {
+            motions.retain(|motion| motion != of);
+            motions.insert(0, *of);
+        }
+        motions
+    }
+
+    fn levels(&self) -> Option<&[f64]> {
+        match &self.test {
+            Test::HarmonicBalance { levels, .. }
+            | Test::ConstantAmplitude { levels, .. }
+            | Test::SteppedSine { levels, .. }
+            | Test::Sweep { levels, .. }
+            | Test::Dwell { levels, .. } => Some(levels),
+            Test::Linear { .. }
+            | Test::Backbone { .. }
+            | Test::PhaseResonance { .. }
+            | Test::FreeDecay { .. } => None,
+        }
+    }
+
+    fn columns(&self, motions: &[Observed]) -> (Vec<Column>, &'static str) {
+        let curve = |is_over_frequency| curve_columns(motions, self.quantity, is_over_frequency);
+        let with = |mut columns: Vec<Column>, more: Vec<Column>| {
+            columns.extend(more);
+            columns
+        };
+        let histories = |is_loaded: Option<&'static str>| {
+            let mut columns = vec![column("time", "s", Role::Across)];
+            if let Some(unit) = is_loaded {
+                columns.push(column("frequency", "Hz", Role::Aside));
+                columns.push(column("load", unit, Role::Aside));
+            }
+            for &observed in motions {
+                let unit = |quantity| unit(observed, quantity);
+                let name = name(observed);
+                columns.push(column(&name, unit(Derivative::Displacement), Role::Up));
+                let rate = column(
+                    format!("{name} rate"),
+                    unit(Derivative::Velocity),
+                    Role::Aside,
+                );
+                columns.push(rate);
+            }
+            columns
+        };
+        match &self.test {
+            Test::Linear { load, .. } => {
+                let mut columns = vec![column("frequency", "Hz", Role::Across)];
+                for &observed in motions {
+                    let unit = per(unit(observed, self.quantity), load_unit(*load));
+                    for (part, role) in [
+                        ("modulus", Role::Up),
+                        ("real", Role::Aside),
+                        ("imaginary", Role::Aside),
+                    ] {
+                        columns.push(column(format!("{} {part}", name(observed)), unit, role));
+                    }
+                }
+                (columns, "")
+            }
+            Test::HarmonicBalance { load, .. } => {
+                let flags = vec![
+                    column("stable", "", Role::Stable),
+                    column("fold", "", Role::Aside),
+                ];
+                (with(curve(true), flags), load_unit(*load))
+            }
+            Test::ConstantAmplitude { load, of, .. } => {
+                // The amplitude is held: the load is what there is to see.
+                let mut columns = curve(true);
+                for column in &mut columns {
+                    if column.role == Role::Up {
+                        column.role = Role::Aside;
+                    }
+                }
+                let load = vec![column("load", load_unit(*load), Role::Up)];
+                (with(columns, load), unit(*of, self.quantity))
+            }
+            Test::Backbone { .. } => {
+                let ratio = vec![column("damping ratio", "", Role::Up)];
+                (with(curve(false), ratio), "")
+            }
+            Test::PhaseResonance { load, .. } => {
+                let load = vec![column("load", load_unit(*load), Role::Up)];
+                (with(curve(false), load), "")
+            }
+            Test::SteppedSine { load, .. } => {
+                let mut columns = vec![column("frequency", "Hz", Role::Across)];
+                for &observed in motions {
+                    let (name, unit) = (name(observed), unit(observed, self.quantity));
+                    columns.push(column(format!("{name} amplitude"), unit, Role::Up));
+                    columns.push(column(format!("{name} phase"), "°", Role::Aside));
+                }
+                (columns, load_unit(*load))
+            }
+            Test::Sweep { load, .. } | Test::Dwell { load, .. } => {
+                let unit = load_unit(*load);
+                (histories(Some(unit)), unit)
+            }
+            Test::FreeDecay { .. } => (histories(None), ""),
+        }
+    }
+
+    fn rows<const D: usize>(&self, lap: &Lap<D>, motions: &[Observed], level: f64) -> Rows {
+        let target = |of: Observed, amplitude: f64| Target {
+            observed: of,
+            derivative: self.quantity,
+            amplitude,
+        };
+        let curve = |harmonics| Curve {
+            harmonics,
+            motions,
+            quantity: self.quantity,
+        };
+        let driven = |place, [from_hz, to_hz]: [f64; 2], times: Times| {
+            let drive = Drive {
+                place,
+                level,
+                from_hz,
+                to_hz,
+                duration_s: times.duration_s,
+            };
+            history(lap, &[], Some(drive), times, motions)
+        };
+        Ok(match &self.test {
+            Test::Linear { span, lines, load } => receptances(
+                lap,
+                frequencies(*span, *lines),
+                *load,
+                motions,
+                self.quantity,
+            )?,
+            Test::HarmonicBalance {
+                span,
+                load,
+                harmonics,
+                ..
+            } => curve(harmonics).forced(lap, *span, *load, level)?,
+            Test::ConstantAmplitude {
+                span,
+                load,
+                of,
+                harmonics,
+                ..
+            } => curve(harmonics).controlled(lap, *span, *load, target(*of, level))?,
+            Test::Backbone {
+                of,
+                amplitudes,
+                is_undamped,
+                harmonics,
+            } => {
+                let target = target(*of, amplitudes[0]);
+                curve(harmonics).backbone(lap, *amplitudes, target, *is_undamped)?
+            }
+            Test::PhaseResonance {
+                load,
+                of,
+                amplitudes,
+                harmonics,
+            } => {
+                let target = target(*of, amplitudes[0]);
+                curve(harmonics).resonance(lap, *amplitudes, *load, target)?
+            }
+            Test::SteppedSine {
+                span,
+                lines,
+                load,
+                settle,
+                steps_per_period,
+                ..
+            } => SteppedSine {
+                span: *span,
+                lines: *lines,
+                place: *load,
+                level,
+                settle: *settle,
+                steps_per_period: *steps_per_period,
+                motions,
+                quantity: self.quantity,
+            }
+            .rows(lap)?,
+            Test::Sweep {
+                span, load, times, ..
+            } => driven(*load, span.ends_hz, *times)?,
+            Test::Dwell {
+                frequency_hz,
+                load,
+                times,
+                ..
+            } => driven(*load, [*frequency_hz; 2], *times)?,
+            Test::FreeDecay { start, times } => history(lap, start, None, *times, motions)?,
+        })
+    }
+
+    fn failed(
+        &self,
+        lap: &StudyLap,
+        level: Option<f64>,
+        unit: &str,
+        failure: Failure,
+    ) -> RespondError {
+        let level = level.map_or_else(String::new, |level| format!(", {level} {unit}"));
+        let lap = lap.name.clone();
+        match failure {
+            Failure::Harmonic(source) => RespondError::Harmonic { lap, level, source },
+            Failure::Time(Ended::Escaped(time_s)) => RespondError::Escaped { lap, level, time_s },
+            Failure::Time(Ended::Undamped) => RespondError::Undamped {
+                path: self.path.clone(),
+                lap,
+            },
+            Failure::Time(Ended::TooMany(steps)) => RespondError::TooManySteps {
+                path: self.path.clone(),
+                key: "time",
+                steps,
+                most: MOST_STEPS,
+            },
+        }
+    }
+}
+
+/// A unit over that of a load.
+fn per(motion: &str, load: &str) -> &'static str {
+    match (motion, load) {
+        ("m", "N") => "m/N",
+        ("m/s", "N") => "m/s/N",
+        ("m/s²", "N") => "m/s²/N",
+        ("rad", "N") => "rad/N",
+        ("rad/s", "N") => "rad/s/N",
+        ("rad/s²", "N") => "rad/s²/N",
+        ("m", _) => "m/(N·m)",
+        ("m/s", _) => "m/s/(N·m)",
+        ("m/s²", _) => "m/s²/(N·m)",
+        ("rad", _) => "rad/(N·m)",
+        ("rad/s", _) => "rad/s/(N·m)",
+        _ => "rad/s²/(N·m)",
+    }
+}

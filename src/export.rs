@@ -1,0 +1,222 @@
+//! `export`: a joint file becomes an FMU.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use bolted_joint::export::{
+    self as fmu, ExportError, ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp,
+    fmu_bytes,
+};
+use bolted_joint::joint::JointFile;
+
+use super::error::CliError;
+use super::output::{check_output, message, print};
+use super::table::number;
+
+/// `export`
+#[derive(Debug, Args)]
+pub(super) struct ExportArguments {
+    /// Joint file (JSON)
+    joint_file: PathBuf,
+    /// FMU to write
+    #[arg(short, long, value_name = "NAME.fmu")]
+    output: PathBuf,
+    /// Interface of the FMU
+    #[arg(
+        long = "as",
+        value_enum,
+        value_name = "INTERFACE",
+        default_value = "element"
+    )]
+    interface: InterfaceArgument,
+    /// Version of the FMI standard
+    #[arg(long, value_enum, value_name = "VERSION", default_value = "3")]
+    fmi: FmiVersion,
+    /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    step_size_max: Option<f64>,
+    /// Preload at which a joint over the preload is frozen, N·m [default: the FMU has the preload as an input]
+    #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
+    preload: Option<f64>,
+    /// Hold a joint over the preload beyond the ends of its table, where its FMU else refuses the preload
+    #[arg(long, conflicts_with = "preload")]
+    extrapolate: bool,
+    /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
+    #[arg(long, value_name = "DIR")]
+    platforms: Option<PathBuf>,
+    /// Export a joint that can feed energy into a simulation
+    #[arg(long)]
+    allow_active: bool,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum InterfaceArgument {
+    /// The massless joint between two structures: motion in, force out
+    Element,
+    /// Two supported bodies and the joint between them: loads in, motion out
+    Lap,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FmiVersion {
+    /// FMI 3.0
+    #[value(name = "3")]
+    Three,
+    /// FMI 2.0
+    #[value(name = "2")]
+    Two,
+}
+
+impl From<FmiVersion> for fmu::FmiVersion {
+    fn from(argument: FmiVersion) -> Self {
+        match argument {
+            FmiVersion::Three => Self::V3,
+            FmiVersion::Two => Self::V2,
+        }
+    }
+}
+
+impl From<InterfaceArgument> for Interface {
+    fn from(argument: InterfaceArgument) -> Self {
+        match argument {
+            InterfaceArgument::Element => Self::Element,
+            InterfaceArgument::Lap => Self::Lap,
+        }
+    }
+}
+
+pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
+    let options = ExportOptions {
+        version: arguments.fmi.into(),
+        step_size_max_s: arguments.step_size_max,
+        platforms: arguments.platforms.clone(),
+        preload_n_m: arguments.preload,
+        extrapolate: arguments.extrapolate,
+        allow_active: arguments.allow_active,
+        ..options(arguments.interface.into())?
+    };
+    check_output(&arguments.output, &[&arguments.joint_file])?;
+    let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
+    for matrix in exported.passivity.active() {
+        message(&format!(
+            "warning: {matrix}: this FMU can feed energy into a simulation"
+        ));
+    }
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&as_json(
+            &exported,
+            &arguments.output,
+        ))?);
+    }
+    print(&summary(&exported, &arguments.output))
+}
+
+/// The options of a plain export as this interface.
+pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
+    Ok(ExportOptions {
+        interface,
+        version: fmu::FmiVersion::default(),
+        step_size_max_s: None,
+        platforms: None,
+        preload_n_m: None,
+        extrapolate: false,
+        allow_active: false,
+        date: Timestamp::from_environment()?,
+    })
+}
+
+/// Reads a joint file and writes its FMU, whole or not at all.
+pub(super) fn export_to(
+    joint_file: &Path,
+    fmu: &Path,
+    options: &ExportOptions,
+) -> Result<Exported, CliError> {
+    let (file, text) = JointFile::read_with_source(joint_file)?;
+    let exported = fmu_bytes(&file, &text, options).map_err(|source| match source {
+        ExportError::Invalid { .. }
+        | ExportError::Active { .. }
+        | ExportError::Law(_)
+        | ExportError::Preload(_)
+        | ExportError::NoSpectrum => CliError::Unexportable {
+            path: joint_file.to_owned(),
+            source,
+        },
+        _ => source.into(),
+    })?;
+    exported.write(fmu)?;
+    Ok(exported)
+}
+
+/// What was written, in five lines.
+fn summary(exported: &Exported, fmu: &Path) -> String {
+    let platforms: Vec<&str> = exported
+        .libraries
+        .iter()
+        .map(|library| library.platform.as_str())
+        .collect();
+    format!(
+        "wrote {} ({}, {} files, {} kB)\n\
+         model: {}, {}\n\
+         steps: {}\n\
+         platforms: {}\n\
+         token: {}\n",
+        fmu.display(),
+        exported.version,
+        exported.entries.len(),
+        exported.bytes().len().div_ceil(1000),
+        exported.model_name,
+        exported.interface.summary(),
+        exported
+            .step
+            .as_ref()
+            .map_or_else(|| "none, the element has no states".to_owned(), steps),
+        platforms.join(", "),
+        exported.token,
+    )
+}
+
+/// What was written, in one line.
+pub(super) fn one_line(exported: &Exported) -> String {
+    let steps = exported
+        .step
+        .as_ref()
+        .map(|step| format!("; {}", steps(step)));
+    format!(
+        "{}{}",
+        exported.interface.summary(),
+        steps.unwrap_or_default()
+    )
+}
+
+fn steps(step: &StepSize) -> String {
+    let why = match step.choice {
+        StepChoice::Given => "as given".to_owned(),
+        StepChoice::Accuracy => format!("for |λ|max = {} 1/s", number(step.largest_modulus, 3)),
+        StepChoice::NoModes => "nothing moves by itself".to_owned(),
+    };
+    format!("RK4 of at most {} s, {why}", number(step.longest_s, 2))
+}
+
+fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
+    json!({
+        "output": fmu.display().to_string(),
+        "fmi_version": exported.version.number(),
+        "interface": exported.interface.name(),
+        "model_name": exported.model_name,
+        "token": exported.token,
+        "step_size_max_s": exported.step.map(|step| step.longest_s),
+        "escape_amplitude": exported.escape_amplitude,
+        "platforms": exported.libraries.iter().map(|library| &library.platform).collect::<Vec<_>>(),
+        "entries": exported
+            .entries
+            .iter()
+            .map(|entry| json!({ "path": entry.path, "size": entry.size }))
+            .collect::<Vec<_>>(),
+        "passive": exported.passivity.is_passive(),
+    })
+}

@@ -1,0 +1,475 @@
+//! `identify`: a study becomes a joint file.
+
+mod lap;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use num_complex::Complex64;
+use serde_json::json;
+
+use bolted_joint::export::Timestamp;
+use bolted_joint::identify::lap::StudyMethod;
+use bolted_joint::identify::{
+    Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
+};
+use bolted_joint::joint::JointFile;
+use bolted_joint::report::{FrfFigure, FrfPanel, IdentificationReport};
+use bolted_joint_files::whole_file;
+
+use super::bolt_files::of_bolts;
+use super::error::CliError;
+use super::identified_from::{at_bolts, averaged, from_modes, place};
+use super::output::{check_output, message, print, write_file};
+use super::progress::Progress;
+use super::table::{Table, number};
+
+/// `identify`
+#[derive(Debug, Args)]
+pub(super) struct IdentifyArguments {
+    /// The study: what was measured, on which points, and which joint model to identify (TOML)
+    study: PathBuf,
+    /// Joint file to write; NAME.BOLT.joint.json for each bolt where bolts have different joints
+    #[arg(short, long, value_name = "NAME.joint.json")]
+    output: PathBuf,
+    /// Also draw measured and regenerated FRFs
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
+    /// Also write a report: one page with everything that was measured, assumed and found
+    #[arg(long, value_name = "NAME.html")]
+    report: Option<PathBuf>,
+    /// Repeat the estimate on so many data sets drawn from the fitted model
+    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    bootstrap: Option<u32>,
+    /// Seed of the bootstrap [default: 1]
+    #[arg(long, requires = "bootstrap")]
+    seed: Option<u64>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// At most so many functions are drawn.
+const PANELS: usize = 3;
+
+pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+    let named = [
+        (
+            "--figure",
+            &arguments.figure,
+            "svg",
+            "a name that ends in .svg",
+        ),
+        (
+            "--report",
+            &arguments.report,
+            "html",
+            "a name that ends in .html",
+        ),
+    ];
+    check_output(&arguments.output, &[&arguments.study])?;
+    let mut taken = vec![&arguments.study, &arguments.output];
+    for (option, path, expected_extension, expected) in named {
+        let Some(path) = path else { continue };
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        if extension != Some(expected_extension) {
+            return Err(CliError::Option {
+                option,
+                found: path.display().to_string(),
+                expected,
+            });
+        }
+        check_output(path, &taken)?;
+        taken.push(path);
+    }
+    match StudyMethod::read(&arguments.study)? {
+        StudyMethod::FrfDecoupling => {}
+        StudyMethod::LapUpdate => return lap::update(arguments),
+        StudyMethod::LapResponse => return lap::response(arguments),
+    }
+    let written = match arguments.report {
+        Some(_) => Some(Timestamp::from_environment()?),
+        None => None,
+    };
+    let study = Study::read(&arguments.study)?;
+    let outputs = of_bolts(&arguments.output, &study.bolts);
+    if outputs.len() > 1 {
+        for output in &outputs {
+            check_output(output, &taken)?;
+        }
+    }
+    let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
+        draws: draws as usize,
+        seed: arguments.seed.unwrap_or(1),
+    });
+    let progress = Progress::new(
+        "identifying",
+        bootstrap.map_or(0, |bootstrap| bootstrap.draws),
+    );
+    let found = identify_and_draw(&study, bootstrap, &progress)?;
+    drop(progress);
+    let joint_files = found.joint_files();
+    let drawing = arguments
+        .figure
+        .as_ref()
+        .map(|path| (path, figure(&found, "")));
+    let warnings = warnings(&found);
+    let page = written.map(|written| report(&study, &found, &warnings, written));
+    write_joint_files(&outputs, &joint_files)?;
+    if let Some((path, drawing)) = drawing {
+        write_file(path, drawing.as_bytes())?;
+    }
+    if let (Some(path), Some(page)) = (&arguments.report, page) {
+        write_file(path, page.as_bytes())?;
+    }
+    for warning in &warnings {
+        message(&format!("warning: {warning}"));
+    }
+    if arguments.json {
+        let bolts: Vec<_> = outputs
+            .iter()
+            .zip(&joint_files)
+            .map(|(output, (bolt, file))| {
+                json!({ "bolt": bolt, "output": output.display().to_string(), "joint_file": file })
+            })
+            .collect();
+        let models = found.estimate.model_choice();
+        let not_compared = study.models_not_compared();
+        let only = |key: &str| (bolts.len() == 1).then(|| &bolts[0][key]);
+        let value = json!({
+            "output": only("output"),
+            "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
+            "report": arguments.report.as_ref().map(|path| path.display().to_string()),
+            "joint_file": only("joint_file"),
+            "bolts": (bolts.len() > 1).then_some(&bolts),
+            "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
+            "reduced_chi_squared": found.reduced_chi_squared,
+            "warnings": warnings,
+            "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
+                "recommended": choice.recommended,
+                "compared": choice.models.iter().map(|fit| json!({
+                    "model": fit.model,
+                    "bic_difference": fit.bic_difference,
+                    "adequate": fit.adequate,
+                })).collect::<Vec<_>>(),
+            })),
+            "torques": found.estimate.torque_choice().map(|choice| json!({
+                "used": study.torques,
+                "recommended": choice.recommended,
+                "compared": choice.compared.map(|fit| json!({
+                    "torques": fit.dependence,
+                    "unknowns": fit.unknowns,
+                    "bic_difference": fit.bic_difference,
+                    "adequate": fit.adequate,
+                })),
+            })),
+            "models_not_compared": not_compared,
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    let mut text = summary(&found, &study);
+    text.push('\n');
+    for path in &outputs {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    print(&text)
+}
+
+/// Writes every joint file or, if one cannot be written, none.
+fn write_joint_files(
+    outputs: &[PathBuf],
+    files: &[(Option<&str>, JointFile)],
+) -> Result<(), CliError> {
+    let texts = files.iter().map(|(_, file)| file.to_json());
+    let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+    let contents = outputs.iter().zip(&texts);
+    let contents: Vec<(&Path, &[u8])> = contents
+        .map(|(output, text)| (output.as_path(), text.as_bytes()))
+        .collect();
+    whole_file::write_all(&contents).map_err(|(path, source)| CliError::Unwritable { path, source })
+}
+
+/// What the identification and the passivity of its result give reason to warn of.
+pub(super) fn warnings(found: &Identification) -> Vec<String> {
+    let mut warnings = found.warnings.clone();
+    for (bolt, file) in found.joint_files() {
+        let bolt = bolt.map(|bolt| format!("{bolt}, ")).unwrap_or_default();
+        let passivity = file.passivity();
+        warnings.extend(passivity.active().map(|matrix| {
+            format!("{bolt}{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it")
+        }));
+    }
+    warnings
+}
+
+/// The result for people.
+fn summary(found: &Identification, study: &Study) -> String {
+    let mut text = format!("{}\n{}\n", found.name, basis(found));
+    let joints = found.estimate.joints();
+    let bolts = found.bolts.with_own_joint();
+    for joint in joints {
+        if let Some(torque) = joint.torque_n_m {
+            let _ = write!(text, "\nat {torque} N·m");
+        }
+        text += "\n";
+        text += &parameters(joint, bolts);
+    }
+    let active: Vec<String> = joints
+        .iter()
+        .filter(|joint| joint.free_is_active())
+        .map(place)
+        .collect();
+    if !active.is_empty() {
+        let _ = writeln!(
+            text,
+            "\nThe free estimate is active{}; \"identified\" is the passive joint that fits best, and is what the file holds.",
+            active.join(" and")
+        );
+    }
+    for joint in joints {
+        text += &averaged(joint, bolts);
+    }
+    text += &from_modes(found);
+    let _ = writeln!(text, "\n{}", fit(found));
+    text += &models(found, study);
+    text += &torques(found);
+    for joint in joints {
+        if let Some(result) = &joint.bootstrap {
+            text += &bootstrap(result, joint, bolts);
+        }
+    }
+    text
+}
+
+/// The parameters at one torque.
+fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
+    let covariance = &joint.covariance;
+    let active = joint.free != joint.bolts();
+    let deviation = covariance.standard_deviation();
+    let mut header = vec!["", "identified", "± std. dev.", "95 % interval"];
+    if active {
+        header.push("free estimate");
+    }
+    header.extend(["band average", "unit"]);
+    let mut table = Table::new(&header);
+    let intervals = covariance.intervals();
+    for (index, unknown) in covariance.unknowns.iter().enumerate() {
+        let [low, high] = intervals[index];
+        let mut cells = vec![unknown.label(bolts)];
+        if covariance.identified[index] {
+            cells.extend([
+                number(unknown.value(&joint.bolts()[unknown.joint]), 5),
+                number(deviation[index], 2),
+                format!("{} … {}", number(low, 5), number(high, 5)),
+            ]);
+        } else {
+            cells.extend(["not identified", "", ""].map(str::to_owned));
+        }
+        if active {
+            cells.push(number(unknown.value(&joint.free[unknown.joint]), 5));
+        }
+        cells.push(joint.band_averages.as_ref().map_or_else(
+            || "none".to_owned(),
+            |averages| number(unknown.value(&averages[unknown.joint]), 5),
+        ));
+        cells.push(unknown.unit.to_owned());
+        table.row(cells);
+    }
+    table.render()
+}
+
+/// The joint models beside each other.
+fn models(found: &Identification, study: &Study) -> String {
+    let Some(choice) = found.estimate.model_choice() else {
+        return String::new();
+    };
+    if let Some(reason) = study.models_not_compared() {
+        return format!("joint models are not compared: {reason}\n");
+    }
+    let compared: Vec<String> = choice
+        .models
+        .iter()
+        .map(|fit| {
+            let residual = leaves(fit.adequate);
+            format!("{} +{:.1} ({residual})", fit.model, fit.bic_difference)
+        })
+        .collect();
+    let advice = if !choice.any_is_adequate {
+        format!("none is adequate, \"{}\" comes closest", choice.recommended)
+    } else if choice.recommended == found.model {
+        format!("\"{}\" is the simplest adequate one", choice.recommended)
+    } else {
+        format!(
+            "\"{}\" is the simplest adequate one: consider it instead of \"{}\"",
+            choice.recommended, found.model
+        )
+    };
+    format!("joint models by BIC: {}; {advice}\n", compared.join(", "))
+}
+
+/// A common joint beside one for each torque.
+fn torques(found: &Identification) -> String {
+    let Some(choice) = found.estimate.torque_choice() else {
+        return String::new();
+    };
+    let compared: Vec<String> = choice
+        .compared
+        .iter()
+        .map(|fit| {
+            format!(
+                "{} +{:.1} ({})",
+                fit.dependence,
+                fit.bic_difference,
+                leaves(fit.adequate)
+            )
+        })
+        .collect();
+    let advice = match (choice.any_is_adequate, choice.recommended) {
+        (true, recommended) => format!("\"{recommended}\" is the simplest adequate one"),
+        (false, closest) => format!("neither is adequate, \"{closest}\" comes closest"),
+    };
+    format!(
+        "joints over the torque by BIC: {}; {advice}\n",
+        compared.join(", ")
+    )
+}
+
+fn leaves(adequate: bool) -> &'static str {
+    if adequate {
+        "leaves noise"
+    } else {
+        "leaves more than noise"
+    }
+}
+
+fn bootstrap(result: &BootstrapResult, joint: &JointEstimate, bolts: &[String]) -> String {
+    let at = place(joint);
+    let unknowns = &joint.covariance.unknowns;
+    let mut text = format!(
+        "\nbootstrap{at}: {} draws, seed {}, {} converged\n",
+        result.draws, result.seed, result.converged
+    );
+    if result.converged > 1 {
+        let mut table = Table::new(&["", "± std. dev.", "95 % interval", "unit"]);
+        for (index, unknown) in unknowns.iter().enumerate() {
+            let [low, high] = result.intervals[index];
+            table.row(vec![
+                unknown.label(bolts),
+                number(result.standard_deviation[index], 2),
+                format!("{} … {}", number(low, 5), number(high, 5)),
+                unknown.unit.to_owned(),
+            ]);
+        }
+        text += &table.render();
+    }
+    text
+}
+
+/// What the result rests on, in one line.
+pub(super) fn basis(found: &Identification) -> String {
+    let frequency_hz = &found.lines.frequency_hz;
+    let counted = |count: usize, thing: &str| {
+        let ending = if count == 1 { "" } else { "s" };
+        format!("{count} {thing}{ending}")
+    };
+    format!(
+        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz",
+        found.model,
+        at_bolts(&found.bolts),
+        counted(
+            found.fits.len()
+                + found
+                    .further
+                    .iter()
+                    .map(|assembly| assembly.fits.len())
+                    .sum::<usize>(),
+            "function"
+        ),
+        counted(found.lines.points.len(), "point"),
+        counted(frequency_hz.len(), "line"),
+        number(frequency_hz[0], 4),
+        number(frequency_hz[frequency_hz.len() - 1], 4),
+    )
+}
+
+/// How well the result fits, in one line.
+pub(super) fn fit(found: &Identification) -> String {
+    let chi_squared = found
+        .reduced_chi_squared
+        .map(|value| format!("; χ² per degree of freedom {value:.3}"))
+        .unwrap_or_default();
+    let files = found.joint_files();
+    let is_passive = files.iter().all(|(_, file)| file.passivity().is_passive());
+    let verdict = match (files.len(), is_passive) {
+        (1, true) => "the joint is passive",
+        (1, false) => "the joint is ACTIVE",
+        (_, true) => "all joints are passive",
+        (_, false) => "not all joints are passive: ACTIVE",
+    };
+    let (tried, agreeing) = found.starts;
+    format!(
+        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
+        100.0 * found.relative_rms
+    )
+}
+
+/// The report as a page.
+pub(super) fn report(
+    study: &Study,
+    found: &Identification,
+    warnings: &[String],
+    written: Timestamp,
+) -> String {
+    IdentificationReport {
+        study,
+        found,
+        warnings,
+        written,
+    }
+    .to_html()
+}
+
+/// The drive-point functions (or, without any, the first ones), measured and regenerated.
+pub(super) fn figure(found: &Identification, subtitle: &str) -> String {
+    let curve = |matrices: &[bolted_joint::structure::ComplexMatrix], place| -> Vec<Complex64> {
+        matrices.iter().map(|matrix| matrix[place]).collect()
+    };
+    let drive_points = found
+        .fits
+        .iter()
+        .filter(|fit| fit.response == fit.reference);
+    let others = found
+        .fits
+        .iter()
+        .filter(|fit| fit.response != fit.reference);
+    let curves: Vec<_> = drive_points
+        .chain(others)
+        .take(PANELS)
+        .map(|fit| {
+            let label = format!("{} / {}", fit.response, fit.reference);
+            let measured = curve(&found.lines.assembly, fit.place);
+            let regenerated = curve(&found.regenerated, fit.place);
+            (label, measured, regenerated)
+        })
+        .collect();
+    FrfFigure {
+        title: &found.name,
+        subtitle,
+        frequency_hz: &found.lines.frequency_hz,
+        panels: curves
+            .iter()
+            .map(|(label, measured, regenerated)| FrfPanel {
+                label: label.clone(),
+                unit: "m/N",
+                measured,
+                regenerated,
+                uncoupled: None,
+            })
+            .collect(),
+    }
+    .to_svg()
+}

@@ -1,0 +1,161 @@
+//! `identify` with method `lap-response`: the lap model from responses at several levels.
+
+use std::fmt::Write as _;
+
+use serde_json::json;
+
+use super::super::super::error::CliError;
+use super::super::super::output::{message, print, write_file};
+use super::super::super::progress::Progress;
+use super::super::super::table::{Table, number};
+use super::super::IdentifyArguments;
+use super::check_options;
+use bolted_joint::export::Timestamp;
+use bolted_joint::identify::lap::{LapResponse, LapResponseStudy};
+use bolted_joint::report::LapResponseReport;
+
+pub(in super::super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+    check_options(arguments)?;
+    let written = match arguments.report {
+        Some(_) => Some(Timestamp::from_environment()?),
+        None => None,
+    };
+    let study = LapResponseStudy::read(&arguments.study)?;
+    let progress = Progress::new("identifying", 0);
+    let found = LapResponse::of(&study, &progress)?;
+    drop(progress);
+    let file = found.joint_file(&study);
+    let mut warnings = found.warnings(&study);
+    for matrix in file.passivity().active() {
+        warnings.push(format!(
+            "{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it"
+        ));
+    }
+    write_file(&arguments.output, file.to_json()?.as_bytes())?;
+    if let (Some(path), Some(written)) = (&arguments.report, written) {
+        let page = LapResponseReport {
+            study: &study,
+            found: &found,
+            warnings: &warnings,
+            written,
+        };
+        write_file(path, page.to_html().as_bytes())?;
+    }
+    if let Some(path) = &arguments.figure {
+        let drawing = bolted_joint::report::level_figure(&study, &found);
+        write_file(path, drawing.unwrap_or_default().as_bytes())?;
+    }
+    for warning in &warnings {
+        message(&format!("warning: {warning}"));
+    }
+    if arguments.json {
+        let value = json!({
+            "output": arguments.output.display().to_string(),
+            "joint_file": file,
+            "estimates": found.estimates.iter().map(|estimate| json!({
+                "unknown": estimate.unknown.symbol(),
+                "value": estimate.value,
+                "standard_deviation": estimate.standard_deviation,
+                "interval_95": estimate.interval_95,
+                "identified": estimate.is_identified,
+                "unit": estimate.unknown.unit(),
+            })).collect::<Vec<_>>(),
+            "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
+            "models": found.comparison,
+            "predictions": found.predictions,
+            "warnings": warnings,
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    let mut text = summary(&found, &study);
+    let also = [&arguments.figure, &arguments.report].into_iter().flatten();
+    for path in std::iter::once(&arguments.output).chain(also) {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    print(&text)
+}
+
+fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
+    let mut text = format!(
+        "{}\nterms that depend on amplitude: {}\n\n",
+        found.name, found.model.terms
+    );
+    let mut table = Table::new(&["", "identified", "± std. dev.", "95 % interval", "unit"]);
+    for estimate in &found.estimates {
+        let [low, high] = estimate.interval_95;
+        let mut cells = vec![estimate.unknown.symbol().to_owned()];
+        if estimate.is_identified {
+            cells.extend([
+                number(estimate.value, 5),
+                number(estimate.standard_deviation, 2),
+                format!("{} … {}", number(low, 5), number(high, 5)),
+            ]);
+        } else {
+            cells.extend(["not identified", "", ""].map(str::to_owned));
+        }
+        cells.push(estimate.unknown.unit().to_owned());
+        table.row(cells);
+    }
+    text += &table.render();
+    let reduced = found.fit.chi_squared / found.fit.degrees_of_freedom.max(1) as f64;
+    let _ = writeln!(
+        text,
+        "\nχ² per degree of freedom {} with {} noise of {} % (response) and {} % (force); {} of {} starts agree",
+        number(reduced, 4),
+        if study.noise.is_stated {
+            "the stated"
+        } else {
+            "a nominal"
+        },
+        number(100.0 * study.noise.response, 2),
+        number(100.0 * study.noise.force, 2),
+        found.starts.1,
+        found.starts.0
+    );
+    text += "\nmodels by likelihood\n";
+    let mut table = Table::new(&["terms", "unknowns", "χ²/ν", "BIC"]);
+    for model in &found.comparison {
+        table.row(vec![
+            model.terms.to_string(),
+            model.unknowns.to_string(),
+            number(model.reduced_chi_squared, 4),
+            format!("{:.1}", model.bic_difference),
+        ]);
+    }
+    text += &table.render();
+    if !found.predictions.is_empty() {
+        text += "\nphase resonance at the measured force\n";
+        let mut table = Table::new(&[
+            "run",
+            "",
+            "force, N",
+            "measured, Hz",
+            "model",
+            "error, Hz",
+            "measured, mm",
+            "model",
+            "error",
+        ]);
+        for row in &found.predictions {
+            let predicted = row.predicted;
+            let optional = |value: Option<String>| value.unwrap_or_else(|| "none".to_owned());
+            table.row(vec![
+                row.run.clone(),
+                if row.left_out { "left out" } else { "fitted" }.to_owned(),
+                number(row.measured.force_n, 3),
+                format!("{:.3}", row.measured.frequency_hz),
+                optional(predicted.map(|at| format!("{:.3}", at.frequency_hz))),
+                optional(row.frequency_error_hz().map(|error| format!("{error:+.3}"))),
+                number(1e3 * row.measured.displacement_m, 4),
+                optional(predicted.map(|at| number(1e3 * at.displacement_m, 4))),
+                optional(
+                    row.amplitude_error()
+                        .map(|error| format!("{:+.1} %", 100.0 * error)),
+                ),
+            ]);
+        }
+        text += &table.render();
+    }
+    text.push('\n');
+    text
+}

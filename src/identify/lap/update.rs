@@ -1,0 +1,202 @@
+//! `identify` with method `lap-update`: the lap model from natural frequencies.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::json;
+
+use super::super::super::error::CliError;
+use super::super::super::output::{check_output, message, print, write_file};
+use super::super::super::progress::Progress;
+use super::super::super::table::{Table, number};
+use super::super::IdentifyArguments;
+use super::{Outputs, check_options};
+use bolted_joint::export::Timestamp;
+use bolted_joint::identify::lap::{LapParameter, LapUpdate, LapUpdateStudy, TorqueUpdate};
+use bolted_joint::report::LapUpdateReport;
+use bolted_joint_files::whole_file;
+
+pub(in super::super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+    check_options(arguments)?;
+    let written = match arguments.report {
+        Some(_) => Some(Timestamp::from_environment()?),
+        None => None,
+    };
+    let study = LapUpdateStudy::read(&arguments.study)?;
+    let progress = Progress::new("updating", study.torques.len() * study.firefly.iterations);
+    let found = LapUpdate::of(&study, &progress)?;
+    drop(progress);
+    let joint_files = found.joint_files();
+    let torques: Vec<Option<f64>> = joint_files.iter().map(|(torque, _)| *torque).collect();
+    let outputs = Outputs::at_torques(&arguments.output, &torques).files;
+    for output in &outputs {
+        check_output(output, &[&arguments.study])?;
+    }
+    let texts = joint_files.iter().map(|(_, file)| file.to_json());
+    let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
+    let contents = outputs.iter().zip(&texts);
+    let contents: Vec<(&Path, &[u8])> = contents
+        .map(|(output, text)| (output.as_path(), text.as_bytes()))
+        .collect();
+    whole_file::write_all(&contents)
+        .map_err(|(path, source)| CliError::Unwritable { path, source })?;
+    let warnings = found.warnings();
+    if let (Some(path), Some(written)) = (&arguments.report, written) {
+        let page = LapUpdateReport {
+            found: &found,
+            warnings: &warnings,
+            written,
+        };
+        write_file(path, page.to_html().as_bytes())?;
+    }
+    if let Some(path) = &arguments.figure {
+        let drawing = bolted_joint::report::convergence_figure(&found);
+        write_file(path, drawing.unwrap_or_default().as_bytes())?;
+    }
+    for warning in &warnings {
+        message(&format!("warning: {warning}"));
+    }
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&as_json(&found, &outputs))?);
+    }
+    let mut text = summary(&found);
+    for path in outputs
+        .iter()
+        .chain(&arguments.figure)
+        .chain(&arguments.report)
+    {
+        let _ = writeln!(text, "wrote {}", path.display());
+    }
+    print(&text)
+}
+
+fn as_json(found: &LapUpdate, outputs: &[std::path::PathBuf]) -> serde_json::Value {
+    let torques: Vec<_> = found
+        .torques
+        .iter()
+        .map(|torque| {
+            let parameters: serde_json::Map<_, _> = LapParameter::ALL
+                .into_iter()
+                .map(|parameter| {
+                    let value = json!({
+                        "value": torque.solution.of(parameter),
+                        "firefly": torque.firefly.parameters.of(parameter),
+                        "unit": parameter.unit(),
+                        "knowledge": torque.knowledge(parameter).words(),
+                    });
+                    (parameter.symbol().to_owned(), value)
+                })
+                .collect();
+            json!({
+                "torque_n_m": torque.data.torque_n_m,
+                "measured_rad_per_s": torque.data.omega_rad_per_s,
+                "updated_rad_per_s": torque.frequencies(&torque.solution),
+                "objective": torque.objective,
+                "firefly_objective": torque.firefly.objective,
+                "history": torque.firefly.history,
+                "parameters": parameters,
+                "not_identified": torque.not_identified(),
+                "determined": torque.identifiability.combinations.iter().map(|combination| json!({
+                    "formula": combination.formula,
+                    "value_per_s2": combination.value,
+                    "standard_deviation": combination.standard_deviation,
+                })).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({
+        "outputs": outputs.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        "torques": torques,
+        "warnings": found.warnings(),
+    })
+}
+
+/// The result for people.
+fn summary(found: &LapUpdate) -> String {
+    let mut text = format!("{}\n", found.name);
+    for torque in &found.torques {
+        if let Some(torque) = torque.data.torque_n_m {
+            let _ = write!(text, "\nat {torque} N·m");
+        }
+        text.push('\n');
+        text += &parameters(torque);
+        text.push('\n');
+        text += &frequencies(torque);
+        text += &combinations(torque);
+    }
+    text.push('\n');
+    text
+}
+
+fn parameters(torque: &TorqueUpdate) -> String {
+    let mut table = Table::new(&[
+        "",
+        "least squares",
+        "fireflies",
+        "unit",
+        "what the frequencies say",
+    ]);
+    for parameter in LapParameter::ALL {
+        let knowledge = torque.knowledge(parameter);
+        // In brackets: no result, but one of many values.
+        let shown = |value: f64| match knowledge.is_known() {
+            true => number(value, 5),
+            false => format!("({})", number(value, 5)),
+        };
+        table.row(vec![
+            parameter.symbol().to_owned(),
+            shown(torque.solution.of(parameter)),
+            shown(torque.firefly.parameters.of(parameter)),
+            parameter.unit().to_owned(),
+            knowledge.words().to_owned(),
+        ]);
+    }
+    table.render()
+}
+
+fn frequencies(torque: &TorqueUpdate) -> String {
+    let mut table = Table::new(&[
+        "ω, rad/s",
+        "measured",
+        "least squares",
+        "error",
+        "fireflies",
+        "error",
+    ]);
+    let updated = torque.frequencies(&torque.solution);
+    let firefly = torque.frequencies(&torque.firefly.parameters);
+    for (mode, measured) in torque.data.omega_rad_per_s.iter().enumerate() {
+        let error = |value: f64| format!("{:+.2} %", 100.0 * (value / measured - 1.0));
+        table.row(vec![
+            format!("ω{}", mode + 1),
+            number(*measured, 5),
+            number(updated[mode], 5),
+            error(updated[mode]),
+            number(firefly[mode], 5),
+            error(firefly[mode]),
+        ]);
+    }
+    table.render()
+}
+
+fn combinations(torque: &TorqueUpdate) -> String {
+    let mut text = "  determined by the frequencies:".to_owned();
+    for combination in &torque.identifiability.combinations {
+        let spread = combination
+            .standard_deviation
+            .map(|deviation| format!(" ± {}", number(deviation, 2)))
+            .unwrap_or_default();
+        let _ = write!(
+            text,
+            "  {} = {}{spread} 1/s²",
+            combination.formula,
+            number(combination.value, 5)
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\n  not identified: {}",
+        torque.not_identified().join(", ")
+    );
+    text
+}

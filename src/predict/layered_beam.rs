@@ -1,0 +1,73 @@
+//! `predict` with method `layered-beam`.
+
+use serde_json::json;
+
+use super::super::error::CliError;
+use super::super::output::{message, print};
+use super::PredictArguments;
+use super::outputs::{self, Outputs};
+use bolted_joint::predict::layered_beam::Study;
+use bolted_joint::predict::study::PredictError;
+use bolted_joint::report::LayeredBeamFigure;
+
+pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
+    outputs::refuse(
+        &[
+            ("--report", arguments.report.as_ref()),
+            ("--matrix-csv", arguments.matrix_csv.as_ref()),
+            ("--matrix27", arguments.matrix27.as_ref()),
+            ("--field-csv", arguments.field_csv.as_ref()),
+            ("--material-card", arguments.material_card.as_ref()),
+        ],
+        "none: a layered beam has no interface elements; --damping-csv has its damping over the amplitude",
+    )?;
+    outputs::check(
+        &arguments.study,
+        &[
+            ("--output", Some(&arguments.output), &[], ""),
+            (
+                "--damping-csv",
+                arguments.damping_csv.as_ref(),
+                &["csv"],
+                "a name that ends in .csv",
+            ),
+            (
+                "--figure",
+                arguments.figure.as_ref(),
+                &["svg"],
+                "a name that ends in .svg",
+            ),
+        ],
+    )?;
+    let study = Study::read(&arguments.study).map_err(PredictError::from)?;
+    let found = study.run().map_err(PredictError::from)?;
+    let joint_file = found.joint_file().to_json()?;
+    let mut files = Outputs::new();
+    files.add(Some(&arguments.output), || joint_file);
+    files.add(arguments.damping_csv.as_ref(), || found.csv());
+    files.add(arguments.figure.as_ref(), || {
+        let figure = LayeredBeamFigure { outcome: &found };
+        figure.to_svg().unwrap_or_default()
+    });
+    files.write()?;
+    for warning in found.warnings() {
+        message(&format!("warning: {warning}"));
+    }
+    if arguments.json {
+        let value = json!({
+            "output": arguments.output.display().to_string(),
+            "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
+            "damping_csv": arguments.damping_csv.as_ref().map(|path| path.display().to_string()),
+            "joint_file": found.joint_file(),
+            "result": found,
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    let mut text = format!("{}\n", study.name);
+    for line in found.summary() {
+        text += &line;
+        text.push('\n');
+    }
+    text.push('\n');
+    print(&(text + &files.written()))
+}

@@ -1,0 +1,307 @@
+//! `reproduce`: the tables of Tol's thesis, of Pirdayr's paper and of Kavi's thesis computed anew.
+
+mod kavi;
+mod pirdayr;
+mod tian;
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+
+use bolted_joint::reproduce::{Draws, PublishedTable, Reproduction, Row, UnknownTable, reproduce};
+
+use super::error::CliError;
+use super::output::print;
+use super::progress::Progress;
+use super::table::{Table, number};
+
+/// `reproduce`
+#[derive(Debug, Args)]
+#[command(after_help = names())]
+pub(super) struct ReproduceArguments {
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis [default: all]; or one of `pirdayr`, `tian`
+    /// and `kavi` for the tables of their papers and the specimens of his thesis
+    tables: Vec<Source>,
+    /// Draws of the noise, for mean and spread
+    #[arg(long, value_name = "NUMBER", default_value_t = 100)]
+    draws: u32,
+    /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
+    #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
+    samples: Vec<u32>,
+    /// Print the tables as JSON
+    #[arg(long, conflicts_with = "markdown")]
+    json: bool,
+    /// Print the tables as a document in Markdown
+    #[arg(long)]
+    markdown: bool,
+    /// Also draw damping over what is varied, for `kavi`
+    #[arg(long, value_name = "NAME.svg")]
+    figure: Option<PathBuf>,
+}
+
+/// What is computed anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Source {
+    /// A table of Tol's thesis.
+    Tol(PublishedTable),
+    /// Tables 3 and 4 of Pirdayr's paper.
+    Pirdayr,
+    /// Table I of Tian's paper.
+    Tian,
+    /// The specimens of Kavi's thesis.
+    Kavi,
+}
+
+impl FromStr for Source {
+    type Err = UnknownTable;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            PIRDAYR => Ok(Self::Pirdayr),
+            TIAN => Ok(Self::Tian),
+            KAVI => Ok(Self::Kavi),
+            table => table.parse().map(Self::Tol),
+        }
+    }
+}
+
+const PIRDAYR: &str = "pirdayr";
+const TIAN: &str = "tian";
+const KAVI: &str = "kavi";
+
+pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
+    let alone = [
+        (Source::Pirdayr, PIRDAYR),
+        (Source::Tian, TIAN),
+        (Source::Kavi, KAVI),
+    ];
+    let named = alone
+        .iter()
+        .find(|(source, _)| arguments.tables.contains(source));
+    if arguments.figure.is_some() && !matches!(named, Some((Source::Kavi, _))) {
+        return Err(CliError::Option {
+            option: "--figure",
+            found: "other tables".to_owned(),
+            expected: "`kavi`, which is the one that has a figure",
+        });
+    }
+    if let Some((source, name)) = named {
+        if arguments.tables.len() > 1 {
+            return Err(CliError::Option {
+                option: name,
+                found: format!("{} tables beside it", arguments.tables.len() - 1),
+                expected: "it alone: it has a table of another form",
+            });
+        }
+        match source {
+            Source::Tol(_) => {}
+            Source::Pirdayr => return pirdayr::run(arguments),
+            Source::Tian => return tian::run(arguments),
+            Source::Kavi => return kavi::run(arguments),
+        }
+    }
+    let wanted = arguments.tables.iter().filter_map(|source| match source {
+        Source::Tol(table) => Some(*table),
+        Source::Pirdayr | Source::Tian | Source::Kavi => None,
+    });
+    let wanted: Vec<PublishedTable> = wanted.collect();
+    if arguments.draws == 0 {
+        return Err(CliError::Option {
+            option: "--draws",
+            found: "0".to_owned(),
+            expected: "at least one draw of the noise",
+        });
+    }
+    let draws = Draws {
+        count: arguments.draws,
+        seed: arguments.seed,
+        samples: arguments.samples.clone(),
+    };
+    let tables = if wanted.is_empty() {
+        PublishedTable::ALL.to_vec()
+    } else {
+        wanted
+    };
+    let cases: usize = tables
+        .iter()
+        .map(|table| table.noisy_cases(draws.samples.len()))
+        .sum();
+    let progress = Progress::new("reproducing", cases * draws.count as usize);
+    let found = tables
+        .iter()
+        .map(|&table| reproduce(table, &draws, &|| progress.advance()))
+        .collect::<Result<Vec<_>, _>>()?;
+    drop(progress);
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&found)?);
+    }
+    if arguments.markdown {
+        return print(document(&found, &draws).trim_end());
+    }
+    let texts: Vec<String> = found.iter().map(text).collect();
+    print(&texts.join("\n"))
+}
+
+/// A source whose table has another form than those of Tol.
+/// What the tables are called, for `--help`.
+pub(super) fn names() -> String {
+    let mut text = "Tables:\n".to_owned();
+    for table in PublishedTable::ALL {
+        let names = [&[table.key()], table.aliases()].concat().join(", ");
+        let _ = writeln!(text, "  {names:<18}{table}");
+    }
+    let _ = writeln!(
+        text,
+        "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"
+    );
+    let _ = writeln!(
+        text,
+        "  {TIAN:<18}Tian, Table I: layers that stand for a joint, and the surfaces that would give them"
+    );
+    let _ = writeln!(
+        text,
+        "  {KAVI:<18}Kavi, Table 5.1: riveted beams, printed numbers and statements"
+    );
+    text.trim_end().to_owned()
+}
+
+/// Columns of every table.
+const COLUMNS: [&str; 10] = [
+    "",
+    "",
+    "true",
+    "published",
+    "error",
+    "obtained",
+    "± std. dev.",
+    "error",
+    "median",
+    "unit",
+];
+
+/// One table for people.
+fn text(found: &Reproduction) -> String {
+    let mut text = format!("{}\n\n", found.table);
+    let mut table = Table::new(&COLUMNS);
+    for cells in lines(found) {
+        table.row(cells);
+    }
+    text += &table.render();
+    for (heading, lines) in remarks(found) {
+        let _ = writeln!(text, "\n{heading}:");
+        for line in lines {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    text
+}
+
+/// The cells of each line; a case is named in its first.
+fn lines(found: &Reproduction) -> Vec<Vec<String>> {
+    let mut last_case = "";
+    let mut all = Vec::new();
+    for row in &found.rows {
+        let shown = if row.case == last_case { "" } else { &row.case };
+        all.push(cells(shown, row));
+        last_case = &row.case;
+    }
+    all
+}
+
+/// What is said about a table, under headings.
+fn remarks(found: &Reproduction) -> impl Iterator<Item = (&'static str, &[String])> {
+    let all = [
+        ("Computed with", found.conditions.as_slice()),
+        ("Not given in the thesis", &found.not_given),
+        ("Differences", &found.differences),
+    ];
+    all.into_iter().filter(|(_, lines)| !lines.is_empty())
+}
+
+/// All tables as one document.
+fn document(found: &[Reproduction], draws: &Draws) -> String {
+    let samples: Vec<String> = draws.samples.iter().map(u32::to_string).collect();
+    let mut text = format!(
+        "# The published tables, computed anew\n\n\
+         Ş. Tol, *Dynamic Modeling of Structural Joints*, MSc thesis, Middle East Technical University, 2012: published values \
+         beside those that come out here. Written by\n\n    bolted-joint reproduce --markdown --draws {} --seed {}{}\n\n\
+         Obtained values are means over {} draws of the noise, with the standard deviation of one draw, where there is noise; \
+         errors are those against the true joint, which is known where the assembly is synthesised.\n",
+        draws.count,
+        draws.seed,
+        samples
+            .iter()
+            .map(|number| format!(" --samples {number}"))
+            .collect::<String>(),
+        draws.count,
+    );
+    for found in found {
+        let _ = writeln!(text, "\n## {}\n", found.table);
+        let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
+        let _ = writeln!(text, "|---|---|{}---|", "---:|".repeat(COLUMNS.len() - 3));
+        for cells in lines(found) {
+            let _ = writeln!(text, "| {} |", cells.join(" | ").replace("|H|", "\\|H\\|"));
+        }
+        for (heading, lines) in remarks(found) {
+            let _ = writeln!(text, "\n{heading}:\n");
+            for line in lines {
+                let _ = writeln!(text, "* {line}");
+            }
+        }
+    }
+    text
+}
+
+/// Significant digits of a computed number, and most of a given one.
+const DIGITS: usize = 4;
+const MOST_DIGITS: usize = 8;
+
+fn cells(case: &str, row: &Row) -> Vec<String> {
+    let digits = row
+        .published
+        .or(row.truth)
+        .map_or(DIGITS, |value| digits_of(value).max(DIGITS));
+    let optional = |value: Option<f64>, digits| {
+        value.map_or_else(|| "-".to_owned(), |value| number(value, digits))
+    };
+    let error = |value: Option<f64>| match (value, row.truth) {
+        (Some(value), Some(truth)) if truth != 0.0 => percent(100.0 * (value / truth - 1.0)),
+        _ => "-".to_owned(),
+    };
+    let obtained = row.obtained;
+    let noisy = obtained.filter(|spread| spread.draws > 1);
+    vec![
+        case.to_owned(),
+        row.quantity.clone(),
+        optional(row.truth, digits),
+        optional(row.published, digits),
+        error(row.published),
+        optional(obtained.map(|spread| spread.mean), digits),
+        optional(noisy.map(|spread| spread.standard_deviation), 2),
+        error(obtained.map(|spread| spread.mean)),
+        optional(noisy.map(|spread| spread.median), digits),
+        row.unit.to_owned(),
+    ]
+}
+
+/// Digits that a given number needs, and no more than it may well have been printed with.
+fn digits_of(value: f64) -> usize {
+    let is_all = |digits: &usize| number(value, *digits).parse() == Ok(value);
+    (1..MOST_DIGITS).find(is_all).unwrap_or(MOST_DIGITS)
+}
+
+/// An error in per cent; far-off ones by their size alone.
+fn percent(value: f64) -> String {
+    if value.abs() < 0.05 {
+        "0.0 %".to_owned()
+    } else if value.abs() < 1e3 {
+        format!("{value:+.1} %")
+    } else {
+        format!("{value:+.0e} %")
+    }
+}

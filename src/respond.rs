@@ -1,0 +1,294 @@
+//! `respond`: what a test of a study's assembly would measure if its joint were the given one.
+
+mod lap;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand, ValueEnum};
+use nalgebra::DMatrix;
+use serde_json::json;
+
+use bolted_joint::frf::write_uff58;
+use bolted_joint::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
+use bolted_joint::joint::JointFile;
+use bolted_joint::respond::{Pollution, RespondStudy, to_csv, with_noise};
+
+use super::bolt_files::of_bolts;
+use super::error::CliError;
+use super::output::{check_output, print, write_file};
+
+/// `respond`
+#[derive(Debug, Args)]
+pub(super) struct RespondArguments {
+    /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, or of method `respond`, which names
+    /// laps and what is done to them
+    study: PathBuf,
+    /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
+    #[arg(long, value_name = "NAME.joint.json")]
+    joint: Option<PathBuf>,
+    /// File to write: a table or, of an assembly, a universal file
+    #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
+    output: PathBuf,
+    /// Distance between the lines of an assembly, Hz [default: 0.25]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
+    step: Option<f64>,
+    /// Also draw the response of laps
+    #[arg(long, value_name = "NAME.svg|NAME.html")]
+    report: Option<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(subcommand)]
+    noise: Option<RespondNoise>,
+}
+
+#[derive(Debug, Subcommand)]
+enum RespondNoise {
+    /// Give the functions the noise of a measurement
+    Noise(NoiseArguments),
+}
+
+#[derive(Debug, Args)]
+struct NoiseArguments {
+    /// How the noise gets into the functions
+    #[arg(value_enum)]
+    procedure: NoiseProcedure,
+    /// Standard deviation: of the factor, or as a fraction of the highest response
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.01,
+        allow_hyphen_values = true
+    )]
+    level: f64,
+    /// Samples of each harmonic test, for `response`
+    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
+    samples: u32,
+    /// Seed of the noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NoiseProcedure {
+    /// Every value times a real normal factor of mean one
+    Frf,
+    /// White noise on response and force of a harmonic test at each line
+    Response,
+}
+
+/// More lines than any analyser has.
+const MOST_LINES: f64 = 1e7;
+
+#[derive(Clone, Copy)]
+enum Format {
+    Table,
+    Universal,
+}
+
+/// Distance between lines where none is given, Hz.
+const STEP_HZ: f64 = 0.25;
+
+pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
+    if RespondStudy::is_meant(&arguments.study)? {
+        return lap::run(arguments);
+    }
+    let refuse = |option, found: &str, expected| CliError::Option {
+        option,
+        found: found.to_owned(),
+        expected,
+    };
+    let Some(joint) = &arguments.joint else {
+        return Err(refuse(
+            "--joint",
+            "nothing",
+            "the joint file that the assembly is to have, or a study of method \"respond\", which names its own",
+        ));
+    };
+    if let Some(report) = &arguments.report {
+        let expected =
+            "none: the functions of an assembly are not drawn here, `identify --report` draws them";
+        return Err(refuse("--report", &report.display().to_string(), expected));
+    }
+    let format = format(&arguments.output)?;
+    check_output(&arguments.output, &[&arguments.study, joint])?;
+    let noise = match &arguments.noise {
+        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
+        None => None,
+    };
+    let study = Study::read(&arguments.study)?;
+    let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
+    let joints = joints(joint, &study)?;
+    let exact = predict_assembly(&study, &joints, &frequency_hz)?;
+    let measured = match noise {
+        Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,
+        None => exact,
+    };
+    let what = match noise {
+        Some((_, Pollution::Frf { level })) => {
+            format!("FRF pollution of {} %", 100.0 * level)
+        }
+        Some((_, Pollution::Response { level, samples })) => format!(
+            "response pollution of {} %, {samples} samples a line",
+            100.0 * level
+        ),
+        None => "no noise".to_owned(),
+    };
+    match format {
+        Format::Table => write_file(&arguments.output, to_csv(&measured).as_bytes())?,
+        Format::Universal => {
+            let description = format!("computed, not measured: {}, {what}", study.name);
+            write_uff58(&measured, &arguments.output, &description)?;
+        }
+    }
+    let functions = measured.functions().count();
+    let lines = predict_lines(&study, &joints, &frequency_hz)?;
+    let bands = study.choose_bands(&lines, &joints)?;
+    if arguments.json {
+        let of_bands = |bands: &Bands| json!({ "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta });
+        let mut value = json!({
+            "output": arguments.output.display().to_string(),
+            "functions": functions,
+            "lines": frequency_hz.len(),
+            "noise": what,
+            "bands": of_bands(&bands[0]),
+        });
+        if let (Some(object), [_, _, ..]) = (value.as_object_mut(), bands.as_slice()) {
+            let all = study.bolts.with_own_joint().iter().zip(&bands);
+            let all = all.map(|(bolt, bands)| (bolt.clone(), of_bands(bands)));
+            object.insert(
+                "bands".to_owned(),
+                all.collect::<serde_json::Map<_, _>>().into(),
+            );
+        }
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    print(&format!(
+        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\nwrote {}",
+        study.name,
+        frequency_hz.len(),
+        frequency_hz[0],
+        frequency_hz[frequency_hz.len() - 1],
+        band_tables(&bands, &study),
+        arguments.output.display()
+    ))
+}
+
+/// The bands of each joint as the study's own table, to be copied there.
+fn band_tables(bands: &[Bands], study: &Study) -> String {
+    let given = study.bands.given();
+    let bolts = study.bolts.with_own_joint();
+    let table = |(joint, bands)| {
+        let bolt = bolts.get(joint).map(|bolt| format!(" of {bolt}:"));
+        band_table(bands, &given, &bolt.unwrap_or_default())
+    };
+    bands.iter().enumerate().map(table).collect()
+}
+
+fn band_table(bands: &Bands, given: &Bands, bolt: &str) -> String {
+    let mut text = format!(
+        "[bands]  #{bolt} most sensitive lines, 10 % or more away from the substructures' own resonances\n"
+    );
+    for (name, bands, given) in [
+        ("yy", &bands.yy, &given.yy),
+        ("ytheta", &bands.ytheta, &given.ytheta),
+        ("thetatheta", &bands.thetatheta, &given.thetatheta),
+    ] {
+        if bands.is_empty() {
+            continue;
+        }
+        let list: Vec<String> = bands
+            .iter()
+            .map(|[from, to]| format!("[{from}, {to}]"))
+            .collect();
+        let origin = if given.is_empty() {
+            ""
+        } else {
+            "  # as in the study"
+        };
+        let _ = writeln!(text, "{name} = [{}]{origin}", list.join(", "));
+    }
+    text
+}
+
+fn format(path: &Path) -> Result<Format, CliError> {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("csv") => Ok(Format::Table),
+        Some("uff" | "unv") => Ok(Format::Universal),
+        _ => Err(CliError::Option {
+            option: "--output",
+            found: path.display().to_string(),
+            expected: "a name that ends in .csv, .uff or .unv",
+        }),
+    }
+}
+
+fn pollution(noise: &NoiseArguments) -> Pollution {
+    let level = noise.level;
+    match noise.procedure {
+        NoiseProcedure::Frf => Pollution::Frf { level },
+        NoiseProcedure::Response => Pollution::Response {
+            level,
+            samples: noise.samples,
+        },
+    }
+}
+
+/// Lines from the study's first to its last frequency.
+fn lines(study: &Study, step_hz: f64) -> Result<Vec<f64>, CliError> {
+    let refuse = |option, found: String, expected| CliError::Option {
+        option,
+        found,
+        expected,
+    };
+    let [from_hz, to_hz] = study.frequency_range_hz;
+    let count = ((to_hz - from_hz) / step_hz + 1e-9).floor() + 1.0;
+    if !(step_hz.is_finite() && step_hz > 0.0) {
+        let expected = "a positive distance between lines in Hz";
+        return Err(refuse("--step", step_hz.to_string(), expected));
+    }
+    if from_hz == f64::MIN_POSITIVE || to_hz == f64::MAX || !(2.0..MOST_LINES).contains(&count) {
+        let found = format!("{from_hz} to {to_hz} Hz in steps of {step_hz} Hz");
+        let expected =
+            "`from` and `to` in the study, two lines apart or more and at most ten million";
+        return Err(refuse("[frequency]", found, expected));
+    }
+    Ok((0..count as u64)
+        .map(|line| from_hz + step_hz * line as f64)
+        .collect())
+}
+
+/// The joint of each bolt that has one of its own, or the one for all.
+fn joints(path: &Path, study: &Study) -> Result<Vec<JointMatrices>, CliError> {
+    let paths = of_bolts(path, &study.bolts);
+    paths.iter().map(|path| joint(path, study)).collect()
+}
+
+/// The joint that the assembly is to have; of one over the preload, that at the first assembly's torque.
+fn joint(path: &Path, study: &Study) -> Result<JointMatrices, CliError> {
+    let file = JointFile::read(path)?;
+    let torque_n_m = file.joint.over_preload.as_ref().and(study.torque_n_m);
+    let file = file
+        .at_preload(torque_n_m)
+        .map_err(|source| CliError::Preload {
+            path: path.to_owned(),
+            source,
+        })?;
+    let size = study.model.dofs();
+    let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, CliError> {
+        if rows.len() != size {
+            return Err(CliError::Option {
+                option: "--joint",
+                found: format!("{} with {} degrees of freedom", path.display(), rows.len()),
+                expected: "as many as the study's joint model has",
+            });
+        }
+        Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j]))
+    };
+    Ok(JointMatrices {
+        stiffness: matrix(&file.joint.stiffness)?,
+        damping: matrix(&file.joint.damping)?,
+    })
+}

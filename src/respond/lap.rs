@@ -1,0 +1,123 @@
+//! `respond` with a study of method `respond`: how laps answer, as a table and a picture.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use bolted_joint::respond::{RespondStudy, ResponseTable};
+use bolted_joint_figures::html;
+
+use super::super::error::CliError;
+use super::super::output::{check_output, print, write_file};
+use super::RespondArguments;
+
+#[derive(Clone, Copy)]
+enum Picture {
+    Svg,
+    Html,
+}
+
+pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
+    let refuse = |option, found: String, expected| CliError::Option {
+        option,
+        found,
+        expected,
+    };
+    if let Some(joint) = &arguments.joint {
+        let expected = "none: a study of method \"respond\" names its joint files in [[lap]]";
+        return Err(refuse("--joint", joint.display().to_string(), expected));
+    }
+    if let Some(step) = arguments.step {
+        let expected = "none: a study of method \"respond\" has its frequencies in [frequency]";
+        return Err(refuse("--step", step.to_string(), expected));
+    }
+    if arguments.noise.is_some() {
+        let expected = "nothing: noise is for the functions of an assembly";
+        return Err(refuse("noise", "it".to_owned(), expected));
+    }
+    if !has_extension(&arguments.output, "csv") {
+        let expected = "a name that ends in .csv";
+        return Err(refuse(
+            "--output",
+            arguments.output.display().to_string(),
+            expected,
+        ));
+    }
+    check_output(&arguments.output, &[&arguments.study])?;
+    let picture = match &arguments.report {
+        None => None,
+        Some(path) => {
+            let picture = if has_extension(path, "svg") {
+                Picture::Svg
+            } else if has_extension(path, "html") {
+                Picture::Html
+            } else {
+                let expected = "a name that ends in .svg or .html";
+                return Err(refuse("--report", path.display().to_string(), expected));
+            };
+            check_output(path, &[&arguments.study, &arguments.output])?;
+            Some((path, picture))
+        }
+    };
+    let study = RespondStudy::read(&arguments.study)?;
+    let table = study.run()?;
+    let drawing = match picture {
+        None => None,
+        Some((path, picture)) => match study.figure(&table) {
+            None => {
+                let expected = "a response that can be drawn: all amplitudes are zero";
+                return Err(refuse("--report", path.display().to_string(), expected));
+            }
+            Some(svg) => Some((path, drawn(picture, &study, &svg))),
+        },
+    };
+    write_file(&arguments.output, table.to_csv().as_bytes())?;
+    if let Some((path, drawing)) = &drawing {
+        write_file(path, drawing.as_bytes())?;
+    }
+    let rows: usize = table.series.iter().map(|series| series.rows.len()).sum();
+    if arguments.json {
+        let value = json!({
+            "output": arguments.output.display().to_string(),
+            "report": arguments.report.as_ref().map(|path| path.display().to_string()),
+            "series": summary(&table),
+        });
+        return print(&serde_json::to_string_pretty(&value)?);
+    }
+    print(&format!(
+        "{}: {} series, {rows} rows\nwrote {}",
+        study.name,
+        table.series.len(),
+        arguments.output.display()
+    ))
+}
+
+fn summary(table: &ResponseTable) -> Vec<serde_json::Value> {
+    let of = |series: &bolted_joint::respond::Series| {
+        json!({
+            "lap": series.lap,
+            "level": series.level,
+            "rows": series.rows.len(),
+        })
+    };
+    table.series.iter().map(of).collect()
+}
+
+fn drawn(picture: Picture, study: &RespondStudy, svg: &str) -> String {
+    match picture {
+        Picture::Svg => svg.to_owned(),
+        Picture::Html => {
+            let name = html::escaped(&study.name);
+            format!(
+                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>\n{}</style>\n\
+                 </head>\n<body>\n<main>\n{svg}</main>\n</body>\n</html>\n",
+                html::STYLE
+            )
+        }
+    }
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}

@@ -1,8 +1,6 @@
-//! What can be checked of the texts by a machine: links lead somewhere, paths exist, lines and the README stay short.
-#![allow(
-    clippy::unwrap_used,
-    reason = "helpers of tests fail as the tests do"
-)]
+//! What can be checked of the texts by a machine: links lead somewhere, paths exist, lines and the README stay short, and
+//! the map of the crates is that of their manifests.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as the tests do")]
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -176,7 +174,9 @@ fn paths_in_code_font_exist() {
                 let plain = path
                     .chars()
                     .all(|c| c.is_alphanumeric() || "/._-".contains(c));
-                if of_the_project && plain && !root().join(path).exists() {
+                // NAME stands for a name that somebody is to choose
+                if of_the_project && plain && !path.contains("NAME") && !root().join(path).exists()
+                {
                     missing.push(format!("{}:{line}: {code}", document.name));
                 }
             }
@@ -223,4 +223,49 @@ fn the_readme_is_read_in_three_minutes() {
         let length = line.chars().count();
         assert!(length <= LINE, "line {}: {length} characters", number + 1);
     }
+}
+
+/// Crates of the project among the dependencies that a manifest states.
+fn uses(manifest: &str) -> BTreeSet<String> {
+    manifest
+        .lines()
+        .skip_while(|line| *line != "[dependencies]")
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+        .filter_map(|line| line.strip_prefix("bolted-joint-"))
+        .filter_map(|rest| rest.split(['.', ' ', '=']).next())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn the_map_of_the_crates_is_that_of_their_manifests() {
+    let mut expected = BTreeSet::new();
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let folder = entry.unwrap();
+        let name = folder.file_name().into_string().unwrap();
+        let manifest = fs::read_to_string(folder.path().join("Cargo.toml")).unwrap();
+        expected.insert((name, uses(&manifest)));
+    }
+    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let stated: BTreeSet<_> = text
+        .lines()
+        .skip_while(|line| *line != "| crate | what it is for | uses |")
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| {
+            let mut code = line.split('`').skip(1).step_by(2).map(str::to_owned);
+            // other words in code font belong to what the crate is for
+            let name = code.next().unwrap();
+            let uses = line.rsplit('|').nth(1).unwrap();
+            let uses = uses.split('`').skip(1).step_by(2).map(str::to_owned);
+            (name, uses.collect::<BTreeSet<_>>())
+        })
+        .collect();
+    let missing: Vec<_> = expected.difference(&stated).collect();
+    let surplus: Vec<_> = stated.difference(&expected).collect();
+    assert!(
+        missing.is_empty() && surplus.is_empty(),
+        "by the manifests {missing:#?}, but by ARCHITECTURE.md {surplus:#?}"
+    );
 }

@@ -1,4 +1,4 @@
-//! The README's table of FMI capabilities, held to what exported FMUs claim and contain.
+//! The table of FMI capabilities in docs/comparison.md, held to what exported FMUs claim and contain.
 
 #![allow(
     clippy::unwrap_used,
@@ -136,9 +136,9 @@ fn exported() -> Vec<Fmu> {
 
 /// The table's rows: what it is about, and what our column says.
 fn rows() -> Vec<(String, String)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = fs::read_to_string(path).unwrap();
-    let rows: Vec<(String, String)> = readme
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/comparison.md");
+    let document = fs::read_to_string(path).unwrap();
+    let rows: Vec<(String, String)> = document
         .lines()
         .skip_while(|line| !line.starts_with("| | bolted-joint | Reference FMUs"))
         .skip(2)
@@ -149,7 +149,7 @@ fn rows() -> Vec<(String, String)> {
             (cells[1].to_owned(), cells[2].to_owned())
         })
         .collect();
-    assert!(rows.len() > 20, "rows of the README's table");
+    assert!(rows.len() > 20, "rows of the table");
     rows
 }
 
@@ -191,7 +191,7 @@ fn yes_or_no(yes: bool) -> String {
 }
 
 #[test]
-fn our_column_of_the_readmes_table_says_what_exported_fmus_say() {
+fn our_column_of_the_table_says_what_exported_fmus_say() {
     let fmus = exported();
     let mut checked = 0;
     for (label, ours) in rows() {
@@ -251,7 +251,7 @@ fn every_capability_that_an_exported_fmu_claims_has_its_row() {
                     .map_or(attribute, |(name, _)| name);
                 assert!(
                     in_table.contains(capability) || NO_CAPABILITIES.contains(&attribute),
-                    "FMI {} {element}: {attribute}=\"{value}\" has no row in the README's table",
+                    "FMI {} {element}: {attribute}=\"{value}\" has no row in the table of docs/comparison.md",
                     fmu.version
                 );
             }

@@ -14,6 +14,8 @@
 extern crate bolted_joint as _;
 
 mod calls;
+#[path = "../raw/mod.rs"]
+mod raw;
 
 use std::{env, fs, panic, path::Path, thread};
 

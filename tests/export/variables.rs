@@ -14,11 +14,11 @@ fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
     let of_all_joints = Declared::from_xml("element.xml", &template.xml).unwrap();
     let names = |interface: &Declared| -> Vec<(String, u32)> {
         let variables = interface.variables.iter();
-        // without those of a joint over the preload
+        // without those of a joint over the preload, or with memory
         variables
             .filter(|variable| {
                 let scope = template.scope(&variable.name).unwrap();
-                !scope.is_only_of(Joints::OVER_PRELOAD)
+                scope.includes_joint(Joints::CONSTANT)
             })
             .map(|variable| (variable.name.clone(), variable.reference))
             .collect()

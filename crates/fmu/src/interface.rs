@@ -208,6 +208,15 @@ pub(crate) fn scatter<const D: usize>(
     }
 }
 
+/// Whether an output is what was committed where the last step ended, and not calculated anew.
+pub(crate) fn is_committed(index: usize) -> bool {
+    index == reference::ENERGY_DISSIPATED
+        || reference::LAW_MEMORY
+            .iter()
+            .flatten()
+            .any(|&remembered| remembered == index)
+}
+
 // the tables are those of the same DOFs and laws
 const _: () = assert!(reference::LAW_PARAMETERS.len() == DOF_COUNT);
 const _: () = assert!(reference::LAW_MEMORY.len() == DOF_COUNT);

@@ -127,6 +127,12 @@ impl Scope {
         self.joints.intersects(joint) && self.rows.iter().any(|&needed| rows.contains(needed))
     }
 
+    /// Whether joints of this kind have it, if they have its DOFs.
+    #[must_use]
+    pub fn includes_joint(&self, joint: Joints) -> bool {
+        self.joints.intersects(joint)
+    }
+
     /// Whether it is of these kinds of joints and no other.
     #[must_use]
     pub fn is_only_of(&self, joints: Joints) -> bool {

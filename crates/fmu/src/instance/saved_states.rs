@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fmu_state::{Snapshot, StateError},
-    interface::Roles,
+    interface::{Roles, is_committed},
     refusal::Refusal,
 };
 
@@ -19,7 +19,7 @@ impl Instance {
         // stands beside the variables is remembered
         let values = std::array::from_fn(|index| {
             let roles = self.roles.get(index).copied().unwrap_or(Roles::NONE);
-            if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) {
+            if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) && !is_committed(index) {
                 0.0
             } else {
                 self.values[index]

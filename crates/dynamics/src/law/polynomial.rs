@@ -229,7 +229,10 @@ impl<N: Number> Polynomial<N> {
     #[inline]
     #[must_use]
     pub fn damping(&self, r: N) -> N {
-        // c2 r² + c4 r⁴
+        // c2 r² + c4 r⁴; without them nothing, however far out
+        if !self.has_damping() {
+            return N::ZERO;
+        }
         let squared = r * r;
         value(&self.dampers, squared) * squared
     }

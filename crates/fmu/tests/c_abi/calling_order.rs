@@ -20,15 +20,7 @@ use crate::{
 /// that is allowed, in both versions.
 type Row = ([&'static str; 2], fn(Raw) -> c_int, [&'static [State]; 2]);
 
-const ALL: &[State] = &[
-    Instantiated,
-    SetUp,
-    Initialization,
-    Event,
-    Step,
-    Continuous,
-    Terminated,
-];
+const ALL: &[State] = State::ALL;
 const FROM_INITIALIZATION: &[State] = &[Initialization, Event, Step, Continuous, Terminated];
 const EVALUATED: &[State] = &[Initialization, Event, Continuous, Terminated];
 
@@ -233,12 +225,8 @@ impl Machine {
     }
 
     fn states(self) -> impl Iterator<Item = State> {
-        ALL.iter().copied().filter(move |state| match state {
-            SetUp => self.version == Fmi2,
-            Event => self.event_mode || self.interface == ModelExchange,
-            Step => self.interface == CoSimulation,
-            Continuous => self.interface == ModelExchange,
-            Instantiated | Initialization | Terminated => true,
+        ALL.iter().copied().filter(move |&state| {
+            state.is_of(self.version, self.interface) || self.event_mode && state == Event
         })
     }
 

@@ -4,8 +4,9 @@ use std::{cell::RefCell, rc::Rc};
 
 use crate::{
     c,
+    equations::{EQUATIONS, START, STATES, assert_close},
     importer::{Kind, vr},
-    intermediate_update::{EQUATIONS, START, STATES, assert_close, lap, taking_part},
+    intermediate_update::{lap, taking_part},
     raw::Stepped,
 };
 

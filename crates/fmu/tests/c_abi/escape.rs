@@ -2,9 +2,8 @@
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, STATES},
     importer::{Instance, Kind, vr},
-    stepping::{EQUATIONS, STATES},
 };
 
 #[test]

@@ -6,21 +6,9 @@ use bolted_joint_importer::header::fmi3::fmi3DoStep;
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, START, STATES, assert_close},
     importer::{Folder, Instance, Kind, Request, Update, start_text, vr},
     raw::{Raw, call, status_of},
-};
-
-pub(crate) const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
-pub(crate) const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
-pub(crate) const EQUATIONS: Equations = Equations {
-    m: 2.0,
-    k: 8e5,
-    c: 1.0,
-    k12: 4e6,
-    c12: 8.0,
-    k3: 5e12,
-    force: [30.0, -20.0],
 };
 
 /// Instance in Step Mode at t = 0 whose importer takes part in steps with these variables.
@@ -52,16 +40,6 @@ pub(crate) fn taking_part(
 pub(crate) fn lap(intermediate: &[u32], early_return: bool) -> Instance {
     let changes = [("joint.k3_y", 5e12), ("step_size_max", 2e-4)];
     taking_part(Kind::Lap, &changes, intermediate, early_return)
-}
-
-pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() <= tolerance * expected.abs(),
-            "{found} {expected}"
-        );
-    }
 }
 
 #[test]

@@ -2,21 +2,15 @@
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, STATES},
     importer::{Instance, Kind, Make as _, vr},
     raw::{Fmi2, status_of},
 };
 
-const EQUATIONS: Equations = Equations {
-    m: 2.0,
-    k: 8e5,
-    c: 1.0,
-    k12: 4e6,
-    c12: 8.0,
-    k3: 5e12,
+const LOADED: Equations = Equations {
     force: [300.0, -200.0],
+    ..EQUATIONS
 };
-const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 const OUTPUTS: [u32; 3] = [vr::JOINT_F, vr::ENERGY, vr::POWER];
 
 #[test]
@@ -25,7 +19,7 @@ fn a_lap_gives_those_of_all_its_outputs() {
     assert_eq!(instance.set(&STATES, &[1e-4, 0.1, -2e-4, 0.0]), c::OK);
     assert_eq!(instance.enter_initialization(0.0, None), c::OK);
     assert_eq!(instance.exit_initialization(), c::OK);
-    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &LOADED.force), c::OK);
     let mut t = 0.0;
     for _ in 0..20 {
         let state = instance.get(STATES);
@@ -36,8 +30,8 @@ fn a_lap_gives_those_of_all_its_outputs() {
         let delta = 1e-5;
         let at = |n: i32| {
             let h = delta * f64::from(n) / 100.0;
-            let x = EQUATIONS.runge_kutta(state, h, 100);
-            let [force, energy, power] = EQUATIONS.outputs(x);
+            let x = LOADED.runge_kutta(state, h, 100);
+            let [force, energy, power] = LOADED.outputs(x);
             let [ya, va, yb, vb] = x;
             [force, energy, power, ya, va, yb, vb]
         };
@@ -58,7 +52,7 @@ fn a_lap_gives_those_of_all_its_outputs() {
         // the derivative of the energy is what the loads bring less what the dampers take: exact
         let [power] = instance.get([vr::POWER]);
         let [_, va, _, vb] = state;
-        let balance = EQUATIONS.force[0] * va + EQUATIONS.force[1] * vb - power;
+        let balance = LOADED.force[0] * va + LOADED.force[1] * vb - power;
         assert!((found[1] - balance).abs() < 1e-12 * (power.abs() + balance.abs() + 100.0));
         assert_eq!(instance.step(t, 3e-4), c::OK);
         t += 3e-4;

@@ -2,10 +2,10 @@
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, STATES, assert_close},
     importer::{Instance, Kind, Make as _, vr},
     raw::{Fmi2, Fmi3, Interface::CoSimulation, Raw},
-    stepping::{EQUATIONS, STATES, assert_close, lap},
+    stepping::lap,
 };
 
 #[test]
@@ -78,8 +78,8 @@ fn a_tuned_parameter_acts_from_the_next_step_on() {
         ..EQUATIONS
     };
     assert_close(
-        instance.get(STATES),
-        tuned.runge_kutta(reached, 2e-5, 50),
+        &instance.get(STATES),
+        &tuned.runge_kutta(reached, 2e-5, 50),
         1e-11,
     );
 }

@@ -2,11 +2,7 @@
 
 use crate::{
     c,
-    importer::{
-        Folder, Instance, Kind, Make as _, Request,
-        State::{self, Continuous, Event, Initialization, Instantiated, SetUp, Step, Terminated},
-        TOKEN, start_text, vr,
-    },
+    importer::{Folder, Instance, Kind, Make as _, Request, State, TOKEN, start_text, vr},
     raw::{
         BOTH, Fmi2, Fmi3, FmiVersion,
         Interface::{self, CoSimulation, ModelExchange},
@@ -23,6 +19,14 @@ const SEEN: [u32; 8] = [
     vr::A_F,
     vr::JOINT_F,
     vr::ENERGY,
+];
+
+/// Versions and interface types.
+const MACHINES: [(FmiVersion, Interface); 4] = [
+    (Fmi2, CoSimulation),
+    (Fmi2, ModelExchange),
+    (Fmi3, CoSimulation),
+    (Fmi3, ModelExchange),
 ];
 
 /// Ten steps under a changing load, with FMI 2.0 along its derivatives, and with a parameter that is tuned on the way.
@@ -231,48 +235,43 @@ fn a_state_whose_outputs_overflow_can_be_saved() {
 
 #[test]
 fn states_of_another_fmu_are_refused() {
-    for version in BOTH {
-        for (interface, name) in [
-            (CoSimulation, "Co-Simulation"),
-            (ModelExchange, "Model Exchange"),
+    for (version, interface) in MACHINES {
+        let (name, other_interface) = match interface {
+            CoSimulation => ("Co-Simulation", ModelExchange),
+            ModelExchange => ("Model Exchange", CoSimulation),
+        };
+        let instance = version.instance(interface, Kind::Lap, 1, &[]);
+        let saved = instance.save();
+        let bytes = instance.serialize(saved);
+        // same interface, another token
+        let start = start_text(Kind::Lap, 1, &[]).replace(TOKEN, "another");
+        let folder = Folder::with_start(&start);
+        let request = Request {
+            version,
+            interface,
+            token: Some("another"),
+            resources: folder.0.to_str(),
+            ..Request::default()
+        };
+        let expected = format!(
+            "the FMU state is that of \"lap with 1 DOF a side for {name} of FMI {}.0, token",
+            if version == Fmi2 { 2 } else { 3 }
+        );
+        for mut other in [
+            version.instance(interface, Kind::Lap, 2, &[]),
+            version.instance(interface, Kind::Element, 1, &[]),
+            version.instance(other_interface, Kind::Lap, 1, &[]),
+            request.instantiate().unwrap(),
         ] {
-            let instance = version.instance(interface, Kind::Lap, 1, &[]);
-            let saved = instance.save();
-            let bytes = instance.serialize(saved);
-            let other_interface = match interface {
-                CoSimulation => ModelExchange,
-                ModelExchange => CoSimulation,
-            };
-            // same interface, another token
-            let start = start_text(Kind::Lap, 1, &[]).replace(TOKEN, "another");
-            let folder = Folder::with_start(&start);
-            let request = Request {
-                version,
-                interface,
-                token: Some("another"),
-                resources: folder.0.to_str(),
-                ..Request::default()
-            };
-            let expected = format!(
-                "the FMU state is that of \"lap with 1 DOF a side for {name} of FMI {}.0, token",
-                if version == Fmi2 { 2 } else { 3 }
-            );
-            for mut other in [
-                version.instance(interface, Kind::Lap, 2, &[]),
-                version.instance(interface, Kind::Element, 1, &[]),
-                version.instance(other_interface, Kind::Lap, 1, &[]),
-                request.instantiate().unwrap(),
-            ] {
-                other.refused_all(&[
-                    (&expected, &|i| i.restore(saved)),
-                    (&expected, &|i| status_of(i.deserialize(&bytes))),
-                ]);
-            }
-            let mut other = request.instantiate().unwrap();
-            let message = other.refused(|i| i.restore(saved));
-            assert!(message.contains("token another"), "{message}");
-            instance.free_state(saved);
+            other.refused_all(&[
+                (&expected, &|i| i.restore(saved)),
+                (&expected, &|i| status_of(i.deserialize(&bytes))),
+            ]);
         }
+        let mut other = request.instantiate().unwrap();
+        let message = other.refused(|i| i.restore(saved));
+        assert!(message.contains("token another"), "{message}");
+        instance.free_state(saved);
     }
 }
 
@@ -389,46 +388,22 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
 
 #[test]
 fn states_move_instances_between_all_states() {
-    let machines: [(FmiVersion, Interface, &[State]); 4] = [
-        (
-            Fmi2,
-            CoSimulation,
-            &[Instantiated, SetUp, Initialization, Step, Terminated],
-        ),
-        (
-            Fmi2,
-            ModelExchange,
-            &[
-                Instantiated,
-                SetUp,
-                Initialization,
-                Event,
-                Continuous,
-                Terminated,
-            ],
-        ),
-        (
-            Fmi3,
-            CoSimulation,
-            &[Instantiated, Initialization, Step, Terminated],
-        ),
-        (
-            Fmi3,
-            ModelExchange,
-            &[Instantiated, Initialization, Event, Continuous, Terminated],
-        ),
-    ];
-    for (version, interface, states) in machines {
+    for (version, interface) in MACHINES {
+        let states = || {
+            State::ALL
+                .iter()
+                .filter(|state| state.is_of(version, interface))
+        };
         let instance_in = |state| {
             let mut instance = version.instance(interface, Kind::Lap, 1, &[]);
             instance.go_to(state);
             instance
         };
-        for &from in states {
+        for &from in states() {
             let instance = instance_in(from);
             let saved = instance.save();
             let bytes = instance.serialize(saved);
-            for &to in states {
+            for &to in states() {
                 let other = instance_in(to);
                 assert_eq!(other.restore(saved), c::OK);
                 assert!(other.state_bytes() == bytes, "{from:?} {to:?}");

@@ -5,16 +5,7 @@ use crate::{
     importer::{Instance, Kind, vr},
 };
 
-const STATES: [u32; 8] = [
-    vr::A_Y,
-    vr::A_THETA,
-    vr::A_V,
-    vr::A_OMEGA,
-    vr::B_Y,
-    vr::B_THETA,
-    vr::B_V,
-    vr::B_OMEGA,
-];
+const STATES: [u32; 8] = vr::MOTION;
 const LOADS: [u32; 4] = [vr::A_F, vr::A_M, vr::B_F, vr::B_M];
 const STEP_S: f64 = 2e-5;
 

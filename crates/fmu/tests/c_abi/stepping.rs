@@ -2,22 +2,10 @@
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, START, STATES, assert_close},
     importer::{Instance, Kind, Make as _, vr},
     raw::{Fmi3, FmiVersion, Interface::CoSimulation},
 };
-
-pub(crate) const EQUATIONS: Equations = Equations {
-    m: 2.0,
-    k: 8e5,
-    c: 1.0,
-    k12: 4e6,
-    c12: 8.0,
-    k3: 5e12,
-    force: [30.0, -20.0],
-};
-const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
-pub(crate) const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 
 pub(crate) fn lap(step_size_max: f64) -> Instance {
     lap_of(Fmi3, step_size_max)
@@ -31,15 +19,6 @@ pub(crate) fn lap_of(version: FmiVersion, step_size_max: f64) -> Instance {
     assert_eq!(instance.exit_initialization(), c::OK);
     assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
     instance
-}
-
-pub(crate) fn assert_close(found: [f64; 4], expected: [f64; 4], tolerance: f64) {
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() <= tolerance * expected.abs(),
-            "{found} {expected}"
-        );
-    }
 }
 
 #[test]
@@ -56,7 +35,7 @@ fn a_step_is_the_right_number_of_runge_kutta_steps() {
         let instance = lap(step_size_max);
         assert_eq!(instance.step_to(0.0, interval), (c::OK, interval));
         let expected = EQUATIONS.runge_kutta(START, interval / f64::from(count), count as usize);
-        assert_close(instance.get(STATES), expected, 1e-11);
+        assert_close(&instance.get(STATES), &expected, 1e-11);
         let other =
             EQUATIONS.runge_kutta(START, interval / f64::from(count + 1), count as usize + 1);
         let [found, ..] = instance.get(STATES);
@@ -175,7 +154,7 @@ fn halves_of_a_step_make_the_whole() {
     assert_eq!(whole.step(0.0, 1e-3), c::OK);
     assert_eq!(halves.step(0.0, 5e-4), c::OK);
     assert_eq!(halves.step(5e-4, 5e-4), c::OK);
-    assert_close(halves.get(STATES), whole.get(STATES), 1e-12);
+    assert_close(&halves.get(STATES), &whole.get(STATES), 1e-12);
 }
 
 #[test]
@@ -195,7 +174,11 @@ fn inputs_that_are_set_before_initialisation_act_from_the_first_step_on() {
         instance.get(STATES)
     };
     assert_eq!(run(true), run(false));
-    assert_close(run(true), EQUATIONS.runge_kutta([0.0; 4], 2e-5, 50), 1e-11);
+    assert_close(
+        &run(true),
+        &EQUATIONS.runge_kutta([0.0; 4], 2e-5, 50),
+        1e-11,
+    );
 }
 
 #[test]

@@ -44,18 +44,8 @@ fn the_element_gives_loads_from_motion_at_once() {
     // b.F = K r + C ṙ + k3 r³ by hand, with K = [4e6 1e4; 1e4 2e3], C = [8 0.5; 0.5 0.25], k3 = [1e12, 1e6]
     let cubic = [("joint.k3_y", 1e12), ("joint.k3_theta", 1e6)];
     let instance = Instance::stepping(Kind::Element, 2, &cubic);
-    let motion = [
-        vr::A_Y,
-        vr::A_THETA,
-        vr::A_V,
-        vr::A_OMEGA,
-        vr::B_Y,
-        vr::B_THETA,
-        vr::B_V,
-        vr::B_OMEGA,
-    ];
     assert_eq!(
-        instance.set(&motion, &[3e-4, 2e-2, 0.5, 2.0, 2e-4, 1e-2, 0.25, -2.0]),
+        instance.set(&vr::MOTION, &[3e-4, 2e-2, 0.5, 2.0, 2e-4, 1e-2, 0.25, -2.0]),
         c::OK
     );
     // r = (1e-4, 1e-2), ṙ = (0.25, 4)

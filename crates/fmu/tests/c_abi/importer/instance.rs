@@ -51,6 +51,26 @@ pub(crate) enum State {
 }
 
 impl State {
+    pub(crate) const ALL: &[Self] = &[
+        Self::Instantiated,
+        Self::SetUp,
+        Self::Initialization,
+        Self::Event,
+        Self::Step,
+        Self::Continuous,
+        Self::Terminated,
+    ];
+
+    /// Whether instances of this version and interface type can be in it.
+    pub(crate) fn is_of(self, version: FmiVersion, interface: Interface) -> bool {
+        match self {
+            Self::SetUp => version == Fmi2,
+            Self::Event | Self::Continuous => interface == Interface::ModelExchange,
+            Self::Step => interface == Interface::CoSimulation,
+            Self::Instantiated | Self::Initialization | Self::Terminated => true,
+        }
+    }
+
     /// Name in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {

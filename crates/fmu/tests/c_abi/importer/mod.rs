@@ -23,6 +23,8 @@ pub(crate) mod vr {
     pub(crate) const B_THETA: u32 = 6;
     pub(crate) const B_V: u32 = 7;
     pub(crate) const B_OMEGA: u32 = 8;
+    /// Motion of both sides.
+    pub(crate) const MOTION: [u32; 8] = [A_Y, A_THETA, A_V, A_OMEGA, B_Y, B_THETA, B_V, B_OMEGA];
     pub(crate) const A_F: u32 = 9;
     pub(crate) const A_M: u32 = 10;
     pub(crate) const B_F: u32 = 11;

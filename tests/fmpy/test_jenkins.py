@@ -202,7 +202,7 @@ def test_model_exchange_commits_completed_steps_alone(slave, model):
         inner.step(index * size, size)
     names = ("a.y", "a.v", "joint.jenkins_slider_y", "joint.F")
     assert outer.get(*names) == pytest.approx(inner.get(*names), rel=1e-10)
-    assert abs(outer.get("joint.jenkins_slider_y")[0]) > 0.1
+    assert abs(outer.get("joint.jenkins_slider_y")[0]) > 0.05
     # the importer integrates the power of slipping; the library knows the heat of each way
     assert x[heat] == pytest.approx(inner.get("energy.dissipated")[0], rel=1e-2)
 

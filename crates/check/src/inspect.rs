@@ -10,7 +10,7 @@ use roxmltree::Document;
 use super::archive::Archive;
 use super::described::{Described, FILE};
 use super::{InspectError, attributes, parts, variables};
-use bolted_joint_export::{Interface, StartFile, declared, start_value, table_lines};
+use bolted_joint_export::{Interface, StartFile, declared, laws_line, start_value, table_lines};
 use bolted_joint_joint::{JointFile, Passivity};
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
@@ -86,7 +86,8 @@ pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
         }
     };
     findings.extend(against_joint_file(&start, &joint));
-    if start.table != table_lines(joint.joint.over_preload.as_ref(), start.extrapolates()) {
+    let table = table_lines(joint.joint.over_preload.as_ref(), start.extrapolates());
+    if start.table != laws_line(&joint) + &table {
         findings.push(
             "resources/start.txt: found another table over the preload than that of resources/joint.json; export the FMU again"
                 .to_owned(),

@@ -31,6 +31,9 @@ const PARAMETER: Parameter = Parameter {
     },
 };
 
+/// Part of the slip force that rounding may leave between it and the load of a slider that has just slipped.
+const ROUNDING: f64 = 1e-9;
+
 /// A spring and a slider in series on one relative DOF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jenkins<N = f64> {
@@ -127,12 +130,14 @@ impl<N: Number> Law<N> for Jenkins<N> {
     }
 
     fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
-        match self.bearing(memory, r) {
-            // h |ṙ| while it slips on
-            Bearing::Slips(sign) if sign * velocity.value() > 0.0 => {
-                self.slip_force * N::from(sign) * velocity
-            }
-            _ => N::ZERO,
+        // h |ṙ| while it moves on at the slip force, where a commit has left it, or beyond
+        let elongation = r.value() - memory.first().copied().unwrap_or(0.0);
+        let (force, rate) = (self.stiffness.value() * elongation, velocity.value());
+        let is_at_slip = force.abs() >= (1.0 - ROUNDING) * self.slip_force.value();
+        if is_at_slip && force * rate > 0.0 {
+            self.slip_force * N::from(rate.signum()) * velocity
+        } else {
+            N::ZERO
         }
     }
 

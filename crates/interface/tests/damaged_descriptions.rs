@@ -150,7 +150,7 @@ refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dep
     Problem::Structure(StructureProblem::MissingUnknown { element: "Output", variable }) if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "Output", variable }) if variable == "a.F");
-refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52"/>"# => "",
+refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61"/>"# => "",
     Problem::Structure(StructureProblem::MissingUnknown { element: "InitialUnknown", variable }) if variable == "power.dissipated");
 refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
     Problem::Structure(StructureProblem::UnexpectedUnknown { element: "InitialUnknown", variable }) if variable == "a.y");
@@ -166,7 +166,7 @@ refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" d
     Problem::Structure(StructureProblem::DuplicateDependency { element: "Output", variable, dependency }) if variable == "a.y" && dependency == "a.F");
 refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
     Problem::Structure(StructureProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 }) if variable == "a.y");
-refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52"/>"#
+refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61"/>"#
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
     Problem::Structure(StructureProblem::InitialKind { variable }) if variable == "power.dissipated");
 
@@ -229,7 +229,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="58""#,
+        r#"name="step_size_max" valueReference="64""#,
     );
     assert_eq!(
         problem,
@@ -300,9 +300,9 @@ fn shared_definitions_are_equal() {
 #[test]
 fn intact_descriptions_are_accepted() {
     let interfaces = Interfaces::present().unwrap();
-    assert_eq!(interfaces.element.variables.len(), 38);
-    assert_eq!(interfaces.lap.variables.len(), 58);
-    assert_eq!(interfaces.reference_count(), 58);
+    assert_eq!(interfaces.element.variables.len(), 44);
+    assert_eq!(interfaces.lap.variables.len(), 64);
+    assert_eq!(interfaces.reference_count(), 64);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
@@ -355,8 +355,8 @@ fn intact_descriptions_are_accepted() {
             .filter(|variable| !without_rotation(&variable.name))
             .count()
     };
-    // θ, ω, M of both sides, M of the joint, nine joint parameters and the escape amplitude; J, k_θ, c_θ, α of both
+    // θ, ω, M of both sides, M of the joint, eleven joint parameters, a slider, the escape amplitude; J, k_θ, c_θ, α of both
     // bodies
-    assert_eq!(rotational(0), 6 + 1 + 9 + 1);
-    assert_eq!(rotational(1), 6 + 1 + 9 + 1 + 6 + 2);
+    assert_eq!(rotational(0), 6 + 1 + 11 + 1 + 1);
+    assert_eq!(rotational(1), 6 + 1 + 11 + 1 + 1 + 6 + 2);
 }

@@ -1,7 +1,7 @@
 //! The laws of a joint. Each is a file that declares its parameters and what it remembers, and says once, for real numbers and
 //! for numbers with their changes, which load it gives, what it stores and what it turns into heat.
 //!
-//! A new law is a file here and a line in [`dof_laws!`] below.
+//! A new law is a file here and a line in `dof_laws!` below.
 
 mod declaration;
 mod jenkins;

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use bolted_joint::identify::Study;
-use bolted_joint::identify::lap::{LapResponseStudy, LapUpdateStudy, StudyMethod};
+use bolted_joint::identify::lap::{LapResponseStudy, LapUpdateStudy};
+use bolted_joint::study::{Method, StudyText};
 use tempfile::TempDir;
 
 const UPDATE: &str = "method = \"lap-update\"\nname = \"x\"\n[[assembly]]\nfrequency_hz = [100, 300]\n[bounds]\nk = [1e5, 1e7]\nm = [1, 3]\nk12 = [1e5, 1e8]\n";
@@ -193,13 +194,14 @@ fn damaged_response_studies_are_refused_by_their_key() {
 fn every_method_has_its_reader() {
     let folder = tempfile::tempdir().unwrap();
     let path = written("study.toml", UPDATE, &folder);
-    assert_eq!(StudyMethod::read(&path).unwrap(), StudyMethod::LapUpdate);
+    let method = |path| StudyText::read(path).and_then(|study| study.method());
+    assert_eq!(method(&path).unwrap(), Method::LapUpdate);
     let other = written(
         "other.toml",
         &UPDATE.replace("lap-update", "lap-magic"),
         &folder,
     );
-    let error = StudyMethod::read(&other).unwrap_err().to_string();
+    let error = method(&other).unwrap_err().to_string();
     assert!(
         error.contains("lap-magic") && error.contains("`lap-response`"),
         "{error}"

@@ -5,7 +5,7 @@ use std::ops::Range;
 use num_complex::Complex64;
 
 use bolted_joint_frf::resonances;
-use bolted_joint_frf::structure::CouplingError;
+use bolted_joint_frf::structure::SingularAssembly;
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
@@ -34,17 +34,17 @@ const LINES_OF_A_PART: usize = 256;
 /// median of |H^C| over the lines takes the place of |H^C|. Of several bolts in `joint` the bands are those of the first.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance, or if the joint's DOFs are not those of the lines.
+/// [`SingularAssembly`] at an undamped resonance, or if the joint's DOFs are not those of the lines.
 pub fn choose_bands(
     lines: &Lines,
     model: JointModel,
     joint: &JointMatrices,
     given: &Bands,
-) -> Result<Bands, CouplingError> {
+) -> Result<Bands, SingularAssembly> {
     let dofs = joint.stiffness.nrows();
     let layout = Layout::of_different(model, dofs / model.dofs());
     let chosen = for_joints(lines, &layout, &joint.bolts(model.dofs()), given)?;
-    chosen.into_iter().next().ok_or(CouplingError::Singular)
+    chosen.into_iter().next().ok_or(SingularAssembly)
 }
 
 /// The same for each joint of a layout.
@@ -53,7 +53,7 @@ pub(super) fn for_joints(
     layout: &Layout,
     joints: &[JointMatrices],
     given: &Bands,
-) -> Result<Vec<Bands>, CouplingError> {
+) -> Result<Vec<Bands>, SingularAssembly> {
     let choose = match lines.joint_dofs() {
         1 => with_dofs::<1>,
         2 => with_dofs::<2>,
@@ -61,7 +61,7 @@ pub(super) fn for_joints(
         4 => with_dofs::<4>,
         6 => with_dofs::<6>,
         8 => with_dofs::<8>,
-        _ => return Err(CouplingError::Singular),
+        _ => return Err(SingularAssembly),
     };
     choose(lines, layout, joints, given)
 }
@@ -71,8 +71,8 @@ fn with_dofs<const N: usize>(
     layout: &Layout,
     joints: &[JointMatrices],
     given: &Bands,
-) -> Result<Vec<Bands>, CouplingError> {
-    let unknowns = layout.unknowns_of(joints).ok_or(CouplingError::Singular)?;
+) -> Result<Vec<Bands>, SingularAssembly> {
+    let unknowns = layout.unknowns_of(joints).ok_or(SingularAssembly)?;
     let block = Block::<N>::new(lines, 0, 1);
     let own_hz = own_resonances(std::iter::once(lines));
     chosen(
@@ -83,7 +83,7 @@ fn with_dofs<const N: usize>(
         &unknowns,
         given,
     )
-    .ok_or(CouplingError::Singular)
+    .ok_or(SingularAssembly)
 }
 
 /// The bands that each entry of each joint is averaged over. `chosen` are the automatic ones, `None` if there is no

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use bolted_joint_frf::structure::CouplingError;
+use bolted_joint_frf::structure::SingularAssembly;
 
 use super::block::Block;
 use super::kernel::{Kernel, complex_stiffness};
@@ -44,13 +44,13 @@ pub struct TwoStep {
 /// The thesis uses MATLAB's `fminunc`; this is Levenberg–Marquardt with exact derivatives on the same sum.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance, or if the joint has more than eight DOFs.
+/// [`SingularAssembly`] at an undamped resonance, or if the joint has more than eight DOFs.
 pub fn update_in_two_steps(
     lines: &Lines,
     model: JointModel,
     start: &JointMatrices,
     amplitudes: Amplitudes,
-) -> Result<TwoStep, CouplingError> {
+) -> Result<TwoStep, SingularAssembly> {
     let update = match start.stiffness.nrows() {
         1 => updated::<1>,
         2 => updated::<2>,
@@ -58,7 +58,7 @@ pub fn update_in_two_steps(
         4 => updated::<4>,
         6 => updated::<6>,
         8 => updated::<8>,
-        _ => return Err(CouplingError::Singular),
+        _ => return Err(SingularAssembly),
     };
     update(lines, model, start, amplitudes)
 }
@@ -68,7 +68,7 @@ fn updated<const N: usize>(
     model: JointModel,
     start: &JointMatrices,
     amplitudes: Amplitudes,
-) -> Result<TwoStep, CouplingError> {
+) -> Result<TwoStep, SingularAssembly> {
     let problem = Problem::<N>::new(lines, model, amplitudes);
     let count = problem.entries.len();
     let stiffness: Vec<f64> = problem
@@ -153,7 +153,7 @@ impl<const N: usize> Problem<N> {
         &self,
         unknowns: &mut Vec<f64>,
         moving: std::ops::Range<usize>,
-    ) -> Result<Minimum, CouplingError> {
+    ) -> Result<Minimum, SingularAssembly> {
         let mut normal = self.normal(unknowns, &moving)?;
         let before = normal.sum;
         let mut damping = 1e-3;
@@ -206,7 +206,7 @@ impl<const N: usize> Problem<N> {
         &self,
         unknowns: &[f64],
         moving: &std::ops::Range<usize>,
-    ) -> Result<Normal, CouplingError> {
+    ) -> Result<Normal, SingularAssembly> {
         let count = self.entries.len();
         let is_damping = moving.start == count;
         let mut normal = Normal {
@@ -222,7 +222,7 @@ impl<const N: usize> Problem<N> {
             let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
             kernel
                 .solve(&block.free[line], transfer.iter().copied(), &stiffness)
-                .ok_or(CouplingError::Singular)?;
+                .ok_or(SingularAssembly)?;
             for (index, &entry) in block.entries.iter().enumerate() {
                 let place = line * block.entries.len() + index;
                 let measured = block.measured[place];

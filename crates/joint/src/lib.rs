@@ -29,3 +29,4 @@ pub use record::{
     JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
+pub use validate::is_one_line;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use bolted_joint::predict::layered_beam::Study;
+use bolted_joint::predict::layered_beam::LayeredBeamStudy;
+use bolted_joint::study::StudyText;
 
 use super::study::STUDY;
 
@@ -10,7 +11,7 @@ use super::study::STUDY;
 fn refused(from: &str, to: &str, parts: &[&str]) {
     assert!(STUDY.contains(from), "{from}");
     let text = STUDY.replacen(from, to, 1);
-    let result = Study::from_toml(&text, Path::new("my-study.toml"));
+    let result = LayeredBeamStudy::of(&StudyText::new(text, Path::new("my-study.toml")));
     let error = result
         .and_then(|study| study.run())
         .unwrap_err()
@@ -162,7 +163,7 @@ fn what_is_no_motion() {
     let free = "boundary = \"free-free\"";
     let text = STUDY.replace("route = \"finite-elements\"", "stored_energy = \"static\"");
     let text = text.replace("boundary = \"fixed-pinned\"", free);
-    let study = Study::from_toml(&text, Path::new("my-study.toml")).unwrap();
+    let study = LayeredBeamStudy::of(&StudyText::new(text, Path::new("my-study.toml"))).unwrap();
     let error = study.run().unwrap_err().to_string();
     assert!(error.contains("held nowhere"), "{error}");
 }
@@ -191,7 +192,7 @@ fn what_is_no_friction() {
     let text = STUDY
         .replace("fixed-pinned", "pinned-pinned")
         .replace("[0.05, 0.15, 0.25, 0.35]", "[0.1075]");
-    let study = Study::from_toml(&text, Path::new("my-study.toml")).unwrap();
+    let study = LayeredBeamStudy::of(&StudyText::new(text, Path::new("my-study.toml"))).unwrap();
     let error = study.run().unwrap_err().to_string();
     assert!(
         error.contains("no fastener where mode 2 has a slope"),
@@ -232,7 +233,7 @@ fn what_is_no_joint() {
         "[motion]",
         "[joint]\ndamping = \"linear\"\nnominal_torque = 9\n[motion]",
     );
-    let error = Study::from_toml(&text, Path::new("my-study.toml"))
+    let error = LayeredBeamStudy::of(&StudyText::new(text, Path::new("my-study.toml")))
         .unwrap_err()
         .to_string();
     assert!(

@@ -4,12 +4,14 @@
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
-use super::data::{RESPONSE, ResponseDataError, Use};
+use super::data::{RESPONSE, Use};
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
 use super::terms::Term;
+use crate::error::LapError;
+use bolted_joint_files::TextFileError;
 
 /// Half-periods that a free decay is read over at a time.
 const HALF_PERIODS: usize = 10;
@@ -149,13 +151,10 @@ pub(super) fn read_backbone(
     name: String,
     used_for: Use,
     share: f64,
-) -> Result<BackboneRun, ResponseDataError> {
+) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |line: usize, found: String, expected: String| ResponseDataError::Table {
-        path: path.to_owned(),
-        line,
-        found,
-        expected,
+    let problem = |line, found: String, expected: String| {
+        LapError::from(TextFileError::in_line(path, line, found, expected))
     };
     let missing = |expected: String| problem(1, format!("the columns {}", table.names()), expected);
     let (frequency, by) = table
@@ -211,13 +210,10 @@ pub(super) fn read_decay(
     name: String,
     used_for: Use,
     share: f64,
-) -> Result<BackboneRun, ResponseDataError> {
+) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |found: String, expected: String| ResponseDataError::Table {
-        path: path.to_owned(),
-        line: 1,
-        found,
-        expected,
+    let problem = |found: String, expected: String| {
+        LapError::from(TextFileError::in_line(path, 1, found, expected))
     };
     let missing = |expected: String| problem(format!("the columns {}", table.names()), expected);
     let (time, _) = table

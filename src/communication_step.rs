@@ -55,11 +55,11 @@ pub(super) fn communication_step(
     match (interface, arguments.neighbour_mass, restrained) {
         (_, None, false) => match arguments.amplitude {
             None => Ok(None),
-            Some(_) => Err(CliError::Option {
-                option: "--amplitude",
-                found: "no neighbour".to_owned(),
-                expected: "--neighbour-mass or --neighbour-stiffness with it",
-            }),
+            Some(_) => Err(CliError::option(
+                "--amplitude",
+                "no neighbour",
+                "--neighbour-mass or --neighbour-stiffness with it",
+            )),
         },
         (Interface::Element, Some(mass), _) => {
             let dofs = joints
@@ -71,17 +71,17 @@ pub(super) fn communication_step(
         (Interface::Lap, None, true) => {
             of_lap(joints, arguments, step_size_max_s, suggested_s).map(Some)
         }
-        (Interface::Element, None, true) => Err(CliError::Option {
-            option: "--neighbour-stiffness, --neighbour-damping",
-            found: "an element, which takes motion".to_owned(),
-            expected: "a lap; give --neighbour-mass for an element",
-        }),
-        (Interface::Lap, Some(_), _) => Err(CliError::Option {
-            option: "--neighbour-mass",
-            found: "a lap, which gives motion and takes loads, as a mass does".to_owned(),
-            expected: "an element; add rigidly attached masses to `bodies` of the joint file, and give \
+        (Interface::Element, None, true) => Err(CliError::option(
+            "--neighbour-stiffness, --neighbour-damping",
+            "an element, which takes motion",
+            "a lap; give --neighbour-mass for an element",
+        )),
+        (Interface::Lap, Some(_), _) => Err(CliError::option(
+            "--neighbour-mass",
+            "a lap, which gives motion and takes loads, as a mass does",
+            "an element; add rigidly attached masses to `bodies` of the joint file, and give \
                        --neighbour-stiffness for what is attached by a spring",
-        }),
+        )),
     }
 }
 
@@ -96,18 +96,18 @@ fn neighbours(
         // no row asks for it
         None if !turns => mass,
         None => {
-            return Err(CliError::Option {
-                option: "--neighbour-inertia",
-                found: "none".to_owned(),
-                expected: "the moments of inertia of both neighbours, as the joint has rotation; `fixed,fixed` if they do not turn",
-            });
+            return Err(CliError::option(
+                "--neighbour-inertia",
+                "none",
+                "the moments of inertia of both neighbours, as the joint has rotation; `fixed,fixed` if they do not turn",
+            ));
         }
         Some(_) => {
-            return Err(CliError::Option {
-                option: "--neighbour-inertia",
-                found: "a joint without rotation".to_owned(),
-                expected: "--neighbour-mass alone",
-            });
+            return Err(CliError::option(
+                "--neighbour-inertia",
+                "a joint without rotation",
+                "--neighbour-mass alone",
+            ));
         }
     };
     let side = |side: usize| {

@@ -79,11 +79,11 @@ impl Files {
 
 pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     if !(arguments.noise.is_finite() && (0.0..1.0).contains(&arguments.noise)) {
-        return Err(CliError::Option {
-            option: "--noise",
-            found: arguments.noise.to_string(),
-            expected: "a fraction from 0 to below 1, such as 0.01 for 1 %",
-        });
+        return Err(CliError::option(
+            "--noise",
+            arguments.noise,
+            "a fraction from 0 to below 1, such as 0.01 for 1 %",
+        ));
     }
     let written = Timestamp::from_environment()?;
     let element = export::options(Interface::Element)?;

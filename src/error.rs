@@ -1,5 +1,7 @@
 //! Everything that can end a command with exit code 1.
 
+use std::error::Error;
+use std::fmt::Display;
 use std::io;
 use std::path::PathBuf;
 
@@ -12,41 +14,20 @@ use bolted_joint::frf::FrfError;
 use bolted_joint::identify::IdentifyError;
 use bolted_joint::identify::lap::LapError;
 use bolted_joint::joint::{JointFileError, PreloadError};
-use bolted_joint::predict::study::PredictError;
 use bolted_joint::reproduce::ReproduceError;
-use bolted_joint::respond::{PollutionError, RespondError};
+use bolted_joint::respond::RespondError;
+use bolted_joint::study::StudyError;
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
 pub(super) enum CliError {
+    /// What the library says, file and key included.
     #[error(transparent)]
-    Identify(Box<IdentifyError>),
-    #[error(transparent)]
-    Lap(Box<LapError>),
-    #[error(transparent)]
-    Date(#[from] DateError),
-    #[error(transparent)]
-    Predict(Box<PredictError>),
-    #[error(transparent)]
-    Reproduce(#[from] ReproduceError),
-    #[error(transparent)]
-    Pollution(#[from] PollutionError),
-    #[error(transparent)]
-    Respond(Box<RespondError>),
-    #[error(transparent)]
-    Frf(#[from] FrfError),
-    #[error(transparent)]
-    JointFile(#[from] JointFileError),
-    #[error(transparent)]
-    Export(#[from] ExportError),
+    Library(Box<dyn Error>),
     #[error("{}: {source}", path.display())]
     Unexportable { path: PathBuf, source: ExportError },
     #[error("{}: {source}", path.display())]
     Preload { path: PathBuf, source: PreloadError },
-    #[error(transparent)]
-    Inspect(#[from] InspectError),
-    #[error(transparent)]
-    Run(#[from] RunError),
     #[error("communication step: {0}")]
     Coupling(CouplingError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
@@ -67,33 +48,46 @@ pub(super) enum CliError {
     Json(#[from] serde_json::Error),
 }
 
-impl From<IdentifyError> for CliError {
-    fn from(error: IdentifyError) -> Self {
-        Self::Identify(Box::new(error))
-    }
+macro_rules! from_the_library {
+    ($($error:ty),+) => {
+        $(impl From<$error> for CliError {
+            fn from(error: $error) -> Self {
+                Self::Library(Box::new(error))
+            }
+        })+
+    };
 }
 
-impl From<LapError> for CliError {
-    fn from(error: LapError) -> Self {
-        Self::Lap(Box::new(error))
-    }
-}
-
-impl From<PredictError> for CliError {
-    fn from(error: PredictError) -> Self {
-        Self::Predict(Box::new(error))
-    }
-}
-
-impl From<RespondError> for CliError {
-    fn from(error: RespondError) -> Self {
-        Self::Respond(Box::new(error))
-    }
-}
+from_the_library!(
+    DateError,
+    ExportError,
+    FrfError,
+    IdentifyError,
+    InspectError,
+    JointFileError,
+    LapError,
+    ReproduceError,
+    RespondError,
+    RunError,
+    StudyError
+);
 
 impl CliError {
     /// Whether the reader of stdout has gone away, as `head` does: no error of the user's.
     pub(super) fn is_closed_output(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// An option that does not go with the others.
+    pub(super) fn option(
+        option: &'static str,
+        found: impl Display,
+        expected: &'static str,
+    ) -> Self {
+        Self::Option {
+            option,
+            found: found.to_string(),
+            expected,
+        }
     }
 }

@@ -10,12 +10,12 @@ use num_complex::Complex64;
 use serde_json::json;
 
 use bolted_joint::export::Timestamp;
-use bolted_joint::identify::lap::StudyMethod;
 use bolted_joint::identify::{
     Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
 };
 use bolted_joint::joint::JointFile;
 use bolted_joint::report::{FrfFigure, FrfPanel, IdentificationReport};
+use bolted_joint::study::{Method, StudyText};
 use bolted_joint_files::whole_file;
 
 use super::bolt_files::of_bolts;
@@ -74,25 +74,30 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         let Some(path) = path else { continue };
         let extension = path.extension().and_then(|extension| extension.to_str());
         if extension != Some(expected_extension) {
-            return Err(CliError::Option {
-                option,
-                found: path.display().to_string(),
-                expected,
-            });
+            return Err(CliError::option(option, path.display(), expected));
         }
         check_output(path, &taken)?;
         taken.push(path);
     }
-    match StudyMethod::read(&arguments.study)? {
-        StudyMethod::FrfDecoupling => {}
-        StudyMethod::LapUpdate => return lap::update(arguments),
-        StudyMethod::LapResponse => return lap::response(arguments),
+    let study = StudyText::read(&arguments.study)?;
+    match study.method()? {
+        Method::FrfDecoupling => {}
+        Method::LapUpdate => return lap::update(arguments, &study),
+        Method::LapResponse => return lap::response(arguments, &study),
+        other => {
+            let methods = [
+                Method::FrfDecoupling,
+                Method::LapUpdate,
+                Method::LapResponse,
+            ];
+            study.check_method(other, &methods)?;
+        }
     }
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),
         None => None,
     };
-    let study = Study::read(&arguments.study)?;
+    let study = Study::of(&study)?;
     let outputs = of_bolts(&arguments.output, &study.bolts);
     if outputs.len() > 1 {
         for output in &outputs {

@@ -19,6 +19,7 @@ pub use bolted_joint_predict as predict;
 pub use bolted_joint_report as report;
 pub use bolted_joint_reproduce as reproduce;
 pub use bolted_joint_respond as respond;
+pub use bolted_joint_study as study;
 
 /// Identification of joints from functions of substructures and assembly, and of lap models from frequencies and responses.
 pub mod identify {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::error::CliError;
-use bolted_joint::predict::study::PredictionMethod;
+use bolted_joint::study::{Method, StudyText};
 
 /// `predict`
 #[derive(Debug, Args)]
@@ -46,10 +46,16 @@ pub(super) struct PredictArguments {
 }
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
-    match PredictionMethod::read(&arguments.study)? {
-        method @ (PredictionMethod::FractalContact | PredictionMethod::VirtualMaterial) => {
-            interface::run(arguments, method)
-        }
-        PredictionMethod::LayeredBeam => layered_beam::run(arguments),
+    let study = StudyText::read(&arguments.study)?;
+    let methods = [
+        Method::FractalContact,
+        Method::VirtualMaterial,
+        Method::LayeredBeam,
+    ];
+    let method = study.method()?;
+    study.check_method(method, &methods)?;
+    match method {
+        Method::LayeredBeam => layered_beam::run(arguments, &study),
+        _ => interface::run(arguments, &study, method),
     }
 }

@@ -84,19 +84,19 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         .iter()
         .find(|(source, _)| arguments.tables.contains(source));
     if arguments.figure.is_some() && !matches!(named, Some((Source::Kavi, _))) {
-        return Err(CliError::Option {
-            option: "--figure",
-            found: "other tables".to_owned(),
-            expected: "`kavi`, which is the one that has a figure",
-        });
+        return Err(CliError::option(
+            "--figure",
+            "other tables",
+            "`kavi`, which is the one that has a figure",
+        ));
     }
     if let Some((source, name)) = named {
         if arguments.tables.len() > 1 {
-            return Err(CliError::Option {
-                option: name,
-                found: format!("{} tables beside it", arguments.tables.len() - 1),
-                expected: "it alone: it has a table of another form",
-            });
+            return Err(CliError::option(
+                name,
+                format_args!("{} tables beside it", arguments.tables.len() - 1),
+                "it alone: it has a table of another form",
+            ));
         }
         match source {
             Source::Tol(_) => {}
@@ -111,11 +111,11 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     if arguments.draws == 0 {
-        return Err(CliError::Option {
-            option: "--draws",
-            found: "0".to_owned(),
-            expected: "at least one draw of the noise",
-        });
+        return Err(CliError::option(
+            "--draws",
+            "0",
+            "at least one draw of the noise",
+        ));
     }
     let draws = Draws {
         count: arguments.draws,

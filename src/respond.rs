@@ -12,7 +12,8 @@ use serde_json::json;
 use bolted_joint::frf::write_uff58;
 use bolted_joint::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
 use bolted_joint::joint::JointFile;
-use bolted_joint::respond::{Pollution, RespondStudy, to_csv, with_noise};
+use bolted_joint::respond::{Pollution, to_csv, with_noise};
+use bolted_joint::study::{Method, StudyText};
 
 use super::bolt_files::of_bolts;
 use super::error::CliError;
@@ -91,16 +92,14 @@ enum Format {
 const STEP_HZ: f64 = 0.25;
 
 pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
-    if RespondStudy::is_meant(&arguments.study)? {
-        return lap::run(arguments);
+    let text = StudyText::read(&arguments.study)?;
+    let method = text.method()?;
+    text.check_method(method, &[Method::Respond, Method::FrfDecoupling])?;
+    if method == Method::Respond {
+        return lap::run(arguments, &text);
     }
-    let refuse = |option, found: &str, expected| CliError::Option {
-        option,
-        found: found.to_owned(),
-        expected,
-    };
     let Some(joint) = &arguments.joint else {
-        return Err(refuse(
+        return Err(CliError::option(
             "--joint",
             "nothing",
             "the joint file that the assembly is to have, or a study of method \"respond\", which names its own",
@@ -109,7 +108,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     if let Some(report) = &arguments.report {
         let expected =
             "none: the functions of an assembly are not drawn here, `identify --report` draws them";
-        return Err(refuse("--report", &report.display().to_string(), expected));
+        return Err(CliError::option("--report", report.display(), expected));
     }
     let format = format(&arguments.output)?;
     check_output(&arguments.output, &[&arguments.study, joint])?;
@@ -117,7 +116,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
         None => None,
     };
-    let study = Study::read(&arguments.study)?;
+    let study = Study::of(&text)?;
     let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
     let joints = joints(joint, &study)?;
     let exact = predict_assembly(&study, &joints, &frequency_hz)?;
@@ -217,11 +216,11 @@ fn format(path: &Path) -> Result<Format, CliError> {
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("csv") => Ok(Format::Table),
         Some("uff" | "unv") => Ok(Format::Universal),
-        _ => Err(CliError::Option {
-            option: "--output",
-            found: path.display().to_string(),
-            expected: "a name that ends in .csv, .uff or .unv",
-        }),
+        _ => Err(CliError::option(
+            "--output",
+            path.display(),
+            "a name that ends in .csv, .uff or .unv",
+        )),
     }
 }
 
@@ -238,22 +237,17 @@ fn pollution(noise: &NoiseArguments) -> Pollution {
 
 /// Lines from the study's first to its last frequency.
 fn lines(study: &Study, step_hz: f64) -> Result<Vec<f64>, CliError> {
-    let refuse = |option, found: String, expected| CliError::Option {
-        option,
-        found,
-        expected,
-    };
     let [from_hz, to_hz] = study.frequency_range_hz;
     let count = ((to_hz - from_hz) / step_hz + 1e-9).floor() + 1.0;
     if !(step_hz.is_finite() && step_hz > 0.0) {
         let expected = "a positive distance between lines in Hz";
-        return Err(refuse("--step", step_hz.to_string(), expected));
+        return Err(CliError::option("--step", step_hz, expected));
     }
     if from_hz == f64::MIN_POSITIVE || to_hz == f64::MAX || !(2.0..MOST_LINES).contains(&count) {
         let found = format!("{from_hz} to {to_hz} Hz in steps of {step_hz} Hz");
         let expected =
             "`from` and `to` in the study, two lines apart or more and at most ten million";
-        return Err(refuse("[frequency]", found, expected));
+        return Err(CliError::option("[frequency]", found, expected));
     }
     Ok((0..count as u64)
         .map(|line| from_hz + step_hz * line as f64)
@@ -279,11 +273,11 @@ fn joint(path: &Path, study: &Study) -> Result<JointMatrices, CliError> {
     let size = study.model.dofs();
     let matrix = |rows: &[Vec<f64>]| -> Result<DMatrix<f64>, CliError> {
         if rows.len() != size {
-            return Err(CliError::Option {
-                option: "--joint",
-                found: format!("{} with {} degrees of freedom", path.display(), rows.len()),
-                expected: "as many as the study's joint model has",
-            });
+            return Err(CliError::option(
+                "--joint",
+                format_args!("{} with {} degrees of freedom", path.display(), rows.len()),
+                "as many as the study's joint model has",
+            ));
         }
         Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j]))
     };

@@ -236,79 +236,27 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
     let studies = Studies::new();
     let band = "[frequency]\nfrom = 300\nto = 400\n";
     let balance = |rest: &str| study("harmonic-balance", rest);
-    for (text, fragments) in [
+    #[rustfmt::skip]
+    let cases = [
         (balance(band), ["study.toml", "`load`"]),
-        (
-            balance(&format!("{band}[load]\non = \"b\"\n")),
-            ["`load.amplitude`", "found nothing"],
-        ),
-        (
-            balance(&format!("{band}[load]\namplitude = [1, -2]\n")),
-            ["`load.amplitude`", "-2"],
-        ),
-        (
-            balance("[frequency]\nfrom = 400\nto = 300\n[load]\namplitude = 1\n"),
-            ["`frequency.to`: found 300 Hz", "direction = \"down\""],
-        ),
-        (
-            balance(&format!(
-                "{band}[load]\namplitude = 1\n[harmonics]\nhighest = 0\n"
-            )),
-            ["`harmonics.highest`: found 0", "1 to"],
-        ),
-        (
-            balance(&format!("{band}lines = 10\n[load]\namplitude = 1\n")),
-            ["`frequency.lines`", "chooses its own points"],
-        ),
-        (
-            balance(&format!("{band}[load]\namplitude = 1\ndof = \"theta\"\n")),
-            ["`load.dof`", "theta"],
-        ),
-        (
-            balance(&format!(
-                "{band}[load]\namplitude = 1\n[start]\n\"a.y\" = 1\n"
-            )),
-            ["`start`", "no use for it"],
-        ),
-        (
-            format!(
-                "motions = [\"c.y\"]\n{}",
-                balance(&format!("{band}[load]\namplitude = 1\n"))
-            ),
-            ["`motions`", "\"c.y\""],
-        ),
+        (balance(&format!("{band}[load]\non = \"b\"\n")), ["`load.amplitude`", "found nothing"]),
+        (balance(&format!("{band}[load]\namplitude = [1, -2]\n")), ["`load.amplitude`", "-2"]),
+        (balance("[frequency]\nfrom = 400\nto = 300\n[load]\namplitude = 1\n"), ["`frequency.to`: found 300 Hz", "direction = \"down\""]),
+        (balance(&format!("{band}[load]\namplitude = 1\n[harmonics]\nhighest = 0\n")), ["`harmonics.highest`: found 0", "1 to"]),
+        (balance(&format!("{band}lines = 10\n[load]\namplitude = 1\n")), ["`frequency.lines`", "chooses its own points"]),
+        (balance(&format!("{band}[load]\namplitude = 1\ndof = \"theta\"\n")), ["`load.dof`", "theta"]),
+        (balance(&format!("{band}[load]\namplitude = 1\n[start]\n\"a.y\" = 1\n")), ["`start`", "no use for it"]),
+        (format!("motions = [\"c.y\"]\n{}", balance(&format!("{band}[load]\namplitude = 1\n"))), ["`motions`", "\"c.y\""]),
         (balance("frequencies = 3"), ["unknown field", "frequencies"]),
         (study("harmonics", ""), ["study.toml", "unknown variant"]),
-        (
-            study("backbone", "[response]\nfrom = 1e-3\nto = 1e-4\n"),
-            ["`response.to`", "more than `response.from`"],
-        ),
-        (
-            study(
-                "constant-amplitude",
-                &format!("{band}[load]\non = \"b\"\n[response]\nof = \"b.y\"\n"),
-            ),
-            ["`response.amplitude`", "found nothing"],
-        ),
-        (
-            study(
-                "free-decay",
-                "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"b.omega\" = 1\n",
-            ),
-            ["`start`", "b.omega"],
-        ),
-        (
-            study("free-decay", "[time]\nduration = 1\n[start]\n\"b.v\" = 1\n"),
-            ["`time.interval`", "found nothing"],
-        ),
-        (
-            study(
-                "dwell",
-                &format!("{band}[load]\namplitude = 1\n[time]\nduration = 1\ninterval = 1\n"),
-            ),
-            ["`frequency`", "`at` alone"],
-        ),
-    ] {
+        (study("backbone", "[response]\nfrom = 1e-3\nto = 1e-4\n"), ["`response.to`", "more than `response.from`"]),
+        (study("constant-amplitude", &format!("{band}[load]\non = \"b\"\n[response]\nof = \"b.y\"\n")),
+         ["`response.amplitude`", "found nothing"]),
+        (study("free-decay", "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"b.omega\" = 1\n"), ["`start`", "b.omega"]),
+        (study("free-decay", "[time]\nduration = 1\n[start]\n\"b.v\" = 1\n"), ["`time.interval`", "found nothing"]),
+        (study("dwell", &format!("{band}[load]\namplitude = 1\n[time]\nduration = 1\ninterval = 1\n")), ["`frequency`", "`at` alone"]),
+    ];
+    for (text, fragments) in cases {
         studies.refused(&text, &fragments);
     }
     let text = study("linear", "[frequency]\nfrom = 1\nto = 2\n");

@@ -11,6 +11,7 @@ use bolted_joint::identify::Study;
 use bolted_joint::joint::JointFile;
 use bolted_joint::predict::study::{InterfaceStudy, Prediction};
 use bolted_joint::structure::ModalModel;
+use bolted_joint::study::StudyText;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
@@ -136,7 +137,7 @@ fn damaged_studies_do_not_panic() {
 #[test]
 fn damaged_predictions_do_not_panic() {
     run(PREDICTION, |text| {
-        InterfaceStudy::from_toml(text, Path::new("study.toml"))
+        InterfaceStudy::of(&StudyText::new(text, Path::new("study.toml")))
             .is_ok_and(|study| Prediction::of(&study, &|| {}).is_ok())
     });
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use bolted_joint::predict::study::{InterfaceStudy, Prediction};
+use bolted_joint::study::StudyText;
 use criterion::Criterion;
 
 /// Draws of the measurement, and the seconds that they may take on two processors.
@@ -16,7 +17,7 @@ const FEW: u64 = 200;
 fn study(draws: u64) -> InterfaceStudy {
     let text = include_str!("four-bolts.toml");
     let text = format!("{text}\n[uncertainty]\ndraws = {draws}\nseed = 1\n");
-    InterfaceStudy::from_toml(&text, Path::new("four-bolts.toml")).unwrap()
+    InterfaceStudy::of(&StudyText::new(text, Path::new("four-bolts.toml"))).unwrap()
 }
 
 /// Prints the time of all draws and checks it against its limit.

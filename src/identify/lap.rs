@@ -44,11 +44,11 @@ impl Outputs {
 /// Refuses what belongs to measured functions only.
 fn check_options(arguments: &IdentifyArguments) -> Result<(), CliError> {
     if let Some(draws) = arguments.bootstrap {
-        return Err(CliError::Option {
-            option: "--bootstrap",
-            found: draws.to_string(),
-            expected: "a study of method \"frf-decoupling\"; the intervals of a lap model come from its information matrix",
-        });
+        return Err(CliError::option(
+            "--bootstrap",
+            draws,
+            "a study of method \"frf-decoupling\"; the intervals of a lap model come from its information matrix",
+        ));
     }
     Ok(())
 }

@@ -13,11 +13,10 @@ use super::PredictArguments;
 use super::outputs::{self, Outputs};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::{matrix27, table};
-use bolted_joint::predict::study::{
-    InterfaceStudy, PredictError, Prediction, PredictionMethod, State,
-};
+use bolted_joint::predict::study::{InterfaceStudy, Prediction, State};
 use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
+use bolted_joint::study::{Method, StudyError, StudyText};
 
 /// Name and number of the layer's material.
 const MATERIAL_NAME: &str = "bolted_joint";
@@ -25,7 +24,11 @@ const MATERIAL_NUMBER: u32 = 1;
 /// Inputs that account for less of a result's scatter are not named.
 const WORTH_NAMING: f64 = 0.05;
 
-pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Result<(), CliError> {
+pub(super) fn run(
+    arguments: &PredictArguments,
+    study: &StudyText,
+    method: Method,
+) -> Result<(), CliError> {
     outputs::refuse(
         &[
             ("--damping-csv", arguments.damping_csv.as_ref()),
@@ -69,7 +72,7 @@ pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Res
             ),
         ],
     )?;
-    if method == PredictionMethod::FractalContact {
+    if method == Method::FractalContact {
         outputs::refuse(
             &[("--material-card", arguments.material_card.as_ref())],
             "none: only method \"virtual-material\" has a material",
@@ -79,7 +82,7 @@ pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Res
         Some(_) => Some(Timestamp::from_environment()?),
         None => None,
     };
-    let study = InterfaceStudy::read(&arguments.study)?;
+    let study = InterfaceStudy::of(study)?;
     let draws = study.monte_carlo.map_or(0, |monte_carlo| monte_carlo.draws);
     let progress = Progress::new("predicting", draws as usize);
     let found = Prediction::of(&study, &|| progress.advance())?;
@@ -126,7 +129,7 @@ pub(super) fn run(arguments: &PredictArguments, method: PredictionMethod) -> Res
 }
 
 /// The layer's card, in the form that the name asks for.
-fn material_card(path: &Path, found: &Prediction<'_>) -> Result<String, PredictError> {
+fn material_card(path: &Path, found: &Prediction<'_>) -> Result<String, StudyError> {
     let card = match path.extension().and_then(|ending| ending.to_str()) {
         Some("inp") => Card::Abaqus,
         Some("mac") => Card::Ansys(MATERIAL_NUMBER),

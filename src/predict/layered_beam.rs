@@ -6,11 +6,11 @@ use super::super::error::CliError;
 use super::super::output::{message, print};
 use super::PredictArguments;
 use super::outputs::{self, Outputs};
-use bolted_joint::predict::layered_beam::Study;
-use bolted_joint::predict::study::PredictError;
+use bolted_joint::predict::layered_beam::LayeredBeamStudy;
 use bolted_joint::report::LayeredBeamFigure;
+use bolted_joint::study::StudyText;
 
-pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
+pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(), CliError> {
     outputs::refuse(
         &[
             ("--report", arguments.report.as_ref()),
@@ -39,8 +39,8 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
             ),
         ],
     )?;
-    let study = Study::read(&arguments.study).map_err(PredictError::from)?;
-    let found = study.run().map_err(PredictError::from)?;
+    let study = LayeredBeamStudy::of(study)?;
+    let found = study.run()?;
     let joint_file = found.joint_file().to_json()?;
     let mut files = Outputs::new();
     files.add(Some(&arguments.output), || joint_file);

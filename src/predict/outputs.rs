@@ -56,11 +56,7 @@ pub(super) fn check(
         let extension = path.extension().and_then(|extension| extension.to_str());
         let fits = endings.is_empty() || extension.is_some_and(|found| endings.contains(&found));
         if !fits {
-            return Err(CliError::Option {
-                option,
-                found: path.display().to_string(),
-                expected,
-            });
+            return Err(CliError::option(option, path.display(), expected));
         }
         check_output(path, &taken)?;
         taken.push(path);
@@ -77,11 +73,7 @@ pub(super) fn refuse(
         .iter()
         .find_map(|(option, path)| Some((*option, (*path)?)))
     {
-        Some((option, path)) => Err(CliError::Option {
-            option,
-            found: path.display().to_string(),
-            expected,
-        }),
+        Some((option, path)) => Err(CliError::option(option, path.display(), expected)),
         None => Ok(()),
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::json;
 
 use bolted_joint::respond::{RespondStudy, ResponseTable};
+use bolted_joint::study::StudyText;
 use bolted_joint_figures::html;
 
 use super::super::error::CliError;
@@ -17,29 +18,24 @@ enum Picture {
     Html,
 }
 
-pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
-    let refuse = |option, found: String, expected| CliError::Option {
-        option,
-        found,
-        expected,
-    };
+pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(), CliError> {
     if let Some(joint) = &arguments.joint {
         let expected = "none: a study of method \"respond\" names its joint files in [[lap]]";
-        return Err(refuse("--joint", joint.display().to_string(), expected));
+        return Err(CliError::option("--joint", joint.display(), expected));
     }
     if let Some(step) = arguments.step {
         let expected = "none: a study of method \"respond\" has its frequencies in [frequency]";
-        return Err(refuse("--step", step.to_string(), expected));
+        return Err(CliError::option("--step", step, expected));
     }
     if arguments.noise.is_some() {
         let expected = "nothing: noise is for the functions of an assembly";
-        return Err(refuse("noise", "it".to_owned(), expected));
+        return Err(CliError::option("noise", "it", expected));
     }
     if !has_extension(&arguments.output, "csv") {
         let expected = "a name that ends in .csv";
-        return Err(refuse(
+        return Err(CliError::option(
             "--output",
-            arguments.output.display().to_string(),
+            arguments.output.display(),
             expected,
         ));
     }
@@ -53,20 +49,20 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
                 Picture::Html
             } else {
                 let expected = "a name that ends in .svg or .html";
-                return Err(refuse("--report", path.display().to_string(), expected));
+                return Err(CliError::option("--report", path.display(), expected));
             };
             check_output(path, &[&arguments.study, &arguments.output])?;
             Some((path, picture))
         }
     };
-    let study = RespondStudy::read(&arguments.study)?;
+    let study = RespondStudy::of(study)?;
     let table = study.run()?;
     let drawing = match picture {
         None => None,
         Some((path, picture)) => match study.figure(&table) {
             None => {
                 let expected = "a response that can be drawn: all amplitudes are zero";
-                return Err(refuse("--report", path.display().to_string(), expected));
+                return Err(CliError::option("--report", path.display(), expected));
             }
             Some(svg) => Some((path, drawn(picture, &study, &svg))),
         },

@@ -96,136 +96,42 @@ fn degrees_and_radians_are_told_apart() {
 #[test]
 fn every_fault_is_located_and_named() {
     let header = |columns: &str| format!("frequency [Hz],{columns}\n1,2,3\n");
-    for (text, line, named) in [
+    #[rustfmt::skip]
+    let cases = [
         ("".to_owned(), 1, "no header row"),
         ("# only a comment\n".to_owned(), 2, "no header row"),
         ("1,2,3\n".to_owned(), 1, "column 1: found \"1\""),
-        (
-            "frequency [kHz],1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(),
-            1,
-            "frequency [kHz]",
-        ),
-        (
-            "omega,1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(),
-            1,
-            "omega",
-        ),
-        (
-            header("1:Y real,1:Y imaginary"),
-            1,
-            "column 2: found the name \"1:Y real\"",
-        ),
-        (
-            header("1:Y/2:W real,1:Y/2:W imaginary"),
-            1,
-            "direction \"W\"",
-        ),
+        ("frequency [kHz],1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(), 1, "frequency [kHz]"),
+        ("omega,1:Y/2:Y real,1:Y/2:Y imaginary\n".to_owned(), 1, "omega"),
+        (header("1:Y real,1:Y imaginary"), 1, "column 2: found the name \"1:Y real\""),
+        (header("1:Y/2:W real,1:Y/2:W imaginary"), 1, "direction \"W\""),
         (header("1:Y/2:Y [m/N],1:Y/2:Y imaginary"), 1, "column 2"),
         (header("1:Y/2:Y real part,1:Y/2:Y imaginary"), 1, "column 2"),
-        (
-            header("1:Y/2:Y real [m/N],1:Y/3:Y imaginary"),
-            1,
-            "found real part, expected",
-        ),
-        (
-            header("1:Y/2:Y real [m/N],1:Y/2:Y phase [deg]"),
-            1,
-            "real part and phase",
-        ),
-        (
-            header("1:Y/2:Y magnitude [m/N],1:Y/2:Y phase"),
-            1,
-            "column 3: found a phase in \"no unit\"",
-        ),
-        (
-            header("1:Y/2:Y real [m/N],1:Y/2:Y real [m/N]"),
-            1,
-            "a second real part",
-        ),
-        (
-            header("1:Y/2:Y real [m/N],1:Y/2:Y imaginary [mm/N]"),
-            1,
-            "\"m/N\" in one column and \"mm/N\"",
-        ),
-        (
-            header("1:Y/2:Y real,1:Y/2:Y imaginary"),
-            1,
-            "neither a quantity nor a unit",
-        ),
-        (
-            header("1:Y/2:Y real mobility [m/N],1:Y/2:Y imaginary"),
-            1,
-            "means receptance",
-        ),
-        (
-            header("1:Y/2:Y real [dB],1:Y/2:Y imaginary"),
-            1,
-            "the unit \"dB\"",
-        ),
-        (
-            header("1:Y/2:Y real [N/m],1:Y/2:Y imaginary"),
-            1,
-            "the unit \"N/m\"",
-        ),
-        (
-            header("1:RZ/2:Y real [m/N],1:RZ/2:Y imaginary"),
-            1,
-            "directions",
-        ),
-        (
-            SMALL.replace("receptance", "stiffness"),
-            2,
-            "quantity = \"stiffness\"",
-        ),
-        (
-            SMALL.replace("quantity = receptance", "averages = 0"),
-            2,
-            "averages = \"0\"",
-        ),
-        (
-            SMALL.replace("0.5,-1.5", "0,5,-1,5"),
-            4,
-            "found 5 fields, expected 3",
-        ),
+        (header("1:Y/2:Y real [m/N],1:Y/3:Y imaginary"), 1, "found real part, expected"),
+        (header("1:Y/2:Y real [m/N],1:Y/2:Y phase [deg]"), 1, "real part and phase"),
+        (header("1:Y/2:Y magnitude [m/N],1:Y/2:Y phase"), 1, "column 3: found a phase in \"no unit\""),
+        (header("1:Y/2:Y real [m/N],1:Y/2:Y real [m/N]"), 1, "a second real part"),
+        (header("1:Y/2:Y real [m/N],1:Y/2:Y imaginary [mm/N]"), 1, "\"m/N\" in one column and \"mm/N\""),
+        (header("1:Y/2:Y real,1:Y/2:Y imaginary"), 1, "neither a quantity nor a unit"),
+        (header("1:Y/2:Y real mobility [m/N],1:Y/2:Y imaginary"), 1, "means receptance"),
+        (header("1:Y/2:Y real [dB],1:Y/2:Y imaginary"), 1, "the unit \"dB\""),
+        (header("1:Y/2:Y real [N/m],1:Y/2:Y imaginary"), 1, "the unit \"N/m\""),
+        (header("1:RZ/2:Y real [m/N],1:RZ/2:Y imaginary"), 1, "directions"),
+        (SMALL.replace("receptance", "stiffness"), 2, "quantity = \"stiffness\""),
+        (SMALL.replace("quantity = receptance", "averages = 0"), 2, "averages = \"0\""),
+        (SMALL.replace("0.5,-1.5", "0,5,-1,5"), 4, "found 5 fields, expected 3"),
         (SMALL.replace("0.5,-1.5", "0.5"), 4, "found 2 fields"),
-        (
-            SMALL.replace("-1.5", "-1.5x"),
-            4,
-            "column 3: found \"-1.5x\"",
-        ),
+        (SMALL.replace("-1.5", "-1.5x"), 4, "column 3: found \"-1.5x\""),
         (SMALL.replace("-1.5", ""), 4, "column 3: found \"\""),
-        (
-            SMALL.replace(',', ";").replace("0.5", "0,5"),
-            4,
-            "commas and points",
-        ),
-        (
-            SMALL.replace(',', ";").replace("2E+4", "2.000,5"),
-            5,
-            "separators of thousands",
-        ),
-        (
-            SMALL.replace("-1.5", "NaN"),
-            3,
-            "line 1 (1 Hz): found value",
-        ),
+        (SMALL.replace(',', ";").replace("0.5", "0,5"), 4, "commas and points"),
+        (SMALL.replace(',', ";").replace("2E+4", "2.000,5"), 5, "separators of thousands"),
+        (SMALL.replace("-1.5", "NaN"), 3, "line 1 (1 Hz): found value"),
         (SMALL.replace("2.5,1e", "1,1e"), 3, "strictly increasing"),
-        (
-            SMALL.lines().take(3).collect::<Vec<_>>().join("\n"),
-            3,
-            "no usable line",
-        ),
-        (
-            "f,1:Y/2:Y magnitude [m/N],1:Y/2:Y phase [deg]\n1,-2,0\n".to_owned(),
-            2,
-            "magnitude -2",
-        ),
-        (
-            "f,1:Y/2:Y real [m/N],1:Y/2:Y imaginary,1:Y/2:Y coherence\n1,2,3,98\n".to_owned(),
-            1,
-            "found 98, expected a number from 0 to 1",
-        ),
-    ] {
+        (SMALL.lines().take(3).collect::<Vec<_>>().join("\n"), 3, "no usable line"),
+        ("f,1:Y/2:Y magnitude [m/N],1:Y/2:Y phase [deg]\n1,-2,0\n".to_owned(), 2, "magnitude -2"),
+        ("f,1:Y/2:Y real [m/N],1:Y/2:Y imaginary,1:Y/2:Y coherence\n1,2,3,98\n".to_owned(), 1, "found 98, expected a number from 0 to 1"),
+    ];
+    for (text, line, named) in cases {
         let (found_line, problem) = problem_of(&text);
         let message = problem.to_string();
         assert!(message.contains(named), "{text}: {message}");

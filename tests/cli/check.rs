@@ -121,58 +121,20 @@ fn every_edit_of_an_fmu_is_found() {
     let token_line = line(&bench, start, "token ");
     let token = token_line.strip_prefix("token ").unwrap();
     let step_line = line(&bench, start, "step_size_max ");
-    for (entry, from, to, fragment) in [
-        (
-            start,
-            "joint.k_yy 80000.0",
-            "joint.k_yy 80001.0",
-            "found joint.k_yy = 80001.0",
-        ),
-        (
-            start,
-            "joint.k_yy 80000.0\n",
-            "",
-            "start values differ from resources/start.txt",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        (start, "joint.k_yy 80000.0", "joint.k_yy 80001.0", "found joint.k_yy = 80001.0"),
+        (start, "joint.k_yy 80000.0\n", "", "start values differ from resources/start.txt"),
         (start, "dofs 2", "dofs 1", "found dofs 1, expected 2"),
-        (
-            start,
-            "model lap",
-            "model element",
-            "found variable a.y as output 1 in m, expected input 1 in m",
-        ),
-        (
-            start,
-            &token_line,
-            "token 0",
-            "expected \"0\" as in resources/start.txt",
-        ),
-        (
-            start,
-            &step_line,
-            "step_size_max 1.0",
-            "found 1.0 s, with which RK4 is unstable",
-        ),
+        (start, "model lap", "model element", "found variable a.y as output 1 in m, expected input 1 in m"),
+        (start, &token_line, "token 0", "expected \"0\" as in resources/start.txt"),
+        (start, &step_line, "step_size_max 1.0", "found 1.0 s, with which RK4 is unstable"),
         (description, token, "0", "found instantiationToken \"0\""),
-        (
-            description,
-            "start=\"80000\"",
-            "start=\"80001\"",
-            "start values differ from resources/start.txt",
-        ),
-        (
-            description,
-            "name=\"joint.F\"",
-            "name=\"joint.load\"",
-            "variable joint.F not found",
-        ),
-        (
-            "resources/joint.json",
-            "8e4, 600",
-            "9e4, 600",
-            "found joint.k_yy = 80000.0, expected Some(90000.0)",
-        ),
-    ] {
+        (description, "start=\"80000\"", "start=\"80001\"", "start values differ from resources/start.txt"),
+        (description, "name=\"joint.F\"", "name=\"joint.load\"", "variable joint.F not found"),
+        ("resources/joint.json", "8e4, 600", "9e4, 600", "found joint.k_yy = 80000.0, expected Some(90000.0)"),
+    ];
+    for (entry, from, to, fragment) in cases {
         let outcome = edited(&bench, entry, from, to);
         assert_eq!(outcome.code, Some(1), "{entry}: {from} → {to}");
         assert!(outcome.stderr.contains("edited.fmu"), "{}", outcome.stderr);
@@ -244,42 +206,22 @@ fn entries_that_are_missing_or_broken_are_named() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn what_is_no_fmu_is_said_to_be_none() {
     let bench = bench();
     let whole = fs::read(bench.path("lap.fmu")).unwrap();
     bench.write("cut.fmu", &whole[..whole.len() / 2]);
-    bench.refused(
-        &["check", "cut.fmu"],
-        &[
-            "cut.fmu: found no readable zip archive",
-            "copy or export it again",
-        ],
-    );
+    bench.refused(&["check", "cut.fmu"], &["cut.fmu: found no readable zip archive", "copy or export it again"]);
     let mut other = ZipWriter::new(Cursor::new(Vec::new()));
     other
         .start_file("notes.txt", SimpleFileOptions::default())
         .unwrap();
     bench.write("other.zip", other.finish().unwrap().into_inner());
-    bench.refused(
-        &["check", "other.zip"],
-        &[
-            "other.zip: `modelDescription.xml` is missing",
-            "expected an FMU",
-        ],
-    );
+    bench.refused(&["check", "other.zip"], &["other.zip: `modelDescription.xml` is missing", "expected an FMU"]);
     bench.write("picture.png", PNG);
-    bench.refused(
-        &["check", "picture.png"],
-        &[
-            "picture.png: found bytes that are no text",
-            "expected a joint file",
-        ],
-    );
+    bench.refused(&["check", "picture.png"], &["picture.png: found bytes that are no text", "expected a joint file"]);
     bench.refused(&["check", "missing.fmu"], &["missing.fmu: cannot be read"]);
-    bench.refused(
-        &["export", "lap.fmu", "-o", "o.fmu"],
-        &["lap.fmu: found a zip archive (an FMU?)"],
-    );
+    bench.refused(&["export", "lap.fmu", "-o", "o.fmu"], &["lap.fmu: found a zip archive (an FMU?)"]);
 }
 
 #[test]
@@ -324,30 +266,17 @@ fn what_no_validator_sees_is_found() {
             "--fmi",
             version,
         ]);
-        for (from, to, fragment) in [
-            (
-                format!("{capability}=\"true\""),
-                format!("{misspelt}=\"true\""),
-                format!(
-                    "found attribute {misspelt} of <CoSimulation>, which the standard does not have; did you mean {capability}?"
-                ),
-            ),
-            (
-                format!("{capability}=\"true\""),
-                format!("{capability}=\"yes\""),
-                format!("found {capability}=\"yes\" of <CoSimulation>, expected true or false"),
-            ),
-            (
-                "start=\"0.5\"".to_owned(),
-                "start=\"-0.5\"".to_owned(),
-                "found start = -0.5 of b.m, expected a value from ".to_owned(),
-            ),
-            (
-                format!("fmiVersion=\"{version}.0\""),
-                "fmiVersion=\"1.0\"".to_owned(),
-                "found fmiVersion \"1.0\", expected \"2.0\" or \"3.0\"".to_owned(),
-            ),
-        ] {
+        #[rustfmt::skip]
+        let cases = [
+            (format!("{capability}=\"true\""), format!("{misspelt}=\"true\""),
+             format!("found attribute {misspelt} of <CoSimulation>, which the standard does not have; did you mean {capability}?")),
+            (format!("{capability}=\"true\""), format!("{capability}=\"yes\""),
+             format!("found {capability}=\"yes\" of <CoSimulation>, expected true or false")),
+            ("start=\"0.5\"".to_owned(), "start=\"-0.5\"".to_owned(), "found start = -0.5 of b.m, expected a value from ".to_owned()),
+            (format!("fmiVersion=\"{version}.0\""), "fmiVersion=\"1.0\"".to_owned(),
+             "found fmiVersion \"1.0\", expected \"2.0\" or \"3.0\"".to_owned()),
+        ];
+        for (from, to, fragment) in cases {
             repacked(&bench, "lap.fmu", "edited.fmu", |name, bytes| {
                 if name != "modelDescription.xml" {
                     return Some(bytes);

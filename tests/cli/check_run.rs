@@ -91,38 +91,16 @@ fn sound_fmus_run_and_their_energy_is_balanced() {
 #[test]
 fn a_library_that_fails_is_told_of_with_what_it_logged() {
     let bench = bench("lap", "3", JOINT);
-    for (fault, fragments) in [
-        (
-            "crashes",
-            [
-                "the library ended its process (signal 6, abort) during the step at t = 0.0 s",
-                "",
-            ],
-        ),
-        (
-            "exits",
-            [
-                "(exit code 7) during the step",
-                "it said: licence not found",
-            ],
-        ),
-        (
-            "refuses",
-            [
-                "fmi3InstantiateCoSimulation returned null; Warning [logStatusWarning]: about to fail",
-                "during instantiation",
-            ],
-        ),
-        (
-            "lacks",
-            [
-                "found no function fmi3DeserializeFMUState",
-                "during loading",
-            ],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("crashes", ["the library ended its process (signal 6, abort) during the step at t = 0.0 s", ""]),
+        ("exits", ["(exit code 7) during the step", "it said: licence not found"]),
+        ("refuses", ["fmi3InstantiateCoSimulation returned null; Warning [logStatusWarning]: about to fail", "during instantiation"]),
+        ("lacks", ["found no function fmi3DeserializeFMUState", "during loading"]),
         ("prints", ["bytes on standard output", "as it was set"]),
         ("zeros", ["found the motion [0.0, 0.0", ""]),
-    ] {
+    ];
+    for (fault, fragments) in cases {
         if cfg!(not(unix)) && fault == "crashes" {
             continue;
         }

@@ -52,34 +52,15 @@ fn what_does_not_fit_is_refused() {
     bench.write("j.joint.json", JOINT);
     bench.done(&["export", "j.joint.json", "-o", "element.fmu"]);
     bench.done(&["export", "j.joint.json", "-o", "lap.fmu", "--as", "lap"]);
-    for (arguments, fragments) in [
-        (
-            &["element.fmu", "--neighbour-mass", "1,2"][..],
-            ["--neighbour-inertia: found none", "`fixed,fixed`"],
-        ),
-        (
-            &["element.fmu", "--neighbour-stiffness", "1e5,0"],
-            ["found an element, which takes motion", "--neighbour-mass"],
-        ),
-        (
-            &["lap.fmu", "--neighbour-mass", "1,2"],
-            ["found a lap", "add rigidly attached masses to `bodies`"],
-        ),
-        (
-            &["element.fmu", "--amplitude", "1e-5,1e-4"],
-            ["--amplitude: found no neighbour", "--neighbour-mass"],
-        ),
-        (
-            &[
-                "lap.fmu",
-                "--neighbour-stiffness",
-                "1e5,0",
-                "--amplitude",
-                "1e-5",
-            ],
-            ["found 1 values", "2 degrees of freedom"],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (&["element.fmu", "--neighbour-mass", "1,2"][..], ["--neighbour-inertia: found none", "`fixed,fixed`"]),
+        (&["element.fmu", "--neighbour-stiffness", "1e5,0"], ["found an element, which takes motion", "--neighbour-mass"]),
+        (&["lap.fmu", "--neighbour-mass", "1,2"], ["found a lap", "add rigidly attached masses to `bodies`"]),
+        (&["element.fmu", "--amplitude", "1e-5,1e-4"], ["--amplitude: found no neighbour", "--neighbour-mass"]),
+        (&["lap.fmu", "--neighbour-stiffness", "1e5,0", "--amplitude", "1e-5"], ["found 1 values", "2 degrees of freedom"]),
+    ];
+    for (arguments, fragments) in cases {
         bench.refused(&[&["check"], arguments].concat(), &fragments);
     }
     for arguments in [

@@ -123,35 +123,16 @@ fn a_lap_needs_bodies() {
 #[test]
 fn step_sizes_that_cannot_be_are_refused() {
     let bench = bench(JOINT);
-    for (arguments, fragments) in [
-        (
-            ["--step-size-max", "1e-5"].as_slice(),
-            ["found 1e-5 s for the element", "export as lap"],
-        ),
-        (
-            &["--as", "lap", "--step-size-max", "0"],
-            ["found 0.0 s", "greater than zero"],
-        ),
-        (
-            &["--as", "lap", "--step-size-max", "-1e-5"],
-            ["found -1e-5 s", "greater than zero"],
-        ),
-        (
-            &["--as", "lap", "--step-size-max", "nan"],
-            ["found NaN s", "finite number of seconds"],
-        ),
-        (
-            &["--as", "lap", "--step-size-max", "inf"],
-            ["found inf s", "finite number of seconds"],
-        ),
-        (
-            &["--as", "lap", "--step-size-max", "1"],
-            [
-                "found 1.0 s, with which RK4 is unstable",
-                "expected at most",
-            ],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (["--step-size-max", "1e-5"].as_slice(), ["found 1e-5 s for the element", "export as lap"]),
+        (&["--as", "lap", "--step-size-max", "0"], ["found 0.0 s", "greater than zero"]),
+        (&["--as", "lap", "--step-size-max", "-1e-5"], ["found -1e-5 s", "greater than zero"]),
+        (&["--as", "lap", "--step-size-max", "nan"], ["found NaN s", "finite number of seconds"]),
+        (&["--as", "lap", "--step-size-max", "inf"], ["found inf s", "finite number of seconds"]),
+        (&["--as", "lap", "--step-size-max", "1"], ["found 1.0 s, with which RK4 is unstable", "expected at most"]),
+    ];
+    for (arguments, fragments) in cases {
         bench.refused(
             &export(arguments),
             &["step size: ", fragments[0], fragments[1]],
@@ -160,34 +141,20 @@ fn step_sizes_that_cannot_be_are_refused() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn a_folder_of_platforms_must_hold_platforms() {
     let bench = bench(JOINT);
     let command = export(&["--platforms", "p"]);
     bench.refused(&command, &["p: cannot be read", "such as x86_64-windows"]);
     fs::create_dir(bench.path("p")).unwrap();
     bench.write("p/README.md", "libraries");
-    bench.refused(
-        &command,
-        &["p: found no platform's folder", "such as x86_64-windows"],
-    );
+    bench.refused(&command, &["p: found no platform's folder", "such as x86_64-windows"]);
     fs::create_dir(bench.path("p/win64")).unwrap();
-    bench.refused(
-        &command,
-        &["win64: is not the name of a platform", "rename or remove"],
-    );
+    bench.refused(&command, &["win64: is not the name of a platform", "rename or remove"]);
     fs::rename(bench.path("p/win64"), bench.path("p/x86_64-windows")).unwrap();
-    bench.refused(
-        &command,
-        &[
-            "bolted_joint.dll: not found",
-            "build it, or remove the folder",
-        ],
-    );
+    bench.refused(&command, &["bolted_joint.dll: not found", "build it, or remove the folder"]);
     bench.write("p/x86_64-windows/bolted_joint.dll", "text");
-    bench.refused(
-        &command,
-        &["bolted_joint.dll: is not a shared library", "PE format"],
-    );
+    bench.refused(&command, &["bolted_joint.dll: is not a shared library", "PE format"]);
     bench.write("p/x86_64-windows/bolted_joint.dll", "MZ and so on");
     let outcome = bench.done(&export(&["--platforms", "p", "--json"]));
     let platforms = outcome.json()["platforms"].clone();

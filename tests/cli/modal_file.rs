@@ -36,18 +36,14 @@ fn the_data_that_the_others_are_made_from_are_right() {
 #[test]
 fn what_is_no_modal_file_is_said_to_be_none() {
     let bench = bench();
-    for (contents, fragments) in [
-        (
-            b"".as_slice(),
-            ["found an empty file", "expected modal data (TOML)"],
-        ),
-        (
-            PNG,
-            ["found binary data (byte 0)", "expected modal data (TOML)"],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        (b"".as_slice(), ["found an empty file", "expected modal data (TOML)"]),
+        (PNG, ["found binary data (byte 0)", "expected modal data (TOML)"]),
         (&MODES.as_bytes()[..100], ["line 5", "shape"]),
         (b"frequency,damping\n", ["line 1", "expected"]),
-    ] {
+    ];
+    for (contents, fragments) in cases {
         bench.write("modes.toml", contents);
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["modes.toml: ", one, two]);
@@ -59,78 +55,23 @@ fn what_is_no_modal_file_is_said_to_be_none() {
 #[test]
 fn every_wrong_entry_is_named() {
     let bench = bench();
-    for (from, to, fragments) in [
-        (
-            "frequency_hz",
-            "frequency",
-            ["line 3, column 1", "unknown field `frequency`"],
-        ),
-        (
-            "damping_ratio = 0.01\n",
-            "",
-            ["line 2", "missing field `damping_ratio`"],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("frequency_hz", "frequency", ["line 3, column 1", "unknown field `frequency`"]),
+        ("damping_ratio = 0.01\n", "", ["line 2", "missing field `damping_ratio`"]),
         ("40.0", "\"40 Hz\"", ["line 3", "expected f64"]),
-        (
-            "40.0",
-            "-40.0",
-            [
-                "mode 1, frequency_hz: found -40",
-                "a positive frequency in Hz",
-            ],
-        ),
-        (
-            "40.0",
-            "nan",
-            [
-                "mode 1, frequency_hz: found NaN",
-                "a positive frequency in Hz",
-            ],
-        ),
-        (
-            "0.01",
-            "1.0",
-            ["mode 1, damping_ratio: found 1", "not per cent"],
-        ),
-        (
-            ", [3.3, 0.0]]",
-            "]",
-            [
-                "mode 1, shape: found 2 entries, expected 3",
-                "one for each of `points`",
-            ],
-        ),
-        (
-            "[3.6, 0.0]",
-            "[3.6, inf]",
-            ["mode 1, shape: found inf", "finite"],
-        ),
-        (
-            "[3.6, 0.0]",
-            "[3.6]",
-            ["line 5", "expected an array of length 2"],
-        ),
-        (
-            "\"2:+Y\"",
-            "\"1:+Y\"",
-            ["found point 1:+Y twice", "every point once"],
-        ),
-        (
-            "[\"1:+Y\", \"2:+Y\", \"3:+Y\"]",
-            "[]",
-            ["found no point or no mode", "at least one [[mode]]"],
-        ),
-        (
-            "reference = \"3:+Y\"",
-            "reference = \"7:+Y\"",
-            ["reference 7:+Y", "a reference among `points`"],
-        ),
-        (
-            "lower = [0, 0, 0]",
-            "lower = [0, 0]",
-            ["residual of 3:+Y, lower: found 2 entries", "expected 3"],
-        ),
-    ] {
+        ("40.0", "-40.0", ["mode 1, frequency_hz: found -40", "a positive frequency in Hz"]),
+        ("40.0", "nan", ["mode 1, frequency_hz: found NaN", "a positive frequency in Hz"]),
+        ("0.01", "1.0", ["mode 1, damping_ratio: found 1", "not per cent"]),
+        (", [3.3, 0.0]]", "]", ["mode 1, shape: found 2 entries, expected 3", "one for each of `points`"]),
+        ("[3.6, 0.0]", "[3.6, inf]", ["mode 1, shape: found inf", "finite"]),
+        ("[3.6, 0.0]", "[3.6]", ["line 5", "expected an array of length 2"]),
+        ("\"2:+Y\"", "\"1:+Y\"", ["found point 1:+Y twice", "every point once"]),
+        ("[\"1:+Y\", \"2:+Y\", \"3:+Y\"]", "[]", ["found no point or no mode", "at least one [[mode]]"]),
+        ("reference = \"3:+Y\"", "reference = \"7:+Y\"", ["reference 7:+Y", "a reference among `points`"]),
+        ("lower = [0, 0, 0]", "lower = [0, 0]", ["residual of 3:+Y, lower: found 2 entries", "expected 3"]),
+    ];
+    for (from, to, fragments) in cases {
         bench.write("modes.toml", replaced(MODES, from, to));
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["modes.toml: ", one, two]);

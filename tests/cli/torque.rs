@@ -317,41 +317,16 @@ fn a_common_joint_of_different_joints_is_warned_of() {
 fn torques_and_levels_that_cannot_be_are_refused() {
     let bench = ready("separate");
     let good = bench.text("study.toml");
-    for (from, to, fragments) in [
-        (
-            "torque = 10\n",
-            "",
-            ["`joint.torques`", "no torque in 1 of 3 [[assembly]]"],
-        ),
-        (
-            "\"separate\"",
-            "\"sometimes\"",
-            ["unknown variant", "`common` or `separate`"],
-        ),
-        (
-            "{ force = 0.5 }",
-            "{ force = 0.5, velocity = 1 }",
-            [
-                "`assembly.level`: found force = 0.5, velocity = 1",
-                "exactly one",
-            ],
-        ),
-        (
-            "{ force = 0.5 }",
-            "{ force = -1 }",
-            ["found force = -1", "above zero"],
-        ),
-        (
-            "{ force = 0.5 }",
-            "{ }",
-            ["found no level", "`acceleration` (m/s²)"],
-        ),
-        (
-            "{ force = 0.5 }",
-            "{ force = 0.5, measure = \"mean\" }",
-            ["unknown variant `mean`", "rms"],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("torque = 10\n", "", ["`joint.torques`", "no torque in 1 of 3 [[assembly]]"]),
+        ("\"separate\"", "\"sometimes\"", ["unknown variant", "`common` or `separate`"]),
+        ("{ force = 0.5 }", "{ force = 0.5, velocity = 1 }", ["`assembly.level`: found force = 0.5, velocity = 1", "exactly one"]),
+        ("{ force = 0.5 }", "{ force = -1 }", ["found force = -1", "above zero"]),
+        ("{ force = 0.5 }", "{ }", ["found no level", "`acceleration` (m/s²)"]),
+        ("{ force = 0.5 }", "{ force = 0.5, measure = \"mean\" }", ["unknown variant `mean`", "rms"]),
+    ];
+    for (from, to, fragments) in cases {
         bench.write("study.toml", replaced(&good, from, to));
         bench.refused(&IDENTIFY, &fragments);
     }

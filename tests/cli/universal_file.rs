@@ -15,26 +15,13 @@ fn with(file: &str, change: impl Fn(&str) -> Vec<u8>) -> Bench {
 #[test]
 fn what_is_no_universal_file_is_said_to_be_none() {
     for file in ["a.uff", "b.uff", "c.uff"] {
-        for (contents, fragments) in [
-            (
-                b"".as_slice(),
-                ["found an empty file", "export the measurement again"],
-            ),
-            (
-                PNG,
-                [
-                    "found \"\\u{89}PNG",
-                    "export the measurement as UFF 58 (ASCII)",
-                ],
-            ),
-            (
-                b"f,re,im\n1,2,3\n",
-                [
-                    "found \"f,re,im\"",
-                    "export the measurement as UFF 58 (ASCII)",
-                ],
-            ),
-        ] {
+        #[rustfmt::skip]
+        let cases = [
+            (b"".as_slice(), ["found an empty file", "export the measurement again"]),
+            (PNG, ["found \"\\u{89}PNG", "export the measurement as UFF 58 (ASCII)"]),
+            (b"f,re,im\n1,2,3\n", ["found \"f,re,im\"", "export the measurement as UFF 58 (ASCII)"]),
+        ];
+        for (contents, fragments) in cases {
             let bench = with(file, |_| contents.to_vec());
             let [one, two] = fragments;
             bench.refused(&IDENTIFY, &[file, "line 1: ", one, two]);
@@ -152,47 +139,27 @@ fn a_pair_twice_is_refused() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn files_with_different_axes_are_both_named() {
     // 2, 5, … Hz becomes 2, 5.5, … Hz.
     let bench = with("a.uff", |text| {
         text.replace(rig::AXIS, "    2.00000e0    3.50000e0")
             .into_bytes()
     });
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "c.uff and a.uff",
-            "within 2 to 200 Hz",
-            "line 2 of the band is at 5 Hz",
-            "5.5 Hz in the second",
-            "same analyser settings",
-        ],
-    );
+    bench.refused(&IDENTIFY,
+        &["c.uff and a.uff", "within 2 to 200 Hz", "line 2 of the band is at 5 Hz", "5.5 Hz in the second", "same analyser settings"]);
     // A starts above the assembly.
     let bench = with("a.uff", |text| {
         text.replace(rig::AXIS, "    5.00000e0    3.00000e0")
             .into_bytes()
     });
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "c.uff and a.uff",
-            "line 1 of the band is at 2 Hz",
-            "5 Hz in the second",
-        ],
-    );
+    bench.refused(&IDENTIFY, &["c.uff and a.uff", "line 1 of the band is at 2 Hz", "5 Hz in the second"]);
     // One function of a file differs from the others of that file.
     let bench = with("c.uff", |text| {
         text.replacen(rig::AXIS, "    2.00000e0    3.50000e0", 1)
             .into_bytes()
     });
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "c.uff: functions 21:+Y / 21:+Y and 21:+Y / 22:+Y",
-            "line 2 is at 5.5 Hz",
-        ],
-    );
+    bench.refused(&IDENTIFY, &["c.uff: functions 21:+Y / 21:+Y and 21:+Y / 22:+Y", "line 2 is at 5.5 Hz"]);
 }
 
 #[test]

@@ -40,33 +40,15 @@ fn wrong_usage_ends_with_2() {
 #[test]
 fn help_says_what_each_command_needs() {
     let bench = Bench::new();
-    for (arguments, fragments) in [
-        (
-            ["--help"].as_slice(),
-            ["demo", "identify", "export", "check", "Exit codes"].as_slice(),
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        (["--help"].as_slice(), ["demo", "identify", "export", "check", "Exit codes"].as_slice()),
         (&["demo", "--help"], &["--output", "--seed", "--noise"]),
-        (
-            &["identify", "--help"],
-            &["<STUDY>", "TOML", "--output", "--figure", "--json"],
-        ),
-        (
-            &["export", "--help"],
-            &[
-                "<JOINT_FILE>",
-                "--output",
-                "element",
-                "lap",
-                "--step-size-max",
-                "--platforms",
-                "--allow-active",
-            ],
-        ),
-        (
-            &["check", "--help"],
-            &["<FILE>", "Joint file or FMU", "--json"],
-        ),
-    ] {
+        (&["identify", "--help"], &["<STUDY>", "TOML", "--output", "--figure", "--json"]),
+        (&["export", "--help"], &["<JOINT_FILE>", "--output", "element", "lap", "--step-size-max", "--platforms", "--allow-active"]),
+        (&["check", "--help"], &["<FILE>", "Joint file or FMU", "--json"]),
+    ];
+    for (arguments, fragments) in cases {
         let outcome = bench.done(arguments);
         for fragment in fragments {
             assert!(

@@ -51,24 +51,14 @@ fn bodies_that_do_not_fit() {
             body("[1, 1]", "[1, 1]")
         )
     };
-    for (a, fragment) in [
-        (
-            body("[1.41, -0.1]", "[1, 1]"),
-            "bodies.a.inertia[1]: found -0.1, expected an inertia greater than zero",
-        ),
-        (
-            body("[0, 1]", "[1, 1]"),
-            "bodies.a.inertia[0]: found 0.0, expected an inertia greater than zero",
-        ),
-        (
-            body("[1.41]", "[1, 1]"),
-            "bodies.a.inertia: found 1 entry, expected 2, one for each of joint.dofs",
-        ),
-        (
-            body("[1, 1]", "[1, -1]"),
-            "bodies.a.stiffness[1]: found -1.0, expected a support stiffness of zero or more",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (body("[1.41, -0.1]", "[1, 1]"), "bodies.a.inertia[1]: found -0.1, expected an inertia greater than zero"),
+        (body("[0, 1]", "[1, 1]"), "bodies.a.inertia[0]: found 0.0, expected an inertia greater than zero"),
+        (body("[1.41]", "[1, 1]"), "bodies.a.inertia: found 1 entry, expected 2, one for each of joint.dofs"),
+        (body("[1, 1]", "[1, -1]"), "bodies.a.stiffness[1]: found -1.0, expected a support stiffness of zero or more"),
+    ];
+    for (a, fragment) in cases {
         let message = refusal_with(&bodies(a));
         assert!(message.contains(fragment), "{message}");
     }
@@ -76,19 +66,13 @@ fn bodies_that_do_not_fit() {
 
 #[test]
 fn other_records_that_do_not_fit() {
-    for (more, fragment) in [
-        (
-            "\"validity\": { \"frequency_hz\": [512, 5] }",
-            "validity.frequency_hz: found 512.0 to 5.0 Hz, expected the lower frequency first",
-        ),
-        (
-            "\"residual\": { \"relative_rms\": -1, \"lines\": 3 }",
-            "residual.relative_rms: found -1.0, expected a root mean square of zero or more",
-        ),
-        (
-            "\"residual\": { \"relative_rms\": 1, \"lines\": -3 }",
-            "residual.lines: found integer `-3`, expected a whole number",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("\"validity\": { \"frequency_hz\": [512, 5] }",
+         "validity.frequency_hz: found 512.0 to 5.0 Hz, expected the lower frequency first"),
+        ("\"residual\": { \"relative_rms\": -1, \"lines\": 3 }",
+         "residual.relative_rms: found -1.0, expected a root mean square of zero or more"),
+        ("\"residual\": { \"relative_rms\": 1, \"lines\": -3 }", "residual.lines: found integer `-3`, expected a whole number"),
         (
             "\"uncertainty\": { \"basis\": \"\", \"standard_deviation\": \
              { \"stiffness\": [[1, 2], [2, -1]], \"damping\": [[1, 2], [2, 1]] } }",
@@ -99,7 +83,8 @@ fn other_records_that_do_not_fit() {
              \"inputs\": [{ \"role\": \"a\", \"file\": \"a.uff\", \"sha256\": \"E3B0\" }] }",
             "provenance.inputs[0].sha256: found \"E3B0\", expected 64 lower-case hexadecimal digits",
         ),
-    ] {
+    ];
+    for (more, fragment) in cases {
         let message = refusal_with(more);
         assert!(message.contains(fragment), "{message}");
     }
@@ -108,33 +93,17 @@ fn other_records_that_do_not_fit() {
 #[test]
 fn preload_tables_that_do_not_fit() {
     let good = fs::read_to_string(data("over-preload.joint.json")).unwrap();
-    for (from, to, fragment) in [
-        (
-            "[10.0, 25.0]",
-            "[25.0, 10.0]",
-            "joint.over_preload.preload[1]: found 10.0 N·m after 25.0 N·m, expected strictly increasing",
-        ),
-        (
-            "\"nominal\": 10.0",
-            "\"nominal\": 26.0",
-            "joint.over_preload.nominal: found 26.0 N·m, expected a preload within the table, from 10.0 to 25.0 N·m",
-        ),
-        (
-            "[10.0, 25.0]",
-            "[10.0, 15.0, 25.0]",
-            "joint.over_preload.stiffness: found 2 entries, expected 3, one for each of joint.over_preload.preload",
-        ),
-        (
-            "[10.0, 25.0]",
-            "[10.0]",
-            "joint.over_preload.preload: found 1, expected at least 2 preloads",
-        ),
-        (
-            "[600000.0]",
-            "[600000.0, 1.0]",
-            "joint.over_preload.stiffness[0][0]: found 2 entries, expected 1",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("[10.0, 25.0]", "[25.0, 10.0]", "joint.over_preload.preload[1]: found 10.0 N·m after 25.0 N·m, expected strictly increasing"),
+        ("\"nominal\": 10.0", "\"nominal\": 26.0",
+         "joint.over_preload.nominal: found 26.0 N·m, expected a preload within the table, from 10.0 to 25.0 N·m"),
+        ("[10.0, 25.0]", "[10.0, 15.0, 25.0]",
+         "joint.over_preload.stiffness: found 2 entries, expected 3, one for each of joint.over_preload.preload"),
+        ("[10.0, 25.0]", "[10.0]", "joint.over_preload.preload: found 1, expected at least 2 preloads"),
+        ("[600000.0]", "[600000.0, 1.0]", "joint.over_preload.stiffness[0][0]: found 2 entries, expected 1"),
+    ];
+    for (from, to, fragment) in cases {
         assert!(good.contains(from));
         let message = JointFile::from_json(&good.replacen(from, to, 1), "")
             .unwrap_err()

@@ -42,38 +42,17 @@ fn terms_of_higher_order_are_part_of_the_law() {
 
 #[test]
 fn terms_that_do_not_fit_are_refused_by_their_key() {
-    for (higher, fragments) in [
-        (
-            r#"{ "quintic": [1e16] }"#,
-            ["joint.higher.quintic: found 1 entry", "expected 2"],
-        ),
-        (
-            r#"{ "septic": [1, 2, 3] }"#,
-            ["joint.higher.septic: found 3 entries", "expected 2"],
-        ),
-        (
-            r#"{ "amplitude": [1e-3, 0] }"#,
-            ["joint.higher.amplitude[1]: found 0.0", "greater than zero"],
-        ),
-        (
-            r#"{ "amplitude": [-1e-3, 1] }"#,
-            [
-                "joint.higher.amplitude[0]: found -0.001",
-                "greater than zero",
-            ],
-        ),
-        (
-            r#"{ "quartic": [1, 1] }"#,
-            [
-                "joint.higher.quartic: unknown key",
-                "quintic, septic, damping_quadratic, damping_quartic, amplitude",
-            ],
-        ),
-        (
-            r#"{ "damping_quadratic": 5 }"#,
-            ["joint.higher.damping_quadratic", "found integer `5`"],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (r#"{ "quintic": [1e16] }"#, ["joint.higher.quintic: found 1 entry", "expected 2"]),
+        (r#"{ "septic": [1, 2, 3] }"#, ["joint.higher.septic: found 3 entries", "expected 2"]),
+        (r#"{ "amplitude": [1e-3, 0] }"#, ["joint.higher.amplitude[1]: found 0.0", "greater than zero"]),
+        (r#"{ "amplitude": [-1e-3, 1] }"#, ["joint.higher.amplitude[0]: found -0.001", "greater than zero"]),
+        (r#"{ "quartic": [1, 1] }"#,
+         ["joint.higher.quartic: unknown key", "quintic, septic, damping_quadratic, damping_quartic, amplitude"]),
+        (r#"{ "damping_quadratic": 5 }"#, ["joint.higher.damping_quadratic", "found integer `5`"]),
+    ];
+    for (higher, fragments) in cases {
         let message = with(higher).unwrap_err();
         for fragment in fragments {
             assert!(message.contains(fragment), "{fragment}: {message}");

@@ -141,28 +141,18 @@ fn interpolation_between_passive_joints_is_passive() {
 
 #[test]
 fn deviations_over_preload_that_do_not_fit_the_joint() {
-    for (from, to, fragment) in [
-        (
-            "{ \"preload\": 10,",
-            "{ \"preload\": 11,",
-            "uncertainty.over_preload.at[0].preload: found 11.0 N·m, expected 10.0 N·m as in joint.over_preload.preload",
-        ),
-        (
-            "[[100, 1], [1, 0.1]]",
-            "[[-100, 1], [1, 0.1]]",
-            "uncertainty.over_preload.at[0].standard_deviation.stiffness[0][0]: found -100.0",
-        ),
-        (
-            "[[8, -0.4], [-0.4, 0.05]]",
-            "[[8, -0.4], [-0.5, 0.05]]",
-            "uncertainty.over_preload.at[1].free_estimate.damping: found -0.4 at [0][1]",
-        ),
-        (
-            "\"preload\": [10, 15, 25]",
-            "\"preload\": [10, 15, 20, 25]",
-            "uncertainty.over_preload.at: found 3 entries, expected 4, one for each of joint.over_preload.preload",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("{ \"preload\": 10,", "{ \"preload\": 11,",
+         "uncertainty.over_preload.at[0].preload: found 11.0 N·m, expected 10.0 N·m as in joint.over_preload.preload"),
+        ("[[100, 1], [1, 0.1]]", "[[-100, 1], [1, 0.1]]",
+         "uncertainty.over_preload.at[0].standard_deviation.stiffness[0][0]: found -100.0"),
+        ("[[8, -0.4], [-0.4, 0.05]]", "[[8, -0.4], [-0.5, 0.05]]",
+         "uncertainty.over_preload.at[1].free_estimate.damping: found -0.4 at [0][1]"),
+        ("\"preload\": [10, 15, 25]", "\"preload\": [10, 15, 20, 25]",
+         "uncertainty.over_preload.at: found 3 entries, expected 4, one for each of joint.over_preload.preload"),
+    ];
+    for (from, to, fragment) in cases {
         assert!(OVER_PRELOAD.contains(from), "{from}");
         let text = OVER_PRELOAD.replacen(from, to, 1);
         let message = JointFile::from_json(&text, "").unwrap_err().to_string();

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use bolted_joint::identify::Study;
-use bolted_joint::identify::lap::{LapResponseStudy, LapUpdateStudy, StudyMethod};
+use bolted_joint::identify::lap::{LapResponseStudy, LapUpdateStudy};
+use bolted_joint::study::{Method, StudyText};
 use tempfile::TempDir;
 
 const UPDATE: &str = "method = \"lap-update\"\nname = \"x\"\n[[assembly]]\nfrequency_hz = [100, 300]\n[bounds]\nk = [1e5, 1e7]\nm = [1, 3]\nk12 = [1e5, 1e8]\n";
@@ -19,65 +20,23 @@ fn written(name: &str, text: &str, folder: &TempDir) -> PathBuf {
 
 #[test]
 fn damaged_updates_are_refused_by_their_key() {
-    for (from, to, parts) in [
-        (
-            "k = [1e5, 1e7]",
-            "k = [1e7, 1e5]",
-            ["bounds.k", "upside down: write [100000, 10000000]"],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("k = [1e5, 1e7]", "k = [1e7, 1e5]", ["bounds.k", "upside down: write [100000, 10000000]"]),
         ("m = [1, 3]", "m = [0, 3]", ["bounds.m", "0 < low < high"]),
-        (
-            "[100, 300]",
-            "[300, 100]",
-            ["assembly[1].frequency_hz", "write [100, 300]"],
-        ),
-        (
-            "[100, 300]",
-            "[100, 300, 500]",
-            ["assembly[1].frequency_hz", "two degrees of freedom"],
-        ),
-        (
-            "[100, 300]",
-            "[]",
-            ["assembly[1].frequency_hz", "one or two frequencies"],
-        ),
-        (
-            "[100, 300]",
-            "[100, 300]\nweights = [1]",
-            ["assembly[1].weights", "2 number(s)"],
-        ),
-        (
-            "[100, 300]",
-            "[100, 300]\nomega_rad_per_s = [1, 2]",
-            ["assembly[1].frequency_hz", "one of them"],
-        ),
-        (
-            "frequency_hz",
-            "frequency_khz",
-            ["unknown field", "frequency_hz"],
-        ),
+        ("[100, 300]", "[300, 100]", ["assembly[1].frequency_hz", "write [100, 300]"]),
+        ("[100, 300]", "[100, 300, 500]", ["assembly[1].frequency_hz", "two degrees of freedom"]),
+        ("[100, 300]", "[]", ["assembly[1].frequency_hz", "one or two frequencies"]),
+        ("[100, 300]", "[100, 300]\nweights = [1]", ["assembly[1].weights", "2 number(s)"]),
+        ("[100, 300]", "[100, 300]\nomega_rad_per_s = [1, 2]", ["assembly[1].frequency_hz", "one of them"]),
+        ("frequency_hz", "frequency_khz", ["unknown field", "frequency_hz"]),
         ("k12 = [1e5, 1e8]", "", ["bounds.k12", "found nothing"]),
-        (
-            "k12 = [1e5, 1e8]",
-            "k12 = [1e5, 1e8]\n[prior]\nk12 = 1",
-            ["prior.k12", "within bounds.k12"],
-        ),
-        (
-            "k12 = [1e5, 1e8]",
-            "k12 = [1e5, 1e8]\n[known]\nk12 = 1e6",
-            ["known.k12", "in [known] alone"],
-        ),
-        (
-            "k12 = [1e5, 1e8]",
-            "k12 = [1e5, 1e8]\n[firefly]\npopulation = 1",
-            ["firefly.population", "from 2"],
-        ),
-        (
-            "[100, 300]",
-            "[100, 300]\n[[assembly]]\nfrequency_hz = [1, 2]",
-            ["assembly[1].torque", "N·m"],
-        ),
-    ] {
+        ("k12 = [1e5, 1e8]", "k12 = [1e5, 1e8]\n[prior]\nk12 = 1", ["prior.k12", "within bounds.k12"]),
+        ("k12 = [1e5, 1e8]", "k12 = [1e5, 1e8]\n[known]\nk12 = 1e6", ["known.k12", "in [known] alone"]),
+        ("k12 = [1e5, 1e8]", "k12 = [1e5, 1e8]\n[firefly]\npopulation = 1", ["firefly.population", "from 2"]),
+        ("[100, 300]", "[100, 300]\n[[assembly]]\nfrequency_hz = [1, 2]", ["assembly[1].torque", "N·m"]),
+    ];
+    for (from, to, parts) in cases {
         let folder = tempfile::tempdir().unwrap();
         assert!(UPDATE.contains(from));
         let path = written("study.toml", &UPDATE.replace(from, to), &folder);
@@ -93,47 +52,19 @@ fn damaged_updates_are_refused_by_their_key() {
 #[test]
 fn damaged_tables_are_refused_by_their_line() {
     let row = "80,1,1e-4,-1.5\n81,1,1e-4,-2\n";
-    for (table, parts) in [
-        (
-            "frequency_hz,force_n,displacement_m\n80,1,1e-4\n".to_owned(),
-            ["line 1", "a level without phase"],
-        ),
-        (
-            format!("{HEADER}\n80,1,1e-4,\n81,1,1e-4,-1\n"),
-            ["line 2", "a level without phase"],
-        ),
-        (
-            format!("{HEADER}\n80,1,1e-4,-1\n81,1,1e-4\n"),
-            ["line 3", "3 cells"],
-        ),
-        (
-            format!("{HEADER}\n80,1,1e-4,-1\n81,0,1e-4,-1\n"),
-            ["line 3", "a force of 0"],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("frequency_hz,force_n,displacement_m\n80,1,1e-4\n".to_owned(), ["line 1", "a level without phase"]),
+        (format!("{HEADER}\n80,1,1e-4,\n81,1,1e-4,-1\n"), ["line 2", "a level without phase"]),
+        (format!("{HEADER}\n80,1,1e-4,-1\n81,1,1e-4\n"), ["line 3", "3 cells"]),
+        (format!("{HEADER}\n80,1,1e-4,-1\n81,0,1e-4,-1\n"), ["line 3", "a force of 0"]),
         (format!("{HEADER}\n80,1,x,-1\n"), ["line 2", "\"x\""]),
-        (
-            "frequency_hz,force_n,phase_rad\n80,1,-1\n".to_owned(),
-            [
-                "line 1",
-                "displacement_m or velocity_m_per_s or acceleration_m_per_s2",
-            ],
-        ),
-        (
-            format!("{HEADER},force_n\n80,1,1e-4,-1,1\n"),
-            ["line 1", "twice"],
-        ),
-        (
-            format!("{HEADER}\n80,1,1e-4,-1\n"),
-            ["line 1", "at least two"],
-        ),
-        (
-            format!(
-                "{HEADER}\n{}",
-                row.replace("-1.5", "1.5").replace("-2", "2")
-            ),
-            ["run.csv", "phase_of"],
-        ),
-    ] {
+        ("frequency_hz,force_n,phase_rad\n80,1,-1\n".to_owned(), ["line 1", "displacement_m or velocity_m_per_s or acceleration_m_per_s2"]),
+        (format!("{HEADER},force_n\n80,1,1e-4,-1,1\n"), ["line 1", "twice"]),
+        (format!("{HEADER}\n80,1,1e-4,-1\n"), ["line 1", "at least two"]),
+        (format!("{HEADER}\n{}", row.replace("-1.5", "1.5").replace("-2", "2")), ["run.csv", "phase_of"]),
+    ];
+    for (table, parts) in cases {
         let folder = tempfile::tempdir().unwrap();
         written("run.csv", &table, &folder);
         let path = written("study.toml", RESPONSE, &folder);
@@ -148,31 +79,17 @@ fn damaged_tables_are_refused_by_their_line() {
 
 #[test]
 fn damaged_response_studies_are_refused_by_their_key() {
-    for (from, to, part) in [
-        (
-            "file = \"run.csv\"",
-            "file = \"run.csv\"\nuse = \"predict\"",
-            "no run for the estimate",
-        ),
-        (
-            "file = \"run.csv\"",
-            "file = \"run.csv\"\nphase_sign = 2",
-            "sine.phase_sign",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("file = \"run.csv\"", "file = \"run.csv\"\nuse = \"predict\"", "no run for the estimate"),
+        ("file = \"run.csv\"", "file = \"run.csv\"\nphase_sign = 2", "sine.phase_sign"),
         ("[[sine]]", "[known]\nm = 0\n[[sine]]", "known.m"),
-        (
-            "[[sine]]",
-            "[noise]\nresponse = 0\n[[sine]]",
-            "noise.response",
-        ),
-        (
-            "[[sine]]",
-            "[frequency]\nfrom = 9\nto = 3\n[[sine]]",
-            "frequency",
-        ),
+        ("[[sine]]", "[noise]\nresponse = 0\n[[sine]]", "noise.response"),
+        ("[[sine]]", "[frequency]\nfrom = 9\nto = 3\n[[sine]]", "frequency"),
         ("[[sine]]", "terms = [\"k3\", \"kN\"]\n[[sine]]", "k3 twice"),
         ("[[sine]]", "terms = [\"k9\"]\n[[sine]]", "k9"),
-    ] {
+    ];
+    for (from, to, part) in cases {
         let folder = tempfile::tempdir().unwrap();
         written(
             "run.csv",
@@ -193,13 +110,14 @@ fn damaged_response_studies_are_refused_by_their_key() {
 fn every_method_has_its_reader() {
     let folder = tempfile::tempdir().unwrap();
     let path = written("study.toml", UPDATE, &folder);
-    assert_eq!(StudyMethod::read(&path).unwrap(), StudyMethod::LapUpdate);
+    let method = |path| StudyText::read(path).and_then(|study| study.method());
+    assert_eq!(method(&path).unwrap(), Method::LapUpdate);
     let other = written(
         "other.toml",
         &UPDATE.replace("lap-update", "lap-magic"),
         &folder,
     );
-    let error = StudyMethod::read(&other).unwrap_err().to_string();
+    let error = method(&other).unwrap_err().to_string();
     assert!(
         error.contains("lap-magic") && error.contains("`lap-response`"),
         "{error}"

@@ -220,20 +220,12 @@ fn of_two_qualities_the_rotational_stiffness_can_be_told_and_the_translational_c
 
 #[test]
 fn sizes_differ_by_what_one_per_cent_of_the_modulus_does() {
-    for (table, names, changes, by_modulus) in [
-        (
-            "5.11",
-            ["M10", "M8", "M6"].as_slice(),
-            [[5.9, 7.7, 14.3], [6.1, 46.2, 15.6]].as_slice(),
-            [(5.0, 7.0), (7.0, 9.5), (2.0, 4.0)],
-        ),
-        (
-            "5.12",
-            &["M10", "M8"],
-            &[[-12.0, -307.9, -5.4]],
-            [(7.0, 8.0), (5.0, 13.0), (2.0, 6.0)],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("5.11", ["M10", "M8", "M6"].as_slice(), [[5.9, 7.7, 14.3], [6.1, 46.2, 15.6]].as_slice(), [(5.0, 7.0), (7.0, 9.5), (2.0, 4.0)]),
+        ("5.12", &["M10", "M8"], &[[-12.0, -307.9, -5.4]], [(7.0, 8.0), (5.0, 13.0), (2.0, 6.0)]),
+    ];
+    for (table, names, changes, by_modulus) in cases {
         let found = chapter_5(table);
         for name in names {
             let [k, c] = [Some(0.01), Some(0.10)];

@@ -45,6 +45,35 @@ pub enum TextFileError {
         /// What should be in it.
         expected: &'static str,
     },
+    /// Something in a line.
+    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+}
+
+impl TextFileError {
+    /// Something in a line of a file, from 1, that is not as it should be.
+    pub fn in_line(
+        path: &Path,
+        line: usize,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self::Line {
+            path: path.to_owned(),
+            line,
+            found: found.into(),
+            expected: expected.into(),
+        }
+    }
 }
 
 /// Files that people write or read are shorter than this; what is longer is something else, and need not fill the memory.

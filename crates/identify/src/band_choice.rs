@@ -5,7 +5,7 @@ use std::ops::Range;
 use num_complex::Complex64;
 
 use bolted_joint_frf::resonances;
-use bolted_joint_frf::structure::CouplingError;
+use bolted_joint_frf::structure::SingularAssembly;
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
@@ -35,17 +35,17 @@ const LINES_OF_A_PART: usize = 256;
 /// median of |H^C| over the lines takes the place of |H^C|. Of several bolts in `joint` the bands are those of the first.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance, or if the joint's DOFs are not those of the lines.
+/// [`SingularAssembly`] at an undamped resonance, or if the joint's DOFs are not those of the lines.
 pub fn choose_bands(
     lines: &Lines,
     model: JointModel,
     joint: &JointMatrices,
     given: &Bands,
-) -> Result<Bands, CouplingError> {
+) -> Result<Bands, SingularAssembly> {
     let dofs = joint.stiffness.nrows();
     let layout = Layout::of_different(model, dofs / model.dofs());
     let chosen = for_joints(lines, &layout, &joint.bolts(model.dofs()), given)?;
-    chosen.into_iter().next().ok_or(CouplingError::Singular)
+    chosen.into_iter().next().ok_or(SingularAssembly)
 }
 
 /// The same for each joint of a layout.
@@ -54,10 +54,10 @@ pub(super) fn for_joints(
     layout: &Layout,
     joints: &[JointMatrices],
     given: &Bands,
-) -> Result<Vec<Bands>, CouplingError> {
-    let unknowns = layout.unknowns_of(joints).ok_or(CouplingError::Singular)?;
+) -> Result<Vec<Bands>, SingularAssembly> {
+    let unknowns = layout.unknowns_of(joints).ok_or(SingularAssembly)?;
     let own_hz = own_resonances(std::iter::once(lines));
-    chosen(lines, &own_hz, layout, &unknowns, given).ok_or(CouplingError::Singular)
+    chosen(lines, &own_hz, layout, &unknowns, given).ok_or(SingularAssembly)
 }
 
 /// The bands that each entry of each joint is averaged over. `chosen` are the automatic ones, `None` if there is no

@@ -4,61 +4,31 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use bolted_joint_files::text_file::TextFileError;
 use bolted_joint_frf::FrfError;
-use bolted_joint_frf::structure::{BeamError, CouplingError, ModalError};
+use bolted_joint_frf::structure::{SingularAssembly, StructureError};
+use bolted_joint_study::StudyError;
 
 use super::model::JointModel;
 
 /// Why a joint cannot be identified.
 #[derive(Debug, Error)]
 pub enum IdentifyError {
-    /// A text file cannot be read.
+    /// The study cannot be used, or a file that it names cannot be read.
     #[error(transparent)]
-    File(#[from] TextFileError),
-    /// The study is not TOML, or has keys or types that do not belong.
-    #[error("{}: {message}", path.display())]
-    Syntax {
-        /// The study.
-        path: PathBuf,
-        /// What is wrong, with line and column.
-        message: String,
-    },
-    /// A value in the study cannot be used.
-    #[error("{}: `{key}`: found {found}, expected {expected}", path.display())]
-    Study {
-        /// The study.
-        path: PathBuf,
-        /// Key in the study.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
+    Study(#[from] StudyError),
     /// A universal file cannot be used.
     #[error(transparent)]
     Frf(#[from] FrfError),
     /// Modal data cannot be used.
     #[error(transparent)]
-    Modal(#[from] ModalError),
+    Modal(#[from] StructureError),
     /// A function is not in the file of functions, and its modes do not have it either.
     #[error("{frf}; nor do the modes have it: {modal}")]
     NeitherMeasuredNorModal {
         /// What the file of functions lacks.
         frf: Box<IdentifyError>,
         /// What the modes lack.
-        modal: Box<ModalError>,
-    },
-    /// The beam cannot be computed.
-    #[error("{}: `{key}`: {source}", path.display())]
-    Beam {
-        /// The study.
-        path: PathBuf,
-        /// Key of the substructure.
-        key: &'static str,
-        /// What is wrong with it.
-        source: BeamError,
+        modal: Box<StructureError>,
     },
     /// Two files have different frequency axes.
     #[error(
@@ -117,12 +87,8 @@ pub enum IdentifyError {
         found_n_m: Vec<f64>,
     },
     /// The computed receptances have no finite value at some line.
-    #[error("{source}")]
-    Coupling {
-        /// What is wrong.
-        #[from]
-        source: CouplingError,
-    },
+    #[error(transparent)]
+    Singular(#[from] SingularAssembly),
     /// No start led anywhere.
     #[error(
         "no estimate was found from any of {starts} starts: the receptances at the points {points} do not depend on the joint \

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{ComplexMatrix, CouplingError, Partition, transmission};
+use bolted_joint_frf::structure::{ComplexMatrix, Partition, SingularAssembly, transmission};
 
 use super::model::JointMatrices;
 use super::receptances::Receptances;
@@ -65,8 +65,11 @@ impl Lines {
     /// H^C_ss at each line, as coupling with this joint gives it.
     ///
     /// # Errors
-    /// [`CouplingError::Singular`] at an undamped resonance.
-    pub fn regenerated(&self, joint: &JointMatrices) -> Result<Vec<ComplexMatrix>, CouplingError> {
+    /// [`SingularAssembly`] at an undamped resonance.
+    pub fn regenerated(
+        &self,
+        joint: &JointMatrices,
+    ) -> Result<Vec<ComplexMatrix>, SingularAssembly> {
         (0..self.frequency_hz.len())
             .map(|line| {
                 let stiffness = joint.complex_stiffness(self.frequency_hz[line]);

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{ComplexMatrix, CouplingError};
+use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
 
 use super::assessment::Assessment;
 use super::averages::{Decoupled, band_averages, first_bands, used_bands};
@@ -161,12 +161,12 @@ impl LinesEstimate {
     /// How much each measured receptance of `lines`, those of an assembly, depends on each unknown entry, at this estimate.
     ///
     /// # Errors
-    /// [`CouplingError::Singular`] at an undamped resonance.
+    /// [`SingularAssembly`] at an undamped resonance.
     pub fn sensitivities(
         &self,
         assembly: usize,
         lines: &Lines,
-    ) -> Result<Vec<Sensitivity>, CouplingError> {
+    ) -> Result<Vec<Sensitivity>, SingularAssembly> {
         sensitivity::to_unknowns(lines, &self.layout, self.joint_of(assembly).whole())
     }
 

@@ -1,15 +1,9 @@
 //! Where a joint comes from: the files it was identified from, by their hashes.
 
-use std::fs::File;
-use std::io::{self, ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
-use bolted_joint_files::text_file::TextFileError;
-use bolted_joint_joint::{
-    BandOriginRecord, BandRecord, BandsRecord, FromModesRecord, InputFile, Provenance,
-};
+use bolted_joint_joint::{BandOriginRecord, BandRecord, BandsRecord, FromModesRecord, Provenance};
+use bolted_joint_study::{Method, input_file, name_in, provenance};
 
 use super::bands::{BandOrigin, UsedBands};
 use super::error::IdentifyError;
@@ -17,9 +11,6 @@ use super::from_modes::FromModes;
 use super::lines_estimate::LinesEstimate;
 use super::study::{Source, Study, Substructure};
 use super::watch::Watch;
-
-/// Bytes of a file that are read at a time.
-const PIECE: usize = 1 << 16;
 
 /// Provenance of each bolt's joint that is identified from this study.
 pub(super) fn of(
@@ -73,14 +64,12 @@ pub(super) fn of(
     let inputs = named
         .into_iter()
         .filter_map(|(role, path)| Some((role, path?)))
-        .map(|(role, path)| input_file(role, &path, folder, watch))
+        .map(|(role, path)| input_file(role, &path, folder, |read, of| watch.read(&path, read, of)))
         .collect::<Result<Vec<_>, _>>()?;
+    let method = Method::FrfDecoupling;
+    let model = study.model.to_string();
+    let common = provenance(method, model, inputs, study.notes.clone());
     let of_joint = |(joint, bands): (usize, &Vec<UsedBands>)| Provenance {
-        tool: bolted_joint_files::TOOL.to_owned(),
-        version: bolted_joint_files::VERSION.to_owned(),
-        method: "frf-decoupling".to_owned(),
-        model: study.model.to_string(),
-        inputs: inputs.clone(),
         bolts: match study.bolts.with_own_joint().get(joint) {
             Some(bolt) => vec![bolt.clone()],
             None => study.bolts.names().to_vec(),
@@ -90,7 +79,7 @@ pub(super) fn of(
             .iter()
             .map(|found| of_modes(found, folder))
             .collect(),
-        notes: study.notes.clone(),
+        ..common.clone()
     };
     Ok(estimate.bands().iter().enumerate().map(of_joint).collect())
 }
@@ -123,59 +112,4 @@ fn of_modes(found: &FromModes, folder: &Path) -> FromModesRecord {
             .map(|(response, reference)| [response.to_string(), reference.to_string()])
             .collect(),
     }
-}
-
-/// A path as the study gives it.
-fn name_in(folder: &Path, path: &Path) -> String {
-    path.strip_prefix(folder)
-        .unwrap_or(path)
-        .display()
-        .to_string()
-}
-
-/// An input of `role`: its path as seen from `folder`, and its hash.
-///
-/// # Errors
-/// [`IdentifyError::File`] if it cannot be read.
-pub fn input_file(
-    role: &str,
-    path: &Path,
-    folder: &Path,
-    watch: &dyn Watch,
-) -> Result<InputFile, IdentifyError> {
-    let digest = digest(path, watch).map_err(|source| TextFileError::Unreadable {
-        path: path.to_owned(),
-        source,
-    })?;
-    Ok(InputFile {
-        role: role.to_owned(),
-        file: name_in(folder, path),
-        sha256: digest
-            .as_ref()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
-    })
-}
-
-/// SHA-256 of a file, which may be larger than the memory.
-fn digest(path: &Path, watch: &dyn Watch) -> io::Result<impl AsRef<[u8]> + use<>> {
-    let mut file = File::open(path)?;
-    let of = file.metadata()?.len();
-    let mut digest = Sha256::new();
-    let mut piece = vec![0; PIECE];
-    let mut read = 0;
-    loop {
-        let count = match file.read(&mut piece) {
-            Ok(0) => break,
-            Ok(count) => count,
-            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-            Err(error) => return Err(error),
-        };
-        digest.update(&piece[..count]);
-        read += count as u64;
-        watch.read(path, read.min(of), of);
-    }
-    watch.read(path, of, of);
-    Ok(digest.finalize())
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use bolted_joint_frf::structure::{ComplexMatrix, CouplingError};
+use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
 
 use super::layout::Layout;
 use super::lines::Lines;
@@ -23,7 +23,7 @@ impl Linearised {
         lines: &Lines,
         line: usize,
         joint: &JointMatrices,
-    ) -> Result<Self, CouplingError> {
+    ) -> Result<Self, SingularAssembly> {
         let stiffness = joint.complex_stiffness(lines.frequency_hz[line]);
         let b = lines.b_at(line);
         let free = &*lines.a.at(line) + &b.joint;
@@ -33,12 +33,12 @@ impl Linearised {
             .transpose()
             .lu()
             .solve(&b.points_joint.transpose())
-            .ok_or(CouplingError::Singular)?
+            .ok_or(SingularAssembly)?
             .transpose();
         let right = (&unit + &free * &stiffness)
             .lu()
             .solve(&b.joint_points)
-            .ok_or(CouplingError::Singular)?;
+            .ok_or(SingularAssembly)?;
         Ok(Self {
             assembly: &b.points - &left * stiffness * &b.joint_points,
             left,
@@ -98,12 +98,12 @@ impl Sensitivity {
 /// The sensitivity of each measured receptance of `lines` to each entry of `model`, for each bolt of `joint`.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance.
+/// [`SingularAssembly`] at an undamped resonance.
 pub fn sensitivities(
     lines: &Lines,
     model: JointModel,
     joint: &JointMatrices,
-) -> Result<Vec<Sensitivity>, CouplingError> {
+) -> Result<Vec<Sensitivity>, SingularAssembly> {
     let layout = Layout::of_different(model, joint.stiffness.nrows() / model.dofs());
     to_unknowns(lines, &layout, joint)
 }
@@ -113,7 +113,7 @@ pub(super) fn to_unknowns(
     lines: &Lines,
     layout: &Layout,
     whole: &JointMatrices,
-) -> Result<Vec<Sensitivity>, CouplingError> {
+) -> Result<Vec<Sensitivity>, SingularAssembly> {
     let linearised = (0..lines.frequency_hz.len())
         .map(|line| Linearised::new(lines, line, whole))
         .collect::<Result<Vec<_>, _>>()?;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use bolted_joint_frf::structure::CouplingError;
+use bolted_joint_frf::structure::SingularAssembly;
 
 use super::block::Block;
 use super::data::for_dofs;
@@ -45,26 +45,27 @@ pub struct TwoStep {
 /// The thesis uses MATLAB's `fminunc`; this is Levenberg–Marquardt with exact derivatives on the same sum.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance, or if the joint has more than eight DOFs.
+/// [`SingularAssembly`] at an undamped resonance, or if the joint has more than eight DOFs.
 pub fn update_in_two_steps(
     lines: &Lines,
     model: JointModel,
     start: &JointMatrices,
     amplitudes: Amplitudes,
-) -> Result<TwoStep, CouplingError> {
+) -> Result<TwoStep, SingularAssembly> {
     let update: Option<Updated> = for_dofs!(start.stiffness.nrows(), updated);
-    let update = update.ok_or(CouplingError::Singular)?;
+    let update = update.ok_or(SingularAssembly)?;
     update(lines, model, start, amplitudes)
 }
 
-type Updated = fn(&Lines, JointModel, &JointMatrices, Amplitudes) -> Result<TwoStep, CouplingError>;
+type Updated =
+    fn(&Lines, JointModel, &JointMatrices, Amplitudes) -> Result<TwoStep, SingularAssembly>;
 
 fn updated<const N: usize>(
     lines: &Lines,
     model: JointModel,
     start: &JointMatrices,
     amplitudes: Amplitudes,
-) -> Result<TwoStep, CouplingError> {
+) -> Result<TwoStep, SingularAssembly> {
     let problem = Problem::<N>::new(lines, model, amplitudes);
     let count = problem.entries.len();
     let stiffness: Vec<f64> = problem
@@ -149,7 +150,7 @@ impl<const N: usize> Problem<N> {
         &self,
         unknowns: &mut Vec<f64>,
         moving: std::ops::Range<usize>,
-    ) -> Result<Minimum, CouplingError> {
+    ) -> Result<Minimum, SingularAssembly> {
         let mut normal = self.normal(unknowns, &moving)?;
         let before = normal.sum;
         let mut damping = 1e-3;
@@ -202,7 +203,7 @@ impl<const N: usize> Problem<N> {
         &self,
         unknowns: &[f64],
         moving: &std::ops::Range<usize>,
-    ) -> Result<Normal, CouplingError> {
+    ) -> Result<Normal, SingularAssembly> {
         let count = self.entries.len();
         let is_damping = moving.start == count;
         let mut normal = Normal {
@@ -218,7 +219,7 @@ impl<const N: usize> Problem<N> {
             let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
             kernel
                 .solve(&block.free[line], transfer.iter().copied(), &stiffness)
-                .ok_or(CouplingError::Singular)?;
+                .ok_or(SingularAssembly)?;
             for (index, &entry) in block.entries.iter().enumerate() {
                 let place = line * block.entries.len() + index;
                 let measured = block.measured[place];

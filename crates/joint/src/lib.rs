@@ -36,3 +36,4 @@ pub use record::{
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 pub use units::{description, superscript, unit, unit_for_people, with_symbols};
+pub use validate::is_one_line;

@@ -7,6 +7,14 @@ use super::{
     StandardDeviation, UncertaintyOverPreload,
 };
 
+/// Whether a name is one line of text. It becomes an attribute in XML, which has no control characters and none of the two
+/// noncharacters.
+#[must_use]
+pub fn is_one_line(name: &str) -> bool {
+    let has_no_place = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+    !name.trim().is_empty() && !name.chars().any(has_no_place)
+}
+
 impl JointFile {
     /// Everything that is wrong with the file's contents, in the order of the file; empty where all is well.
     ///
@@ -17,9 +25,7 @@ impl JointFile {
             dofs: self.joint.dofs,
             problems: Vec::new(),
         };
-        // The name becomes an attribute in XML, which has no control characters and none of the two noncharacters.
-        let has_no_place = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
-        if self.name.trim().is_empty() || self.name.chars().any(has_no_place) {
+        if !is_one_line(&self.name) {
             check.problems.push(Problem::Name {
                 found: self.name.clone(),
             });

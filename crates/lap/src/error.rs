@@ -3,28 +3,45 @@
 use std::path::PathBuf;
 
 use bolted_joint_files::TextFileError;
-use bolted_joint_identify::IdentifyError;
+use bolted_joint_study::StudyError;
 use thiserror::Error;
-
-use super::response::{FitError, ResponseDataError};
 
 /// Why a lap model cannot be identified.
 #[derive(Debug, Error)]
 pub enum LapError {
     /// The study or a file that it names cannot be used.
     #[error(transparent)]
-    Study(#[from] IdentifyError),
-    /// A table of responses cannot be used.
-    #[error(transparent)]
-    Response(#[from] ResponseDataError),
-    /// A lap model cannot be fitted to responses.
-    #[error("{}: {source}", path.display())]
-    Fit {
-        /// The study.
+    Study(#[from] StudyError),
+    /// The response feeds energy into the exciter at most lines.
+    #[error(
+        "{}: found a phase that leads at {leading} of {lines} lines, so that the structure would feed the exciter, expected a displacement that \
+         lags behind the force; the phase is probably that of another quantity than the column with the amplitude, or reversed: state \
+         `sine.phase_of` as \"displacement\", \"velocity\" or \"acceleration\", or `sine.phase_sign = -1`",
+        path.display()
+    )]
+    Leading {
+        /// The file.
         path: PathBuf,
-        /// Why not.
-        source: FitError,
+        /// Lines with a leading response.
+        leading: usize,
+        /// All lines.
+        lines: usize,
     },
+    /// Fewer data than unknowns.
+    #[error(
+        "found {lines} line(s), each with two numbers beyond its amplitude, expected more than {unknowns} unknowns need; measure more lines or levels"
+    )]
+    TooFewLines {
+        /// Lines.
+        lines: usize,
+        /// Unknowns.
+        unknowns: usize,
+    },
+    /// No start led anywhere.
+    #[error(
+        "no estimate was found from any start: the responses do not look like those of a lap model; check which side was driven and measured, and the frequency range"
+    )]
+    NoEstimate,
 }
 
 impl From<TextFileError> for LapError {

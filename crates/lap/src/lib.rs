@@ -11,14 +11,12 @@ mod response;
 mod update;
 
 pub use bolted_joint_dynamics::law::Term;
-pub use bolted_joint_identify::StudyMethod;
 pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
-    BackboneLine, BackboneRun, Estimate, Fit, FitError, LapResponse, LapResponseStudy, Model,
-    ModelComparison, Noise, Place, Prediction, Resonance, ResponseDataError, ResponseUnknown,
-    SineLine, SineRun, TermSet, Use, Values, fit_responses, measured_resonance,
-    predicted_resonance,
+    BackboneLine, BackboneRun, Estimate, Fit, LapResponse, LapResponseStudy, Model,
+    ModelComparison, Noise, Place, Prediction, Resonance, ResponseUnknown, SineLine, SineRun,
+    TermSet, Use, Values, fit_responses, measured_resonance, predicted_resonance,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

@@ -6,10 +6,12 @@
 #![forbid(unsafe_code)]
 
 mod columns;
+mod contact_error;
 pub mod fractal;
 mod growth;
 pub mod layered_beam;
 mod material;
+mod number;
 pub mod patch;
 pub mod pressure;
 pub mod study;
@@ -18,4 +20,6 @@ pub mod uncertain;
 pub mod virtual_material;
 
 pub use columns::ColumnsError;
-pub use material::{Material, MaterialError, Pair};
+pub use contact_error::ContactError;
+pub use material::{Material, Pair};
+pub use number::NumberError;

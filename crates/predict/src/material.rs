@@ -1,6 +1,6 @@
 //! Elastic constants of a part, and of a pair of parts in contact.
 
-use thiserror::Error;
+use super::number::{NumberError, check, positive};
 
 /// An isotropic elastic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,31 +11,25 @@ pub struct Material {
     poissons_ratio: f64,
 }
 
-/// Elastic constants that no stable isotropic material has.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum MaterialError {
-    /// Young's modulus is not a positive number.
-    #[error("Young's modulus is {0} Pa; expected a positive number")]
-    YoungsModulus(f64),
-    /// Poisson's ratio is not between −1 and 0.5.
-    #[error(
-        "Poisson's ratio is {0}; expected more than −1 and less than 0.5 (0.5 is incompressible: contact formulas divide by its compliance)"
-    )]
-    PoissonsRatio(f64),
-}
-
 impl Material {
     /// A material of Young's modulus (Pa) and Poisson's ratio.
     ///
     /// # Errors
     /// The modulus is not positive, or the ratio is not inside (−1, 0.5).
-    pub fn new(youngs_modulus_pa: f64, poissons_ratio: f64) -> Result<Self, MaterialError> {
-        if !(youngs_modulus_pa.is_finite() && youngs_modulus_pa > 0.0) {
-            return Err(MaterialError::YoungsModulus(youngs_modulus_pa));
-        }
-        if !(poissons_ratio > -1.0 && poissons_ratio < 0.5) {
-            return Err(MaterialError::PoissonsRatio(poissons_ratio));
-        }
+    pub fn new(youngs_modulus_pa: f64, poissons_ratio: f64) -> Result<Self, NumberError> {
+        positive(
+            "Young's modulus",
+            youngs_modulus_pa,
+            " Pa",
+            "a positive number",
+        )?;
+        check(
+            poissons_ratio > -1.0 && poissons_ratio < 0.5,
+            "Poisson's ratio",
+            poissons_ratio,
+            "",
+            "more than −1 and less than 0.5 (0.5 is incompressible: contact formulas divide by its compliance)",
+        )?;
         Ok(Self {
             youngs_modulus_pa,
             poissons_ratio,

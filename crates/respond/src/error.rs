@@ -1,58 +1,20 @@
 //! What can be wrong with a study of a response, and with the response itself.
 
-use std::path::PathBuf;
-
 use thiserror::Error;
 
-use bolted_joint_files::text_file::TextFileError;
 use bolted_joint_harmonic::HarmonicError;
-use bolted_joint_joint::{JointFileError, LawError, PreloadError};
+use bolted_joint_joint::JointFileError;
+use bolted_joint_study::StudyError;
 
 /// Why a response cannot be computed.
 #[derive(Debug, Error)]
 pub enum RespondError {
-    /// A text file cannot be read.
+    /// The study or a file that it names cannot be used.
     #[error(transparent)]
-    File(#[from] TextFileError),
-    /// The study is not TOML, or has keys or types that do not belong.
-    #[error("{}: {message}", path.display())]
-    Syntax {
-        /// The study.
-        path: PathBuf,
-        /// What is wrong, with line and column.
-        message: String,
-    },
-    /// A value in the study cannot be used.
-    #[error("{}: `{key}`: found {found}, expected {expected}", path.display())]
-    Study {
-        /// The study.
-        path: PathBuf,
-        /// Key in the study.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
+    Study(#[from] StudyError),
     /// A joint file cannot be used.
     #[error(transparent)]
     JointFile(#[from] JointFileError),
-    /// A joint file gives no lap model.
-    #[error("{}: {source}", path.display())]
-    Law {
-        /// The joint file.
-        path: PathBuf,
-        /// What is missing.
-        source: LawError,
-    },
-    /// The joint cannot be taken at the preload asked for.
-    #[error("{}: {source}", path.display())]
-    Preload {
-        /// The joint file.
-        path: PathBuf,
-        /// Why not.
-        source: PreloadError,
-    },
     /// No periodic response is found.
     #[error("{lap}{level}: {source}")]
     Harmonic {
@@ -63,30 +25,16 @@ pub enum RespondError {
         /// What the balance says.
         source: HarmonicError,
     },
-    /// A lap does not settle by itself.
+    /// A level of noise that is negative or not finite.
     #[error(
-        "{}: `time.settle`: not found, expected the number of periods to wait: the lap `{lap}` has a mode that does not decay", path.display()
+        "noise level: found {0}, expected a finite fraction that is not negative, such as 0.01 for 1 %"
     )]
-    Undamped {
-        /// The study.
-        path: PathBuf,
-        /// Name of the lap.
-        lap: String,
-    },
-    /// A time history would take too long.
+    NoiseLevel(f64),
+    /// Too few samples for a line of a discrete Fourier transform.
     #[error(
-        "{}: `{key}`: found {steps:.1e} Runge–Kutta steps, expected at most {most:.0e}; shorten it or lengthen the steps", path.display()
+        "noise samples: found {0}, expected at least 3, because a line needs more than two samples a period"
     )]
-    TooManySteps {
-        /// The study.
-        path: PathBuf,
-        /// Key in the study.
-        key: &'static str,
-        /// Steps that it asks for.
-        steps: f64,
-        /// Most that are taken.
-        most: f64,
-    },
+    NoiseSamples(u32),
     /// A time history leaves everything.
     #[error(
         "{lap}{level}: the motion is not finite any more at {time_s} s: a softening joint has let go, or the steps are too long; reduce \

@@ -14,6 +14,6 @@ mod table;
 
 pub use error::RespondError;
 pub use measured::{to_csv, with_noise};
-pub use pollution::{Generator, Pollution, PollutionError};
+pub use pollution::{Generator, Pollution};
 pub use study::{LoadPlace, RespondStudy, Span, Start, StudyLap, Test, Times};
 pub use table::{Column, ResponseTable, Role, Series};

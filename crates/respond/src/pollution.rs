@@ -4,22 +4,8 @@ use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
-use thiserror::Error;
 
-/// Why a noise procedure makes no sense.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum PollutionError {
-    /// The level is negative or not finite.
-    #[error(
-        "noise level: found {0}, expected a finite fraction that is not negative, such as 0.01 for 1 %"
-    )]
-    Level(f64),
-    /// Too few samples for a line of a discrete Fourier transform.
-    #[error(
-        "noise samples: found {0}, expected at least 3, because a line needs more than two samples a period"
-    )]
-    Samples(u32),
-}
+use super::RespondError;
 
 /// A noise procedure and its level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,14 +59,16 @@ impl Pollution {
     /// The same procedure, if its numbers make sense.
     ///
     /// # Errors
-    /// [`PollutionError`] that says which does not.
-    pub fn checked(self) -> Result<Self, PollutionError> {
+    /// [`RespondError`] that says which does not.
+    pub fn checked(self) -> Result<Self, RespondError> {
         let (Self::Frf { level } | Self::Response { level, .. }) = self;
         if !(level.is_finite() && level >= 0.0) {
-            return Err(PollutionError::Level(level));
+            return Err(RespondError::NoiseLevel(level));
         }
         match self {
-            Self::Response { samples, .. } if samples < 3 => Err(PollutionError::Samples(samples)),
+            Self::Response { samples, .. } if samples < 3 => {
+                Err(RespondError::NoiseSamples(samples))
+            }
             _ => Ok(self),
         }
     }
@@ -195,14 +183,15 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        assert_eq!(
-            Pollution::Frf { level: -0.1 }.checked(),
-            Err(PollutionError::Level(-0.1))
-        );
+        let negative = Pollution::Frf { level: -0.1 }.checked();
+        assert!(matches!(negative, Err(RespondError::NoiseLevel(-0.1))));
         let short = Pollution::Response {
             level: 0.1,
             samples: 2,
         };
-        assert_eq!(short.checked(), Err(PollutionError::Samples(2)));
+        assert!(matches!(
+            short.checked(),
+            Err(RespondError::NoiseSamples(2))
+        ));
     }
 }

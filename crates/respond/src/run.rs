@@ -4,6 +4,7 @@ use bolted_joint_dynamics::{Lap, with_dofs};
 
 use bolted_joint_harmonic::{Derivative, HarmonicError, Observed, Target};
 use bolted_joint_joint::DofSet;
+use bolted_joint_study::StudyError;
 
 use super::RespondError;
 use super::histories::{Drive, Ended, MOST_STEPS, SteppedSine, history};
@@ -55,10 +56,8 @@ impl RespondStudy {
         };
         let mut series = Vec::new();
         for lap in &self.laps {
-            let model = lap.file.lap::<D>().map_err(|source| RespondError::Law {
-                path: lap.path.clone(),
-                source,
-            })?;
+            let model = lap.file.lap::<D>();
+            let model = model.map_err(|source| StudyError::model(&lap.path, None, source))?;
             for &level in &levels {
                 let rows = self.rows(&model, &motions, level.unwrap_or(0.0));
                 let refuse = |failure| self.failed(lap, level, level_unit, failure);
@@ -293,16 +292,18 @@ impl RespondStudy {
         match failure {
             Failure::Harmonic(source) => RespondError::Harmonic { lap, level, source },
             Failure::Time(Ended::Escaped(time_s)) => RespondError::Escaped { lap, level, time_s },
-            Failure::Time(Ended::Undamped) => RespondError::Undamped {
-                path: self.path.clone(),
-                lap,
-            },
-            Failure::Time(Ended::TooMany(steps)) => RespondError::TooManySteps {
-                path: self.path.clone(),
-                key: "time",
-                steps,
-                most: MOST_STEPS,
-            },
+            Failure::Time(Ended::Undamped) => {
+                let expected = format!(
+                    "the number of periods to wait: the lap `{lap}` has a mode that does not decay"
+                );
+                StudyError::value(&self.path, "time.settle", "nothing", expected).into()
+            }
+            Failure::Time(Ended::TooMany(steps)) => {
+                let found = format!("{steps:.1e} Runge–Kutta steps");
+                let expected =
+                    format!("at most {MOST_STEPS:.0e}; shorten it or lengthen the steps");
+                StudyError::value(&self.path, "time", found, expected).into()
+            }
         }
     }
 }

@@ -13,14 +13,18 @@ use super::check_options;
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::lap::{LapResponse, LapResponseStudy};
 use bolted_joint::report::LapResponseReport;
+use bolted_joint::study::StudyText;
 
-pub(in super::super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+pub(in super::super) fn run(
+    arguments: &IdentifyArguments,
+    study: &StudyText,
+) -> Result<(), CliError> {
     check_options(arguments)?;
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),
         None => None,
     };
-    let study = LapResponseStudy::read(&arguments.study)?;
+    let study = LapResponseStudy::of(study)?;
     let progress = Progress::new("identifying", 0);
     let found = LapResponse::of(&study, &progress)?;
     drop(progress);

@@ -14,15 +14,19 @@ use super::{Outputs, check_options};
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::lap::{LapParameter, LapUpdate, LapUpdateStudy, TorqueUpdate};
 use bolted_joint::report::LapUpdateReport;
+use bolted_joint::study::StudyText;
 use bolted_joint_files::whole_file;
 
-pub(in super::super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+pub(in super::super) fn run(
+    arguments: &IdentifyArguments,
+    study: &StudyText,
+) -> Result<(), CliError> {
     check_options(arguments)?;
     let written = match arguments.report {
         Some(_) => Some(Timestamp::from_environment()?),
         None => None,
     };
-    let study = LapUpdateStudy::read(&arguments.study)?;
+    let study = LapUpdateStudy::of(study)?;
     let progress = Progress::new("updating", study.torques.len() * study.firefly.iterations);
     let found = LapUpdate::of(&study, &progress)?;
     drop(progress);

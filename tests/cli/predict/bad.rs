@@ -9,23 +9,12 @@ fn refused(old: &str, new: &str, fragments: &[&str]) {
 }
 
 #[test]
+#[rustfmt::skip]
 fn unknown_keys_and_methods_are_told_with_their_line() {
-    refused(
-        "hardness =",
-        "hardnes =",
-        &["study.toml", "line 17", "hardnes"],
-    );
-    refused(
-        "\"fractal-contact\"",
-        "\"fractals\"",
-        &["line 1", "fractals", "layered-beam"],
-    );
+    refused("hardness =", "hardnes =", &["study.toml", "line 17", "hardnes"]);
+    refused("\"fractal-contact\"", "\"fractals\"", &["line 1", "fractals", "layered-beam"]);
     refused("[damping]\n", "[dampening]\n", &["dampening"]);
-    refused(
-        "method = \"fractal-contact\"\n",
-        "",
-        &["missing field `method`"],
-    );
+    refused("method = \"fractal-contact\"\n", "", &["missing field `method`"]);
 }
 
 #[test]
@@ -47,27 +36,17 @@ fn materials_that_cannot_be_are_refused() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn surfaces_that_cannot_be_are_refused() {
     for dimension in ["1", "2", "2.42"] {
         let expected = ["`surface.fractal_dimension`", dimension, "less than 2"];
         refused("= 1.42", &format!("= {dimension}"), &expected);
     }
     refused("= 1.21e-8", "= 0", &["`surface.roughness`", "above zero"]);
-    refused(
-        "roughness = 1.21e-8\n",
-        "roughness = 1.21e-8\ncorrelation = -1.5\n",
-        &["`surface.correlation`", "-1.5", "between −1 and 1"],
-    );
-    refused(
-        "roughness = 1.21e-8\n",
-        "",
-        &["`surface`", "profiles", "fractal_dimension and roughness"],
-    );
-    refused(
-        "roughness = 1.21e-8\n",
-        "roughness = 1.21e-8\n[surface.a]\nfractal_dimension = 1.4\nroughness = 1e-9\n",
-        &["`surface`", "one of [surface.a] and [surface.b]", "both"],
-    );
+    refused("roughness = 1.21e-8\n", "roughness = 1.21e-8\ncorrelation = -1.5\n", &["`surface.correlation`", "-1.5", "between −1 and 1"]);
+    refused("roughness = 1.21e-8\n", "", &["`surface`", "profiles", "fractal_dimension and roughness"]);
+    refused("roughness = 1.21e-8\n", "roughness = 1.21e-8\n[surface.a]\nfractal_dimension = 1.4\nroughness = 1e-9\n",
+        &["`surface`", "one of [surface.a] and [surface.b]", "both"]);
     let profiles = replaced(
         STUDY,
         "fractal_dimension = 1.42\nroughness = 1.21e-8\n",
@@ -81,18 +60,11 @@ fn surfaces_that_cannot_be_are_refused() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn contacts_outside_the_model_are_refused_with_the_reason() {
     // q = T/(μP) of 0.976
-    refused(
-        "shear_strength = 1e8",
-        "shear_strength = 2e8",
-        &["`contact`", "q = T/(μP)", "lower"],
-    );
-    refused(
-        "hardness = 1.96e9",
-        "hardness = 3e7",
-        &["`contact`", "element 188", "q = T/(μP)"],
-    );
+    refused("shear_strength = 1e8", "shear_strength = 2e8", &["`contact`", "q = T/(μP)", "lower"]);
+    refused("hardness = 1.96e9", "hardness = 3e7", &["`contact`", "element 188", "q = T/(μP)"]);
     bench(&replaced(&replaced(STUDY, "1.96e9", "3e7"), "= 1e8", "= 0")).refused(
         &PREDICT,
         &[
@@ -103,54 +75,22 @@ fn contacts_outside_the_model_are_refused_with_the_reason() {
             "the parts flow as a whole",
         ],
     );
-    refused(
-        "friction = 0.3",
-        "friction = 0",
-        &["`contact.friction`", "above zero"],
-    );
+    refused("friction = 0.3", "friction = 0", &["`contact.friction`", "above zero"]);
 }
 
 #[test]
+#[rustfmt::skip]
 fn bolts_that_cannot_be_are_refused() {
-    refused(
-        "nut_factor = 0.2\n",
-        "",
-        &["`tightening.nut_factor`", "nothing", "no preload follows"],
-    );
-    refused(
-        "torque = 20\n\n[tightening]",
-        "\n[tightening]",
-        &[
-            "`bolts[4].preload`",
-            "nothing",
-            "a preload in N, or a torque",
-        ],
-    );
-    refused(
-        "torque = 20\n\n[tightening]",
-        "torque = 20\npreload = 9000\n\n[tightening]",
-        &["`bolts[4].preload`", "a torque beside it"],
-    );
-    refused(
-        "nut_factor = 0.2\n",
+    refused("nut_factor = 0.2\n", "", &["`tightening.nut_factor`", "nothing", "no preload follows"]);
+    refused("torque = 20\n\n[tightening]", "\n[tightening]", &["`bolts[4].preload`", "nothing", "a preload in N, or a torque"]);
+    refused("torque = 20\n\n[tightening]", "torque = 20\npreload = 9000\n\n[tightening]", &["`bolts[4].preload`", "a torque beside it"]);
+    refused("nut_factor = 0.2\n",
         "nut_factor = 0.2\nthread = { friction = 0.1, head_friction = 0.1, head_diameter = 0.013, hole_diameter = 0.009 }\n",
-        &["`tightening.nut_factor`", "thread beside it"],
-    );
-    refused(
-        "x = 0.04\ny = 0.02",
-        "x = 0.06\ny = 0.02",
-        &["bolt 4", "goes beyond the edge"],
-    );
-    refused(
-        "thickness = [0.01, 0.01]",
-        "thickness = [0.01, 0.013]",
-        &["`pressure.thickness`", "a ratio of 1, 1.5 or 2"],
-    );
-    refused(
-        "thickness = [0.01, 0.01]\n",
-        "thickness = [0.01, 0.01]\nbending_moment = [0, 3000]\n",
-        &["bolt", "raise the preload or lower the moment"],
-    );
+        &["`tightening.nut_factor`", "thread beside it"]);
+    refused("x = 0.04\ny = 0.02", "x = 0.06\ny = 0.02", &["bolt 4", "goes beyond the edge"]);
+    refused("thickness = [0.01, 0.01]", "thickness = [0.01, 0.013]", &["`pressure.thickness`", "a ratio of 1, 1.5 or 2"]);
+    refused("thickness = [0.01, 0.01]\n", "thickness = [0.01, 0.01]\nbending_moment = [0, 3000]\n",
+        &["bolt", "raise the preload or lower the moment"]);
     refused("model = \"kavi\"\n", "", &["`pressure.model`", "uniform"]);
 }
 
@@ -180,42 +120,16 @@ fn tables_of_torques_that_cannot_be_are_refused() {
 }
 
 #[test]
+#[rustfmt::skip]
 fn joints_and_damping_that_cannot_be_are_refused() {
-    refused(
-        "rotation = \"-y\"",
-        "rotation = \"z\"",
-        &["`joint.rotation`", "the axis of the translation"],
-    );
-    refused(
-        "rotation = \"-y\"",
-        "rotation = \"w\"",
-        &["\"w\"", "\"x\", \"y\" or \"z\""],
-    );
-    refused(
-        "rotation = \"-y\"",
-        "rotation = \"-y\"\nreference = [0.1]",
-        &["`joint.reference`", "[x, y]"],
-    );
-    refused(
-        "frequency = 300",
-        "frequency = 0",
-        &["`damping.frequency`", "above zero"],
-    );
-    refused(
-        "frequency = 300",
-        "frequency = 300\nnormal = \"viscous\"",
-        &["`damping.mass`", "nothing", "√(M K_N)"],
-    );
-    refused(
-        "frequency = 300",
-        "frequency = 300\nmass = 3",
-        &["`damping.mass`", "viscous"],
-    );
-    refused(
-        "frequency = 300\n",
-        "frequency = 300\n[uncertainty]\ndraws = 1000\n",
-        &["`uncertainty`", "no value with a standard deviation"],
-    );
+    refused("rotation = \"-y\"", "rotation = \"z\"", &["`joint.rotation`", "the axis of the translation"]);
+    refused("rotation = \"-y\"", "rotation = \"w\"", &["\"w\"", "\"x\", \"y\" or \"z\""]);
+    refused("rotation = \"-y\"", "rotation = \"-y\"\nreference = [0.1]", &["`joint.reference`", "[x, y]"]);
+    refused("frequency = 300", "frequency = 0", &["`damping.frequency`", "above zero"]);
+    refused("frequency = 300", "frequency = 300\nnormal = \"viscous\"", &["`damping.mass`", "nothing", "√(M K_N)"]);
+    refused("frequency = 300", "frequency = 300\nmass = 3", &["`damping.mass`", "viscous"]);
+    refused("frequency = 300\n", "frequency = 300\n[uncertainty]\ndraws = 1000\n",
+        &["`uncertainty`", "no value with a standard deviation"]);
     let uncertain = replaced(STUDY, "= 1.42", "= \"1.42 ± 0.02\"");
     let none = uncertain.clone() + "[uncertainty]\ndraws = 1\n";
     bench(&none).refused(&PREDICT, &["`uncertainty.draws`", "from 2 to 1000000"]);
@@ -238,6 +152,7 @@ fn with_field(more: &str) -> String {
 }
 
 #[test]
+#[rustfmt::skip]
 fn fields_that_cannot_be_are_refused() {
     const FIELD: &str = "x_mm,y_mm,area_mm2,pressure_MPa\n0,0,100,2\n10,0,100,3\n20,0,100,1\n";
     let refused = |more: &str, field: &str, fragments: &[&str]| {
@@ -245,27 +160,11 @@ fn fields_that_cannot_be_are_refused() {
         bench.write("field.csv", field);
         bench.refused(&PREDICT, fragments);
     };
-    refused(
-        "",
-        &FIELD.replace(",3\n", ",-3\n"),
-        &["field.csv", "-3", "pressure"],
-    );
-    refused(
-        "",
-        &FIELD.replace("10,0,100", "10,0,0"),
-        &["field.csv", "area"],
-    );
+    refused("", &FIELD.replace(",3\n", ",-3\n"), &["field.csv", "-3", "pressure"]);
+    refused("", &FIELD.replace("10,0,100", "10,0,0"), &["field.csv", "area"]);
     refused("area = 0.06", FIELD, &["field.csv", "0.0003", "0.06"]);
-    refused(
-        "elements = [3, 1]",
-        FIELD,
-        &["`interface.field`", "elements"],
-    );
-    refused(
-        "\n[pressure]\nmodel = \"uniform\"",
-        FIELD,
-        &["`pressure.model`", "its own pressures"],
-    );
+    refused("elements = [3, 1]", FIELD, &["`interface.field`", "elements"]);
+    refused("\n[pressure]\nmodel = \"uniform\"", FIELD, &["`pressure.model`", "its own pressures"]);
     let bench = bench(&with_field("area = 0.0003"));
     bench.write("field.csv", FIELD);
     bench.done(&PREDICT);

@@ -48,124 +48,35 @@ fn the_study_with_two_bolts_is_right() {
 fn bolts_that_contradict_each_other_are_named() {
     let bench = beams();
     bench.write("a.toml", MODES);
-    for (from, to, fragments) in [
-        (
-            "bolts = \"alike\"",
-            "bolts = \"similar\"",
-            ["line 18", "expected `alike` or `different`"],
-        ),
-        (
-            "bolts = \"alike\"\n",
-            "",
-            [
-                "`joint.bolts`: found nothing for 2 bolts",
-                "\"alike\" for one joint at all of them",
-            ],
-        ),
-        (
-            TWO_ON_B,
-            ON_B,
-            ["`b.joint`: found 1 place", "expected 2 places, as on A"],
-        ),
-        (
-            TWO_ON_A,
-            ON_A,
-            [
-                "`joint.bolts`: found it for one bolt",
-                "lists of several places",
-            ],
-        ),
-        (
-            TWO_ON_B,
-            "joint = []",
-            [
-                "`b.joint`: found an empty list",
-                "the place of one bolt or more",
-            ],
-        ),
-        (
-            "{ name = \"right\", x = 0.045 }",
-            "{ x = 0.045 }",
-            [
-                "`b.joint`: found no name of place 2",
-                "such as name = \"left\"",
-            ],
-        ),
-        (
-            "{ name = \"right\", x = 0.045 }",
-            "{ name = \"middle\", x = 0.045 }",
-            [
-                "`b.joint`: found the names \"left\", \"middle\"",
-                "those on A, \"left\", \"right\"",
-            ],
-        ),
-        (
-            "{ name = \"right\", x = 0.045 }",
-            "{ name = \"Left\", x = 0.045 }",
-            [
-                "`b.joint`: found the names \"left\" and \"Left\"",
-                "a name of its own for every place",
-            ],
-        ),
-        (
-            "{ name = \"right\", x = 0.045 }",
-            "{ name = \"../right\", x = 0.045 }",
-            [
-                "`b.joint`: found the name \"../right\"",
-                "part of a file's name",
-            ],
-        ),
-        (
-            "x = 0.045",
-            "x = 0.015",
-            [
-                "`b.joint`: found x = 0.015 at \"left\" and at \"right\"",
-                "a place of its own",
-            ],
-        ),
-        (
-            "x = 0.045",
-            "x = 0.3",
-            ["`b.joint \"right\".x`: found 0.3", "from 0 to 0.2 m"],
-        ),
-        (
-            "{ name = \"right\", x = 0.045 }",
-            "{ name = \"right\", x = 0.045 }, { name = \"c\", x = 0.05 }, { name = \"d\", x = 0.06 }, { name = \"e\", x = 0.07 }",
-            ["`b.joint`: found 5 places", "expected 4 at most"],
-        ),
-        (
-            "y = \"4:+Y\", theta = { points = [\"5:+Y\", \"4:+Y\", \"3:+Y\"]",
-            "y = \"2:-Y\", theta = { points = [\"3:+Y\", \"2:-Y\", \"1:+Y\"]",
-            [
-                "`a.joint`: found 2:-Y at \"left\" and at \"right\"",
-                "a place of its own",
-            ],
-        ),
-        (
-            "y = \"4:+Y\", theta",
-            "y = \"5:+Y\", theta",
-            [
-                "`a.joint \"right\".theta.points`: found 4:+Y in the middle",
-                "expected the joint's own translation 5:+Y",
-            ],
-        ),
-        (
-            ", theta = { points = [\"5:+Y\", \"4:+Y\", \"3:+Y\"], spacing = 0.015 }",
-            "",
-            [
-                "`a.joint \"right\".theta`: found nothing",
-                "which joint model \"full\" needs",
-            ],
-        ),
-        (
-            "bolts = \"alike\"",
-            "bolts = \"different\"",
-            [
-                "`bodies`: found them with bolts that differ",
-                "with one joint only",
-            ],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("bolts = \"alike\"", "bolts = \"similar\"", ["line 18", "expected `alike` or `different`"]),
+        ("bolts = \"alike\"\n", "", ["`joint.bolts`: found nothing for 2 bolts", "\"alike\" for one joint at all of them"]),
+        (TWO_ON_B, ON_B, ["`b.joint`: found 1 place", "expected 2 places, as on A"]),
+        (TWO_ON_A, ON_A, ["`joint.bolts`: found it for one bolt", "lists of several places"]),
+        (TWO_ON_B, "joint = []", ["`b.joint`: found an empty list", "the place of one bolt or more"]),
+        ("{ name = \"right\", x = 0.045 }", "{ x = 0.045 }", ["`b.joint`: found no name of place 2", "such as name = \"left\""]),
+        ("{ name = \"right\", x = 0.045 }", "{ name = \"middle\", x = 0.045 }",
+         ["`b.joint`: found the names \"left\", \"middle\"", "those on A, \"left\", \"right\""]),
+        ("{ name = \"right\", x = 0.045 }", "{ name = \"Left\", x = 0.045 }",
+         ["`b.joint`: found the names \"left\" and \"Left\"", "a name of its own for every place"]),
+        ("{ name = \"right\", x = 0.045 }", "{ name = \"../right\", x = 0.045 }",
+         ["`b.joint`: found the name \"../right\"", "part of a file's name"]),
+        ("x = 0.045", "x = 0.015", ["`b.joint`: found x = 0.015 at \"left\" and at \"right\"", "a place of its own"]),
+        ("x = 0.045", "x = 0.3", ["`b.joint \"right\".x`: found 0.3", "from 0 to 0.2 m"]),
+        ("{ name = \"right\", x = 0.045 }",
+         "{ name = \"right\", x = 0.045 }, { name = \"c\", x = 0.05 }, { name = \"d\", x = 0.06 }, { name = \"e\", x = 0.07 }",
+         ["`b.joint`: found 5 places", "expected 4 at most"]),
+        ("y = \"4:+Y\", theta = { points = [\"5:+Y\", \"4:+Y\", \"3:+Y\"]",
+         "y = \"2:-Y\", theta = { points = [\"3:+Y\", \"2:-Y\", \"1:+Y\"]",
+         ["`a.joint`: found 2:-Y at \"left\" and at \"right\"", "a place of its own"]),
+        ("y = \"4:+Y\", theta", "y = \"5:+Y\", theta",
+         ["`a.joint \"right\".theta.points`: found 4:+Y in the middle", "expected the joint's own translation 5:+Y"]),
+        (", theta = { points = [\"5:+Y\", \"4:+Y\", \"3:+Y\"], spacing = 0.015 }", "",
+         ["`a.joint \"right\".theta`: found nothing", "which joint model \"full\" needs"]),
+        ("bolts = \"alike\"", "bolts = \"different\"", ["`bodies`: found them with bolts that differ", "with one joint only"]),
+    ];
+    for (from, to, fragments) in cases {
         bench.write("study.toml", replaced(&two_bolts(), from, to));
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
@@ -194,34 +105,14 @@ fn bolts_that_contradict_each_other_are_named() {
 #[test]
 fn a_presumed_joint_that_cannot_be_is_refused() {
     let bench = beams();
-    for (stiffness, damping, fragments) in [
-        (
-            "[[1e5]]",
-            "[[1, 0], [0, 1]]",
-            [
-                "`start.stiffness`: found rows of [1] entries",
-                "expected 2 by 2",
-            ],
-        ),
-        (
-            "[[1, 2], [3, 4]]",
-            "[[1, 0], [0, 1]]",
-            [
-                "`start.stiffness`: found 2 and 3 off the diagonal",
-                "symmetric",
-            ],
-        ),
-        (
-            "[[1, 0], [0, 1]]",
-            "[[1, 0], [0, -1]]",
-            ["`start.damping`: found -1 on the diagonal", "not negative"],
-        ),
-        (
-            "[[1, 0], [0, nan]]",
-            "[[1, 0], [0, 1]]",
-            ["`start.stiffness`: found NaN", "finite"],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("[[1e5]]", "[[1, 0], [0, 1]]", ["`start.stiffness`: found rows of [1] entries", "expected 2 by 2"]),
+        ("[[1, 2], [3, 4]]", "[[1, 0], [0, 1]]", ["`start.stiffness`: found 2 and 3 off the diagonal", "symmetric"]),
+        ("[[1, 0], [0, 1]]", "[[1, 0], [0, -1]]", ["`start.damping`: found -1 on the diagonal", "not negative"]),
+        ("[[1, 0], [0, nan]]", "[[1, 0], [0, 1]]", ["`start.stiffness`: found NaN", "finite"]),
+    ];
+    for (stiffness, damping, fragments) in cases {
         let start = format!("[start]\nstiffness = {stiffness}\ndamping = {damping}\n[bodies]");
         bench.write("study.toml", replaced(BEAMS, "[bodies]", &start));
         let [one, two] = fragments;

@@ -63,36 +63,17 @@ fn what_is_no_study_is_said_to_be_none() {
         &["identify", "missing.toml", "-o", "o.joint.json"],
         &["missing.toml: cannot be read", "check the path"],
     );
-    for (contents, fragments) in [
-        (
-            b"".as_slice(),
-            ["found an empty file", "expected a study (TOML)"],
-        ),
-        (
-            b" \n\t\n",
-            ["found an empty file", "expected a study (TOML)"],
-        ),
-        (
-            PNG,
-            ["found binary data (byte 0)", "expected a study (TOML)"],
-        ),
-        (
-            b"method = \"frf\0\"",
-            ["found binary data (byte 13)", "UTF-8"],
-        ),
-        (
-            BEAMS.split_at(cut).0.as_bytes(),
-            ["line 7, column", "expected `}`"],
-        ),
-        (
-            b"{ \"method\": 1 }",
-            ["line 1, column 1", "{ \"method\": 1 }"],
-        ),
-        (
-            b"method = 1\nmethod = 2\n",
-            ["line 2, column 1", "duplicate key"],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (b"".as_slice(), ["found an empty file", "expected a study (TOML)"]),
+        (b" \n\t\n", ["found an empty file", "expected a study (TOML)"]),
+        (PNG, ["found binary data (byte 0)", "expected a study (TOML)"]),
+        (b"method = \"frf\0\"", ["found binary data (byte 13)", "UTF-8"]),
+        (BEAMS.split_at(cut).0.as_bytes(), ["line 7, column", "expected `}`"]),
+        (b"{ \"method\": 1 }", ["line 1, column 1", "{ \"method\": 1 }"]),
+        (b"method = 1\nmethod = 2\n", ["line 2, column 1", "duplicate key"]),
+    ];
+    for (contents, fragments) in cases {
         bench.write("study.toml", contents);
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
@@ -102,65 +83,23 @@ fn what_is_no_study_is_said_to_be_none() {
 #[test]
 fn keys_that_do_not_belong_are_named_with_their_line() {
     let bench = beams();
-    for (from, to, fragments) in [
-        (
-            "name =",
-            "nmae =",
-            ["line 2, column 1", "unknown field `nmae`"],
-        ),
-        (
-            "modal =",
-            "modes =",
-            ["line 4, column 1", "unknown field `modes`"],
-        ),
-        (
-            "spacing =",
-            "spacng =",
-            ["line 5, column", "unknown field `spacng`"],
-        ),
-        (
-            "length =",
-            "lenght =",
-            ["line 7, column", "unknown field `lenght`"],
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("name =", "nmae =", ["line 2, column 1", "unknown field `nmae`"]),
+        ("modal =", "modes =", ["line 4, column 1", "unknown field `modes`"]),
+        ("spacing =", "spacng =", ["line 5, column", "unknown field `spacng`"]),
+        ("length =", "lenght =", ["line 7, column", "unknown field `lenght`"]),
         ("{ x =", "{ z =", ["line 8, column", "unknown field `z`"]),
-        (
-            "[assembly]",
-            "[assembled]",
-            ["line 10, column", "unknown field `assembled`"],
-        ),
-        (
-            "frf =",
-            "uff =",
-            ["line 11, column 1", "unknown field `uff`"],
-        ),
-        (
-            "model =",
-            "kind =",
-            ["line 14, column 1", "unknown field `kind`"],
-        ),
-        (
-            "from =",
-            "form =",
-            ["line 16, column 1", "unknown field `form`"],
-        ),
+        ("[assembly]", "[assembled]", ["line 10, column", "unknown field `assembled`"]),
+        ("frf =", "uff =", ["line 11, column 1", "unknown field `uff`"]),
+        ("model =", "kind =", ["line 14, column 1", "unknown field `kind`"]),
+        ("from =", "form =", ["line 16, column 1", "unknown field `form`"]),
         ("yy =", "xx =", ["line 19, column 1", "unknown field `xx`"]),
-        (
-            "relative =",
-            "sigma =",
-            ["line 21, column 1", "unknown field `sigma`"],
-        ),
-        (
-            "a = { inertia",
-            "c = { inertia",
-            ["line 23, column 1", "unknown field `c`"],
-        ),
-        (
-            "a = { inertia",
-            "a = { mass",
-            ["line 23, column", "unknown field `mass`"],
-        ),
-    ] {
+        ("relative =", "sigma =", ["line 21, column 1", "unknown field `sigma`"]),
+        ("a = { inertia", "c = { inertia", ["line 23, column 1", "unknown field `c`"]),
+        ("a = { inertia", "a = { mass", ["line 23, column", "unknown field `mass`"]),
+    ];
+    for (from, to, fragments) in cases {
         bench.write("study.toml", replaced(BEAMS, from, to));
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["study.toml: ", one, two, "expected"]);
@@ -170,95 +109,30 @@ fn keys_that_do_not_belong_are_named_with_their_line() {
 #[test]
 fn missing_keys_and_wrong_types_are_named_with_their_line() {
     let bench = beams();
-    for (from, to, fragments) in [
+    #[rustfmt::skip]
+    let cases = [
         ("name = \"beams\"\n", "", ["line 1", "missing field `name`"]),
-        (
-            "[joint]\nmodel = \"full\"\n",
-            "",
-            ["line 1", "missing field `joint`"],
-        ),
-        (
-            "model = \"full\"\n",
-            "",
-            ["line 13", "missing field `model`"],
-        ),
+        ("[joint]\nmodel = \"full\"\n", "", ["line 1", "missing field `joint`"]),
+        ("model = \"full\"\n", "", ["line 13", "missing field `model`"]),
         ("frf = \"c.uff\"\n", "", ["line 10", "missing field `frf`"]),
-        (
-            ", spacing = 0.015",
-            "",
-            ["line 5", "missing field `spacing`"],
-        ),
-        (
-            "density = 2700, ",
-            "",
-            ["line 7", "missing field `density`"],
-        ),
-        (
-            "name = \"beams\"",
-            "name = 3",
-            ["line 2, column 8", "expected a string"],
-        ),
-        (
-            "length = 0.2",
-            "length = \"0.2\"",
-            ["line 7", "expected f64"],
-        ),
+        (", spacing = 0.015", "", ["line 5", "missing field `spacing`"]),
+        ("density = 2700, ", "", ["line 7", "missing field `density`"]),
+        ("name = \"beams\"", "name = 3", ["line 2, column 8", "expected a string"]),
+        ("length = 0.2", "length = \"0.2\"", ["line 7", "expected f64"]),
         ("from = 5", "from = \"5 Hz\"", ["line 16", "\"5 Hz\""]),
-        (
-            "[[50, 60]]",
-            "[50, 60]",
-            ["line 19", "expected an array of length 2"],
-        ),
-        (
-            "[[50, 60]]",
-            "\"mean\"",
-            ["line 19", "expected \"automatic\" or \"median\""],
-        ),
-        (
-            "[bands]\nyy = [[50, 60]]\n",
-            "[start]\nstiffness = [[1]]\n",
-            ["line 18", "missing field `damping`"],
-        ),
-        (
-            "[0, 0, 0.01] }",
-            "\"low\" }",
-            ["line 7", "expected a number or a list of numbers"],
-        ),
-        (
-            "\"frf-decoupling\"",
-            "\"guess\"",
-            ["line 1, column 10", "`frf-decoupling`"],
-        ),
-        (
-            "\"full\"",
-            "\"cross\"",
-            [
-                "line 14, column 9",
-                "expected one of `translation`, `diagonal`, `full`",
-            ],
-        ),
+        ("[[50, 60]]", "[50, 60]", ["line 19", "expected an array of length 2"]),
+        ("[[50, 60]]", "\"mean\"", ["line 19", "expected \"automatic\" or \"median\""]),
+        ("[bands]\nyy = [[50, 60]]\n", "[start]\nstiffness = [[1]]\n", ["line 18", "missing field `damping`"]),
+        ("[0, 0, 0.01] }", "\"low\" }", ["line 7", "expected a number or a list of numbers"]),
+        ("\"frf-decoupling\"", "\"guess\"", ["line 1, column 10", "`frf-decoupling`"]),
+        ("\"full\"", "\"cross\"", ["line 14, column 9", "expected one of `translation`, `diagonal`, `full`"]),
         ("\"free-free\"", "\"free\"", ["line 7", "`fixed-free`"]),
-        (
-            "y = \"2:+Y\"",
-            "y = \"2+Y\"",
-            ["line 5", "such as \"11:+Y\""],
-        ),
-        (
-            "points = [\"21:+Y\"",
-            "points = [\"21:+W\"",
-            ["line 12", "X, Y, Z, RX, RY or RZ"],
-        ),
-        (
-            "\"21:+Y\" = 0.17",
-            "\"x\" = 0.17",
-            ["line 9", "NODE:DIRECTION"],
-        ),
-        (
-            "[\"3:+Y\", \"2:+Y\", \"1:+Y\"]",
-            "[\"3:+Y\", \"1:+Y\"]",
-            ["a.joint.theta.points", "expected three points"],
-        ),
-    ] {
+        ("y = \"2:+Y\"", "y = \"2+Y\"", ["line 5", "such as \"11:+Y\""]),
+        ("points = [\"21:+Y\"", "points = [\"21:+W\"", ["line 12", "X, Y, Z, RX, RY or RZ"]),
+        ("\"21:+Y\" = 0.17", "\"x\" = 0.17", ["line 9", "NODE:DIRECTION"]),
+        ("[\"3:+Y\", \"2:+Y\", \"1:+Y\"]", "[\"3:+Y\", \"1:+Y\"]", ["a.joint.theta.points", "expected three points"]),
+    ];
+    for (from, to, fragments) in cases {
         bench.write("study.toml", replaced(BEAMS, from, to));
         let [one, two] = fragments;
         bench.refused(&IDENTIFY, &["study.toml: ", one, two]);

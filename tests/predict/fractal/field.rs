@@ -1,6 +1,6 @@
 //! Contacts over a whole field.
 
-use bolted_joint::predict::fractal::FractalError;
+use bolted_joint::predict::ContactError;
 use bolted_joint::predict::pressure::{Element, PressureField};
 
 use super::{Numbers, ZHAO};
@@ -37,7 +37,7 @@ fn each_element_is_as_if_alone() {
 fn the_element_outside_the_model_is_named() {
     let contact = ZHAO.contact();
     let error = contact.over(&field(&[1e6, 2e6, 3e9, 4e9])).unwrap_err();
-    let FractalError::Element {
+    let ContactError::Element {
         number,
         x_m,
         y_m,
@@ -47,7 +47,7 @@ fn the_element_outside_the_model_is_named() {
         panic!("{error}");
     };
     assert_eq!((*number, *x_m, *y_m), (3, 0.02, -0.5));
-    assert!(matches!(**reason, FractalError::BeyondHardness { .. }));
+    assert!(matches!(**reason, ContactError::BeyondHardness { .. }));
     let text = error.to_string();
     assert!(
         text.contains("element 3") && text.contains("3000000000 Pa"),

@@ -7,7 +7,8 @@ mod published;
 mod quadrature;
 mod refusals;
 
-use bolted_joint::predict::fractal::{FractalContact, FractalError, Friction};
+use bolted_joint::predict::ContactError;
+use bolted_joint::predict::fractal::{FractalContact, Friction};
 use bolted_joint::predict::surface::Roughness;
 use bolted_joint::predict::{Material, Pair};
 
@@ -45,7 +46,7 @@ impl Numbers {
         }
     }
 
-    pub(crate) fn try_contact(&self) -> Result<FractalContact, FractalError> {
+    pub(crate) fn try_contact(&self) -> Result<FractalContact, ContactError> {
         let friction = Friction {
             coefficient: self.friction,
             shear_strength_pa: self.shear_pa,

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use bolted_joint::predict::fractal::{FractalContact, FractalError, PerArea, Regime};
+use bolted_joint::predict::ContactError;
+use bolted_joint::predict::fractal::{FractalContact, PerArea, Regime};
 use proptest::prelude::*;
 
 use super::{Numbers, relative};
@@ -219,7 +220,7 @@ fn inside(contact: &FractalContact, numbers: &Numbers, log_ratio: f64) -> Option
     }
     match contact.at(pressure) {
         Ok(found) => Some(found),
-        Err(FractalError::RealArea { .. } | FractalError::FrictionRatio { .. }) => None,
+        Err(ContactError::RealArea { .. } | ContactError::FrictionRatio { .. }) => None,
         Err(other) => panic!("{other}"),
     }
 }

@@ -107,16 +107,12 @@ fn the_document_is_what_the_command_writes() {
 
 #[test]
 fn kavi_stands_alone() {
-    for (arguments, expected) in [
-        (
-            ["reproduce", "kavi", "4.6"].as_slice(),
-            "kavi: found 1 tables beside it",
-        ),
-        (
-            ["reproduce", "pirdayr", "--figure", "x.svg"].as_slice(),
-            "--figure",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (["reproduce", "kavi", "4.6"].as_slice(), "kavi: found 1 tables beside it"),
+        (["reproduce", "pirdayr", "--figure", "x.svg"].as_slice(), "--figure"),
+    ];
+    for (arguments, expected) in cases {
         let output = run(arguments, Path::new("."));
         assert_eq!(output.status.code(), Some(1));
         let message = String::from_utf8_lossy(&output.stderr).into_owned();

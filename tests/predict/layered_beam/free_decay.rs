@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 use std::num::NonZeroU32;
 use std::path::Path;
 
-use bolted_joint::predict::layered_beam::{Outcome, Study};
+use bolted_joint::predict::layered_beam::{LayeredBeamStudy, Outcome};
+use bolted_joint::study::StudyText;
 use bolted_joint_dynamics::{LapIntegrator, LapLoads, LapState, Motion};
 
 use super::close;
@@ -12,7 +13,7 @@ use super::close;
 const STEPS_PER_PERIOD: u32 = 400;
 
 fn outcome(text: &str) -> Outcome {
-    Study::from_toml(text, Path::new("decay.toml"))
+    LayeredBeamStudy::of(&StudyText::new(text, Path::new("decay.toml")))
         .unwrap()
         .run()
         .unwrap()

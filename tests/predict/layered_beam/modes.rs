@@ -11,40 +11,14 @@ fn boundary(name: &str) -> Boundary {
 
 #[test]
 fn roots_are_those_of_the_textbooks() {
-    for (boundary, expected) in [
-        (
-            Boundary::FixedFixed,
-            [
-                4.730_040_744_862_704,
-                7.853_204_624_095_838,
-                10.995_607_838_001_67,
-            ],
-        ),
-        (
-            Boundary::FixedFree,
-            [
-                1.875_104_068_711_961,
-                4.694_091_132_974_175,
-                7.854_757_438_237_613,
-            ],
-        ),
-        (
-            Boundary::FixedPinned,
-            [
-                3.926_602_312_047_919,
-                7.068_582_745_628_732,
-                10.210_176_122_813_03,
-            ],
-        ),
-        (
-            Boundary::PinnedPinned,
-            [
-                std::f64::consts::PI,
-                2.0 * std::f64::consts::PI,
-                3.0 * std::f64::consts::PI,
-            ],
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (Boundary::FixedFixed, [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_67]),
+        (Boundary::FixedFree, [1.875_104_068_711_961, 4.694_091_132_974_175, 7.854_757_438_237_613]),
+        (Boundary::FixedPinned, [3.926_602_312_047_919, 7.068_582_745_628_732, 10.210_176_122_813_03]),
+        (Boundary::PinnedPinned, [std::f64::consts::PI, 2.0 * std::f64::consts::PI, 3.0 * std::f64::consts::PI]),
+    ];
+    for (boundary, expected) in cases {
         for (mode, expected) in (1..).zip(expected) {
             close(root(boundary, mode), expected, 4.0 * f64::EPSILON);
         }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use bolted_joint::joint::JointFile;
-use bolted_joint::predict::layered_beam::{Friction, Outcome, Study};
+use bolted_joint::predict::layered_beam::{Friction, LayeredBeamStudy, Outcome};
+use bolted_joint::study::StudyText;
 
 use super::close;
 
@@ -41,7 +42,7 @@ route = "finite-elements"
 "#;
 
 pub(crate) fn run(text: &str) -> Outcome {
-    Study::from_toml(text, Path::new("study.toml"))
+    LayeredBeamStudy::of(&StudyText::new(text, Path::new("study.toml")))
         .unwrap()
         .run()
         .unwrap()
@@ -141,7 +142,7 @@ diameter = 0.004
 count = 5
 "#;
     let text = STUDY.replace("[friction]\nalpha_mu = 0.0021\n", measured);
-    let study = Study::from_toml(&text, Path::new("study.toml")).unwrap();
+    let study = LayeredBeamStudy::of(&StudyText::new(text, Path::new("study.toml"))).unwrap();
     assert!(matches!(study.friction, Friction::Calibrated(_)));
     let found = study.run().unwrap();
     // the same beam with this α′μ has the measured damping
@@ -265,7 +266,7 @@ fn a_table_over_the_preload_has_its_scatter() {
 #[test]
 fn the_example_runs() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/kavi-layered-beam/study.toml");
-    let found = Study::read(&path).unwrap().run().unwrap();
+    let found = LayeredBeamStudy::read(&path).unwrap().run().unwrap();
     close(
         found.modes[0].frequency_hz,
         found.modes[0].finite_element_frequency_hz,

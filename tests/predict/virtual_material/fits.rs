@@ -1,8 +1,7 @@
 //! Surfaces from layers.
 
-use bolted_joint::predict::virtual_material::{
-    FitError, Loading, Magnitudes, Moduli, Observation, fit,
-};
+use bolted_joint::predict::ContactError;
+use bolted_joint::predict::virtual_material::{Loading, Magnitudes, Moduli, Observation, fit};
 use bolted_joint::predict::{Material, Pair};
 use proptest::prelude::*;
 
@@ -107,14 +106,14 @@ fn layers_that_say_too_little() {
     let error = fit(one, &pair(), HARDNESS_PA, 0.0, Magnitudes::Free).unwrap_err();
     assert!(matches!(
         error,
-        FitError::TooFew {
+        ContactError::TooFewLayers {
             found: 1,
             unknowns: 4,
             expected: 2
         }
     ));
     let error = fit(&[], &pair(), HARDNESS_PA, 0.0, Magnitudes::Stated).unwrap_err();
-    assert!(matches!(error, FitError::TooFew { .. }));
+    assert!(matches!(error, ContactError::TooFewLayers { .. }));
     let mut bad = table_1();
     bad[1].moduli.shear_modulus_pa = -1.0;
     let error = fit(&bad, &pair(), HARDNESS_PA, 0.0, Magnitudes::Stated).unwrap_err();

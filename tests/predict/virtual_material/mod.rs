@@ -6,8 +6,9 @@ mod fits;
 mod joints;
 mod refusals;
 
+use bolted_joint::predict::ContactError;
 use bolted_joint::predict::surface::Roughness;
-use bolted_joint::predict::virtual_material::{LayerContact, VirtualMaterialError};
+use bolted_joint::predict::virtual_material::LayerContact;
 use bolted_joint::predict::{Material, Pair};
 
 /// Steel on grey cast iron, as in `layer_references.py`.
@@ -25,7 +26,7 @@ pub(crate) fn try_contact(
     dimension: f64,
     roughness_m: f64,
     hardness_pa: f64,
-) -> Result<LayerContact, VirtualMaterialError> {
+) -> Result<LayerContact, ContactError> {
     let roughness = Roughness::new(dimension, roughness_m).unwrap();
     LayerContact::new(&pair(), roughness, hardness_pa, FRICTION_RATIO)
 }

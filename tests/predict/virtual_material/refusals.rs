@@ -1,9 +1,8 @@
 //! What no layer can stand for.
 
+use bolted_joint::predict::ContactError;
 use bolted_joint::predict::surface::Roughness;
-use bolted_joint::predict::virtual_material::{
-    LayerContact, Layers, Loading, VirtualMaterial, VirtualMaterialError,
-};
+use bolted_joint::predict::virtual_material::{LayerContact, Layers, Loading, VirtualMaterial};
 
 use super::{HARDNESS_PA, contact, pair, try_contact};
 
@@ -18,18 +17,18 @@ fn contacts_that_are_all_plastic() {
     let [load, area] = [contact.critical_load_n(), contact.critical_real_area_m2()];
     for loading in [Loading::Force(load), Loading::RealArea(0.5 * area)] {
         let error = contact.moduli(loading).unwrap_err();
-        assert!(matches!(
-            error,
-            VirtualMaterialError::NoElasticContact { .. }
-        ));
+        assert!(matches!(error, ContactError::NoElasticContact { .. }));
         assert!(error.to_string().contains("A_t > A_rc"));
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = contact.moduli(Loading::Force(bad)).unwrap_err();
-        assert!(matches!(error, VirtualMaterialError::Loading { .. }));
+        assert!(
+            error.to_string().starts_with("the normal load is"),
+            "{error}"
+        );
     }
     let error = contact.moduli(Loading::RealArea(1e200)).unwrap_err();
-    assert!(matches!(error, VirtualMaterialError::Overflow(_)));
+    assert!(matches!(error, ContactError::Overflow(_)));
 }
 
 #[test]
@@ -37,14 +36,14 @@ fn friction_that_is_used_up() {
     let roughness = Roughness::new(1.42, 1e-9).unwrap();
     for bad in [1.0, 1.5, -0.1, f64::NAN] {
         let error = LayerContact::new(&pair(), roughness, HARDNESS_PA, bad).unwrap_err();
-        assert!(matches!(error, VirtualMaterialError::FrictionRatio(_)));
+        assert!(matches!(error, ContactError::LayerSlips(_)));
     }
     for bad in [0.0, -1.0, f64::NAN] {
         let error = try_contact(1.42, 1e-9, bad).unwrap_err();
-        assert!(matches!(error, VirtualMaterialError::Hardness(_)));
+        assert!(error.to_string().starts_with("the hardness is"), "{error}");
     }
     let error = try_contact(1.001, 1e-9, HARDNESS_PA).unwrap_err();
-    assert!(matches!(error, VirtualMaterialError::CriticalArea { .. }));
+    assert!(matches!(error, ContactError::CriticalArea { .. }));
 }
 
 /// Metals of ordinary hardness have no such layer that is isotropic.
@@ -53,7 +52,7 @@ fn poissons_ratios_that_no_material_has() {
     let contact = contact(1.42, 1.21e-8);
     let loading = Loading::Force(2.0 * contact.critical_load_n());
     let error = VirtualMaterial::new(&contact, loading, &LAYERS).unwrap_err();
-    let VirtualMaterialError::PoissonsRatio { found, .. } = error else {
+    let ContactError::PoissonsRatio { found, .. } = error else {
         panic!("{error}");
     };
     assert!(found > 0.5);

@@ -7,15 +7,10 @@ use thiserror::Error;
 /// A matrix of receptances or complex stiffnesses at one frequency.
 pub type ComplexMatrix = DMatrix<Complex64>;
 
-/// Why an assembly cannot be computed.
-#[derive(Debug, Error, PartialEq)]
-pub enum CouplingError {
-    /// I + K*(H_jj + H_kk) is singular: the undamped assembly resonates exactly at this line.
-    #[error(
-        "the assembly resonates without damping at this line; add damping or leave the line out"
-    )]
-    Singular,
-}
+/// I + K*(H_jj + H_kk) is singular: the undamped assembly resonates exactly at this line.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("the assembly resonates without damping at this line; add damping or leave the line out")]
+pub struct SingularAssembly;
 
 /// Receptances of one substructure at one frequency, split into joint DOFs and the other points.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,26 +60,26 @@ impl Partition {
 /// Computed as (I + K*(H_jj + H_kk))⁻¹ K*, which needs no inverse of the joint: K* may be singular or zero.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance of the assembly.
+/// [`SingularAssembly`] at an undamped resonance of the assembly.
 pub fn transmission(
     a: &ComplexMatrix,
     b: &ComplexMatrix,
     joint: &ComplexMatrix,
-) -> Result<ComplexMatrix, CouplingError> {
+) -> Result<ComplexMatrix, SingularAssembly> {
     let size = joint.nrows();
     let loop_gain = ComplexMatrix::identity(size, size) + joint * (a + b);
-    loop_gain.lu().solve(joint).ok_or(CouplingError::Singular)
+    loop_gain.lu().solve(joint).ok_or(SingularAssembly)
 }
 
 /// Receptances of the assembly of A and B through a joint of complex stiffness K* = K + jωC.
 ///
 /// # Errors
-/// [`CouplingError::Singular`] at an undamped resonance of the assembly.
+/// [`SingularAssembly`] at an undamped resonance of the assembly.
 pub fn couple(
     a: &Partition,
     b: &Partition,
     joint: &ComplexMatrix,
-) -> Result<Assembly, CouplingError> {
+) -> Result<Assembly, SingularAssembly> {
     let z_inverse = transmission(&a.joint, &b.joint, joint)?;
     Ok(Assembly {
         // H^C_rr = H_rr − H_rj Z⁻¹ H_jr   (Tol 3.12)

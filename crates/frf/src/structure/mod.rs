@@ -2,12 +2,14 @@
 
 mod beam;
 mod coupling;
+mod error;
 mod modal;
 mod rotation;
 mod spatial;
 
-pub use beam::{Beam, BeamError, BeamModes, BeamPoint, Boundary, Damping, Motion};
-pub use coupling::{Assembly, ComplexMatrix, CouplingError, Partition, couple, transmission};
-pub use modal::{ModalError, ModalModel};
+pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, Motion};
+pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple, transmission};
+pub use error::StructureError;
+pub use modal::ModalModel;
 pub use rotation::{Difference, FiniteDifference, Order};
-pub use spatial::{Modes, SpatialError, SpatialModel};
+pub use spatial::{Modes, SpatialModel};

@@ -15,7 +15,10 @@ use super::axis::Axis;
 use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
 use super::reader::{Reader, in_file};
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{Beam, BeamError, BeamPoint, ComplexMatrix, ModalModel, Motion};
+use bolted_joint_frf::structure::{
+    Beam, BeamPoint, ComplexMatrix, ModalModel, Motion, StructureError,
+};
+use bolted_joint_study::StudyError;
 
 /// Lines without the assembly: what A and B contribute.
 pub(super) fn substructures(
@@ -53,13 +56,9 @@ fn joint_and_points(
             positions_m,
         } => {
             let dofs = beam_dofs(dofs_of_a_bolt, joints_m, points, positions_m);
-            let receptances =
-                beam_receptances(beam, &dofs, axis).map_err(|source| IdentifyError::Beam {
-                    path: study.path.clone(),
-                    key,
-                    source,
-                })?;
-            Ok(Receptances::Exact(receptances))
+            let receptances = beam_receptances(beam, &dofs, axis);
+            let refused = |source| StudyError::model(&study.path, Some(key), source);
+            Ok(Receptances::Exact(receptances.map_err(refused)?))
         }
         Substructure::Measured { source, joints } => {
             let motions = Motions::new(joints, dofs_of_a_bolt, points);
@@ -175,7 +174,7 @@ fn beam_receptances(
     beam: &Beam,
     dofs: &[(BeamPoint, f64)],
     axis: &Axis<'_>,
-) -> Result<Vec<ComplexMatrix>, BeamError> {
+) -> Result<Vec<ComplexMatrix>, StructureError> {
     let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
     let mut receptances = beam.receptances(&points, axis.frequency_hz)?;
     for receptance in &mut receptances {

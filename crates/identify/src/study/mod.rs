@@ -6,10 +6,10 @@ mod tables;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use bolted_joint_files::text_file;
 use bolted_joint_frf::structure::{Beam, FiniteDifference};
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_joint::Bodies;
+use bolted_joint_study::{Method, StudyText};
 
 use super::band_choice;
 use super::bands::{BandChoices, Bands};
@@ -20,7 +20,6 @@ use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::Noise;
 use super::torque::TorqueDependence;
-use check::Checker;
 use tables::StudyFile;
 
 /// A validated study of method `frf-decoupling`.
@@ -216,7 +215,7 @@ impl Study {
     /// Bands that the study gives stay.
     ///
     /// # Errors
-    /// [`IdentifyError::Coupling`] at an undamped resonance.
+    /// [`IdentifyError::Singular`] at an undamped resonance.
     pub fn choose_bands(
         &self,
         lines: &Lines,
@@ -261,13 +260,13 @@ impl Study {
             self.model.dofs()
         }
     }
+
     /// Reads and checks a study. Paths in it are relative to its own folder.
     ///
     /// # Errors
     /// [`IdentifyError`] that names the file and the key or line.
     pub fn read(path: &Path) -> Result<Self, IdentifyError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        Self::from_toml(&text, path)
+        Self::of(&StudyText::read(path)?)
     }
 
     /// A study from the text of its file; `path` tells where that lies.
@@ -275,71 +274,73 @@ impl Study {
     /// # Errors
     /// [`IdentifyError`] that names the file and the key or line.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, IdentifyError> {
-        let file: StudyFile = toml::from_str(text).map_err(|error| IdentifyError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        let check = Checker { path };
-        check.method(file.method)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::of(&StudyText::new(text, path))
+    }
+
+    /// A study from its text.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] that names the file and the key or line.
+    pub fn of(study: &StudyText) -> Result<Self, IdentifyError> {
+        let file: StudyFile = study.tables()?;
+        study.check_method(file.method, &[Method::FrfDecoupling])?;
         let model = file.joint.model;
-        let bolts = check.bolts(&file.a.joint.0, file.joint.bolts)?;
-        let a = check.substructure("a", file.a, folder, model, &bolts)?;
-        let b = check.substructure("b", file.b, folder, model, &bolts)?;
-        check.name(&file.name)?;
-        check.at_least_one(&file.assembly.0)?;
+        let bolts = check::bolts(study, &file.a.joint, file.joint.bolts)?;
+        let a = check::substructure(study, "a", file.a, model, &bolts)?;
+        let b = check::substructure(study, "b", file.b, model, &bolts)?;
+        study.check_name("name", &file.name)?;
+        study.ensure(
+            !file.assembly.is_empty(),
+            "assembly",
+            "an empty list",
+            "one [[assembly]] or more",
+        )?;
         let mut assemblies = Vec::new();
-        for table in file.assembly.0 {
+        for table in file.assembly {
             let own = |key, table: Option<_>, otherwise: &Substructure| match table {
-                Some(table) => check.substructure(key, table, folder, model, &bolts),
+                Some(table) => check::substructure(study, key, table, model, &bolts),
                 None => Ok(otherwise.clone()),
             };
             let measured_in = |path: PathBuf| {
                 let (units, averages) = (table.units.as_ref(), table.averages);
-                check.frf_file(
-                    "assembly",
-                    folder.join(path),
-                    table.quantity,
-                    units,
-                    averages,
-                )
+                check::frf_file(study, "assembly", &path, table.quantity, units, averages)
             };
             let assembly = FurtherAssembly {
                 file: measured_in(table.frf)?,
-                points: check.points(table.points)?,
+                points: check::points(study, table.points)?,
                 repeats: table
                     .repeats
                     .into_iter()
                     .map(measured_in)
                     .collect::<Result<_, _>>()?,
-                torque_n_m: check.torque(table.torque)?,
-                level: check.level(table.level.as_ref())?,
+                torque_n_m: check::torque(study, table.torque)?,
+                level: check::level(study, table.level.as_ref())?,
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
             };
             if let Substructure::Beam { positions_m, .. } = &assembly.b {
-                check.points_on_beam(&assembly.points, positions_m)?;
+                check::points_on_beam(study, &assembly.points, positions_m)?;
             }
             assemblies.push(assembly);
         }
-        check.torques(file.joint.torques, &assemblies)?;
+        check::torques(study, file.joint.torques, &assemblies)?;
         let first = assemblies.remove(0);
-        let frequency_range_hz = check.frequency_range(&file.frequency)?;
-        check.bands(&file.bands.0)?;
+        let frequency_range_hz = study.frequency_range_hz(&file.frequency)?;
+        check::bands(study, &file.bands.0)?;
         let noise = file
             .noise
-            .map(|table| check.noise(&table))
+            .map(|table| check::noise(study, &table))
             .transpose()?
             .unwrap_or_default();
         let start = file
             .start
-            .map(|table| check.start(&table, model))
+            .map(|table| check::start(study, &table, model))
             .transpose()?;
         if let Some(bodies) = &file.bodies {
-            check.bodies(bodies, model.dofs(), &bolts)?;
+            check::bodies(study, bodies, model.dofs(), &bolts)?;
         }
         Ok(Self {
-            path: path.to_owned(),
+            path: study.path().to_owned(),
             name: file.name,
             a: first.a,
             b: first.b,

@@ -11,21 +11,22 @@ use serde::{Deserialize, Deserializer};
 use bolted_joint_frf::structure::{Boundary, Difference};
 use bolted_joint_frf::{Dof, Quantity};
 use bolted_joint_joint::Bodies;
+use bolted_joint_study::{FrequencyTable, Method, OneOrMore, one_or_more_tables};
 
 use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
 use super::super::torque::TorqueDependence;
-use crate::StudyMethod;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
-    pub(super) method: StudyMethod,
+    pub(super) method: Method,
     pub(super) name: String,
     pub(super) a: SubstructureTable,
     pub(super) b: SubstructureTable,
-    pub(super) assembly: AssemblyTables,
+    #[serde(deserialize_with = "assemblies")]
+    pub(super) assembly: Vec<AssemblyTable>,
     pub(super) joint: JointTable,
     #[serde(default)]
     pub(super) frequency: FrequencyTable,
@@ -47,7 +48,8 @@ pub(super) struct SubstructureTable {
     pub(super) averages: Option<f64>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
-    pub(super) joint: JointPlaces,
+    #[serde(deserialize_with = "places")]
+    pub(super) joint: Vec<JointPlaceTable>,
     #[serde(default)]
     pub(super) points: BTreeMap<Dof, f64>,
 }
@@ -73,40 +75,10 @@ pub(super) struct BeamTable {
     pub(super) loss_factor: Option<f64>,
 }
 
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected a number or a list of numbers")]
-pub(super) enum OneOrMore {
-    One(f64),
-    More(Vec<f64>),
-}
-
 /// One place of a bolt, or several.
-pub(super) struct JointPlaces(pub(super) Vec<JointPlaceTable>);
-
-/// By hand, for the same reason as [`ThetaTable`].
-impl<'de> Deserialize<'de> for JointPlaces {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct PlacesVisitor;
-        impl<'de> Visitor<'de> for PlacesVisitor {
-            type Value = JointPlaces;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
-                    "the joint's place as a table, or a list of such tables for several bolts",
-                )
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<JointPlaces, A::Error> {
-                JointPlaceTable::deserialize(MapAccessDeserializer::new(map))
-                    .map(|place| JointPlaces(vec![place]))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<JointPlaces, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(JointPlaces)
-            }
-        }
-        deserializer.deserialize_any(PlacesVisitor)
-    }
+fn places<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointPlaceTable>, D::Error> {
+    let expecting = "the joint's place as a table, or a list of such tables for several bolts";
+    one_or_more_tables(deserializer, expecting)
 }
 
 #[derive(Deserialize)]
@@ -158,31 +130,8 @@ pub(super) struct DifferenceTable {
     pub(super) difference: Difference,
 }
 
-/// One `[assembly]`, or several `[[assembly]]`.
-pub(super) struct AssemblyTables(pub(super) Vec<AssemblyTable>);
-
-/// By hand, for the same reason as [`ThetaTable`].
-impl<'de> Deserialize<'de> for AssemblyTables {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct TablesVisitor;
-        impl<'de> Visitor<'de> for TablesVisitor {
-            type Value = AssemblyTables;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a table [assembly], or several [[assembly]]")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<AssemblyTables, A::Error> {
-                AssemblyTable::deserialize(MapAccessDeserializer::new(map))
-                    .map(|table| AssemblyTables(vec![table]))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<AssemblyTables, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(AssemblyTables)
-            }
-        }
-        deserializer.deserialize_any(TablesVisitor)
-    }
+fn assemblies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<AssemblyTable>, D::Error> {
+    one_or_more_tables(deserializer, "a table [assembly], or several [[assembly]]")
 }
 
 #[derive(Deserialize)]
@@ -321,13 +270,6 @@ pub(super) enum BoltsKey {
 pub(super) struct StartTable {
     pub(super) stiffness: Vec<Vec<f64>>,
     pub(super) damping: Vec<Vec<f64>>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FrequencyTable {
-    pub(super) from: Option<f64>,
-    pub(super) to: Option<f64>,
 }
 
 /// Noise of the assembly's functions, and of the measured substructures' where that is another.

@@ -5,12 +5,14 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use bolted_joint_dynamics::law::Term;
+use bolted_joint_files::TextFileError;
 
-use super::data::{RESPONSE, ResponseDataError, Use};
+use super::data::{RESPONSE, Use};
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
+use crate::error::LapError;
 
 /// Half-periods that a free decay is read over at a time.
 const HALF_PERIODS: usize = 10;
@@ -150,13 +152,10 @@ pub(super) fn read_backbone(
     name: String,
     used_for: Use,
     share: f64,
-) -> Result<BackboneRun, ResponseDataError> {
+) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |line: usize, found: String, expected: String| ResponseDataError::Table {
-        path: path.to_owned(),
-        line,
-        found,
-        expected,
+    let problem = |line, found: String, expected: String| {
+        LapError::from(TextFileError::in_line(path, line, found, expected))
     };
     let missing = |expected: String| problem(1, format!("the columns {}", table.names()), expected);
     let (frequency, by) = table
@@ -212,13 +211,10 @@ pub(super) fn read_decay(
     name: String,
     used_for: Use,
     share: f64,
-) -> Result<BackboneRun, ResponseDataError> {
+) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |found: String, expected: String| ResponseDataError::Table {
-        path: path.to_owned(),
-        line: 1,
-        found,
-        expected,
+    let problem = |found: String, expected: String| {
+        LapError::from(TextFileError::in_line(path, 1, found, expected))
     };
     let missing = |expected: String| problem(format!("the columns {}", table.names()), expected);
     let (time, _) = table

@@ -4,12 +4,13 @@ use serde::Serialize;
 
 use super::backbone::BackboneLine;
 use super::data::{SineLine, SineRun, Use};
-use super::fit::{Data, Fit, FitError, fit};
+use super::fit::{Data, Fit, fit};
 use super::model::Model;
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
 use crate::error::LapError;
+use bolted_joint_study::StudyError;
 
 /// A model beside the others.
 #[derive(Clone, Debug, Serialize)]
@@ -75,10 +76,10 @@ pub(super) fn choose(
     });
     match chosen {
         Some(chosen) => Ok((refined(study, chosen, &runs, &backbone), comparison)),
-        None => Err(LapError::Fit {
-            path: study.path.clone(),
-            source: failure.unwrap_or(FitError::NoEstimate),
-        }),
+        None => {
+            let reason = failure.unwrap_or(LapError::NoEstimate);
+            Err(StudyError::model(&study.path, None, reason).into())
+        }
     }
 }
 
@@ -126,7 +127,7 @@ fn candidate(
     runs: &[&SineRun],
     backbone: &[BackboneLine],
     terms: TermSet,
-) -> Result<Candidate, FitError> {
+) -> Result<Candidate, LapError> {
     // All models are compared in the closed form of one harmonic.
     let model = Model {
         harmonics: 1,

@@ -4,45 +4,10 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use thiserror::Error;
 
 use super::table::NumberTable;
-use bolted_joint_files::text_file::TextFileError;
-
-/// Why a table of responses cannot be used.
-#[derive(Debug, Error)]
-pub enum ResponseDataError {
-    /// It cannot be read.
-    #[error(transparent)]
-    File(#[from] TextFileError),
-    /// A row or the header is not as it should be.
-    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// What was found.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
-    /// The response feeds energy into the exciter at most lines.
-    #[error(
-        "{}: found a phase that leads at {leading} of {lines} lines, so that the structure would feed the exciter, expected a displacement that \
-         lags behind the force; the phase is probably that of another quantity than the column with the amplitude, or reversed: state \
-         `sine.phase_of` as \"displacement\", \"velocity\" or \"acceleration\", or `sine.phase_sign = -1`",
-        path.display()
-    )]
-    Leading {
-        /// The file.
-        path: PathBuf,
-        /// Lines with a leading response.
-        leading: usize,
-        /// All lines.
-        lines: usize,
-    },
-}
+use crate::error::LapError;
+use bolted_joint_files::TextFileError;
 
 /// What a run is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -130,20 +95,17 @@ pub(super) const RESPONSE: [&str; 3] = [
 const PHASE: [&str; 2] = ["phase_rad", "phase_deg"];
 
 /// Reads a run.
-pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, ResponseDataError> {
+pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |line: usize, found: String, expected: String| ResponseDataError::Table {
-        path: path.to_owned(),
-        line,
-        found,
-        expected,
+    let problem = |line, found: String, expected: &str| {
+        LapError::from(TextFileError::in_line(path, line, found, expected))
     };
     let column = |names: &[&str], what: &str| {
         table.column(names).ok_or_else(|| {
             problem(
                 1,
                 format!("the columns {}", table.names()),
-                format!("a column {}{what}", names.join(" or ")),
+                &format!("a column {}{what}", names.join(" or ")),
             )
         })
     };
@@ -159,7 +121,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, Re
     let mut lines = Vec::new();
     for (number, values) in table.rows() {
         let value = |(place, _): (usize, usize), name: &str, expected: &str| {
-            values[place].ok_or_else(|| problem(*number, format!("no {name}"), expected.to_owned()))
+            values[place].ok_or_else(|| problem(*number, format!("no {name}"), expected))
         };
         let frequency_value = value(frequency, "frequency", "a number")?;
         let hz = match frequency.1 {
@@ -182,7 +144,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, Re
                 return Err(problem(
                     *number,
                     format!("a {what} of {found}"),
-                    "a value above zero".to_owned(),
+                    "a value above zero",
                 ));
             }
         }
@@ -208,7 +170,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, Re
         return Err(problem(
             1,
             format!("{} line(s) in the frequency range", lines.len()),
-            "at least two".to_owned(),
+            "at least two",
         ));
     }
     lines.sort_by(|a, b| a.omega.total_cmp(&b.omega));
@@ -217,7 +179,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, Re
         .filter(|line| line.phase_rad.sin() > 0.0)
         .count();
     if options.is_drive_point && 2 * leading > lines.len() {
-        return Err(ResponseDataError::Leading {
+        return Err(LapError::Leading {
             path: path.to_owned(),
             leading,
             lines: lines.len(),

@@ -2,33 +2,13 @@
 //! line, so that what is left is as small as the model.
 
 use nalgebra::{DMatrix, DVector};
-use thiserror::Error;
 
 use super::backbone::BackboneLine;
 use super::data::SineLine;
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{LineResidual, Model, Values};
 use super::study::Noise;
-
-/// Why a model cannot be fitted.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum FitError {
-    /// Fewer data than unknowns.
-    #[error(
-        "found {lines} line(s), each with two numbers beyond its amplitude, expected more than {unknowns} unknowns need; measure more lines or levels"
-    )]
-    TooFewLines {
-        /// Lines.
-        lines: usize,
-        /// Unknowns.
-        unknowns: usize,
-    },
-    /// No start led anywhere.
-    #[error(
-        "no estimate was found from any start: the responses do not look like those of a lap model; check which side was driven and measured, and the frequency range"
-    )]
-    NoEstimate,
-}
+use crate::error::LapError;
 
 const STEPS: usize = 200;
 /// Relative decrease of χ² that is none.
@@ -152,10 +132,10 @@ pub(super) fn fit(
     data: Data<'_>,
     noise: &Noise,
     start: &Values,
-) -> Result<Fit, FitError> {
+) -> Result<Fit, LapError> {
     let unknowns = model.unknowns.len();
     if data.count() <= unknowns {
-        return Err(FitError::TooFewLines {
+        return Err(LapError::TooFewLines {
             lines: data.lines.len(),
             unknowns,
         });
@@ -168,7 +148,7 @@ pub(super) fn fit(
     });
     let mut state = State::new(model, data, noise, *start, amplitudes.collect());
     if !state.chi_squared.is_finite() {
-        return Err(FitError::NoEstimate);
+        return Err(LapError::NoEstimate);
     }
     let mut damping = DAMPING;
     for _ in 0..STEPS {
@@ -194,7 +174,7 @@ pub(super) fn fit(
     }
     let (information, _) = normal_equations(&state, unknowns);
     let is_usable = information.iter().all(|entry| entry.is_finite());
-    is_usable.then_some(()).ok_or(FitError::NoEstimate)?;
+    is_usable.then_some(()).ok_or(LapError::NoEstimate)?;
     Ok(Fit {
         values: state.values,
         amplitudes_m: state.log_amplitudes.iter().map(|log| log.exp()).collect(),

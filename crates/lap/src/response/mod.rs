@@ -22,8 +22,8 @@ mod warnings;
 
 pub use backbone::{BackboneLine, BackboneRun};
 pub use choice::ModelComparison;
-pub use data::{ResponseDataError, SineLine, SineRun, Use};
-pub use fit::{Fit, FitError};
+pub use data::{SineLine, SineRun, Use};
+pub use fit::Fit;
 pub use model::{Model, ResponseUnknown, Values};
 pub use prediction::{Prediction, Resonance, measured_resonance, predicted_resonance};
 pub use result::{Estimate, LapResponse};

@@ -16,6 +16,7 @@ use bolted_joint_identify::Watch;
 use bolted_joint_identify::unit_covariance;
 use bolted_joint_joint::Provenance;
 use bolted_joint_statistics::student_975;
+use bolted_joint_study::Method;
 
 /// Share of the linear stiffness or damping that a term's standard deviation may be at the largest amplitude for the term to count as
 /// determined although it may be zero.
@@ -133,8 +134,8 @@ impl LapResponse {
         Ok(Self {
             name: study.name.clone(),
             provenance: input::origin(
-                "lap-response",
-                chosen.terms.to_string(),
+                Method::LapResponse,
+                &chosen.terms.to_string(),
                 &study.path,
                 &files,
                 study.notes.clone(),

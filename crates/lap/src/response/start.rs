@@ -6,10 +6,11 @@ use num_complex::Complex64;
 
 use super::backbone::BackboneLine;
 use super::data::{SineLine, SineRun};
-use super::fit::{Data, Fit, FitError, fit};
+use super::fit::{Data, Fit, fit};
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::terms::TermSet;
+use crate::error::LapError;
 
 /// Damping ratios that are tried at each resonance.
 const RATIOS: [f64; 9] = [1e-4, 3e-4, 1e-3, 3e-3, 6e-3, 0.012, 0.025, 0.05, 0.1];
@@ -23,7 +24,7 @@ pub(super) fn best(
     backbone: &[BackboneLine],
     noise: &Noise,
     known: &Values,
-) -> Result<(Fit, usize, usize), FitError> {
+) -> Result<(Fit, usize, usize), LapError> {
     let lines: Vec<SineLine> = runs
         .iter()
         .flat_map(|run| run.lines.iter().copied())
@@ -37,21 +38,17 @@ pub(super) fn best(
         starts.extend(super::backbone::start(model, backbone, known));
     }
     let tried = starts.len();
-    let fits: Vec<Result<Fit, FitError>> = starts
-        .iter()
-        .map(|start| fit(model, data, noise, start))
-        .collect();
-    if let Some(Err(error @ FitError::TooFewLines { .. })) = fits.first() {
-        return Err(error.clone());
+    let mut fits: Vec<Fit> = Vec::new();
+    for start in &starts {
+        match fit(model, data, noise, start) {
+            Ok(fit) if fit.values.mass > 0.0 => fits.push(fit),
+            Err(error @ LapError::TooFewLines { .. }) => return Err(error),
+            _ => {}
+        }
     }
-    let physical = fits
-        .into_iter()
-        .flatten()
-        .filter(|fit| fit.values.mass > 0.0);
-    let mut fits: Vec<Fit> = physical.collect();
     fits.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     let Some(best) = fits.first().cloned() else {
-        return Err(FitError::NoEstimate);
+        return Err(LapError::NoEstimate);
     };
     let agree = |fit: &&Fit| fit.chi_squared <= best.chi_squared * (1.0 + 1e-6) + 1e-9;
     let agreeing = fits.iter().filter(agree).count();
@@ -61,13 +58,13 @@ pub(super) fn best(
 /// Fits a model to runs from the starts that the data suggest. `known` holds the values of what is not among the model's unknowns.
 ///
 /// # Errors
-/// [`FitError`] if there are too few lines or no start leads anywhere.
+/// [`LapError`] if there are too few lines or no start leads anywhere.
 pub fn fit_responses(
     model: &Model,
     runs: &[SineRun],
     noise: &Noise,
     known: &Values,
-) -> Result<Fit, FitError> {
+) -> Result<Fit, LapError> {
     let runs: Vec<&SineRun> = runs.iter().collect();
     // The closed form of one harmonic finds the place, all harmonics refine it.
     let closed = Model {

@@ -5,14 +5,12 @@ use std::path::{Path, PathBuf};
 use bolted_joint_dynamics::law::Term;
 use serde::{Deserialize, Serialize};
 
-use super::super::input::{check_name, refuse};
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
 use super::terms::{NamedTerm, TermSet};
 use crate::error::LapError;
-use bolted_joint_files::text_file;
-use bolted_joint_identify::{IdentifyError, StudyMethod};
+use bolted_joint_study::{FrequencyTable, Method, StudyError, StudyText};
 
 /// Where a force acts or a motion is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -120,7 +118,7 @@ pub struct LapResponseStudy {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StudyFile {
-    method: StudyMethod,
+    method: Method,
     name: String,
     #[serde(default)]
     notes: Vec<String>,
@@ -171,13 +169,6 @@ struct NoiseTable {
     damping: Option<f64>,
 }
 
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FrequencyTable {
-    from: Option<f64>,
-    to: Option<f64>,
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SineTable {
@@ -214,70 +205,48 @@ impl LapResponseStudy {
     /// # Errors
     /// [`LapError`] that names the file and the key or line.
     pub fn read(path: &Path) -> Result<Self, LapError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        let file: StudyFile = toml::from_str(&text).map_err(|error| IdentifyError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        if file.method != StudyMethod::LapResponse {
-            return refuse(path, "method", "another method", "\"lap-response\"");
-        }
-        check_name(path, &file.name)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let noise = noise(path, &file.noise)?;
+        Self::of(&StudyText::read(path)?)
+    }
+
+    /// A study from its text, with its data.
+    ///
+    /// # Errors
+    /// [`LapError`] that names the file and the key or line.
+    pub fn of(study: &StudyText) -> Result<Self, LapError> {
+        let file: StudyFile = study.tables()?;
+        study.check_method(file.method, &[Method::LapResponse])?;
+        study.check_name("name", &file.name)?;
+        let noise = noise(study, &file.noise)?;
         let terms: Option<Vec<Term>> = file
             .model
             .terms
             .as_deref()
             .map(|terms| terms.iter().map(|named| named.0).collect());
-        if let Some(twice) = terms.as_deref().and_then(|terms| {
-            let mut all = terms.iter().enumerate();
-            all.find_map(|(place, term)| terms[..place].contains(term).then_some(*term))
-        }) {
-            return refuse(
-                path,
-                "model.terms",
-                format!("{} twice", twice.row().symbol),
-                "every term once",
-            );
+        let named = terms.as_deref().unwrap_or_default();
+        let mut places = named.iter().enumerate();
+        if let Some((_, twice)) = places.find(|(place, term)| named[..*place].contains(term)) {
+            let found = format!("{} twice", twice.row().symbol);
+            return Ok(study.refuse("model.terms", found, "every term once")?);
         }
-        if let Some(torque) = file
-            .torque
-            .filter(|torque| !(*torque >= 0.0 && torque.is_finite()))
-        {
-            return refuse(path, "torque", torque.to_string(), "N·m, not negative");
+        if let Some(torque) = file.torque {
+            study.not_negative("torque", torque, "N·m, not negative")?;
         }
         let harmonics = file.model.harmonics.unwrap_or(HARMONICS);
-        if harmonics.is_multiple_of(2) || harmonics > MOST_HARMONICS {
-            return refuse(
-                path,
-                "model.harmonics",
-                harmonics.to_string(),
-                format!(
-                    "an odd number up to {MOST_HARMONICS}: the joint's law is odd, so the even harmonics vanish"
-                ),
-            );
-        }
-        let range_hz = [
-            file.frequency.from.unwrap_or(f64::MIN_POSITIVE),
-            file.frequency.to.unwrap_or(f64::MAX),
-        ];
-        if !(range_hz[0] > 0.0 && range_hz[0] < range_hz[1]) {
-            return refuse(
-                path,
-                "frequency",
-                format!("from {} to {}", range_hz[0], range_hz[1]),
-                "frequencies in Hz with 0 < from < to",
-            );
-        }
-        let known = known(path, &file)?;
+        study.ensure(
+            !harmonics.is_multiple_of(2) && harmonics <= MOST_HARMONICS,
+            "model.harmonics",
+            harmonics,
+            format_args!(
+                "an odd number up to {MOST_HARMONICS}: the joint's law is odd, so the even harmonics vanish"
+            ),
+        )?;
+        let range_hz = study.frequency_range_hz(&file.frequency)?;
+        let known = known(study, &file)?;
         let sines = file.sine.into_iter().map(|table| {
             let phase_sign = match table.phase_sign {
                 None | Some(1) => 1.0,
                 Some(-1) => -1.0,
-                Some(other) => {
-                    return refuse(path, "sine.phase_sign", other.to_string(), "1 or -1");
-                }
+                Some(other) => return Ok(study.refuse("sine.phase_sign", other, "1 or -1")?),
             };
             let options = SineOptions {
                 name: name_of(table.name, &table.file),
@@ -287,44 +256,35 @@ impl LapResponseStudy {
                 range_hz,
                 is_drive_point: file.model.drive == file.model.response,
             };
-            Ok(read_sine(&folder.join(&table.file), options)?)
+            read_sine(&study.resolved(&table.file), options)
         });
         let sines: Vec<SineRun> = sines.collect::<Result<_, LapError>>()?;
         let share = match file.model.response {
             Place::Relative => 1.0,
             Place::A | Place::B => 0.5,
         };
-        let mut backbones = Vec::new();
-        for table in file.backbone {
+        let backbones = file.backbone.into_iter().map(|table| (table, true));
+        let decays = file.decay.into_iter().map(|table| (table, false));
+        let backbones = backbones.chain(decays).map(|(table, is_backbone)| {
+            let read = if is_backbone {
+                read_backbone
+            } else {
+                read_decay
+            };
             let name = name_of(table.name, &table.file);
-            backbones.push(read_backbone(
-                &folder.join(&table.file),
-                name,
-                table.used_for,
-                share,
-            )?);
-        }
-        for table in file.decay {
-            let name = name_of(table.name, &table.file);
-            backbones.push(read_decay(
-                &folder.join(&table.file),
-                name,
-                table.used_for,
-                share,
-            )?);
-        }
+            read(&study.resolved(&table.file), name, table.used_for, share)
+        });
+        let backbones: Vec<BackboneRun> = backbones.collect::<Result<_, LapError>>()?;
         let fitted = sines.iter().any(|run| run.used_for == Use::Fit)
             || backbones.iter().any(|run| run.used_for == Use::Fit);
-        if !fitted {
-            return refuse(
-                path,
-                "sine",
-                "no run for the estimate",
-                "at least one [[sine]], [[backbone]] or [[decay]] whose `use` is \"fit\"",
-            );
-        }
-        let study = Self {
-            path: path.to_owned(),
+        study.ensure(
+            fitted,
+            "sine",
+            "no run for the estimate",
+            "at least one [[sine]], [[backbone]] or [[decay]] whose `use` is \"fit\"",
+        )?;
+        let found = Self {
+            path: study.path().to_owned(),
             name: file.name,
             drive: file.model.drive,
             response: file.model.response,
@@ -338,15 +298,13 @@ impl LapResponseStudy {
             backbones,
             notes: file.notes,
         };
-        if study.model(&TermSet::default()).sees_sum() && !study.backbones.is_empty() {
-            return refuse(
-                path,
-                "backbone",
-                "a curve of one mode beside responses of both bodies",
-                "model.drive or model.response = \"relative\" with backbones and decays",
-            );
-        }
-        Ok(study)
+        study.ensure(
+            found.backbones.is_empty() || !found.model(&TermSet::default()).sees_sum(),
+            "backbone",
+            "a curve of one mode beside responses of both bodies",
+            "model.drive or model.response = \"relative\" with backbones and decays",
+        )?;
+        Ok(found)
     }
 
     /// The model with some terms: what is not known is unknown. Where the bodies' motion together is not seen, their supports count
@@ -406,7 +364,7 @@ impl LapResponseStudy {
     }
 }
 
-fn known(path: &Path, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, LapError> {
+fn known(study: &StudyText, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, StudyError> {
     let table = &file.known;
     let all = [
         (ResponseUnknown::Mass, table.m),
@@ -418,58 +376,34 @@ fn known(path: &Path, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, L
     let mut known = Vec::new();
     for (unknown, value) in all {
         let Some(value) = value else { continue };
-        let least = if unknown == ResponseUnknown::Mass {
-            f64::MIN_POSITIVE
-        } else {
-            0.0
-        };
-        if !(value >= least && value.is_finite()) {
-            return refuse(
-                path,
-                format!("known.{}", unknown.symbol()),
-                value.to_string(),
-                format!(
-                    "a value in {} that is not negative, a mass above zero",
-                    unknown.unit()
-                ),
-            );
-        }
+        let is_there = unknown != ResponseUnknown::Mass || value != 0.0;
+        study.ensure(
+            is_there && value >= 0.0 && value.is_finite(),
+            format_args!("known.{}", unknown.symbol()),
+            value,
+            format_args!(
+                "a value in {} that is not negative, a mass above zero",
+                unknown.unit()
+            ),
+        )?;
         known.push((unknown, value));
     }
     Ok(known)
 }
 
-fn noise(path: &Path, table: &NoiseTable) -> Result<Noise, LapError> {
-    let all = [
-        ("response", table.response),
-        ("force", table.force),
-        ("floor_m", table.floor_m),
-        ("frequency", table.frequency),
-        ("damping", table.damping),
-    ];
-    for (key, value) in all {
-        if let Some(value) = value.filter(|value| !(*value >= 0.0 && value.is_finite())) {
-            return refuse(
-                path,
-                format!("noise.{key}"),
-                value.to_string(),
-                "a number that is not negative",
-            );
-        }
-    }
-    for (key, value) in [
-        ("response", table.response),
-        ("frequency", table.frequency),
-        ("damping", table.damping),
+fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, StudyError> {
+    for (name, value, may_vanish) in [
+        ("response", table.response, false),
+        ("force", table.force, true),
+        ("floor_m", table.floor_m, true),
+        ("frequency", table.frequency, false),
+        ("damping", table.damping, false),
     ] {
-        if value == Some(0.0) {
-            return refuse(
-                path,
-                format!("noise.{key}"),
-                "0",
-                "a fraction above zero: a measurement has errors",
-            );
-        }
+        let Some(value) = value else { continue };
+        let key = format!("noise.{name}");
+        study.not_negative(&key, value, "a number that is not negative")?;
+        let expected = "a fraction above zero: a measurement has errors";
+        study.ensure(may_vanish || value != 0.0, key, value, expected)?;
     }
     let otherwise = Noise::default();
     let response = table.response.unwrap_or(otherwise.response);

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::data::ResponseDataError;
-use bolted_joint_files::text_file;
+use bolted_joint_files::text_file::{self, TextFileError};
 
 /// A table of numbers.
 pub(super) struct NumberTable {
@@ -14,13 +13,10 @@ pub(super) struct NumberTable {
 
 impl NumberTable {
     /// Reads a table: comment lines with `#`, a header, rows of numbers.
-    pub(super) fn read(path: &Path) -> Result<Self, ResponseDataError> {
+    pub(super) fn read(path: &Path) -> Result<Self, TextFileError> {
         let text = text_file::read(path, "a table of responses (CSV)")?;
-        let problem = |line: usize, found: String, expected: &str| ResponseDataError::Table {
-            path: path.to_owned(),
-            line,
-            found,
-            expected: expected.to_owned(),
+        let problem = |line, found: String, expected: &str| {
+            TextFileError::in_line(path, line, found, expected)
         };
         let lines = text.lines().enumerate();
         let mut lines = lines.filter(|(_, line)| {

@@ -19,9 +19,9 @@ pub use problem::{Range, UpdateProblem};
 pub use study::{LapUpdateStudy, TorqueData};
 
 use super::parameter::LapParameters;
-use crate::error::LapError;
 use bolted_joint_identify::Watch;
 use bolted_joint_joint::Provenance;
+use bolted_joint_study::{Method, StudyError};
 
 /// The lap model updated at every torque of a study.
 #[derive(Clone, Debug)]
@@ -57,8 +57,8 @@ impl LapUpdate {
     /// Updates the model at every torque. `watch` hears of every generation of fireflies.
     ///
     /// # Errors
-    /// [`LapError`] if the study's file has vanished meanwhile.
-    pub fn of(study: &LapUpdateStudy, watch: &dyn Watch) -> Result<Self, LapError> {
+    /// [`StudyError`] if the study's file has vanished meanwhile.
+    pub fn of(study: &LapUpdateStudy, watch: &dyn Watch) -> Result<Self, StudyError> {
         let torques = study.torques.iter().enumerate().map(|(number, data)| {
             let problem = study.problem(data);
             // Every torque has a stream of its own, so that the result at one does not depend on the others.
@@ -81,8 +81,8 @@ impl LapUpdate {
             torques,
             firefly: study.firefly,
             provenance: super::input::origin(
-                "lap-update",
-                "lap".to_owned(),
+                Method::LapUpdate,
+                "lap",
                 &study.path,
                 &[],
                 study.notes.clone(),

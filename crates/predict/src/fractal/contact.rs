@@ -3,9 +3,11 @@
 use std::f64::consts::{LN_2, PI, TAU};
 
 use super::domain::weight_of_contacts;
-use super::{FractalError, Friction, PerArea, Regime, StoredEnergy};
+use super::{Friction, PerArea, Regime, StoredEnergy};
+use crate::ContactError;
 use crate::Pair;
 use crate::growth::{Growth, power_integral};
+use crate::number::{HARDNESS, not_negative, positive};
 use crate::pressure::PressureField;
 use crate::surface::Roughness;
 
@@ -62,25 +64,32 @@ impl FractalContact {
         hardness_pa: f64,
         friction: Friction,
         nominal_area_m2: f64,
-    ) -> Result<Self, FractalError> {
-        let positive = |value: f64| value.is_finite() && value > 0.0;
-        if !positive(hardness_pa) {
-            return Err(FractalError::Hardness(hardness_pa));
-        }
-        if !positive(friction.coefficient) {
-            return Err(FractalError::FrictionCoefficient(friction.coefficient));
-        }
-        if !(friction.shear_strength_pa == 0.0 || positive(friction.shear_strength_pa)) {
-            return Err(FractalError::ShearStrength(friction.shear_strength_pa));
-        }
-        if !positive(nominal_area_m2) {
-            return Err(FractalError::NominalArea(nominal_area_m2));
-        }
+    ) -> Result<Self, ContactError> {
+        let Friction {
+            coefficient,
+            shear_strength_pa,
+        } = friction;
+        let expected = "0 (no tangential load) or a positive number";
+        positive("the hardness", hardness_pa, " Pa", HARDNESS)?;
+        positive(
+            "the coefficient of friction",
+            coefficient,
+            "",
+            "a positive number",
+        )?;
+        not_negative(
+            "the shear stress in the contacts",
+            shear_strength_pa,
+            " Pa",
+            expected,
+        )?;
+        let expected = "a positive number, that of the whole interface";
+        positive("the nominal area", nominal_area_m2, " m²", expected)?;
         let d = roughness.fractal_dimension();
         let modulus = pair.equivalent_youngs_modulus_pa();
         let log_critical = log_critical_area(d, roughness.roughness_m(), modulus / hardness_pa);
         if log_critical < SMALLEST_LOG_AREA {
-            return Err(FractalError::CriticalArea {
+            return Err(ContactError::CriticalArea {
                 exponent: log_critical,
                 fractal_dimension: d,
                 hardness_to_modulus: hardness_pa / modulus,
@@ -157,12 +166,15 @@ impl FractalContact {
     /// # Errors
     /// The pressure is negative or not below the hardness, the real area is more than the nominal one, or the tangential force is too
     /// close to that of friction.
-    pub fn at(&self, pressure_pa: f64) -> Result<PerArea, FractalError> {
-        if !(pressure_pa.is_finite() && pressure_pa >= 0.0) {
-            return Err(FractalError::Pressure(pressure_pa));
-        }
+    pub fn at(&self, pressure_pa: f64) -> Result<PerArea, ContactError> {
+        not_negative(
+            "the pressure",
+            pressure_pa,
+            " Pa",
+            "a pressure of 0 Pa or more",
+        )?;
         if pressure_pa >= self.hardness_pa {
-            return Err(FractalError::BeyondHardness {
+            return Err(ContactError::BeyondHardness {
                 pressure_pa,
                 hardness_pa: self.hardness_pa,
             });
@@ -183,12 +195,12 @@ impl FractalContact {
     ///
     /// # Errors
     /// As [`FractalContact::at`], with the element.
-    pub fn over(&self, field: &PressureField) -> Result<Vec<PerArea>, FractalError> {
+    pub fn over(&self, field: &PressureField) -> Result<Vec<PerArea>, ContactError> {
         let elements = field.elements().iter().enumerate();
         elements
             .map(|(index, element)| {
                 self.at(element.pressure_pa)
-                    .map_err(|reason| FractalError::Element {
+                    .map_err(|reason| ContactError::Element {
                         number: index + 1,
                         x_m: element.x_m,
                         y_m: element.y_m,
@@ -198,7 +210,7 @@ impl FractalContact {
             .collect()
     }
 
-    fn plastic(&self, pressure_pa: f64) -> Result<PerArea, FractalError> {
+    fn plastic(&self, pressure_pa: f64) -> Result<PerArea, ContactError> {
         // F = ∫ H a' n da' = H A_r
         let real_area_fraction = pressure_pa / self.hardness_pa;
         let friction_ratio = self.friction_ratio(pressure_pa, real_area_fraction)?;
@@ -220,7 +232,7 @@ impl FractalContact {
         })
     }
 
-    fn elastic_plastic(&self, pressure_pa: f64, x: f64) -> Result<PerArea, FractalError> {
+    fn elastic_plastic(&self, pressure_pa: f64, x: f64) -> Result<PerArea, ContactError> {
         let Factors {
             normal,
             tangential,
@@ -236,7 +248,7 @@ impl FractalContact {
         let real_area_fraction =
             area_per_contact_area * (largest_contact_area_m2 + self.critical_area_m2 * contacts);
         if real_area_fraction > 1.0 {
-            return Err(FractalError::RealArea {
+            return Err(ContactError::RealArea {
                 pressure_pa,
                 fraction: real_area_fraction,
             });
@@ -274,7 +286,7 @@ impl FractalContact {
         &self,
         pressure_pa: f64,
         real_area_fraction: f64,
-    ) -> Result<f64, FractalError> {
+    ) -> Result<f64, ContactError> {
         let friction_ratio = self.slip_stress_pa * real_area_fraction / pressure_pa;
         self.stored.check(friction_ratio)?;
         Ok(friction_ratio)

@@ -1,6 +1,6 @@
 //! Energy that a tangentially loaded contact loses by microslip at its rim, over what it stores (Mindlin).
 
-use super::FractalError;
+use crate::ContactError;
 
 /// What the energy lost in a cycle is compared with.
 ///
@@ -39,17 +39,17 @@ impl StoredEnergy {
     ///
     /// # Errors
     /// q is negative, or not below [`StoredEnergy::largest_friction_ratio`].
-    pub fn loss_factor(self, friction_ratio: f64) -> Result<f64, FractalError> {
+    pub fn loss_factor(self, friction_ratio: f64) -> Result<f64, ContactError> {
         self.check(friction_ratio)?;
         Ok(self.loss_of((1.0 - friction_ratio).cbrt(), friction_ratio))
     }
 
-    pub(super) fn check(self, friction_ratio: f64) -> Result<(), FractalError> {
+    pub(super) fn check(self, friction_ratio: f64) -> Result<(), ContactError> {
         let limit = self.largest_friction_ratio();
         if friction_ratio >= 0.0 && friction_ratio < limit {
             Ok(())
         } else {
-            Err(FractalError::FrictionRatio {
+            Err(ContactError::FrictionRatio {
                 found: friction_ratio,
                 limit,
             })

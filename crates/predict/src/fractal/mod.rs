@@ -6,14 +6,12 @@
 
 mod contact;
 mod domain;
-mod error;
 mod friction;
 mod microslip;
 mod per_area;
 
 pub use contact::FractalContact;
 pub use domain::domain_extension_factor;
-pub use error::FractalError;
 pub use friction::Friction;
 pub use microslip::StoredEnergy;
 pub use per_area::{PerArea, Regime};

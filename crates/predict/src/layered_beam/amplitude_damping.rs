@@ -2,7 +2,7 @@
 
 use bolted_joint_dynamics::Polynomial;
 
-use super::error::LayeredBeamError;
+use super::error::{LayeredBeamError, value};
 
 /// Amplitudes of a relative motion, m, from a smaller to a larger one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,11 +22,8 @@ impl AmplitudeRange {
         if from_m > 0.0 && to_m > from_m && to_m.is_finite() {
             Ok(Self { from_m, to_m })
         } else {
-            Err(LayeredBeamError::Range {
-                key,
-                from: from_m,
-                to: to_m,
-            })
+            let expected = "positive amplitudes from a smaller to a larger one";
+            Err(value(key, format_args!("{from_m} to {to_m} m"), expected))
         }
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bolted_joint_frf::structure::{Beam, Boundary, Damping};
 
-use super::error::{LayeredBeamError, positive};
+use super::error::{LayeredBeamError, positive, value};
 use super::shape::ModeShape;
 
 /// One layer of rectangular section.
@@ -44,9 +44,8 @@ impl LayeredBeam {
         positive("beam.length", length_m, "m")?;
         positive("beam.width", width_m, "m")?;
         if layers.len() < 2 {
-            return Err(LayeredBeamError::Layers {
-                found: layers.len(),
-            });
+            let expected = "at least two: a solid beam has no interface that slips";
+            return Err(value("beam.layer", layers.len(), expected));
         }
         for layer in &layers {
             positive("beam.layer.thickness", layer.thickness_m, "m")?;
@@ -54,13 +53,16 @@ impl LayeredBeam {
             positive("beam.layer.density", layer.density_kg_per_m3, "kg/m³")?;
         }
         if !(stiffness_ratio > 0.0 && stiffness_ratio <= 1.0) {
-            return Err(LayeredBeamError::StiffnessRatio {
-                found: stiffness_ratio,
-            });
+            let expected = "more than 0 and at most 1: the stiffness of the jointed beam over that of the solid one";
+            return Err(value("beam.stiffness_ratio", stiffness_ratio, expected));
         }
         let height_m: f64 = layers.iter().map(|layer| layer.thickness_m).sum();
         if height_m >= length_m {
-            return Err(LayeredBeamError::NotSlender { height_m, length_m });
+            return Err(value(
+                "beam.layer.thickness",
+                format_args!("{height_m} m in all on a length of {length_m} m"),
+                "a slender beam: shear and rotary inertia are left out",
+            ));
         }
         Ok(Self {
             length_m,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use bolted_joint_frf::structure::{BeamPoint, Motion};
 
 use super::beam::LayeredBeam;
-use super::error::LayeredBeamError;
+use super::error::{LayeredBeamError, value};
 use super::fasteners::Fasteners;
 
 /// Finite elements over the length of a beam: the fifth mode's frequency is then right to 10⁻⁵.
@@ -81,10 +81,8 @@ impl BeamMode {
         stored: StoredEnergy,
     ) -> Result<Self, LayeredBeamError> {
         if !(1..=HIGHEST_MODE).contains(&number) {
-            return Err(LayeredBeamError::Mode {
-                found: number,
-                most: HIGHEST_MODE,
-            });
+            let expected = format!("1 to {HIGHEST_MODE}");
+            return Err(value("motion.mode", number, expected));
         }
         fasteners.check_on(beam)?;
         let drive_point_m = drive_point(beam, number, drive_point_m)?;
@@ -100,9 +98,13 @@ impl BeamMode {
         let stiffness_n_per_m = match stored {
             // dᵀKd = ω² dᵀMd
             StoredEnergy::Modal => angular_frequency.powi(2) * mass_kg,
-            StoredEnergy::Static => beam
-                .static_stiffness_n_per_m(drive_point_m)
-                .ok_or(LayeredBeamError::NoStaticStiffness)?,
+            StoredEnergy::Static => {
+                beam.static_stiffness_n_per_m(drive_point_m)
+                    .ok_or_else(|| {
+                        let found = "\"static\" for a beam that is held nowhere";
+                        value("motion.stored_energy", found, "\"modal\"")
+                    })?
+            }
         };
         Ok(Self {
             number,
@@ -123,12 +125,16 @@ impl BeamMode {
     /// Refuses a mode without a slope at any fastener.
     ///
     /// # Errors
-    /// [`LayeredBeamError::NoSlip`]
+    /// [`LayeredBeamError::Value`]
     pub fn check_slip(&self) -> Result<(), LayeredBeamError> {
         if self.slope_sum_per_m() > 0.0 {
             Ok(())
         } else {
-            Err(LayeredBeamError::NoSlip { mode: self.number })
+            Err(value(
+                "fasteners.positions",
+                format_args!("no fastener where mode {} has a slope", self.number),
+                "one: without slip there is no damping to compute or to calibrate",
+            ))
         }
     }
 
@@ -157,16 +163,23 @@ fn drive_point(
         return Ok(antinode * length_m);
     };
     if !(0.0..=length_m).contains(&x_m) {
-        return Err(LayeredBeamError::DrivePoint { x_m, length_m });
+        let expected = format!("0 to {length_m} m");
+        return Err(value(
+            "motion.drive_point",
+            format_args!("{x_m} m"),
+            expected,
+        ));
     }
     let share = (shape.deflection(x_m / length_m) / shape.deflection(antinode)).abs();
     if share < NODE {
-        return Err(LayeredBeamError::Node {
-            x_m,
-            mode: number,
-            share,
-            antinode_m: antinode * length_m,
-        });
+        let antinode_m = antinode * length_m;
+        return Err(value(
+            "motion.drive_point",
+            format_args!(
+                "{x_m} m, where mode {number} moves by {share:.1e} of its largest deflection"
+            ),
+            format_args!("a point that it moves, such as {antinode_m:.4} m"),
+        ));
     }
     Ok(x_m)
 }

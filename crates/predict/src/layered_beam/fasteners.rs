@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::pressure::{Bolt, Reach, ThicknessRatio, Zone, ZoneForce};
 use super::beam::LayeredBeam;
-use super::error::{LayeredBeamError, positive};
+use super::error::{LayeredBeamError, positive, value};
 use super::normal_force::{normal_force_ratio, zone_radius_ratio};
 
 /// Initial stress of power-driven rivets, Pa (Kavi section 3.5).
@@ -139,11 +139,17 @@ impl Fasteners {
     pub fn normal_forces_n(&self, beam: &LayeredBeam) -> Result<Vec<f64>, LayeredBeamError> {
         let ratios = thickness_ratios(beam);
         let of = |(place, ratio): (usize, f64)| {
-            let share = normal_force_ratio(ratio).ok_or(LayeredBeamError::ThicknessRatio {
-                interface: place + 1,
-                ratio,
-            })?;
-            Ok(share * self.tension_n)
+            let share = normal_force_ratio(ratio).ok_or_else(|| {
+                let (first, second) = (place + 1, place + 2);
+                value(
+                    "beam.layer.thickness",
+                    format_args!(
+                        "layers {first} and {second} with a thickness ratio of {ratio:.4}"
+                    ),
+                    "1 to 2: the pressure is known between these ratios",
+                )
+            });
+            Ok(share? * self.tension_n)
         };
         if self.rule == NormalForceRule::Tension {
             return Ok(vec![self.tension_n; ratios.len()]);
@@ -170,25 +176,22 @@ impl Fasteners {
     /// One is off the beam, or as wide as it, or there is none.
     pub fn check_on(&self, beam: &LayeredBeam) -> Result<(), LayeredBeamError> {
         let length_m = beam.length_m();
+        let position = |found: String| {
+            let expected = format!("positions between 0 and {length_m} m");
+            value("fasteners.positions", found, expected)
+        };
         if self.positions_m.is_empty() {
-            return Err(LayeredBeamError::Position {
-                found: "none".to_owned(),
-                length_m,
-            });
+            return Err(position("none".to_owned()));
         }
         let rounding = 1e-9 * length_m;
         let on = |x: f64| x >= -rounding && x <= length_m + rounding;
         if let Some(x) = self.positions_m.iter().find(|&&x| !on(x)) {
-            return Err(LayeredBeamError::Position {
-                found: format!("{x} m"),
-                length_m,
-            });
+            return Err(position(format!("{x} m")));
         }
         if self.diameter_m >= beam.width_m() {
-            return Err(LayeredBeamError::Diameter {
-                diameter_m: self.diameter_m,
-                width_m: beam.width_m(),
-            });
+            let (diameter_m, width_m) = (self.diameter_m, beam.width_m());
+            let found = format!("{diameter_m} m on a beam {width_m} m wide");
+            return Err(value("fasteners.diameter", found, "less than the width"));
         }
         Ok(())
     }

@@ -1,16 +1,16 @@
 //! The joint file of a layered beam: the equivalent lap of its mode, with what it rests on.
 
 use bolted_joint_joint::{
-    Bodies, DofSet, Format, HigherTerms, InputFile, Joint, JointFile, OverPreload, Provenance,
-    Validity,
+    Bodies, DofSet, Format, HigherTerms, Joint, JointFile, OverPreload, Validity,
 };
+use bolted_joint_study::{Method, provenance};
 
 use super::amplitude_damping::AmplitudeDamping;
 use super::damping::SlipDamping;
 use super::error::LayeredBeamError;
 use super::lap::{EquivalentDamping, EquivalentLap};
 use super::scatter::Scattered;
-use super::study::Study;
+use super::study::LayeredBeamStudy;
 
 /// The joint file, and what is to be said about it.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ enum Damper {
 
 /// The file of a study whose mode has `nominal` damping, and that at each torque.
 pub(super) fn lap_file(
-    study: &Study,
+    study: &LayeredBeamStudy,
     nominal: &SlipDamping,
     over_torque: &[(f64, SlipDamping)],
     scattered: Option<&Scattered>,
@@ -141,21 +141,12 @@ pub(super) fn lap_file(
             level: Some(level),
         }),
         residual: None,
-        provenance: Some(Provenance {
-            tool: bolted_joint_files::TOOL.to_owned(),
-            version: bolted_joint_files::VERSION.to_owned(),
-            method: "layered-beam".to_owned(),
-            model: "lap".to_owned(),
-            inputs: vec![InputFile {
-                role: "study".to_owned(),
-                file: study.file_name(),
-                sha256: study.sha256.clone(),
-            }],
-            bolts: Vec::new(),
-            bands: None,
-            from_modes: Vec::new(),
+        provenance: Some(provenance(
+            Method::LayeredBeam,
+            "lap",
+            vec![study.record.clone()],
             notes,
-        }),
+        )),
     };
     Ok(LapFile {
         file,

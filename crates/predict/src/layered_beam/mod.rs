@@ -7,7 +7,7 @@
 //!
 //! # From a study
 //!
-//! [`Study::read`] takes a TOML file of `method = "layered-beam"`, [`Study::run`] computes, and the [`Outcome`] gives the
+//! [`LayeredBeamStudy::read`] takes a TOML file of `method = "layered-beam"`, [`LayeredBeamStudy::run`] computes, and the [`Outcome`] gives the
 //! joint file ([`Outcome::joint_file`]), a table of frequencies and damping ratios over the amplitude ([`Outcome::csv`]), a
 //! summary for people ([`Outcome::summary`]) and for machines (it serialises), and warnings ([`Outcome::warnings`]).
 
@@ -38,4 +38,4 @@ pub use outcome::{AmplitudeRow, ModeRow, Outcome, SlipRow};
 pub use roots::root;
 pub use scatter::{Scatter, ScatterRow};
 pub use shape::ModeShape;
-pub use study::{Calibration, Friction, Study, StudyError};
+pub use study::{Calibration, Friction, LayeredBeamStudy};

@@ -12,7 +12,7 @@ use super::error::LayeredBeamError;
 use super::fasteners::Fasteners;
 use super::joint_file::{LapFile, lap_file};
 use super::scatter::ScatterRow;
-use super::study::{Friction, Study};
+use super::study::{Friction, LayeredBeamStudy};
 
 /// More damping than the energies over one period, taken as equal from one to the next, are good for.
 const SMALL_DAMPING: f64 = 0.1;
@@ -107,7 +107,7 @@ pub struct SlipRow {
 }
 
 impl Outcome {
-    pub(super) fn of(study: &Study) -> Result<Self, LayeredBeamError> {
+    pub(super) fn of(study: &LayeredBeamStudy) -> Result<Self, LayeredBeamError> {
         let beam = &study.beam;
         let alpha_mu = match &study.friction {
             Friction::Known(alpha_mu) => *alpha_mu,
@@ -285,7 +285,7 @@ impl Outcome {
     }
 }
 
-fn mode_row(study: &Study, classical: &SlipDamping, elements: &SlipDamping) -> ModeRow {
+fn mode_row(study: &LayeredBeamStudy, classical: &SlipDamping, elements: &SlipDamping) -> ModeRow {
     let mode = &classical.mode;
     ModeRow {
         number: mode.number,
@@ -301,7 +301,7 @@ fn mode_row(study: &Study, classical: &SlipDamping, elements: &SlipDamping) -> M
 }
 
 fn amplitude_row(
-    study: &Study,
+    study: &LayeredBeamStudy,
     classical: &SlipDamping,
     elements: &SlipDamping,
     lap: &LapFile,
@@ -324,7 +324,7 @@ fn amplitude_row(
     }
 }
 
-fn slips(study: &Study, mode: &BeamMode) -> Vec<SlipRow> {
+fn slips(study: &LayeredBeamStudy, mode: &BeamMode) -> Vec<SlipRow> {
     let amplitude = study.amplitudes_m.last().copied().unwrap_or(0.0);
     let pairs = study.beam.layers().windows(2);
     let between = pairs.map(|pair| 0.5 * (pair[0].thickness_m + pair[1].thickness_m));
@@ -338,7 +338,10 @@ fn slips(study: &Study, mode: &BeamMode) -> Vec<SlipRow> {
     positions.map(row).collect()
 }
 
-fn warnings(study: &Study, nominal: &SlipDamping) -> Result<Vec<String>, LayeredBeamError> {
+fn warnings(
+    study: &LayeredBeamStudy,
+    nominal: &SlipDamping,
+) -> Result<Vec<String>, LayeredBeamError> {
     let mut warnings = Vec::new();
     let (beam, fasteners) = (&study.beam, &study.fasteners);
     let zone = fasteners.zone_diameter_m(beam);

@@ -12,7 +12,7 @@ use super::damping::SlipDamping;
 use super::error::LayeredBeamError;
 use super::joint_file::terms;
 use super::lap::EquivalentDamping;
-use super::study::Study;
+use super::study::LayeredBeamStudy;
 use bolted_joint_joint::{
     Correlation, Intervals, StandardDeviation, Uncertainty, UncertaintyAtPreload,
     UncertaintyOverPreload,
@@ -120,7 +120,7 @@ impl Scatter {
     /// Draws everything; `over_torque` as in the study.
     pub(super) fn run(
         &self,
-        study: &Study,
+        study: &LayeredBeamStudy,
         nominal: &SlipDamping,
         over_torque: &[(f64, SlipDamping)],
     ) -> Result<Scattered, LayeredBeamError> {

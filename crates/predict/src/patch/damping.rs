@@ -1,7 +1,6 @@
 //! From a contact model's energy ratios to damping: which loss factor they are, and when the normal part is viscous.
 
 use serde::Deserialize;
-use thiserror::Error;
 
 /// What a contact model's dissipated over stored energy is taken for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
@@ -37,17 +36,4 @@ pub enum NormalDamping {
         /// M, in kg.
         mass_kg: f64,
     },
-}
-
-/// A number that damping cannot be computed with.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum DampingError {
-    /// A frequency that is not positive.
-    #[error(
-        "found {0} Hz, expected the frequency in Hz, above zero, at which hysteretic and viscous damping are converted"
-    )]
-    Frequency(f64),
-    /// A mass that is not positive.
-    #[error("found {0} kg, expected the mass of the structure in kg, above zero")]
-    Mass(f64),
 }

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use crate::pressure::Element;
 
 use super::contact::{Contact, ContactMoments, PatchMoments};
-use super::damping::{DampingError, NormalDamping};
+use super::damping::NormalDamping;
+use crate::number::{NumberError, positive};
 
 /// Off the diagonal, what is at most this part of the diagonal is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -37,7 +38,7 @@ impl InterfaceJoint {
         parts: impl Iterator<Item = (&'e Element, Contact)>,
         reference_m: [f64; 3],
         normal_damping: NormalDamping,
-    ) -> Result<Self, DampingError> {
+    ) -> Result<Self, NumberError> {
         let moments = ContactMoments::of(parts, reference_m);
         // The interface lies at −z of the reference point.
         let height_m = -reference_m[2];
@@ -50,9 +51,8 @@ impl InterfaceJoint {
         let (hysteretic, viscous) = match normal_damping {
             NormalDamping::Hysteretic => (sum(of_normal, of_tangential), [[0.0; 6]; 6]),
             NormalDamping::Viscous { mass_kg } => {
-                if !(mass_kg.is_finite() && mass_kg > 0.0) {
-                    return Err(DampingError::Mass(mass_kg));
-                }
+                let expected = "a positive number";
+                positive("the mass of the structure", mass_kg, " kg", expected)?;
                 // C_N = η_N √(M K_N) = D_N/ω_N with D_N = η_N K_N and ω_N = √(K_N/M): of the whole interface, so that it does
                 // not depend on the number of elements
                 let omega = (moments.normal_stiffness.sum / mass_kg).sqrt();
@@ -101,7 +101,7 @@ impl InterfaceJoint {
     ///
     /// # Errors
     /// The frequency is not positive.
-    pub fn viscous_at(&self, frequency_hz: f64) -> Result<Matrix6, DampingError> {
+    pub fn viscous_at(&self, frequency_hz: f64) -> Result<Matrix6, NumberError> {
         let omega = omega(frequency_hz)?;
         Ok(sum(self.viscous, scaled(self.hysteretic, 1.0 / omega)))
     }
@@ -110,7 +110,7 @@ impl InterfaceJoint {
     ///
     /// # Errors
     /// The frequency is not positive.
-    pub fn hysteretic_at(&self, frequency_hz: f64) -> Result<Matrix6, DampingError> {
+    pub fn hysteretic_at(&self, frequency_hz: f64) -> Result<Matrix6, NumberError> {
         let omega = omega(frequency_hz)?;
         Ok(sum(self.hysteretic, scaled(self.viscous, omega)))
     }
@@ -142,11 +142,10 @@ impl InterfaceJoint {
     }
 }
 
-fn omega(frequency_hz: f64) -> Result<f64, DampingError> {
-    match frequency_hz.is_finite() && frequency_hz > 0.0 {
-        true => Ok(TAU * frequency_hz),
-        false => Err(DampingError::Frequency(frequency_hz)),
-    }
+fn omega(frequency_hz: f64) -> Result<f64, NumberError> {
+    let expected = "a positive number, at which hysteretic and viscous damping are converted";
+    positive("the frequency", frequency_hz, " Hz", expected)?;
+    Ok(TAU * frequency_hz)
 }
 
 fn ratio([stiffness, damping]: [f64; 2]) -> f64 {

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::damping::DampingError;
 use super::interface::{InterfaceJoint, Matrix6};
+use crate::NumberError;
 
 /// Real constants on a line of `R` and of `RMORE`.
 const ON_A_LINE: usize = 6;
@@ -21,7 +21,7 @@ pub fn matrix27(
     name: &str,
     interface: &InterfaceJoint,
     frequency_hz: f64,
-) -> Result<String, DampingError> {
+) -> Result<String, NumberError> {
     let damping = interface.viscous_at(frequency_hz)?;
     let [x, y, z] = interface.reference_m();
     // A comment ends with its line, and APDL has `$` between commands.

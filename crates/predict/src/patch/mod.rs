@@ -14,7 +14,7 @@ mod table;
 
 pub use axis::{Axis, AxisError, SignedAxis};
 pub use contact::{Contact, PatchMoments};
-pub use damping::{DampingError, LossFactor, NormalDamping};
+pub use damping::{LossFactor, NormalDamping};
 pub use interface::{InterfaceJoint, Matrix6};
 pub use matrix27::matrix27;
 pub use planar::{Planar, PlanarError, PlanarJoint};

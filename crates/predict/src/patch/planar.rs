@@ -5,8 +5,8 @@ use thiserror::Error;
 use bolted_joint_joint::DofSet;
 
 use super::axis::SignedAxis;
-use super::damping::DampingError;
 use super::interface::{InterfaceJoint, Matrix6};
+use crate::NumberError;
 
 /// Which relative motions become the joint file's `y` and `theta`.
 ///
@@ -78,7 +78,7 @@ impl Planar {
         self,
         interface: &InterfaceJoint,
         frequency_hz: f64,
-    ) -> Result<PlanarJoint, DampingError> {
+    ) -> Result<PlanarJoint, NumberError> {
         Ok(PlanarJoint {
             stiffness: self.part(interface.stiffness()),
             damping: self.part(&interface.viscous_at(frequency_hz)?),

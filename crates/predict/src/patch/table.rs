@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::damping::DampingError;
 use super::interface::{InterfaceJoint, Matrix6};
+use crate::NumberError;
 
 const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
@@ -16,7 +16,7 @@ pub fn table(
     name: &str,
     interface: &InterfaceJoint,
     frequency_hz: f64,
-) -> Result<String, DampingError> {
+) -> Result<String, NumberError> {
     let total = interface.viscous_at(frequency_hz)?;
     let [x, y, z] = interface.reference_m();
     let name = name.replace(['\n', '\r'], " ");

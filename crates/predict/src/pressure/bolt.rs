@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::PressureError;
+use crate::number::{check, not_negative, positive};
 
 /// A bolt through the interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,31 +27,18 @@ impl Bolt {
 
     /// Refuses numbers that no bolt has; `number` counts the bolts from 1.
     pub(super) fn check(&self, number: usize) -> Result<(), PressureError> {
-        let checks = [
-            ("x", self.x_m, self.x_m.is_finite(), "a finite length in m"),
-            ("y", self.y_m, self.y_m.is_finite(), "a finite length in m"),
-            (
-                "diameter",
-                self.diameter_m,
-                self.diameter_m.is_finite() && self.diameter_m > 0.0,
-                "a positive length in m",
-            ),
-            (
-                "preload",
-                self.preload_n,
-                self.preload_n.is_finite() && self.preload_n >= 0.0,
-                "a force of 0 N or more",
-            ),
-        ];
-        match checks.into_iter().find(|(_, _, valid, _)| !valid) {
-            None => Ok(()),
-            Some((quantity, found, _, expected)) => Err(PressureError::Bolt {
-                number,
-                quantity,
-                found,
-                expected,
-            }),
-        }
+        let of = |quantity| format!("bolt {number}: {quantity}");
+        let expected = "a finite length in m";
+        check(self.x_m.is_finite(), of("x"), self.x_m, "", expected)?;
+        check(self.y_m.is_finite(), of("y"), self.y_m, "", expected)?;
+        positive(
+            of("diameter"),
+            self.diameter_m,
+            "",
+            "a positive length in m",
+        )?;
+        not_negative(of("preload"), self.preload_n, "", "a force of 0 N or more")?;
+        Ok(())
     }
 }
 
@@ -69,7 +57,7 @@ pub(super) fn check_all(bolts: &[Bolt]) -> Result<(), PressureError> {
 /// Row by row from the lowest x and y, each with the diameter (m) and the preload (N) given.
 ///
 /// # Errors
-/// [`PressureError::NoBolts`] without any, [`PressureError::Bolt`] for numbers that no bolt has.
+/// [`PressureError::NoBolts`] without any, [`PressureError::Number`] for numbers that no bolt has.
 pub fn bolts_in_rows(
     count: [usize; 2],
     pitch_m: [f64; 2],
@@ -95,7 +83,7 @@ pub fn bolts_in_rows(
 /// Bolts on a circle of `radius_m` (m) about the origin, the first on the x axis, the others evenly spaced towards y.
 ///
 /// # Errors
-/// [`PressureError::NoBolts`] without any, [`PressureError::Bolt`] for numbers that no bolt has.
+/// [`PressureError::NoBolts`] without any, [`PressureError::Number`] for numbers that no bolt has.
 pub fn bolts_on_circle(
     count: usize,
     radius_m: f64,
@@ -120,7 +108,7 @@ pub fn bolts_on_circle(
 /// The same bolts with a preload (N) each.
 ///
 /// # Errors
-/// [`PressureError::Preloads`] if there are not as many preloads as bolts, [`PressureError::Bolt`] for a negative one.
+/// [`PressureError::Preloads`] if there are not as many preloads as bolts, [`PressureError::Number`] for a negative one.
 pub fn with_preloads(bolts: &[Bolt], preloads_n: &[f64]) -> Result<Vec<Bolt>, PressureError> {
     if bolts.len() != preloads_n.len() {
         return Err(PressureError::Preloads {

@@ -5,6 +5,7 @@ use std::fmt;
 use super::bolt::check_all;
 use super::radial::RadialPressure;
 use super::{Balance, Bolt, Element, PressureError, PressureField, Rectangle, Zone, ZoneForce};
+use crate::number::not_negative;
 
 /// Cells of a field at most.
 const MOST_CELLS: usize = 10_000_000;
@@ -173,9 +174,8 @@ impl BoltedInterface<'_> {
         check_cells(self.cells)?;
         check_all(self.bolts)?;
         self.zone.check()?;
-        if !(self.clearance_m.is_finite() && self.clearance_m >= 0.0) {
-            return Err(PressureError::Clearance(self.clearance_m));
-        }
+        let expected = "a length of 0 m or more";
+        not_negative("the holes' clearance", self.clearance_m, " m", expected)?;
         let mut holes: Vec<RadialPressure> = Vec::with_capacity(self.bolts.len());
         let mut zones = Vec::with_capacity(self.bolts.len());
         for (number, bolt) in (1..).zip(self.bolts) {

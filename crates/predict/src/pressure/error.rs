@@ -1,11 +1,14 @@
 //! What can be wrong with bolts, plates and the fields that are asked of them.
 
+use std::path::PathBuf;
+
 use thiserror::Error;
 
-use super::FieldError;
+use crate::NumberError;
+use crate::columns::ColumnsError;
 
 /// Why there is no pressure field.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PressureError {
     /// A rectangle without an inside.
@@ -32,18 +35,9 @@ pub enum PressureError {
     /// No bolt at all.
     #[error("found no bolts; at least one is needed")]
     NoBolts,
-    /// A number that no bolt has.
-    #[error("bolt {number}: {quantity} is {found}; expected {expected}")]
-    Bolt {
-        /// Its place in the list, from 1.
-        number: usize,
-        /// What is wrong.
-        quantity: &'static str,
-        /// The number found.
-        found: f64,
-        /// What it has to be.
-        expected: &'static str,
-    },
+    /// A number that no bolt, zone, field or load has.
+    #[error(transparent)]
+    Number(#[from] NumberError),
     /// Preloads and bolts that differ in number.
     #[error("found {found} preloads for {bolts} bolts; expected one each")]
     Preloads {
@@ -85,19 +79,6 @@ pub enum PressureError {
         /// The other.
         second_m: f64,
     },
-    /// A number that no cone has.
-    #[error("the cone's {quantity} is {found}; expected {expected}")]
-    Cone {
-        /// What is wrong.
-        quantity: &'static str,
-        /// The number found.
-        found: f64,
-        /// What it has to be.
-        expected: &'static str,
-    },
-    /// A clearance that is no length.
-    #[error("the holes' clearance is {0} m; expected a length of 0 m or more")]
-    Clearance(f64),
     /// A zone that does not reach beyond its hole.
     #[error(
         "bolt {number}: the zone of pressure has the radius {zone_m} m, its hole {hole_m} m; expected the zone to be wider"
@@ -135,16 +116,6 @@ pub enum PressureError {
         /// Distance of their axes.
         distance_m: f64,
     },
-    /// A force or moment that is no number, or a force that pulls.
-    #[error("{quantity} is {found}; expected {expected}")]
-    Load {
-        /// Which.
-        quantity: &'static str,
-        /// The number found.
-        found: f64,
-        /// What it has to be.
-        expected: &'static str,
-    },
     /// A resultant that pressure alone cannot have on this area.
     #[error(
         "no pressure without tension has the force {force_n} N and the moments {} and {} N·m about x and y: its line of action, \
@@ -157,7 +128,36 @@ pub enum PressureError {
         /// About x and about y.
         moments_n_m: [f64; 2],
     },
-    /// The field itself is not one.
+    /// A field without elements.
+    #[error("the pressure field has no elements; at least one is needed")]
+    NoElements,
+    /// The pressure is zero everywhere.
+    #[error("no element of the pressure field has a pressure: the parts do not touch")]
+    Apart,
+    /// A field's table, or a number in it.
     #[error(transparent)]
-    Field(#[from] FieldError),
+    Table(#[from] ColumnsError),
+    /// The field in a file.
+    #[error("{}: {reason}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: Box<PressureError>,
+    },
+    /// Areas that do not add up to the interface's.
+    #[error(
+        "the areas of its {rows} rows add up to {found_m2} m², expected the nominal area, {nominal_m2} m², within {percent} %: \
+         check the unit of the area column, and that nodes at edges have their part of an element only"
+    )]
+    Area {
+        /// Rows in it.
+        rows: usize,
+        /// Sum of areas.
+        found_m2: f64,
+        /// What was stated.
+        nominal_m2: f64,
+        /// How far they may differ.
+        percent: f64,
+    },
 }

@@ -1,6 +1,7 @@
 //! A pressure field as elements of area, wherever it comes from.
 
-use thiserror::Error;
+use super::PressureError;
+use crate::number::{check, not_negative, positive};
 
 /// A piece of the interface over which the pressure is taken as constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,72 +22,29 @@ pub struct PressureField {
     elements: Vec<Element>,
 }
 
-/// An element that cannot be part of a pressure field.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum FieldError {
-    /// No element at all.
-    #[error("the pressure field has no elements; at least one is needed")]
-    Empty,
-    /// A number that is not finite, an area that is not positive or a pressure below zero.
-    #[error("element {number} of the pressure field: {quantity} is {found}; expected {expected}")]
-    Element {
-        /// Its place in the field, counted from 1.
-        number: usize,
-        /// What is wrong: "x", "y", "area" or "pressure".
-        quantity: &'static str,
-        /// The number found.
-        found: f64,
-        /// What it has to be.
-        expected: &'static str,
-    },
-}
-
 impl PressureField {
     /// A field of elements.
     ///
     /// # Errors
     /// There is none, or one has a coordinate that is not finite, an area that is not positive, or a pressure that is negative.
-    pub fn new(elements: Vec<Element>) -> Result<Self, FieldError> {
+    pub fn new(elements: Vec<Element>) -> Result<Self, PressureError> {
         if elements.is_empty() {
-            return Err(FieldError::Empty);
+            return Err(PressureError::NoElements);
         }
-        for (index, element) in elements.iter().enumerate() {
-            let checks = [
-                (
-                    "x",
-                    element.x_m,
-                    element.x_m.is_finite(),
-                    "a finite length in m",
-                ),
-                (
-                    "y",
-                    element.y_m,
-                    element.y_m.is_finite(),
-                    "a finite length in m",
-                ),
-                (
-                    "area",
-                    element.area_m2,
-                    element.area_m2.is_finite() && element.area_m2 > 0.0,
-                    "a positive area in m²",
-                ),
-                (
-                    "pressure",
-                    element.pressure_pa,
-                    element.pressure_pa.is_finite() && element.pressure_pa >= 0.0,
-                    "a pressure of 0 Pa or more",
-                ),
-            ];
-            for (quantity, found, valid, expected) in checks {
-                if !valid {
-                    return Err(FieldError::Element {
-                        number: index + 1,
-                        quantity,
-                        found,
-                        expected,
-                    });
-                }
-            }
+        for (number, element) in (1..).zip(&elements) {
+            let of = |quantity| format!("element {number} of the pressure field: {quantity}");
+            let [x_m, y_m] = [element.x_m, element.y_m];
+            let (area_m2, pressure_pa) = (element.area_m2, element.pressure_pa);
+            let expected = "a finite length in m";
+            check(x_m.is_finite(), of("x"), x_m, "", expected)?;
+            check(y_m.is_finite(), of("y"), y_m, "", expected)?;
+            positive(of("area"), area_m2, "", "a positive area in m²")?;
+            not_negative(
+                of("pressure"),
+                pressure_pa,
+                "",
+                "a pressure of 0 Pa or more",
+            )?;
         }
         Ok(Self { elements })
     }
@@ -131,7 +89,7 @@ impl PressureField {
     ///
     /// # Errors
     /// As [`PressureField::new`], when the factor is negative or not finite.
-    pub fn scaled(&self, factor: f64) -> Result<Self, FieldError> {
+    pub fn scaled(&self, factor: f64) -> Result<Self, PressureError> {
         Self::new(
             self.elements
                 .iter()

@@ -1,46 +1,10 @@
 //! Pressure fields that a finite-element program has computed, as tables of its nodes.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::{Element, FieldError, PressureField};
-use crate::columns::{self, Column, ColumnsError, LENGTHS};
-
-/// Why a table gives no pressure field.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum FieldFileError {
-    /// The table, or a number in it.
-    #[error(transparent)]
-    Table(#[from] ColumnsError),
-    /// The field as a whole.
-    #[error("{}: {source}", path.display())]
-    Field {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        source: FieldError,
-    },
-    /// Areas that do not add up to the interface's.
-    #[error(
-        "{}: the areas of its {rows} rows add up to {found_m2} m², expected the nominal area, {nominal_m2} m², within {percent} %: \
-         check the unit of the area column, and that nodes at edges have their part of an element only", path.display()
-    )]
-    Area {
-        /// The file.
-        path: PathBuf,
-        /// Rows in it.
-        rows: usize,
-        /// Sum of areas.
-        found_m2: f64,
-        /// What was stated.
-        nominal_m2: f64,
-        /// How far they may differ.
-        percent: f64,
-    },
-}
+use super::{Element, PressureError, PressureField};
+use crate::columns::{self, Column, LENGTHS};
 
 /// How far the sum of areas may be from the nominal area, part of it.
 const SAME_AREA: f64 = 0.01;
@@ -70,12 +34,12 @@ impl PressureField {
     /// Where the interface's nominal area (m²) is known, the rows must add up to it within 1 %.
     ///
     /// # Errors
-    /// [`FieldFileError`] with file and line for what cannot be read, areas that are not positive and negative pressures; for areas
+    /// [`PressureError`] with file and line for what cannot be read, areas that are not positive and negative pressures; for areas
     /// that do not add up.
     pub fn read(
         path: impl AsRef<Path>,
         nominal_area_m2: Option<f64>,
-    ) -> Result<Self, FieldFileError> {
+    ) -> Result<Self, PressureError> {
         let column = |name, units| Column { name, units };
         let wanted = [
             column("x", LENGTHS),
@@ -102,21 +66,19 @@ impl PressureField {
             area_m2,
             pressure_pa,
         };
-        let field = Self::new(table.rows.iter().map(element).collect()).map_err(|source| {
-            FieldFileError::Field {
-                path: table.path.clone(),
-                source,
-            }
-        })?;
+        let in_file = |reason: PressureError| PressureError::InFile {
+            path: table.path.clone(),
+            reason: Box::new(reason),
+        };
+        let field = Self::new(table.rows.iter().map(element).collect()).map_err(in_file)?;
         let is_same = |nominal_m2: f64| (field.area_m2() / nominal_m2 - 1.0).abs() <= SAME_AREA;
         match nominal_area_m2 {
-            Some(nominal_m2) if !is_same(nominal_m2) => Err(FieldFileError::Area {
+            Some(nominal_m2) if !is_same(nominal_m2) => Err(in_file(PressureError::Area {
                 rows: field.elements().len(),
                 found_m2: field.area_m2(),
-                path: table.path,
                 nominal_m2,
                 percent: 100.0 * SAME_AREA,
-            }),
+            })),
             _ => Ok(field),
         }
     }

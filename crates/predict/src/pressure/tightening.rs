@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use thiserror::Error;
+use crate::number::{self, NumberError};
 
 /// How a torque becomes a preload.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,18 +33,6 @@ pub struct ThreadFriction {
     pub bearing_outer_diameter_m: f64,
     /// Its inner diameter, that of the hole, in m.
     pub bearing_inner_diameter_m: f64,
-}
-
-/// Numbers from which no preload follows.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("tightening: {quantity} is {found}; expected {expected}")]
-pub struct TighteningError {
-    /// What is wrong.
-    pub quantity: &'static str,
-    /// The number found.
-    pub found: f64,
-    /// What it has to be.
-    pub expected: &'static str,
 }
 
 /// d and coarse pitch of ISO 261, first choice and M14 to M33 of the second, in mm.
@@ -90,8 +78,8 @@ impl Tightening {
     /// Preload from a torque (N·m), in N.
     ///
     /// # Errors
-    /// [`TighteningError`] if a length, a coefficient or the torque is negative or not finite.
-    pub fn preload_n(&self, torque_n_m: f64) -> Result<f64, TighteningError> {
+    /// [`NumberError`] if a length, a coefficient or the torque is negative or not finite.
+    pub fn preload_n(&self, torque_n_m: f64) -> Result<f64, NumberError> {
         check(
             "the torque in N·m",
             torque_n_m,
@@ -104,14 +92,14 @@ impl Tightening {
     /// Torque for a preload (N), in N·m.
     ///
     /// # Errors
-    /// [`TighteningError`] if a length, a coefficient or the preload is negative or not finite.
-    pub fn torque_n_m(&self, preload_n: f64) -> Result<f64, TighteningError> {
+    /// [`NumberError`] if a length, a coefficient or the preload is negative or not finite.
+    pub fn torque_n_m(&self, preload_n: f64) -> Result<f64, NumberError> {
         check("the preload in N", preload_n, preload_n >= 0.0, "0 or more")?;
         Ok(preload_n * self.torque_per_preload_m()?)
     }
 
     /// T/F, in m.
-    fn torque_per_preload_m(&self) -> Result<f64, TighteningError> {
+    fn torque_per_preload_m(&self) -> Result<f64, NumberError> {
         match self {
             Self::NutFactor { factor, diameter_m } => {
                 check(
@@ -136,7 +124,7 @@ impl ThreadFriction {
         self.diameter_m - 0.375 * 3_f64.sqrt() * self.pitch_m
     }
 
-    fn torque_per_preload_m(&self) -> Result<f64, TighteningError> {
+    fn torque_per_preload_m(&self) -> Result<f64, NumberError> {
         positive("the diameter in m", self.diameter_m)?;
         positive("the pitch in m", self.pitch_m)?;
         for (quantity, found) in [
@@ -191,22 +179,16 @@ impl ThreadFriction {
     }
 }
 
-fn positive(quantity: &'static str, found: f64) -> Result<(), TighteningError> {
+fn positive(quantity: &'static str, found: f64) -> Result<(), NumberError> {
     check(quantity, found, found > 0.0, "a positive length")
 }
 
 fn check(
-    quantity: &'static str,
+    quantity: &str,
     found: f64,
     valid: bool,
     expected: &'static str,
-) -> Result<(), TighteningError> {
-    match valid && found.is_finite() {
-        true => Ok(()),
-        false => Err(TighteningError {
-            quantity,
-            found,
-            expected,
-        }),
-    }
+) -> Result<(), NumberError> {
+    let quantity = format!("tightening: {quantity}");
+    number::check(valid && found.is_finite(), quantity, found, "", expected)
 }

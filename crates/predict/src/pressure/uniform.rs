@@ -2,12 +2,13 @@
 
 use super::bolted::check_cells;
 use super::{Element, PressureError, PressureField, Rectangle};
+use crate::number::not_negative;
 
 impl PressureField {
     /// A force (N) spread evenly over a rectangle of `cells` along x and along y.
     ///
     /// # Errors
-    /// [`PressureError::Cells`] without cells, [`PressureError::Load`] for a force that is negative or not finite.
+    /// [`PressureError::Cells`] without cells, [`PressureError::Number`] for a force that is negative or not finite.
     pub fn uniform(
         outline: &Rectangle,
         cells: [usize; 2],
@@ -26,13 +27,13 @@ impl PressureField {
                 pressure_pa,
             }
         };
-        Ok(Self::new(outline.cells(cells).map(element).collect())?)
+        Self::new(outline.cells(cells).map(element).collect())
     }
 
     /// The same elements with the same pressure in each, which together carry `force_n` (N).
     ///
     /// # Errors
-    /// [`PressureError::Load`] for a force that is negative or not finite.
+    /// [`PressureError::Number`] for a force that is negative or not finite.
     pub fn evened(&self, force_n: f64) -> Result<Self, PressureError> {
         check_force(force_n)?;
         let pressure_pa = force_n / self.area_m2();
@@ -40,17 +41,15 @@ impl PressureField {
             pressure_pa,
             ..*element
         };
-        Ok(Self::new(self.elements().iter().map(even).collect())?)
+        Self::new(self.elements().iter().map(even).collect())
     }
 }
 
 pub(super) fn check_force(force_n: f64) -> Result<(), PressureError> {
-    match force_n.is_finite() && force_n >= 0.0 {
-        true => Ok(()),
-        false => Err(PressureError::Load {
-            quantity: "the normal force in N",
-            found: force_n,
-            expected: "0 or more",
-        }),
-    }
+    Ok(not_negative(
+        "the normal force in N",
+        force_n,
+        "",
+        "0 or more",
+    )?)
 }

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::uniform::check_force;
 use super::{Element, PressureError, PressureField};
+use crate::number::check;
 
 /// A field that carries a given force and moment, opened where it would have to pull.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +43,7 @@ impl PressureField {
     /// solution, the minimum of a convex function.
     ///
     /// # Errors
-    /// [`PressureError::Load`] for loads that are not finite, [`PressureError::Opens`] if no pressure without tension on the area in contact has
+    /// [`PressureError::Number`] for loads that are not finite, [`PressureError::Opens`] if no pressure without tension on the area in contact has
     /// this resultant.
     pub fn carrying(
         &self,
@@ -50,19 +51,22 @@ impl PressureField {
         moments_n_m: [f64; 2],
     ) -> Result<UnilateralField, PressureError> {
         check_force(force_n)?;
-        if let Some(found) = moments_n_m.into_iter().find(|m| !m.is_finite()) {
-            return Err(PressureError::Load {
-                quantity: "the moment in N·m",
-                found,
-                expected: "a finite number",
-            });
+        for moment in moments_n_m {
+            let expected = "a finite number";
+            check(
+                moment.is_finite(),
+                "the moment in N·m",
+                moment,
+                "",
+                expected,
+            )?;
         }
-        let opens = PressureError::Opens {
+        let opens = || PressureError::Opens {
             force_n,
             moments_n_m,
         };
-        let contact = Contact::new(self).ok_or(opens.clone())?;
-        let plane = contact.balance(force_n, moments_n_m).ok_or(opens.clone())?;
+        let contact = Contact::new(self).ok_or_else(opens)?;
+        let plane = contact.balance(force_n, moments_n_m).ok_or_else(opens)?;
         let mut opened_area_m2 = 0.0;
         let elements = self.elements().iter().map(|element| {
             if element.pressure_pa == 0.0 {

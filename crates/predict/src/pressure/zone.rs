@@ -2,6 +2,7 @@
 
 use super::radial::RadialPressure;
 use super::{Bolt, PressureError};
+use crate::number::{check, not_negative, positive};
 
 /// How the pressure falls off around each bolt.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -192,35 +193,24 @@ impl Zone {
         let Self::Cone(cone) = self else {
             return Ok(());
         };
-        let right = std::f64::consts::FRAC_PI_2;
-        let checks = [
-            (
-                "half angle",
-                cone.half_angle_rad,
-                (0.0..right).contains(&cone.half_angle_rad),
-                "0 or more and less than π/2 rad",
-            ),
-            (
-                "head diameter",
-                cone.head_diameter_m,
-                cone.head_diameter_m.is_finite() && cone.head_diameter_m > 0.0,
-                "a positive length in m",
-            ),
-            (
-                "depth",
-                cone.depth_m,
-                cone.depth_m.is_finite() && cone.depth_m >= 0.0,
-                "a length of 0 m or more",
-            ),
-        ];
-        match checks.into_iter().find(|(_, _, valid, _)| !valid) {
-            None => Ok(()),
-            Some((quantity, found, _, expected)) => Err(PressureError::Cone {
-                quantity,
-                found,
-                expected,
-            }),
-        }
+        let angle = cone.half_angle_rad;
+        let is_acute = (0.0..std::f64::consts::FRAC_PI_2).contains(&angle);
+        let expected = "0 or more and less than π/2 rad";
+        check(is_acute, "the cone's half angle", angle, "", expected)?;
+        let expected = "a positive length in m";
+        positive(
+            "the cone's head diameter",
+            cone.head_diameter_m,
+            "",
+            expected,
+        )?;
+        not_negative(
+            "the cone's depth",
+            cone.depth_m,
+            "",
+            "a length of 0 m or more",
+        )?;
+        Ok(())
     }
 
     /// The pressure around bolt `number` (from 1) with a hole of `hole_radius_m`, on a plate without end.

@@ -1,6 +1,7 @@
 //! Two rough surfaces as one: what a rigid flat one would have to press on.
 
-use crate::surface::{Roughness, RoughnessError};
+use crate::NumberError;
+use crate::surface::Roughness;
 
 /// Ratio γ of successive frequencies of the profiles.
 const FREQUENCY_RATIO: f64 = 1.5;
@@ -15,11 +16,7 @@ const POINTS: usize = 65;
 ///
 /// # Errors
 /// The fit is no fractal profile.
-pub(super) fn both(
-    a: Roughness,
-    b: Roughness,
-    band_m: [f64; 2],
-) -> Result<Roughness, RoughnessError> {
+pub(super) fn both(a: Roughness, b: Roughness, band_m: [f64; 2]) -> Result<Roughness, NumberError> {
     let [from, to] = band_m.map(|wavelength_m| -wavelength_m.ln());
     let points = (0..POINTS).map(|point| {
         let log_frequency = from + (to - from) * point as f64 / (POINTS - 1) as f64;

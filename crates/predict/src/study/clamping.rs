@@ -67,7 +67,8 @@ impl Wrench {
                 ..*thread
             }),
         };
-        Ok(tightening.preload_n(torque_n_m)?)
+        let preload_n = tightening.preload_n(torque_n_m);
+        preload_n.map_err(ModelError::Tightening)
     }
 }
 

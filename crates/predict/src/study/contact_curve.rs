@@ -1,7 +1,8 @@
 //! Stiffness and damping of a contact over the pressure: computed at every element, or from a curve where thousands of
 //! elements are asked for thousands of times.
 
-use crate::fractal::{FractalContact, FractalError, PerArea, StoredEnergy};
+use crate::ContactError;
+use crate::fractal::{FractalContact, PerArea, StoredEnergy};
 use crate::patch::{Contact, LossFactor};
 
 /// Knots of a curve, evenly spaced over the logarithm of the pressure.
@@ -20,7 +21,7 @@ pub(super) struct ContactLaw {
 
 impl ContactLaw {
     /// At a pressure, Pa.
-    pub(super) fn at(&self, pressure_pa: f64) -> Result<Contact, FractalError> {
+    pub(super) fn at(&self, pressure_pa: f64) -> Result<Contact, ContactError> {
         Ok(self.of(&self.contact.at(pressure_pa)?))
     }
 
@@ -62,7 +63,7 @@ type Knot = [f64; 3];
 
 impl<'l> ContactCurve<'l> {
     /// Up to the pressure `largest_pa`.
-    pub(super) fn new(law: &'l ContactLaw, largest_pa: f64) -> Result<Self, FractalError> {
+    pub(super) fn new(law: &'l ContactLaw, largest_pa: f64) -> Result<Self, ContactError> {
         // whatever ends the model ends it here first
         let largest = law.contact.at(largest_pa)?;
         let critical_pressure_pa = law.contact.critical_pressure_pa();
@@ -100,7 +101,7 @@ impl<'l> ContactCurve<'l> {
     }
 
     /// At a pressure up to the largest one, Pa.
-    pub(super) fn at(&self, pressure_pa: f64) -> Result<Contact, FractalError> {
+    pub(super) fn at(&self, pressure_pa: f64) -> Result<Contact, ContactError> {
         if pressure_pa <= self.critical_pressure_pa {
             return Ok(Contact::default());
         }

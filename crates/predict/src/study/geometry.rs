@@ -76,7 +76,7 @@ impl Geometry {
             zone,
         }
         .field()?;
-        let field = found.field().scaled(0.0)?;
+        let field = found.field().scaled(0.0).map_err(ModelError::Field)?;
         Ok(Self {
             elements: field.elements().to_vec(),
             plate: Some(Plate::of(&found, outline, clearance_m)),
@@ -116,7 +116,11 @@ impl Geometry {
             let field = found.field();
             per_preload.push(field.elements().iter().map(|e| e.pressure_pa).collect());
             if place == 0 {
-                elements = field.scaled(0.0)?.elements().to_vec();
+                elements = field
+                    .scaled(0.0)
+                    .map_err(ModelError::Field)?
+                    .elements()
+                    .to_vec();
                 plate = Some(Plate::of(&found, outline, clearance_m));
             }
         }
@@ -133,7 +137,11 @@ impl Geometry {
     /// A field under the nominal preloads, which add up to `preload_n`.
     pub(super) fn given(field: &PressureField, preload_n: Option<f64>) -> Result<Self, ModelError> {
         Ok(Self {
-            elements: field.scaled(0.0)?.elements().to_vec(),
+            elements: field
+                .scaled(0.0)
+                .map_err(ModelError::Field)?
+                .elements()
+                .to_vec(),
             plate: None,
             loading: Loading::Given {
                 pressures_pa: field.elements().iter().map(|e| e.pressure_pa).collect(),
@@ -221,7 +229,7 @@ impl Geometry {
             pressure_pa,
             ..*element
         });
-        let field = PressureField::new(elements.collect())?;
+        let field = PressureField::new(elements.collect()).map_err(ModelError::Field)?;
         let balance = (!bolts.is_empty()).then(|| Balance::of(&field, bolts));
         Ok((field, balance))
     }

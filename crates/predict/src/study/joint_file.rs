@@ -6,6 +6,8 @@ use bolted_joint_joint::{
     StandardDeviation, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
+use bolted_joint_study::provenance;
+
 use super::model::State;
 use super::prediction::Prediction;
 use super::results::{at, unknowns};
@@ -179,20 +181,11 @@ impl Prediction<'_> {
             ),
         ];
         notes.extend(study.notes.iter().cloned());
-        Provenance {
-            tool: bolted_joint_files::TOOL.to_owned(),
-            version: bolted_joint_files::VERSION.to_owned(),
-            method: study.method.name().to_owned(),
-            model: match study.planar.rotation() {
-                None => "translation".to_owned(),
-                Some(_) => "full".to_owned(),
-            },
-            inputs: study.files.clone(),
-            bolts: Vec::new(),
-            bands: None,
-            from_modes: Vec::new(),
-            notes,
-        }
+        let model = match study.planar.rotation() {
+            None => "translation",
+            Some(_) => "full",
+        };
+        provenance(study.method, model, study.files.clone(), notes)
     }
 }
 

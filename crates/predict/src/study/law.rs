@@ -1,11 +1,10 @@
 //! What each element of an interface has per area, by the model that a study asks for.
 
+use crate::ContactError;
 use crate::fractal::PerArea;
 use crate::patch::Contact;
 use crate::pressure::PressureField;
-use crate::virtual_material::{
-    LayerContact, Layers, Loading, Moduli, VirtualMaterial, VirtualMaterialError,
-};
+use crate::virtual_material::{LayerContact, Layers, Loading, Moduli, VirtualMaterial};
 
 use super::contact_curve::{ContactCurve, ContactLaw};
 use super::error::ModelError;
@@ -28,14 +27,14 @@ pub(super) struct LayerLaw {
 }
 
 /// A virtual layer under the load of its interface.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Young's modulus across it and shear modulus along it.
     pub moduli: Moduli,
     /// Its thickness, m.
     pub thickness_m: f64,
     /// The isotropic material of these moduli, or why there is none: the joint needs none.
-    pub material: Result<VirtualMaterial, VirtualMaterialError>,
+    pub material: Result<VirtualMaterial, ContactError>,
 }
 
 /// What a model says of a field, element by element.

@@ -3,7 +3,7 @@
 //!
 //! [`InterfaceStudy::read`] takes a study of method `fractal-contact` or `virtual-material`, [`Prediction::of`] computes it at the
 //! values given and at every draw of those that are uncertain, and [`Prediction::joint_file`] is what the export takes. Studies
-//! of method `layered-beam` are those of [`super::layered_beam`]; [`PredictionMethod::read`] tells which it is.
+//! of method `layered-beam` are those of [`super::layered_beam`]; [`bolted_joint_study::StudyText::method`] tells which it is.
 
 mod both_surfaces;
 mod check;
@@ -14,9 +14,7 @@ mod field_csv;
 mod geometry;
 mod joint_file;
 mod law;
-mod method;
 mod model;
-mod origin;
 mod prediction;
 mod refusal;
 mod results;
@@ -24,10 +22,9 @@ mod tables;
 mod warnings;
 
 pub use check::InterfaceStudy;
-pub use error::{ModelError, PredictError};
+pub use error::ModelError;
 pub use geometry::Plate;
 pub use law::Layer;
-pub use method::PredictionMethod;
 pub use model::State;
 pub use prediction::Prediction;
 pub use results::Unknown;

@@ -81,7 +81,8 @@ impl InterfaceStudy {
     pub(super) fn law(&self, values: &Drawn) -> Result<Law, ModelError> {
         let of = |place: InputPlace| values.of(place);
         let material = |inputs: &MaterialInputs| {
-            Material::new(of(inputs.youngs_modulus), of(inputs.poissons_ratio))
+            let material = Material::new(of(inputs.youngs_modulus), of(inputs.poissons_ratio));
+            material.map_err(ModelError::Material)
         };
         let [a, b] = &self.materials;
         let pair = Pair {
@@ -128,10 +129,11 @@ impl InterfaceStudy {
                 values.of(input.roughness),
             )
         };
-        match &self.surfaces {
-            SurfaceInputs::Together(surface) => Ok(of(surface)?),
-            SurfaceInputs::Each([a, b], band_m) => Ok(both(of(a)?, of(b)?, *band_m)?),
-        }
+        let roughness = match &self.surfaces {
+            SurfaceInputs::Together(surface) => of(surface),
+            SurfaceInputs::Each([a, b], band_m) => of(a).and_then(|a| both(a, of(b)?, *band_m)),
+        };
+        roughness.map_err(ModelError::Roughness)
     }
 
     /// All that follows from these values at a torque, every element computed on its own.
@@ -149,8 +151,10 @@ impl InterfaceStudy {
             layer,
         } = law.over(&field)?;
         let parts = field.elements().iter().zip(contacts.iter().copied());
-        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)?;
-        let planar = self.planar.of(&interface, self.frequency_hz)?;
+        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
+            .map_err(ModelError::Damping)?;
+        let planar = self.planar.of(&interface, self.frequency_hz);
+        let planar = planar.map_err(ModelError::Damping)?;
         Ok(State {
             torque_n_m,
             bolts,
@@ -177,8 +181,10 @@ impl InterfaceStudy {
         let force_n = self.geometry.force_n(&pressures_pa);
         let contacts = law.drawn(&pressures_pa, force_n)?;
         let parts = self.geometry.elements().iter().zip(contacts);
-        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)?;
-        let planar = self.planar.of(&interface, self.frequency_hz)?;
+        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
+            .map_err(ModelError::Damping)?;
+        let planar = self.planar.of(&interface, self.frequency_hz);
+        let planar = planar.map_err(ModelError::Damping)?;
         Ok((interface, planar))
     }
 }

@@ -1,11 +1,12 @@
 //! A prediction: the joint at the values given, and how it scatters with those that are uncertain.
 
 use super::check::InterfaceStudy;
-use super::error::{ModelError, PredictError};
+use super::error::ModelError;
 use super::model::State;
 use super::results;
 use crate::uncertain::{Estimate, Outcome, Refusal};
 use crate::virtual_material::VirtualMaterial;
+use bolted_joint_study::StudyError;
 
 /// A predicted joint.
 #[derive(Debug, Clone)]
@@ -26,15 +27,11 @@ impl<'s> Prediction<'s> {
     /// Computes a study. `progress` is called after each draw, from any thread.
     ///
     /// # Errors
-    /// [`PredictError::Model`] where the values given are outside the model, or hardly any draw is inside.
-    pub fn of(
-        study: &'s InterfaceStudy,
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, PredictError> {
-        let refused = |reason: ModelError| PredictError::Model {
-            path: study.path.clone(),
-            key: key_of(&reason).to_owned(),
-            reason: Box::new(reason),
+    /// [`StudyError::Model`] where the values given are outside the model, or hardly any draw is inside.
+    pub fn of(study: &'s InterfaceStudy, progress: &(dyn Fn() + Sync)) -> Result<Self, StudyError> {
+        let refused = |reason: ModelError| {
+            let key = key_of(&reason);
+            StudyError::model(&study.path, Some(key), reason)
         };
         let torques = study.torques();
         let nominal = study.inputs.nominal();
@@ -89,16 +86,15 @@ impl<'s> Prediction<'s> {
     /// The isotropic material of the virtual layer at the nominal torque.
     ///
     /// # Errors
-    /// [`PredictError::Model`] where the model has no layer, or its moduli are those of no isotropic material.
-    pub fn material(&self) -> Result<VirtualMaterial, PredictError> {
-        let refused = |reason: ModelError| PredictError::Model {
-            path: self.study.path.clone(),
-            key: "layer".to_owned(),
-            reason: Box::new(reason),
-        };
+    /// [`StudyError::Model`] where the model has no layer, or its moduli are those of no isotropic material.
+    pub fn material(&self) -> Result<VirtualMaterial, StudyError> {
         let layer = self.nominal().layer.as_ref();
-        let layer = layer.ok_or_else(|| refused(ModelError::NoLayer))?;
-        layer.material.map_err(|reason| refused(reason.into()))
+        let material = match layer {
+            Some(layer) => layer.material.clone().map_err(ModelError::from),
+            None => Err(ModelError::NoLayer),
+        };
+        let path = &self.study.path;
+        material.map_err(|reason| StudyError::model(path, Some("layer"), reason))
     }
 
     /// What the draws say of a result, such as `k_yy`, at a torque.
@@ -113,13 +109,13 @@ impl<'s> Prediction<'s> {
 fn key_of(error: &ModelError) -> &'static str {
     match error {
         ModelError::Material(_) => "materials",
-        ModelError::Roughness(_) | ModelError::Fit(_) => "surface",
-        ModelError::Fractal(_) | ModelError::VirtualMaterial(_) | ModelError::NoLayer => "contact",
+        ModelError::Roughness(_) | ModelError::Surface(_) => "surface",
+        ModelError::Contact(_) | ModelError::NoLayer => "contact",
         ModelError::Pressure(_) => "pressure",
         ModelError::Tightening(_) => "tightening",
         ModelError::Field(_) => "interface.field",
         ModelError::Damping(_) => "damping",
         ModelError::Planar(_) => "joint",
-        ModelError::Input(_) | ModelError::MonteCarlo(_) => "uncertainty",
+        ModelError::Correlation(_) | ModelError::MonteCarlo(_) => "uncertainty",
     }
 }

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use super::method::PredictionMethod;
 use crate::patch::{LossFactor, SignedAxis};
 use crate::uncertain::Uncertain;
+use bolted_joint_study::{Method, UncertaintyTable};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
-    pub(super) method: PredictionMethod,
+    pub(super) method: Method,
     pub(super) name: String,
     #[serde(default)]
     pub(super) notes: Vec<String>,
@@ -242,11 +242,4 @@ pub(super) enum NormalWord {
     #[default]
     Hysteretic,
     Viscous,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct UncertaintyTable {
-    pub(super) draws: u64,
-    pub(super) seed: Option<u64>,
 }

@@ -1,11 +1,16 @@
-//! Why profiles give no fractal dimension.
+//! Why numbers are no profile, and why profiles give no fractal dimension.
+
+use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Why there is no fit.
-#[derive(Debug, Clone, PartialEq, Error)]
+use crate::NumberError;
+use crate::columns::ColumnsError;
+
+/// Why there is no profile or no fit of it. Points count from 1.
+#[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum FitError {
+pub enum SurfaceError {
     /// No profile.
     #[error("found no profiles; at least one is needed")]
     NoProfiles,
@@ -27,16 +32,9 @@ pub enum FitError {
         /// Points in a segment.
         segment: usize,
     },
-    /// A setting outside its range.
-    #[error("{quantity} is {found}; expected {expected}")]
-    Setting {
-        /// Which.
-        quantity: &'static str,
-        /// The number.
-        found: f64,
-        /// Its range.
-        expected: &'static str,
-    },
+    /// A setting outside its range, or a step that is no length.
+    #[error(transparent)]
+    Number(#[from] NumberError),
     /// Profiles with different steps.
     #[error(
         "profile {number} has the step {found_m} m, the first one {first_m} m; expected the same for all: fit them apart, or resample them"
@@ -100,5 +98,65 @@ pub enum FitError {
         dimension: f64,
         /// Of D.
         standard_deviation: f64,
+    },
+    /// Fewer points than any spectrum needs.
+    #[error("found {found} points; expected at least 3, and some hundreds for a fractal dimension")]
+    TooFewPoints {
+        /// Points.
+        found: usize,
+    },
+    /// Distances and heights that differ in number.
+    #[error("found {distances} distances and {heights} heights; expected as many of each")]
+    Lengths {
+        /// Distances.
+        distances: usize,
+        /// Heights.
+        heights: usize,
+    },
+    /// A number that is not finite.
+    #[error("point {point}: found {found}; expected finite numbers")]
+    NotFinite {
+        /// Which point.
+        point: usize,
+        /// The number.
+        found: f64,
+    },
+    /// A distance that does not grow.
+    #[error(
+        "point {point}: its distance, {found_m} m, is not beyond the one before; expected growing distances"
+    )]
+    NotGrowing {
+        /// Which point.
+        point: usize,
+        /// Its distance.
+        found_m: f64,
+    },
+    /// A step unlike the others.
+    #[error(
+        "point {point}: its step is {found_m} m, the mean step {mean_m} m; expected even spacing within {percent} %: \
+         export the profile at even steps, or resample it, which smooths its shortest waves"
+    )]
+    Uneven {
+        /// Which point.
+        point: usize,
+        /// Its step.
+        found_m: f64,
+        /// Mean step.
+        mean_m: f64,
+        /// What is allowed.
+        percent: f64,
+    },
+    /// A profile's table.
+    #[error(transparent)]
+    Table(#[from] ColumnsError),
+    /// The numbers of a table.
+    #[error("{}, line {line}: {reason}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// Line of the point, or the last one.
+        line: usize,
+        /// What is wrong.
+        reason: Box<SurfaceError>,
     },
 }

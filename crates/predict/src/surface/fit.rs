@@ -4,7 +4,8 @@ use super::bands::Bands;
 use super::fractal::Fractal;
 use super::line::Line;
 use super::special::{NORMAL_975, chi_squared_95};
-use super::{Detrend, FitError, FitWarning, Profile, Roughness, Spectrum, Welch, Window};
+use super::{Detrend, FitWarning, Profile, Roughness, Spectrum, SurfaceError, Welch, Window};
+use crate::number::check;
 use bolted_joint_statistics::student_975;
 
 /// How profiles are fitted.
@@ -90,21 +91,21 @@ impl ProfileFit {
     /// Fits profiles of the same surface, with the same step, together.
     ///
     /// # Errors
-    /// [`FitError`] without profiles, with different steps, with settings or a band that the profiles do not admit, and when the
+    /// [`SurfaceError`] without profiles, with different steps, with settings or a band that the profiles do not admit, and when the
     /// slope is that of no fractal profile.
-    pub fn new(profiles: &[Profile], settings: &FitSettings) -> Result<Self, FitError> {
+    pub fn new(profiles: &[Profile], settings: &FitSettings) -> Result<Self, SurfaceError> {
         let (welch, step_m, points) = prepared(profiles, settings)?;
         let spectra = profiles
             .iter()
             .map(|profile| welch.spectrum(&settings.form.apply(profile.height_m()), step_m))
             .collect::<Result<Vec<_>, _>>()?;
-        let spectrum = Spectrum::mean(&spectra).ok_or(FitError::NoProfiles)?;
+        let spectrum = Spectrum::mean(&spectra).ok_or(SurfaceError::NoProfiles)?;
         let segment_m = welch.segment as f64 * step_m;
         let asked_m = settings
             .wavelength_band_m
             .unwrap_or([DEFAULT_STEPS * step_m, segment_m / DEFAULT_WAVES]);
         let [shortest_m, longest_m] = asked_m;
-        let band_error = |found| FitError::Band {
+        let band_error = |found| SurfaceError::Band {
             wavelength_m: asked_m,
             found,
             ratio: settings.band_ratio,
@@ -129,10 +130,11 @@ impl ProfileFit {
         let [low, high] = bands.ends_per_m();
         let wavelength_band_m = [1.0 / high, 1.0 / low];
         let reference = bands.centre().iter().sum::<f64>() / bands.count() as f64;
-        let line =
-            Line::fitted(&spectrum, &bands, &welch, &points, reference).ok_or(FitError::Flat {
+        let line = Line::fitted(&spectrum, &bands, &welch, &points, reference).ok_or(
+            SurfaceError::Flat {
                 wavelength_m: wavelength_band_m,
-            })?;
+            },
+        )?;
         let degrees_of_freedom = bands.count() - 2;
         let freedom = degrees_of_freedom as f64;
         let inflated = line.chi_squared > chi_squared_95(freedom);
@@ -308,8 +310,8 @@ impl ProfileFit {
 fn prepared(
     profiles: &[Profile],
     settings: &FitSettings,
-) -> Result<(Welch, f64, Vec<usize>), FitError> {
-    let first = profiles.first().ok_or(FitError::NoProfiles)?;
+) -> Result<(Welch, f64, Vec<usize>), SurfaceError> {
+    let first = profiles.first().ok_or(SurfaceError::NoProfiles)?;
     let checks = [
         (
             "the overlap",
@@ -330,17 +332,13 @@ fn prepared(
             "more than 1",
         ),
     ];
-    if let Some((quantity, found, _, expected)) = checks.into_iter().find(|check| !check.2) {
-        return Err(FitError::Setting {
-            quantity,
-            found,
-            expected,
-        });
+    for (quantity, found, valid, expected) in checks {
+        check(valid, quantity, found, "", expected)?;
     }
     let first_m = first.step_m();
     let other = |profile: &&Profile| (profile.step_m() / first_m - 1.0).abs() > SAME_STEP;
     if let Some(number) = profiles.iter().position(|profile| other(&profile)) {
-        return Err(FitError::Steps {
+        return Err(SurfaceError::Steps {
             number: number + 1,
             found_m: profiles[number].step_m(),
             first_m,

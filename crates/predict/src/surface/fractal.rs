@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{FitError, Roughness};
+use super::{Roughness, SurfaceError};
 
 /// D and G from the line.
 #[derive(Debug)]
@@ -22,19 +22,19 @@ impl Fractal {
         quantile: f64,
         gamma: f64,
         wavelength_m: [f64; 2],
-    ) -> Result<Self, FitError> {
+    ) -> Result<Self, SurfaceError> {
         let [at_reference, slope] = [line[0], line[1]];
         // Zhao (31): the slope is 2D − 5, ln S(1) = 2(D − 1) ln G − ln(2 ln γ)
         let dimension = 0.5 * (5.0 + slope);
         let standard_deviation = 0.5 * covariance[(1, 1)].sqrt();
-        let outside = FitError::Dimension {
+        let outside = || SurfaceError::Dimension {
             dimension,
             standard_deviation,
             slope,
             wavelength_m,
         };
         if !(dimension > 1.0 && dimension < 2.0) {
-            return Err(outside);
+            return Err(outside());
         }
         let twice = 2.0 * (dimension - 1.0);
         let log_roughness = (at_reference - slope * reference + (2.0 * gamma.ln()).ln()) / twice;
@@ -47,15 +47,14 @@ impl Fractal {
         let z_squared = quantile * quantile;
         let leading = twice * twice - z_squared * kk;
         if leading <= 0.0 {
-            return Err(FitError::Undetermined {
+            return Err(SurfaceError::Undetermined {
                 dimension,
                 standard_deviation,
             });
         }
         let middle = -z_squared * with_slope / leading;
         let half = (middle * middle + z_squared * numerator / leading).sqrt();
-        let roughness =
-            Roughness::new(dimension, log_roughness.exp()).map_err(|_| outside.clone())?;
+        let roughness = Roughness::new(dimension, log_roughness.exp()).map_err(|_| outside())?;
         Ok(Self {
             roughness,
             covariance: [

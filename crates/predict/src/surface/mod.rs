@@ -14,10 +14,10 @@ mod warning;
 mod welch;
 
 pub use detrend::Detrend;
-pub use error::FitError;
+pub use error::SurfaceError;
 pub use fit::{BandMean, FitSettings, ProfileFit};
-pub use profile::{Profile, ProfileError, ProfileFileError};
-pub use roughness::{Roughness, RoughnessError};
+pub use profile::Profile;
+pub use roughness::Roughness;
 pub use synthetic::Synthetic;
 pub use warning::FitWarning;
 pub use welch::{Spectrum, Welch, Window};

@@ -1,11 +1,11 @@
 //! A measured profile: height over distance, evenly spaced.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use crate::columns::{self, Column, ColumnsError, LENGTHS};
+use super::SurfaceError;
+use crate::columns::{self, Column, LENGTHS};
+use crate::number::{self, positive};
 
 /// Heights of a surface along a straight line, at even steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,94 +15,18 @@ pub struct Profile {
     height_m: Vec<f64>,
 }
 
-/// Why numbers are no profile. Points count from 1.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ProfileError {
-    /// Fewer points than any spectrum needs.
-    #[error("found {found} points; expected at least 3, and some hundreds for a fractal dimension")]
-    TooFew {
-        /// Points.
-        found: usize,
-    },
-    /// Distances and heights that differ in number.
-    #[error("found {distances} distances and {heights} heights; expected as many of each")]
-    Lengths {
-        /// Distances.
-        distances: usize,
-        /// Heights.
-        heights: usize,
-    },
-    /// A number that is not finite.
-    #[error("point {point}: found {found}; expected finite numbers")]
-    NotFinite {
-        /// Which point.
-        point: usize,
-        /// The number.
-        found: f64,
-    },
-    /// A distance that does not grow.
-    #[error(
-        "point {point}: its distance, {found_m} m, is not beyond the one before; expected growing distances"
-    )]
-    NotGrowing {
-        /// Which point.
-        point: usize,
-        /// Its distance.
-        found_m: f64,
-    },
-    /// A step unlike the others.
-    #[error(
-        "point {point}: its step is {found_m} m, the mean step {mean_m} m; expected even spacing within {percent} %: \
-         export the profile at even steps, or resample it, which smooths its shortest waves"
-    )]
-    Uneven {
-        /// Which point.
-        point: usize,
-        /// Its step.
-        found_m: f64,
-        /// Mean step.
-        mean_m: f64,
-        /// What is allowed.
-        percent: f64,
-    },
-    /// A step that is no length.
-    #[error("the step is {0} m; expected a positive length")]
-    Step(f64),
-}
-
-/// Why a file gives no profile.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ProfileFileError {
-    /// The table.
-    #[error(transparent)]
-    Table(#[from] ColumnsError),
-    /// Its numbers.
-    #[error("{}, line {line}: {source}", path.display())]
-    Profile {
-        /// The file.
-        path: PathBuf,
-        /// Line of the point, or the last one.
-        line: usize,
-        /// What is wrong.
-        source: ProfileError,
-    },
-}
-
 /// How far a step may be from the mean step, part of it.
 const EVEN: f64 = 0.05;
 const FEWEST: usize = 3;
+const STEP: &str = "a positive length";
 
 impl Profile {
     /// A profile of heights (m) at `step_m` (m), beginning at distance zero.
     ///
     /// # Errors
-    /// [`ProfileError`] for fewer than three points, numbers that are not finite or a step that is not positive.
-    pub fn new(step_m: f64, height_m: Vec<f64>) -> Result<Self, ProfileError> {
-        if !(step_m.is_finite() && step_m > 0.0) {
-            return Err(ProfileError::Step(step_m));
-        }
+    /// [`SurfaceError`] for fewer than three points, numbers that are not finite or a step that is not positive.
+    pub fn new(step_m: f64, height_m: Vec<f64>) -> Result<Self, SurfaceError> {
+        positive("the step", step_m, " m", STEP)?;
         check(&height_m)?;
         Ok(Self {
             start_m: 0.0,
@@ -114,14 +38,14 @@ impl Profile {
     /// A profile of heights over distances (m), which must be evenly spaced: each step within 5 % of the mean one.
     ///
     /// # Errors
-    /// [`ProfileError`] for fewer than three points, numbers that are not finite, distances that do not grow or are uneven.
-    pub fn from_points(distance_m: &[f64], height_m: Vec<f64>) -> Result<Self, ProfileError> {
+    /// [`SurfaceError`] for fewer than three points, numbers that are not finite, distances that do not grow or are uneven.
+    pub fn from_points(distance_m: &[f64], height_m: Vec<f64>) -> Result<Self, SurfaceError> {
         let mean_m = check_points(distance_m, &height_m)?;
         let uneven = distance_m
             .windows(2)
             .position(|pair| ((pair[1] - pair[0]) / mean_m - 1.0).abs() > EVEN);
         match uneven {
-            Some(before) => Err(ProfileError::Uneven {
+            Some(before) => Err(SurfaceError::Uneven {
                 point: before + 2,
                 found_m: distance_m[before + 1] - distance_m[before],
                 mean_m,
@@ -140,8 +64,8 @@ impl Profile {
     /// Straight lines smooth: waves shorter than about ten of the longest steps lose height, so leave them out of the band.
     ///
     /// # Errors
-    /// [`ProfileError`] for fewer than three points, numbers that are not finite or distances that do not grow.
-    pub fn resampled(distance_m: &[f64], height_m: &[f64]) -> Result<Self, ProfileError> {
+    /// [`SurfaceError`] for fewer than three points, numbers that are not finite or distances that do not grow.
+    pub fn resampled(distance_m: &[f64], height_m: &[f64]) -> Result<Self, SurfaceError> {
         let step_m = check_points(distance_m, height_m)?;
         let mut behind = 0;
         let even = (0..height_m.len()).map(|point| {
@@ -163,8 +87,8 @@ impl Profile {
     /// Reads a table (CSV) with the columns `distance_mm` and `height_um`, or other units of length.
     ///
     /// # Errors
-    /// [`ProfileFileError`] with file, line, what was found and what was expected.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, ProfileFileError> {
+    /// [`SurfaceError`] with file, line, what was found and what was expected.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SurfaceError> {
         let (distance_m, height_m, locate) = read_points(path.as_ref())?;
         Self::from_points(&distance_m, height_m).map_err(locate)
     }
@@ -172,8 +96,8 @@ impl Profile {
     /// As [`Profile::read`] and then [`Profile::resampled`], for profiles with uneven steps.
     ///
     /// # Errors
-    /// [`ProfileFileError`] with file, line, what was found and what was expected.
-    pub fn read_resampled(path: impl AsRef<Path>) -> Result<Self, ProfileFileError> {
+    /// [`SurfaceError`] with file, line, what was found and what was expected.
+    pub fn read_resampled(path: impl AsRef<Path>) -> Result<Self, SurfaceError> {
         let (distance_m, height_m, locate) = read_points(path.as_ref())?;
         Self::resampled(&distance_m, &height_m).map_err(locate)
     }
@@ -222,10 +146,10 @@ impl Profile {
 type Points = (
     Vec<f64>,
     Vec<f64>,
-    Box<dyn Fn(ProfileError) -> ProfileFileError>,
+    Box<dyn Fn(SurfaceError) -> SurfaceError>,
 );
 
-fn read_points(path: &Path) -> Result<Points, ProfileFileError> {
+fn read_points(path: &Path) -> Result<Points, SurfaceError> {
     let column = |name| Column {
         name,
         units: LENGTHS,
@@ -237,38 +161,38 @@ fn read_points(path: &Path) -> Result<Points, ProfileFileError> {
     let points = (distance_m.collect(), height_m.collect());
     let lines: Vec<usize> = table.rows.iter().map(|(line, _)| *line).collect();
     let (path, header_line) = (table.path, table.header_line);
-    let locate = move |source: ProfileError| {
-        let line = match source {
-            ProfileError::NotFinite { point, .. }
-            | ProfileError::NotGrowing { point, .. }
-            | ProfileError::Uneven { point, .. } => lines.get(point - 1),
+    let locate = move |reason: SurfaceError| {
+        let line = match reason {
+            SurfaceError::NotFinite { point, .. }
+            | SurfaceError::NotGrowing { point, .. }
+            | SurfaceError::Uneven { point, .. } => lines.get(point - 1),
             _ => lines.last(),
         };
-        ProfileFileError::Profile {
+        SurfaceError::InFile {
             path: path.clone(),
             line: line.copied().unwrap_or(header_line),
-            source,
+            reason: Box::new(reason),
         }
     };
     Ok((points.0, points.1, Box::new(locate)))
 }
 
-fn check(values: &[f64]) -> Result<(), ProfileError> {
+fn check(values: &[f64]) -> Result<(), SurfaceError> {
     if values.len() < FEWEST {
-        return Err(ProfileError::TooFew {
+        return Err(SurfaceError::TooFewPoints {
             found: values.len(),
         });
     }
     match (1..).zip(values).find(|(_, value)| !value.is_finite()) {
-        Some((point, &found)) => Err(ProfileError::NotFinite { point, found }),
+        Some((point, &found)) => Err(SurfaceError::NotFinite { point, found }),
         None => Ok(()),
     }
 }
 
 /// The mean step of points that are a profile but for the evenness.
-fn check_points(distance_m: &[f64], height_m: &[f64]) -> Result<f64, ProfileError> {
+fn check_points(distance_m: &[f64], height_m: &[f64]) -> Result<f64, SurfaceError> {
     if distance_m.len() != height_m.len() {
-        return Err(ProfileError::Lengths {
+        return Err(SurfaceError::Lengths {
             distances: distance_m.len(),
             heights: height_m.len(),
         });
@@ -276,17 +200,15 @@ fn check_points(distance_m: &[f64], height_m: &[f64]) -> Result<f64, ProfileErro
     check(distance_m)?;
     check(height_m)?;
     match distance_m.windows(2).position(|pair| pair[1] <= pair[0]) {
-        Some(before) => Err(ProfileError::NotGrowing {
+        Some(before) => Err(SurfaceError::NotGrowing {
             point: before + 2,
             found_m: distance_m[before + 1],
         }),
         None => {
             let last = distance_m.len() - 1;
             let step_m = (distance_m[last] - distance_m[0]) / last as f64;
-            match step_m.is_normal() {
-                true => Ok(step_m),
-                false => Err(ProfileError::Step(step_m)),
-            }
+            number::check(step_m.is_normal(), "the step", step_m, " m", STEP)?;
+            Ok(step_m)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The two numbers that a fractal surface is described by.
 
-use thiserror::Error;
+use crate::number::{NumberError, check, positive};
 
 /// Fractal dimension and roughness parameter of a surface profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,33 +9,21 @@ pub struct Roughness {
     roughness_m: f64,
 }
 
-/// Numbers that describe no fractal profile.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum RoughnessError {
-    /// The fractal dimension is not between 1 and 2.
-    #[error(
-        "the fractal dimension D is {0}; expected more than 1 and less than 2, as a profile has (a surface's dimension is one more: subtract 1)"
-    )]
-    FractalDimension(f64),
-    /// The roughness parameter is not a positive length.
-    #[error(
-        "the fractal roughness G is {0} m; expected a positive length, about 1e-13 m to 1e-7 m for machined metal"
-    )]
-    RoughnessLength(f64),
-}
-
 impl Roughness {
     /// A surface of fractal dimension D, 1 < D < 2, and roughness parameter G > 0 (m) of its profile.
     ///
     /// # Errors
     /// D is not inside (1, 2), or G is not a positive finite length.
-    pub fn new(fractal_dimension: f64, roughness_m: f64) -> Result<Self, RoughnessError> {
-        if !(fractal_dimension > 1.0 && fractal_dimension < 2.0) {
-            return Err(RoughnessError::FractalDimension(fractal_dimension));
-        }
-        if !(roughness_m.is_finite() && roughness_m > 0.0) {
-            return Err(RoughnessError::RoughnessLength(roughness_m));
-        }
+    pub fn new(fractal_dimension: f64, roughness_m: f64) -> Result<Self, NumberError> {
+        check(
+            fractal_dimension > 1.0 && fractal_dimension < 2.0,
+            "the fractal dimension D",
+            fractal_dimension,
+            "",
+            "more than 1 and less than 2, as a profile has (a surface's dimension is one more: subtract 1)",
+        )?;
+        let expected = "a positive length, about 1e-13 m to 1e-7 m for machined metal";
+        positive("the fractal roughness G", roughness_m, " m", expected)?;
         Ok(Self {
             fractal_dimension,
             roughness_m,

@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 
-use super::{Profile, ProfileError, Roughness};
+use super::{Profile, Roughness, SurfaceError};
 
 /// A profile to be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +29,8 @@ impl Synthetic {
     /// frequency.
     ///
     /// # Errors
-    /// [`ProfileError`] for fewer than three points or a step that is not positive.
-    pub fn weierstrass_mandelbrot(&self, seed: u64) -> Result<Profile, ProfileError> {
+    /// [`SurfaceError`] for fewer than three points or a step that is not positive.
+    pub fn weierstrass_mandelbrot(&self, seed: u64) -> Result<Profile, SurfaceError> {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let dimension = self.roughness.fractal_dimension();
         let scale = self.roughness.roughness_m().powf(dimension - 1.0);
@@ -62,8 +62,8 @@ impl Synthetic {
     /// S(f) = G^(2(D−1))/(2 ln γ) f^(2D−5), from a wave of at least four times the length to half the sampling frequency.
     ///
     /// # Errors
-    /// [`ProfileError`] for fewer than three points or a step that is not positive.
-    pub fn gaussian(&self, seed: u64) -> Result<Profile, ProfileError> {
+    /// [`SurfaceError`] for fewer than three points or a step that is not positive.
+    pub fn gaussian(&self, seed: u64) -> Result<Profile, SurfaceError> {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let dimension = self.roughness.fractal_dimension();
         let period = 4 * self.points.next_power_of_two();

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 
-use super::{Detrend, FitError};
+use super::{Detrend, SurfaceError};
 
 /// Weights of a segment's points, which keep the power of long waves from leaking into short ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,16 +91,16 @@ impl Spectrum {
 
 impl Welch {
     /// Refuses segments that are too short or longer than `points`, and overlaps of a whole segment.
-    pub(super) fn check(&self, points: usize) -> Result<(), FitError> {
+    pub(super) fn check(&self, points: usize) -> Result<(), SurfaceError> {
         if !(8..=points).contains(&self.segment) {
-            return Err(FitError::Segment {
+            return Err(SurfaceError::Segment {
                 found: self.segment,
                 points,
             });
         }
         match self.overlap < self.segment {
             true => Ok(()),
-            false => Err(FitError::Overlap {
+            false => Err(SurfaceError::Overlap {
                 found: self.overlap,
                 segment: self.segment,
             }),
@@ -115,9 +115,9 @@ impl Welch {
     /// The spectrum of heights (m) at even steps (m).
     ///
     /// # Errors
-    /// [`FitError::Segment`] for segments of fewer than 8 points or more than there are, [`FitError::Overlap`] for an overlap
+    /// [`SurfaceError::Segment`] for segments of fewer than 8 points or more than there are, [`SurfaceError::Overlap`] for an overlap
     /// of a whole segment or more.
-    pub fn spectrum(&self, height_m: &[f64], step_m: f64) -> Result<Spectrum, FitError> {
+    pub fn spectrum(&self, height_m: &[f64], step_m: f64) -> Result<Spectrum, SurfaceError> {
         self.check(height_m.len())?;
         let weights = self.window.weights(self.segment);
         let transform = FftPlanner::new().plan_fft_forward(self.segment);

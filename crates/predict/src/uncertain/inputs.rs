@@ -2,9 +2,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
-use thiserror::Error;
 
 use super::distribution::Distribution;
+use crate::number::{NumberError, check};
 
 /// The uncertain values of a prediction. Those that are exact take part, but no random numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,14 +23,6 @@ struct Input {
 /// Place of an input among [`Inputs`], to find its value again among those drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InputPlace(usize);
-
-/// A correlation that no two inputs have.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum InputError {
-    /// It is not between −1 and 1.
-    #[error("found the correlation {0}, expected a number between −1 and 1")]
-    Correlation(f64),
-}
 
 impl Inputs {
     /// One more input.
@@ -53,10 +45,15 @@ impl Inputs {
         distribution: Distribution,
         with: InputPlace,
         correlation: f64,
-    ) -> Result<InputPlace, InputError> {
-        if !(-1.0..=1.0).contains(&correlation) {
-            return Err(InputError::Correlation(correlation));
-        }
+    ) -> Result<InputPlace, NumberError> {
+        let valid = (-1.0..=1.0).contains(&correlation);
+        check(
+            valid,
+            "the correlation",
+            correlation,
+            "",
+            "a number between −1 and 1",
+        )?;
         let place = self.add(name, distribution);
         self.inputs[place.0].with = Some((with.0, correlation));
         Ok(place)

@@ -12,7 +12,7 @@ mod outcome;
 mod value;
 
 pub use distribution::{Distribution, Spread};
-pub use inputs::{Drawn, InputError, InputPlace, Inputs};
+pub use inputs::{Drawn, InputPlace, Inputs};
 pub use monte_carlo::{MonteCarlo, MonteCarloError, Refusal};
 pub use outcome::{Estimate, Outcome};
 pub use value::Uncertain;

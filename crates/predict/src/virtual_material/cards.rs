@@ -19,16 +19,13 @@ pub enum Card {
 }
 
 /// A card that cannot be written.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum CardError {
-    /// The name is none that the programs take.
-    #[error(
-        "the material's name is \"{0}\"; expected a letter, then letters, digits, \"_\" or \"-\", 80 characters at most"
-    )]
-    Name(String),
-    /// The number of the material is zero.
-    #[error("the number of the material is 0; expected 1 or more")]
-    Number,
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the {what}; expected {expected}")]
+pub struct CardError {
+    /// What is wrong with it.
+    pub what: String,
+    /// What was expected.
+    pub expected: &'static str,
 }
 
 impl Card {
@@ -43,7 +40,10 @@ impl Card {
                 .chars()
                 .all(|one| one.is_ascii_alphanumeric() || "_-".contains(one));
         if !is_name {
-            return Err(CardError::Name(name.to_owned()));
+            return Err(CardError {
+                what: format!("material's name is \"{name}\""),
+                expected: "a letter, then letters, digits, \"_\" or \"-\", 80 characters at most",
+            });
         }
         let young = number(material.youngs_modulus_pa);
         let shear = number(material.shear_modulus_pa);
@@ -67,7 +67,10 @@ impl Card {
                  *DENSITY\n\
                  {density},\n"
             )),
-            Self::Ansys(0) => Err(CardError::Number),
+            Self::Ansys(0) => Err(CardError {
+                what: "number of the material is 0".to_owned(),
+                expected: "1 or more",
+            }),
             Self::Ansys(place) => Ok(format!(
                 "! {name}: layer that stands for a bolted joint, {thickness} m thick. Units: N, m, kg, s.\n\
                  MP,EX,{place},{young}\n\

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::VirtualMaterialError;
+use crate::ContactError;
 use crate::Pair;
 use crate::growth::Growth;
+use crate::number::{HARDNESS, positive};
 use crate::surface::Roughness;
 
 /// Greatest |ln a_c|, ln of the critical area in m², with which its powers are ordinary numbers.
@@ -79,20 +80,19 @@ impl LayerContact {
         roughness: Roughness,
         hardness_pa: f64,
         friction_ratio: f64,
-    ) -> Result<Self, VirtualMaterialError> {
-        if !(hardness_pa.is_finite() && hardness_pa > 0.0) {
-            return Err(VirtualMaterialError::Hardness(hardness_pa));
-        }
+    ) -> Result<Self, ContactError> {
+        positive("the hardness", hardness_pa, " Pa", HARDNESS)?;
         if !(0.0..1.0).contains(&friction_ratio) {
-            return Err(VirtualMaterialError::FrictionRatio(friction_ratio));
+            return Err(ContactError::LayerSlips(friction_ratio));
         }
         let d = roughness.fractal_dimension();
         let modulus = pair.equivalent_youngs_modulus_pa();
         let log_critical = log_critical_area(d, roughness.roughness_m(), hardness_pa / modulus);
         if log_critical.abs() > LARGEST_LOG_AREA {
-            return Err(VirtualMaterialError::CriticalArea {
+            return Err(ContactError::CriticalArea {
                 exponent: log_critical,
                 fractal_dimension: d,
+                hardness_to_modulus: hardness_pa / modulus,
             });
         }
         let critical_area_m2 = log_critical.exp();
@@ -135,7 +135,7 @@ impl LayerContact {
     ///
     /// # Errors
     /// The load or area is not more than the critical one.
-    pub fn real_area_m2(&self, loading: Loading) -> Result<f64, VirtualMaterialError> {
+    pub fn real_area_m2(&self, loading: Loading) -> Result<f64, ContactError> {
         let growth = self.log_growth(loading)?;
         // (5): a_L = (2 − D) A_t/D
         Ok(self.critical_real_area_m2() * growth.exp())
@@ -145,7 +145,7 @@ impl LayerContact {
     ///
     /// # Errors
     /// The load or area is not more than the critical one.
-    pub fn load_n(&self, loading: Loading) -> Result<f64, VirtualMaterialError> {
+    pub fn load_n(&self, loading: Loading) -> Result<f64, ContactError> {
         let growth = self.log_growth(loading)?;
         // (13), both branches
         Ok(self.critical_load_n * self.growth.log_load(growth).exp())
@@ -155,7 +155,7 @@ impl LayerContact {
     ///
     /// # Errors
     /// The load or area is not more than the critical one: then no contact is elastic.
-    pub fn moduli(&self, loading: Loading) -> Result<Moduli, VirtualMaterialError> {
+    pub fn moduli(&self, loading: Loading) -> Result<Moduli, ContactError> {
         let [young, shear] = shapes(self.fractal_dimension, self.log_growth(loading)?);
         Ok(Moduli {
             youngs_modulus_pa: self.factors[0] * young,
@@ -169,22 +169,20 @@ impl LayerContact {
     }
 
     /// x = ln(a_L/a_c) > 0
-    fn log_growth(&self, loading: Loading) -> Result<f64, VirtualMaterialError> {
+    fn log_growth(&self, loading: Loading) -> Result<f64, ContactError> {
         let (quantity, unit) = loading.names();
         let found = loading.value();
-        if !(found.is_finite() && found > 0.0) {
-            return Err(VirtualMaterialError::Loading {
-                quantity,
-                found,
-                unit,
-            });
-        }
+        let expected = "a positive number";
+        match loading {
+            Loading::Force(_) => positive("the normal load", found, " N", expected),
+            Loading::RealArea(_) => positive("the real contact area", found, " m²", expected),
+        }?;
         let critical = match loading {
             Loading::Force(_) => self.critical_load_n,
             Loading::RealArea(_) => self.critical_real_area_m2(),
         };
         if found <= critical {
-            return Err(VirtualMaterialError::NoElasticContact {
+            return Err(ContactError::NoElasticContact {
                 quantity,
                 found,
                 critical,
@@ -197,7 +195,7 @@ impl LayerContact {
             Loading::RealArea(_) => ratio,
         };
         if x > LARGEST_GROWTH {
-            return Err(VirtualMaterialError::Overflow(x));
+            return Err(ContactError::Overflow(x));
         }
         Ok(x)
     }

@@ -1,9 +1,8 @@
 //! What a layer amounts to as a joint between two parts.
 
-use thiserror::Error;
-
 use super::Moduli;
-use crate::pressure::PressureField;
+use crate::number::{NumberError, positive};
+use crate::pressure::{PressureError, PressureField};
 
 /// The face of the layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,30 +15,14 @@ pub struct Interface {
     pub second_moments_m4: [f64; 2],
 }
 
-/// A face that is none.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum InterfaceError {
-    /// A length of the rectangle or the thickness of the layer is not positive.
-    #[error("the {quantity} is {found} m; expected a positive length")]
-    Length {
-        /// "width", "depth" or "thickness".
-        quantity: &'static str,
-        /// What was found.
-        found: f64,
-    },
-    /// The pressure is zero everywhere.
-    #[error("no element of the pressure field has a pressure: the parts do not touch")]
-    Apart,
-}
-
 impl Interface {
     /// A rectangle about the origin, `width_m` along x and `depth_m` along y.
     ///
     /// # Errors
     /// A length is not positive.
-    pub fn rectangle(width_m: f64, depth_m: f64) -> Result<Self, InterfaceError> {
-        check("width", width_m)?;
-        check("depth", depth_m)?;
+    pub fn rectangle(width_m: f64, depth_m: f64) -> Result<Self, NumberError> {
+        length("the width", width_m)?;
+        length("the depth", depth_m)?;
         let area_m2 = width_m * depth_m;
         Ok(Self {
             area_m2,
@@ -53,7 +36,7 @@ impl Interface {
     ///
     /// # Errors
     /// No element has a pressure.
-    pub fn in_contact(field: &PressureField) -> Result<Self, InterfaceError> {
+    pub fn in_contact(field: &PressureField) -> Result<Self, PressureError> {
         let touching = || {
             field
                 .elements()
@@ -62,7 +45,7 @@ impl Interface {
         };
         let area_m2: f64 = touching().map(|element| element.area_m2).sum();
         if area_m2 == 0.0 {
-            return Err(InterfaceError::Apart);
+            return Err(PressureError::Apart);
         }
         let [x, y] = touching()
             .fold([0.0; 2], |[x, y], element| {
@@ -108,8 +91,8 @@ impl JointStiffness {
         moduli: Moduli,
         thickness_m: f64,
         interface: &Interface,
-    ) -> Result<Self, InterfaceError> {
-        check("thickness", thickness_m)?;
+    ) -> Result<Self, NumberError> {
+        length("the thickness", thickness_m)?;
         let [young, shear] = [moduli.youngs_modulus_pa, moduli.shear_modulus_pa]
             .map(|modulus| modulus / thickness_m);
         let [about_x, about_y] = interface.second_moments_m4;
@@ -122,10 +105,6 @@ impl JointStiffness {
     }
 }
 
-fn check(quantity: &'static str, found: f64) -> Result<(), InterfaceError> {
-    if found.is_finite() && found > 0.0 {
-        Ok(())
-    } else {
-        Err(InterfaceError::Length { quantity, found })
-    }
+fn length(quantity: &'static str, found: f64) -> Result<(), NumberError> {
+    positive(quantity, found, " m", "a positive length")
 }

@@ -1,6 +1,8 @@
 //! The layer as a material of a finite-element model.
 
-use super::{LayerContact, Loading, Moduli, VirtualMaterialError};
+use super::{LayerContact, Loading, Moduli};
+use crate::ContactError;
+use crate::number::positive;
 
 /// The slices of both parts that the layer takes the place of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +37,7 @@ impl VirtualMaterial {
         contact: &LayerContact,
         loading: Loading,
         layers: &Layers,
-    ) -> Result<Self, VirtualMaterialError> {
+    ) -> Result<Self, ContactError> {
         Self::from_moduli(contact.moduli(loading)?, layers)
     }
 
@@ -43,25 +45,20 @@ impl VirtualMaterial {
     ///
     /// # Errors
     /// As [`VirtualMaterial::new`].
-    pub fn from_moduli(moduli: Moduli, layers: &Layers) -> Result<Self, VirtualMaterialError> {
+    pub fn from_moduli(moduli: Moduli, layers: &Layers) -> Result<Self, ContactError> {
         let quantities = [
             ("thickness (m)", layers.thickness_m),
             ("density (kg/m³)", layers.density_kg_per_m3),
         ];
         for (quantity, values) in quantities {
             for (side, found) in ['a', 'b'].into_iter().zip(values) {
-                if !(found.is_finite() && found > 0.0) {
-                    return Err(VirtualMaterialError::Layer {
-                        quantity,
-                        side,
-                        found,
-                    });
-                }
+                let quantity = format!("the {quantity} of side {side}");
+                positive(quantity, found, "", "a positive number")?;
             }
         }
         let poissons_ratio = moduli.poissons_ratio();
         if !(poissons_ratio > -1.0 && poissons_ratio < 0.5) {
-            return Err(VirtualMaterialError::PoissonsRatio {
+            return Err(ContactError::PoissonsRatio {
                 found: poissons_ratio,
                 youngs_modulus_pa: moduli.youngs_modulus_pa,
                 shear_modulus_pa: moduli.shear_modulus_pa,

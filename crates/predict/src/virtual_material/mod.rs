@@ -7,14 +7,12 @@
 
 mod cards;
 mod contact;
-mod error;
 mod fit;
 mod interface;
 mod material;
 
 pub use cards::{Card, CardError};
 pub use contact::{LayerContact, Loading, Moduli};
-pub use error::VirtualMaterialError;
-pub use fit::{Fit, FitError, FittedLayer, Magnitudes, Observation, fit};
-pub use interface::{Interface, InterfaceError, JointStiffness};
+pub use fit::{Fit, FittedLayer, Magnitudes, Observation, fit};
+pub use interface::{Interface, JointStiffness};
 pub use material::{Layers, VirtualMaterial};

@@ -2,7 +2,8 @@
 
 use bolted_joint_figures::html::{cell, escaped, number, number_cell, spread, table};
 use bolted_joint_predict::patch::{LossFactor, NormalDamping};
-use bolted_joint_predict::study::{Prediction, PredictionMethod};
+use bolted_joint_predict::study::Prediction;
+use bolted_joint_study::Method;
 
 pub(super) fn section(found: &Prediction<'_>) -> String {
     let study = found.study;
@@ -28,15 +29,15 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         "Motion is small: the interface neither opens nor slides as a whole.".to_owned(),
     ];
     match study.method {
-        PredictionMethod::FractalContact => taken.push(
+        Method::FractalContact => taken.push(
             "Each point of the interface has the stiffness of two fractal surfaces under the pressure there (Zhao et al., 2016); bolts and parts \
              are not in it: a structure's model has them."
                 .to_owned(),
         ),
-        PredictionMethod::VirtualMaterial => taken.push(
+        Method::VirtualMaterial => taken.push(
             "A layer of even elasticity stands for the interface (Tian et al., 2011).".to_owned(),
         ),
-        PredictionMethod::LayeredBeam => {}
+        _ => {}
     }
     taken.push(match study.loss_factor {
         LossFactor::EnergyRatio => {

@@ -5,14 +5,11 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize as _;
-
-use bolted_joint_files::text_file;
 use bolted_joint_harmonic::{Derivative, Harmonics, Observed, Side};
 use bolted_joint_joint::JointFile;
+use bolted_joint_study::{Method, StudyText};
 
 use super::RespondError;
-use check::Checker;
 use tables::{Kind, Place, QuantityName, ScaleName, StudyFile};
 
 /// A validated study of method `respond`.
@@ -189,48 +186,28 @@ pub struct Start {
     pub value: f64,
 }
 
-#[derive(serde::Deserialize)]
-struct MethodAlone {
-    method: Option<toml::Value>,
-}
-
 impl RespondStudy {
-    /// Whether a study's file is one of method `respond`. A file that is no TOML is none: the reader of the other method will say so.
-    ///
-    /// # Errors
-    /// [`RespondError::File`] if it cannot be read.
-    pub fn is_meant(path: &Path) -> Result<bool, RespondError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        let deserializer = toml::Deserializer::parse(&text);
-        let alone = deserializer.and_then(MethodAlone::deserialize);
-        Ok(alone.is_ok_and(|alone| alone.method.is_some_and(|m| m.as_str() == Some("respond"))))
-    }
-
     /// Reads and checks a study and the joint files that it names.
     ///
     /// # Errors
     /// [`RespondError`] that names the file and the key or line.
     pub fn read(path: &Path) -> Result<Self, RespondError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        Self::from_toml(&text, path)
+        Self::of(&StudyText::read(path)?)
     }
 
-    /// A study from the text of its file; `path` tells where that lies.
+    /// A study from its text.
     ///
     /// # Errors
     /// [`RespondError`] that names the file and the key or line.
-    pub fn from_toml(text: &str, path: &Path) -> Result<Self, RespondError> {
-        let file: StudyFile = toml::from_str(text).map_err(|error| RespondError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        let check = Checker { path };
-        check.name(&file.name)?;
-        check.tables(&file)?;
-        let laps = check.laps(&file.lap)?;
+    pub fn of(study: &StudyText) -> Result<Self, RespondError> {
+        let file: StudyFile = study.tables()?;
+        study.check_method(file.method, &[Method::Respond])?;
+        study.check_name("name", &file.name)?;
+        check::tables(study, &file)?;
+        let laps = check::laps(study, &file.lap)?;
         let dofs = laps[0].file.joint.dofs;
         let motions = match &file.motions {
-            Some(motions) => check.motions(motions, dofs)?,
+            Some(motions) => check::motions(study, motions, dofs)?,
             None => vec![Observed::Relative(0)],
         };
         let quantity = match file.quantity {
@@ -239,16 +216,15 @@ impl RespondStudy {
             QuantityName::Acceleration => Derivative::Acceleration,
         };
         let is_time = matches!(file.kind, Kind::Sweep | Kind::Dwell | Kind::FreeDecay);
-        if is_time && quantity != Derivative::Displacement {
-            return Err(check.refuse(
-                "quantity",
-                "one that is not in a time history",
-                "displacement; velocities are written beside it",
-            ));
-        }
+        study.ensure(
+            !is_time || quantity == Derivative::Displacement,
+            "quantity",
+            "one that is not in a time history",
+            "displacement; velocities are written beside it",
+        )?;
         Ok(Self {
-            path: path.to_owned(),
-            test: check.test(&file, dofs)?,
+            path: study.path().to_owned(),
+            test: check::test(study, &file, dofs)?,
             name: file.name,
             laps,
             motions,

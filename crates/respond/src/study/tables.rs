@@ -6,13 +6,11 @@ use std::path::PathBuf;
 use bolted_joint_joint::DofName;
 use serde::Deserialize;
 
+use bolted_joint_study::{Method, OneOrMore};
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
-    #[expect(
-        dead_code,
-        reason = "there is one method; others are refused as they are read"
-    )]
     pub(super) method: Method,
     pub(super) kind: Kind,
     pub(super) name: String,
@@ -28,12 +26,6 @@ pub(super) struct StudyFile {
     pub(super) harmonics: Option<HarmonicsTable>,
     pub(super) time: Option<TimeTable>,
     pub(super) start: Option<BTreeMap<String, f64>>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Method {
-    Respond,
 }
 
 /// What is computed.
@@ -139,20 +131,4 @@ pub(super) struct TimeTable {
     pub(super) interval: Option<f64>,
     pub(super) settle: Option<f64>,
     pub(super) steps_per_period: Option<f64>,
-}
-
-#[derive(Clone, Deserialize)]
-#[serde(untagged, expecting = "expected a number or a list of numbers")]
-pub(super) enum OneOrMore {
-    One(f64),
-    More(Vec<f64>),
-}
-
-impl OneOrMore {
-    pub(super) fn list(&self) -> Vec<f64> {
-        match self {
-            Self::One(number) => vec![*number],
-            Self::More(numbers) => numbers.clone(),
-        }
-    }
 }

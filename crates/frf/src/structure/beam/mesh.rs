@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 
 use crate::structure::spatial::{Modes, SpatialModel};
 
-use super::{Beam, BeamError, BeamPoint, Boundary, Motion};
+use super::{Beam, BeamPoint, Boundary, Motion};
+use crate::structure::StructureError;
 
 /// Elements over the length of a beam. A frequency with root λ = βL is then too high by (λ/60)⁴/1440 of itself:
 /// 8·10⁻⁷ for the third bending mode of a free beam, 6·10⁻⁵ for the tenth.
@@ -16,14 +17,18 @@ const SHORTEST_ELEMENT: f64 = 1e-4;
 impl Beam {
     /// Node positions: both ends, every point that is not too close to another, and equal elements between them, of which
     /// `elements` would fill the length.
-    pub(super) fn mesh(&self, points: &[BeamPoint], elements: f64) -> Result<Vec<f64>, BeamError> {
+    pub(super) fn mesh(
+        &self,
+        points: &[BeamPoint],
+        elements: f64,
+    ) -> Result<Vec<f64>, StructureError> {
         self.check()?;
         let rounding = 1e-9 * self.length_m;
         let mut marks = vec![0.0, self.length_m];
         for point in points {
             let position_m = point.position_m;
             if !(position_m >= -rounding && position_m <= self.length_m + rounding) {
-                return Err(BeamError::OffTheBeam {
+                return Err(StructureError::OffTheBeam {
                     position_m,
                     length_m: self.length_m,
                 });
@@ -48,7 +53,7 @@ impl Beam {
         Ok(nodes)
     }
 
-    pub(super) fn modes_on(&self, nodes: &[f64]) -> Result<Modes, BeamError> {
+    pub(super) fn modes_on(&self, nodes: &[f64]) -> Result<Modes, StructureError> {
         let size = 2 * nodes.len();
         let mut mass = DMatrix::zeros(size, size);
         let mut stiffness = DMatrix::zeros(size, size);
@@ -84,7 +89,8 @@ impl Beam {
         let mass = mass.select_rows(&free).select_columns(&free);
         let stiffness = stiffness.select_rows(&free).select_columns(&free);
         let damping = DMatrix::zeros(free.len(), free.len());
-        Ok(SpatialModel::new(mass, damping, stiffness)?.modes()?)
+        let modes = SpatialModel::new(mass, damping, stiffness).and_then(|model| model.modes());
+        modes.map_err(|error| StructureError::NoModes(Box::new(error)))
     }
 
     /// Degrees of freedom (2 a node: w, ∂w/∂x) that the supports leave free.

@@ -6,11 +6,9 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-mod error;
 mod mesh;
 
-pub use error::BeamError;
-
+use super::StructureError;
 use mesh::{ELEMENTS, interpolation};
 
 /// How the two ends of a beam are held; the first word is the end at x = 0.
@@ -92,12 +90,12 @@ impl Beam {
     /// of another.
     ///
     /// # Errors
-    /// [`BeamError`] if the beam is not physical, a point is not on it or a frequency is that of an undamped mode.
+    /// [`StructureError`] if the beam is not physical, a point is not on it or a frequency is that of an undamped mode.
     pub fn receptances(
         &self,
         points: &[BeamPoint],
         frequency_hz: &[f64],
-    ) -> Result<Vec<DMatrix<Complex64>>, BeamError> {
+    ) -> Result<Vec<DMatrix<Complex64>>, StructureError> {
         let modes = self.modes_with(points, ELEMENTS)?;
         let amplitudes = &modes.amplitudes;
         let rigid = self.rigid_body_modes();
@@ -140,19 +138,19 @@ impl Beam {
     /// mesh as in [`Beam::receptances`].
     ///
     /// # Errors
-    /// [`BeamError`] if the beam is not physical, or a point is not on it.
+    /// [`StructureError`] if the beam is not physical, or a point is not on it.
     pub fn modes_at(
         &self,
         points: &[BeamPoint],
         elements: NonZeroU16,
-    ) -> Result<BeamModes, BeamError> {
+    ) -> Result<BeamModes, StructureError> {
         let mut modes = self.modes_with(points, f64::from(elements.get()))?;
         let rigid = self.rigid_body_modes();
         modes.angular_frequency.rows_mut(0, rigid).fill(0.0);
         Ok(modes)
     }
 
-    fn modes_with(&self, points: &[BeamPoint], elements: f64) -> Result<BeamModes, BeamError> {
+    fn modes_with(&self, points: &[BeamPoint], elements: f64) -> Result<BeamModes, StructureError> {
         let nodes = self.mesh(points, elements)?;
         let modes = self.modes_on(&nodes)?;
         let free = self.free_dofs(nodes.len());
@@ -174,31 +172,42 @@ impl Beam {
     /// Natural frequencies in Hz, ascending, rigid-body modes (as zeros) included.
     ///
     /// # Errors
-    /// [`BeamError`] if the beam is not physical.
-    pub fn natural_frequencies_hz(&self) -> Result<Vec<f64>, BeamError> {
+    /// [`StructureError`] if the beam is not physical.
+    pub fn natural_frequencies_hz(&self) -> Result<Vec<f64>, StructureError> {
         let nodes = self.mesh(&[], ELEMENTS)?;
         let mut frequencies = self.modes_on(&nodes)?.frequency_hz();
         frequencies[..self.rigid_body_modes()].fill(0.0);
         Ok(frequencies)
     }
 
-    fn resonance(&self, frequency_hz: f64) -> BeamError {
-        let (reason, advice) = if frequency_hz == 0.0 {
-            ("where a beam with free ends is not held", "")
-        } else {
-            (
+    fn resonance(&self, frequency_hz: f64) -> StructureError {
+        let (reason, advice) = match frequency_hz == 0.0 {
+            true => (
+                "where a beam with free ends is not held",
+                "leave that line out",
+            ),
+            false => (
                 "the frequency of an undamped mode",
-                ", or give the beam damping",
-            )
+                "leave that line out, or give the beam damping",
+            ),
         };
-        BeamError::Resonance {
+        StructureError::Resonance {
+            what: "the beam has no finite receptance",
             frequency_hz,
             reason,
             advice,
         }
     }
 
-    fn check(&self) -> Result<(), BeamError> {
+    fn check(&self) -> Result<(), StructureError> {
+        let check = |valid: bool, key, found: f64, expected| match valid {
+            true => Ok(()),
+            false => Err(StructureError::Beam {
+                key,
+                found: found.to_string(),
+                expected,
+            }),
+        };
         for (key, found) in [
             ("length", self.length_m),
             ("width", self.width_m),
@@ -206,24 +215,24 @@ impl Beam {
             ("youngs_modulus", self.youngs_modulus_pa),
             ("density", self.density_kg_per_m3),
         ] {
-            if !(found.is_finite() && found > 0.0) {
-                return Err(BeamError::NotPositive { key, found });
-            }
+            let valid = found.is_finite() && found > 0.0;
+            check(valid, key, found, "a positive number in SI units")?;
         }
         let (key, values) = match &self.damping {
             Damping::Ratios(ratios) => ("damping_ratio", ratios.as_slice()),
             Damping::LossFactor(eta) => ("loss_factor", std::slice::from_ref(eta)),
         };
         if values.is_empty() {
-            return Err(BeamError::NoDampingRatio);
+            return Err(StructureError::Beam {
+                key,
+                found: "an empty list".to_owned(),
+                expected: "one number or a number for each mode",
+            });
         }
-        match values
-            .iter()
-            .find(|ratio| !ratio.is_finite() || **ratio < 0.0)
-        {
-            Some(&found) => Err(BeamError::Damping { key, found }),
-            None => Ok(()),
-        }
+        values.iter().try_for_each(|&found| {
+            let valid = found.is_finite() && found >= 0.0;
+            check(valid, key, found, "a finite number that is not negative")
+        })
     }
 }
 

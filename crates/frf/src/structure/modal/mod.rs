@@ -1,17 +1,15 @@
 //! A substructure given by its measured modes: shapes, frequencies, damping ratios and residuals.
 
 use std::f64::consts::TAU;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
 use serde::Deserialize;
 
+use super::StructureError;
 use crate::Dof;
 use bolted_joint_files::text_file;
-
-mod error;
-
-pub use error::ModalError;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -59,8 +57,8 @@ impl ModalModel {
     /// Reads modal data from a TOML file.
     ///
     /// # Errors
-    /// [`ModalError`], which names the file and the line or key.
-    pub fn read(path: &Path) -> Result<Self, ModalError> {
+    /// [`StructureError`], which names the file and the line or key.
+    pub fn read(path: &Path) -> Result<Self, StructureError> {
         let text = text_file::read(path, "modal data (TOML)")?;
         Self::from_toml(&text, path)
     }
@@ -68,10 +66,10 @@ impl ModalModel {
     /// Modal data from the text of a TOML file; `path` is what messages call it.
     ///
     /// # Errors
-    /// [`ModalError`], which names the file and the line or key.
-    pub fn from_toml(text: &str, path: &Path) -> Result<Self, ModalError> {
+    /// [`StructureError`], which names the file and the line or key.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, StructureError> {
         let path = path.to_owned();
-        let file: File = toml::from_str(text).map_err(|error| ModalError::Syntax {
+        let file: File = toml::from_str(text).map_err(|error| StructureError::Syntax {
             path: path.clone(),
             message: error.to_string().trim_end().to_owned(),
         })?;
@@ -108,13 +106,13 @@ impl ModalModel {
     /// Residuals are added where the file has them for this pair or, by reciprocity, for the transposed one.
     ///
     /// # Errors
-    /// [`ModalError::MissingPoint`] if there is no shape at one of the two.
+    /// [`StructureError::MissingPoint`] if there is no shape at one of the two.
     pub fn receptance(
         &self,
         response: Dof,
         reference: Dof,
         frequency_hz: &[f64],
-    ) -> Result<Vec<Complex64>, ModalError> {
+    ) -> Result<Vec<Complex64>, StructureError> {
         let (p, p_sign) = self.place(response)?;
         let (q, q_sign) = self.place(reference)?;
         let (upper, lower) = self.residual(p, q).unwrap_or((0.0, 0.0));
@@ -137,12 +135,12 @@ impl ModalModel {
         Ok(frequency_hz.iter().map(value).collect())
     }
 
-    fn place(&self, dof: Dof) -> Result<(usize, f64), ModalError> {
+    fn place(&self, dof: Dof) -> Result<(usize, f64), StructureError> {
         let position = |wanted: Dof| self.points.iter().position(|&point| point == wanted);
         position(dof)
             .map(|index| (index, 1.0))
             .or_else(|| position(dof.flipped()).map(|index| (index, -1.0)))
-            .ok_or_else(|| ModalError::MissingPoint {
+            .ok_or_else(|| StructureError::MissingPoint {
                 path: self.path.clone(),
                 dof,
                 present: self.points.clone(),
@@ -160,94 +158,80 @@ impl ModalModel {
             })
     }
 
-    fn check(&self) -> Result<(), ModalError> {
-        let content = |found: &str, expected| ModalError::Content {
-            path: self.path.clone(),
-            found: found.to_owned(),
-            expected,
-        };
-        if self.points.is_empty() || self.modes.is_empty() {
-            return Err(content(
-                "found no point or no mode",
-                "`points` and at least one [[mode]]",
-            ));
-        }
+    fn check(&self) -> Result<(), StructureError> {
+        let is_empty = self.points.is_empty() || self.modes.is_empty();
+        let expected = "`points` and at least one [[mode]]";
+        self.ensure(!is_empty, "found no point or no mode", expected)?;
         for (index, point) in self.points.iter().enumerate() {
-            if self.points[..index].contains(point) {
-                return Err(content(
-                    &format!("found point {point} twice"),
-                    "every point once",
-                ));
-            }
+            let is_new = !self.points[..index].contains(point);
+            let found = format!("found point {point} twice");
+            self.ensure(is_new, found, "every point once")?;
         }
         for (index, mode) in self.modes.iter().enumerate() {
             let key = |name: &str| format!("mode {}, {name}", index + 1);
-            self.check_length(key("shape"), mode.shape.len())?;
+            self.check_length(&key("shape"), mode.shape.len())?;
             for &[re, im] in &mode.shape {
-                self.check_value(key("shape"), re + im, f64::is_finite, "finite numbers")?;
+                self.check_finite(&key("shape"), re + im)?;
             }
-            let positive = |value: f64| value.is_finite() && value > 0.0;
-            self.check_value(
-                key("frequency_hz"),
-                mode.frequency_hz,
-                positive,
+            let (frequency, ratio) = (mode.frequency_hz, mode.damping_ratio);
+            self.ensure(
+                frequency.is_finite() && frequency > 0.0,
+                format_args!("{}: found {frequency}", key("frequency_hz")),
                 "a positive frequency in Hz",
             )?;
-            let underdamped = |ratio: f64| (0.0..1.0).contains(&ratio);
-            self.check_value(
-                key("damping_ratio"),
-                mode.damping_ratio,
-                underdamped,
+            self.ensure(
+                (0.0..1.0).contains(&ratio),
+                format_args!("{}: found {ratio}", key("damping_ratio")),
                 "a ratio from 0 to below 1 (not per cent)",
             )?;
         }
         for residual in &self.residuals {
-            if !self.points.contains(&residual.reference) {
-                return Err(content(
-                    &format!("found a residual with reference {}", residual.reference),
-                    "a reference among `points`",
-                ));
-            }
+            let is_there = self.points.contains(&residual.reference);
+            let found = format!("found a residual with reference {}", residual.reference);
+            self.ensure(is_there, found, "a reference among `points`")?;
             for (name, values) in [("upper", &residual.upper), ("lower", &residual.lower)] {
                 let key = format!("residual of {}, {name}", residual.reference);
-                self.check_length(key.clone(), values.len())?;
+                self.check_length(&key, values.len())?;
                 for &value in values {
-                    self.check_value(key.clone(), value, f64::is_finite, "finite numbers")?;
+                    self.check_finite(&key, value)?;
                 }
             }
         }
         Ok(())
     }
 
-    fn check_length(&self, key: String, found: usize) -> Result<(), ModalError> {
+    fn check_length(&self, key: &str, found: usize) -> Result<(), StructureError> {
         let expected = self.points.len();
-        if found == expected {
-            return Ok(());
-        }
-        Err(ModalError::Length {
-            path: self.path.clone(),
-            key,
-            found,
-            expected,
-        })
+        self.ensure(
+            found == expected,
+            format_args!("{key}: found {found} entries"),
+            format_args!("{expected}, one for each of `points`"),
+        )
     }
 
-    fn check_value(
+    fn check_finite(&self, key: &str, found: f64) -> Result<(), StructureError> {
+        let is_finite = found.is_finite();
+        self.ensure(
+            is_finite,
+            format_args!("{key}: found {found}"),
+            "finite numbers",
+        )
+    }
+
+    fn ensure(
         &self,
-        key: String,
-        found: f64,
-        allowed: impl Fn(f64) -> bool,
-        expected: &'static str,
-    ) -> Result<(), ModalError> {
-        if allowed(found) {
-            return Ok(());
+        valid: bool,
+        found: impl Display,
+        expected: impl Display,
+    ) -> Result<(), StructureError> {
+        match valid {
+            true => Ok(()),
+            false => Err(StructureError::Modes {
+                path: self.path.clone(),
+                found: found.to_string(),
+                expected: expected.to_string(),
+            }),
         }
-        Err(ModalError::Value {
-            path: self.path.clone(),
-            key,
-            found,
-            expected,
-        })
     }
 }
 
@@ -276,7 +260,7 @@ mod tests {
         lower = [3e-2, 4e-2]
     "#;
 
-    fn model(text: &str) -> Result<ModalModel, ModalError> {
+    fn model(text: &str) -> Result<ModalModel, StructureError> {
         ModalModel::from_toml(text, Path::new("modes.toml"))
     }
 

@@ -5,62 +5,24 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
-use bolted_joint_files::text_file::{self, TextFileError};
+use bolted_joint_joint::InputFile;
+use bolted_joint_study::{Method, StudyError, StudyText};
 
 use super::beam::LayeredBeam;
 use super::beam_mode::{Route, StoredEnergy};
-use super::error::LayeredBeamError;
 use super::fasteners::Fasteners;
 use super::lap::EquivalentDamping;
 use super::outcome::Outcome;
 use super::scatter::Scatter;
 use tables::StudyFile;
 
-/// Why a study of a layered beam cannot be used.
-#[derive(Debug, Error)]
-pub enum StudyError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    File(#[from] TextFileError),
-    /// The study is not TOML, or has keys or types that do not belong.
-    #[error("{}: {message}", path.display())]
-    Syntax {
-        /// The study.
-        path: PathBuf,
-        /// What is wrong, with line and column.
-        message: String,
-    },
-    /// A value in the study cannot be used.
-    #[error("{}: `{key}`: found {found}, expected {expected}", path.display())]
-    Value {
-        /// The study.
-        path: PathBuf,
-        /// Key in the study.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
-    /// The beam, its fasteners or its motion make no sense.
-    #[error("{}: {source}", path.display())]
-    Model {
-        /// The study.
-        path: PathBuf,
-        /// What does not.
-        source: LayeredBeamError,
-    },
-}
-
 /// A validated study of method `layered-beam`.
 #[derive(Clone, Debug)]
-pub struct Study {
+pub struct LayeredBeamStudy {
     /// The study's own file.
     pub path: PathBuf,
-    /// SHA-256 of its text, hexadecimal.
-    pub sha256: String,
+    /// The record of it that goes into the joint file.
+    pub record: InputFile,
     /// Its name.
     pub name: String,
     /// Remarks that go into the joint file.
@@ -119,32 +81,24 @@ pub struct Calibration {
     pub fasteners: Fasteners,
 }
 
-impl Study {
+impl LayeredBeamStudy {
     /// Reads and checks a study.
     ///
     /// # Errors
     /// [`StudyError`] that names the file and the key or line.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        Self::from_toml(&text, path)
+        Self::of(&StudyText::read(path)?)
     }
 
-    /// A study from the text of its file; `path` tells where that lies.
+    /// A study from its text.
     ///
     /// # Errors
     /// [`StudyError`] that names the file and the key or line.
-    pub fn from_toml(text: &str, path: &Path) -> Result<Self, StudyError> {
-        let file: StudyFile = toml::from_str(text).map_err(|error| StudyError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        check::Checker { path, text }.study(file)
-    }
-
-    /// Name of the study's file without its folder.
-    pub(super) fn file_name(&self) -> String {
-        let name = self.path.file_name().unwrap_or(self.path.as_os_str());
-        name.to_string_lossy().into_owned()
+    pub fn of(study: &StudyText) -> Result<Self, StudyError> {
+        let file: StudyFile = study.tables()?;
+        study.check_method(file.method, &[Method::LayeredBeam])?;
+        study.check_name("name", &file.name)?;
+        check::checked(study, file)
     }
 
     /// Computes frequencies, damping and the equivalent lap.
@@ -152,9 +106,6 @@ impl Study {
     /// # Errors
     /// [`StudyError::Model`] where the model does not hold.
     pub fn run(&self) -> Result<Outcome, StudyError> {
-        Outcome::of(self).map_err(|source| StudyError::Model {
-            path: self.path.clone(),
-            source,
-        })
+        Outcome::of(self).map_err(|source| StudyError::model(&self.path, None, source))
     }
 }

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use bolted_joint_frf::structure::Boundary;
+use bolted_joint_study::{Method, OneOrMore, UncertaintyTable};
 
 use super::super::super::uncertain::Uncertain;
 use super::super::beam_mode::{Route, StoredEnergy};
@@ -11,10 +12,6 @@ use super::super::fasteners::{FastenerKind, NormalForceRule};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StudyFile {
-    #[expect(
-        dead_code,
-        reason = "there is one method here; others are refused as they are read"
-    )]
     pub(super) method: Method,
     pub(super) name: String,
     #[serde(default)]
@@ -26,19 +23,6 @@ pub(super) struct StudyFile {
     #[serde(default)]
     pub(super) joint: JointTable,
     pub(super) uncertainty: Option<UncertaintyTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct UncertaintyTable {
-    pub(super) draws: u64,
-    pub(super) seed: Option<u64>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Method {
-    LayeredBeam,
 }
 
 #[derive(Clone, Deserialize)]
@@ -127,20 +111,4 @@ pub(super) struct JointTable {
 pub(super) enum DampingName {
     OverAmplitude,
     Linear,
-}
-
-#[derive(Clone, Deserialize)]
-#[serde(untagged, expecting = "expected a number or a list of numbers")]
-pub(super) enum OneOrMore {
-    One(f64),
-    More(Vec<f64>),
-}
-
-impl OneOrMore {
-    pub(super) fn list(&self) -> Vec<f64> {
-        match self {
-            Self::One(number) => vec![*number],
-            Self::More(numbers) => numbers.clone(),
-        }
-    }
 }

@@ -1,10 +1,10 @@
 //! The numbers of the contact model that a study asks for.
 
 use super::{Checked, Checker, ContactInputs};
-use crate::study::method::PredictionMethod;
 use crate::study::tables::StudyFile;
 use crate::uncertain::{InputPlace, Uncertain};
 use crate::virtual_material::Layers;
+use bolted_joint_study::Method;
 
 impl Checker<'_> {
     /// The numbers of the method's contact; those of the other method are refused.
@@ -12,35 +12,33 @@ impl Checker<'_> {
         let table = &file.contact;
         let hardness = self.positive("contact.hardness", "hardness", table.hardness)?;
         match file.method {
-            PredictionMethod::VirtualMaterial => {
+            Method::VirtualMaterial => {
                 for (key, found) in [
                     ("contact.friction", table.friction),
                     ("contact.shear_strength", table.shear_strength),
                 ] {
                     if let Some(found) = found {
                         let expected = "none of method \"virtual-material\", which takes contact.friction_ratio";
-                        return self.refuse(key, found, expected);
+                        return self.study.refuse(key, found, expected);
                     }
                 }
                 self.layer(file, hardness)
             }
-            PredictionMethod::FractalContact | PredictionMethod::LayeredBeam => {
+            _ => {
                 if let Some(found) = table.friction_ratio {
                     let expected = "none of method \"fractal-contact\", where it follows from friction and shear_strength";
-                    return self.refuse("contact.friction_ratio", found, expected);
+                    return self.study.refuse("contact.friction_ratio", found, expected);
                 }
-                if file.layer.is_some() {
-                    let expected = "none: only method \"virtual-material\" has a layer";
-                    return self.refuse("layer", "a table", expected);
-                }
-                let Some(friction) = table.friction else {
-                    let expected = "the coefficient of static friction";
-                    return self.refuse("contact.friction", "nothing", expected);
-                };
-                let Some(shear_strength) = table.shear_strength else {
-                    let expected = "the shear strength of the softer part in Pa, or 0 for a joint without tangential load";
-                    return self.refuse("contact.shear_strength", "nothing", expected);
-                };
+                let expected = "none: only method \"virtual-material\" has a layer";
+                self.study
+                    .ensure(file.layer.is_none(), "layer", "a table", expected)?;
+                let expected = "the coefficient of static friction";
+                let friction = self
+                    .study
+                    .needed("contact.friction", table.friction, expected)?;
+                let key = "contact.shear_strength";
+                let expected = "the shear strength of the softer part in Pa, or 0 for a joint without tangential load";
+                let shear_strength = self.study.needed(key, table.shear_strength, expected)?;
                 Ok(ContactInputs::Fractal {
                     hardness,
                     friction: self.positive("contact.friction", "friction", friction)?,
@@ -55,25 +53,21 @@ impl Checker<'_> {
     }
 
     fn layer(&mut self, file: &StudyFile, hardness: InputPlace) -> Checked<ContactInputs> {
-        let Some(layer) = &file.layer else {
-            let expected =
-                "thickness = [a, b], of the part of each side that the layer takes the place of, m";
-            return self.refuse("layer.thickness", "nothing", expected);
-        };
+        let (study, key) = (self.study, "layer.thickness");
+        let expected =
+            "thickness = [a, b], of the part of each side that the layer takes the place of, m";
+        let layer = study.needed(key, file.layer.as_ref(), expected)?;
         let is_thick = |thickness: &f64| thickness.is_finite() && *thickness > 0.0;
-        if !layer.thickness.iter().all(is_thick) {
-            let expected = "two lengths in m above zero";
-            return self.refuse(
-                "layer.thickness",
-                format!("{:?}", layer.thickness),
-                expected,
-            );
-        }
+        let good = layer.thickness.iter().all(is_thick);
+        let found = format!("{:?}", layer.thickness);
+        study.ensure(good, key, found, "two lengths in m above zero")?;
         let [a, b] = [&file.materials.a, &file.materials.b].map(|part| part.density);
         let (Some(a), Some(b)) = (a, b) else {
             let side = if a.is_none() { "a" } else { "b" };
             let expected = "kg/m³, for the density of the layer";
-            return self.refuse(format!("materials.{side}.density"), "nothing", expected);
+            return self
+                .study
+                .refuse(format!("materials.{side}.density"), "nothing", expected);
         };
         let friction_ratio = file.contact.friction_ratio.unwrap_or(Uncertain::exact(0.0));
         Ok(ContactInputs::Layer {

@@ -7,12 +7,15 @@ use crate::pressure::{
 };
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
-use crate::study::origin;
 use crate::study::tables::{
     DistributionWord, ForceWord, InterfaceTable, JointTable, PressureModel, PressureTable,
     ReachWord, StudyFile,
 };
+use bolted_joint_study::{StudyError, input_file};
 use std::path::Path;
+
+/// What a study can say of the pressure.
+const MODELS: &str = "\"uniform\", \"kavi\" or \"cone\"";
 
 impl Checker<'_> {
     pub(super) fn geometry(
@@ -35,29 +38,22 @@ impl Checker<'_> {
             );
         }
         let (Some(x_m), Some(y_m)) = (table.x, table.y) else {
-            return self.refuse(
+            return self.study.refuse(
                 "interface",
                 "neither field nor both of x and y",
                 "x = [from, to] and y = [from, to] in m with [pressure] and [[bolts]], or field = \"field.csv\"",
             );
         };
         if let Some(area) = table.area {
-            return self.refuse(
-                "interface.area",
-                area,
-                "an area only beside a field, which it is compared with",
-            );
+            let expected = "an area only beside a field, which it is compared with";
+            return self.study.refuse("interface.area", area, expected);
         }
-        let Some(pressure) = &file.pressure else {
-            return self.refuse(
-                "pressure.model",
-                "nothing",
-                "\"uniform\", \"kavi\" or \"cone\"",
-            );
-        };
-        if bolts.is_empty() {
-            return self.refuse("bolts", "none", "[[bolts]], which press the parts together");
-        }
+        let pressure = self
+            .study
+            .needed("pressure.model", file.pressure.as_ref(), MODELS)?;
+        let expected = "[[bolts]], which press the parts together";
+        self.study
+            .ensure(!bolts.is_empty(), "bolts", "none", expected)?;
         let outline = self.model("interface", Rectangle::new(x_m, y_m))?;
         let cells = table.elements.unwrap_or(ELEMENTS);
         let clearance_m = pressure.clearance.unwrap_or(0.0);
@@ -76,42 +72,33 @@ impl Checker<'_> {
         path: &Path,
         preload_n: Option<f64>,
     ) -> Checked<Geometry> {
-        if table.x.is_some() || table.y.is_some() || table.elements.is_some() {
-            return self.refuse(
-                "interface.field",
-                "x, y or elements beside it",
-                "the one or the other: the field has its own elements",
-            );
-        }
-        if let Some(pressure) = pressure {
-            if pressure.model.is_some() {
-                return self.refuse(
-                    "pressure.model",
-                    "a model beside interface.field",
-                    "the one or the other: the field has its own pressures",
-                );
-            }
-            if pressure.bending_moment.is_some() {
-                return self.refuse(
-                    "pressure.bending_moment",
-                    "a moment beside interface.field",
-                    "a field that was computed with the moment",
-                );
-            }
-        }
-        let path = origin::resolved(self.folder, path);
-        if let Some(area_m2) = table.area
-            && !(area_m2.is_finite() && area_m2 > 0.0)
-        {
-            return self.refuse("interface.area", area_m2, "m² above zero");
-        }
-        let record = origin::of_file(
-            "pressure field",
-            &path,
-            self.folder,
-            "a pressure field (CSV with the columns x, y, area, pressure)",
+        self.study.ensure(
+            table.x.or(table.y).is_none() && table.elements.is_none(),
+            "interface.field",
+            "x, y or elements beside it",
+            "the one or the other: the field has its own elements",
         )?;
-        let field = PressureField::read(&path, table.area)?;
+        if let Some(pressure) = pressure {
+            self.study.ensure(
+                pressure.model.is_none(),
+                "pressure.model",
+                "a model beside interface.field",
+                "the one or the other: the field has its own pressures",
+            )?;
+            self.study.ensure(
+                pressure.bending_moment.is_none(),
+                "pressure.bending_moment",
+                "a moment beside interface.field",
+                "a field that was computed with the moment",
+            )?;
+        }
+        let path = self.study.resolved(path);
+        if let Some(area_m2) = table.area {
+            self.study
+                .positive("interface.area", area_m2, "m² above zero")?;
+        }
+        let record = input_file("pressure field", &path, self.study.folder(), |_, _| {})?;
+        let field = PressureField::read(&path, table.area).map_err(StudyError::of_file)?;
         self.files.push(record);
         self.model("interface.field", Geometry::given(&field, preload_n))
     }
@@ -119,20 +106,12 @@ impl Checker<'_> {
     /// `None` for an even pressure.
     fn zone(&self, table: &PressureTable) -> Checked<Option<Zone>> {
         match table.model {
-            None => self.refuse(
-                "pressure.model",
-                "nothing",
-                "\"uniform\", \"kavi\" or \"cone\"",
-            ),
+            None => self.study.refuse("pressure.model", "nothing", MODELS),
             Some(PressureModel::Uniform) => Ok(None),
             Some(PressureModel::Kavi) => {
-                let Some([a_m, b_m]) = table.thickness else {
-                    return self.refuse(
-                        "pressure.thickness",
-                        "nothing",
-                        "[a, b], the thicknesses of both parts in m: the polynomial depends on their ratio",
-                    );
-                };
+                let expected = "[a, b], the thicknesses of both parts in m: the polynomial depends on their ratio";
+                let key = "pressure.thickness";
+                let [a_m, b_m] = self.study.needed(key, table.thickness, expected)?;
                 let ratio = self.model("pressure.thickness", ThicknessRatio::of(a_m, b_m))?;
                 Ok(Some(Zone::Polynomial {
                     thickness_ratio: ratio,
@@ -147,9 +126,9 @@ impl Checker<'_> {
                 }))
             }
             Some(PressureModel::Cone) => {
-                let given = |key: &str, value: Option<f64>, what: &str| match value {
-                    Some(value) => Ok(value),
-                    None => self.refuse(format!("pressure.{key}"), "nothing", what),
+                let given = |key: &str, value: Option<f64>, what: &str| {
+                    self.study
+                        .needed(format_args!("pressure.{key}"), value, what)
                 };
                 Ok(Some(Zone::Cone(Cone {
                     half_angle_rad: given(
@@ -200,21 +179,18 @@ impl Checker<'_> {
             Some([x_m, y_m]) => [*x_m, *y_m, 0.0],
             Some([x_m, y_m, z_m]) => [*x_m, *y_m, *z_m],
             Some(other) => {
-                return self.refuse(
+                return self.study.refuse(
                     "joint.reference",
                     format!("{other:?}"),
                     "[x, y] or [x, y, z] in m, z along the normal from the interface",
                 );
             }
         };
-        match reference_m.iter().all(|length| length.is_finite()) {
-            true => Ok((planar, reference_m)),
-            false => self.refuse(
-                "joint.reference",
-                format!("{reference_m:?}"),
-                "finite lengths in m",
-            ),
-        }
+        let good = reference_m.iter().all(|length| length.is_finite());
+        let found = format!("{reference_m:?}");
+        self.study
+            .ensure(good, "joint.reference", found, "finite lengths in m")?;
+        Ok((planar, reference_m))
     }
 }
 

@@ -7,23 +7,17 @@ mod tightening;
 
 use crate::patch::{LossFactor, NormalDamping, Planar};
 use crate::study::clamping::Clamping;
-use crate::study::error::{ModelError, PredictError};
 use crate::study::geometry::Geometry;
-use crate::study::method::PredictionMethod;
-use crate::study::origin;
-use crate::study::tables::{MaterialTable, NormalWord, StudyFile, UncertaintyTable};
+use crate::study::tables::{MaterialTable, NormalWord, StudyFile};
 use crate::surface::ProfileFit;
 use crate::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
 use crate::virtual_material::Layers;
-use bolted_joint_files::text_file;
 use bolted_joint_joint::InputFile;
+use bolted_joint_study::{Method, StudyError, StudyText, UncertaintyTable};
 use interface::pressure_in_words;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Draws where a study has uncertain values and does not say how many.
-const DRAWS: u64 = 2000;
-/// More than anybody waits for.
-const MOST_DRAWS: u64 = 1_000_000;
 /// Elements along x and y where a study does not say.
 const ELEMENTS: [usize; 2] = [60, 60];
 
@@ -33,7 +27,7 @@ pub struct InterfaceStudy {
     /// The study's own file.
     pub path: PathBuf,
     /// Which model it asks for.
-    pub method: PredictionMethod,
+    pub method: Method,
     /// Name of the joint.
     pub name: String,
     /// Remarks that go into the joint file.
@@ -114,53 +108,43 @@ impl InterfaceStudy {
     /// Reads and checks a study, and the profiles and the field that it names.
     ///
     /// # Errors
-    /// [`PredictError`] that names the file and the key or line.
-    pub fn read(path: &Path) -> Result<Self, PredictError> {
-        let text = text_file::read(path, "a study (TOML)")?;
-        Self::from_toml(&text, path)
+    /// [`StudyError`] that names the file and the key or line.
+    pub fn read(path: &Path) -> Result<Self, StudyError> {
+        Self::of(&StudyText::read(path)?)
     }
 
-    /// A study from the text of its file; `path` tells where that lies.
+    /// A study from its text, with the profiles and the field that it names.
     ///
     /// # Errors
-    /// [`PredictError`] that names the file and the key or line.
-    pub fn from_toml(text: &str, path: &Path) -> Result<Self, PredictError> {
-        let file: StudyFile = toml::from_str(text).map_err(|error| PredictError::Syntax {
-            path: path.to_owned(),
-            message: error.to_string().trim_end().to_owned(),
-        })?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+    /// [`StudyError`] that names the file and the key or line.
+    pub fn of(study: &StudyText) -> Result<Self, StudyError> {
+        let file: StudyFile = study.tables()?;
+        study.check_name("name", &file.name)?;
+        let methods = [Method::FractalContact, Method::VirtualMaterial];
+        study.check_method(file.method, &methods)?;
         Checker {
-            path,
-            folder,
+            study,
             inputs: Inputs::default(),
-            files: vec![origin::of_text("study", path, folder, text)],
+            files: vec![study.record()],
             fits: Vec::new(),
         }
-        .study(file)
+        .checked(file)
     }
 }
 
-struct Checker<'p> {
-    path: &'p Path,
-    folder: &'p Path,
+struct Checker<'s> {
+    study: &'s StudyText,
     inputs: Inputs,
     files: Vec<InputFile>,
     fits: Vec<(&'static str, ProfileFit)>,
 }
 
-type Checked<T> = Result<T, PredictError>;
+type Checked<T> = Result<T, StudyError>;
 
 impl Checker<'_> {
-    fn study(mut self, file: StudyFile) -> Checked<InterfaceStudy> {
-        let name = &file.name;
-        if name.trim().is_empty() || name.chars().any(char::is_control) {
-            return self.refuse("name", format!("{name:?}"), "one line of text");
-        }
+    fn checked(mut self, file: StudyFile) -> Checked<InterfaceStudy> {
+        let study = self.study;
         let method = file.method;
-        if method == PredictionMethod::LayeredBeam {
-            return self.refuse("method", "\"layered-beam\"", "the method of an interface");
-        }
         let materials = [
             self.material("a", &file.materials.a)?,
             self.material("b", &file.materials.b)?,
@@ -171,21 +155,18 @@ impl Checker<'_> {
         let clamping = self.clamping(&file, !torques_n_m.is_empty())?;
         let geometry = self.geometry(&file, &clamping, nominal_n_m)?;
         let (planar, reference_m) = self.joint(&file.joint, &geometry)?;
-        let frequency_hz = file.damping.frequency;
-        if !(frequency_hz.is_finite() && frequency_hz > 0.0) {
-            return self.refuse(
-                "damping.frequency",
-                frequency_hz,
-                "the frequency in Hz, above zero, at which hysteretic damping becomes viscous",
-            );
-        }
+        let frequency_hz = study.positive(
+            "damping.frequency",
+            file.damping.frequency,
+            "the frequency in Hz, above zero, at which hysteretic damping becomes viscous",
+        )?;
         let normal_damping = match (file.damping.normal, file.damping.mass) {
             (NormalWord::Viscous, Some(mass_kg)) if mass_kg.is_finite() && mass_kg > 0.0 => {
                 NormalDamping::Viscous { mass_kg }
             }
             (NormalWord::Viscous, found) => {
                 let found = found.map_or("nothing".to_owned(), |found| found.to_string());
-                return self.refuse(
+                return study.refuse(
                     "damping.mass",
                     found,
                     "the mass of the structure in kg, above zero, for C_N = η_N √(M K_N)",
@@ -193,16 +174,13 @@ impl Checker<'_> {
             }
             (NormalWord::Hysteretic, None) => NormalDamping::Hysteretic,
             (NormalWord::Hysteretic, Some(mass)) => {
-                return self.refuse(
-                    "damping.mass",
-                    mass,
-                    "a mass only beside normal = \"viscous\", which takes it",
-                );
+                let expected = "a mass only beside normal = \"viscous\", which takes it";
+                return study.refuse("damping.mass", mass, expected);
             }
         };
         let monte_carlo = self.monte_carlo(file.uncertainty.as_ref())?;
         Ok(InterfaceStudy {
-            path: self.path.to_owned(),
+            path: study.path().to_owned(),
             method,
             pressure: pressure_in_words(&file),
             name: file.name,
@@ -226,30 +204,12 @@ impl Checker<'_> {
         })
     }
 
-    fn refuse<T>(
+    fn model<T, E: Error + Send + Sync + 'static>(
         &self,
-        key: impl Into<String>,
-        found: impl ToString,
-        expected: impl Into<String>,
-    ) -> Checked<T> {
-        Err(PredictError::Study {
-            path: self.path.to_owned(),
-            key: key.into(),
-            found: found.to_string(),
-            expected: expected.into(),
-        })
-    }
-
-    fn model<T, E: Into<ModelError>>(
-        &self,
-        key: impl Into<String>,
+        key: &str,
         result: Result<T, E>,
     ) -> Checked<T> {
-        result.map_err(|reason| PredictError::Model {
-            path: self.path.to_owned(),
-            key: key.into(),
-            reason: Box::new(reason.into()),
-        })
+        result.map_err(|reason| StudyError::model(self.study.path(), Some(key), reason))
     }
 
     /// A quantity above zero, drawn from a lognormal distribution.
@@ -259,12 +219,10 @@ impl Checker<'_> {
         name: impl Into<String>,
         of: Uncertain,
     ) -> Checked<InputPlace> {
-        if of.value <= 0.0 {
-            return self.refuse(key, of, "a number above zero");
-        }
-        Ok(self
-            .inputs
-            .add(name, Distribution::new(Spread::Lognormal, of)))
+        self.study
+            .ensure(of.value > 0.0, key, of, "a number above zero")?;
+        let distribution = Distribution::new(Spread::Lognormal, of);
+        Ok(self.inputs.add(name, distribution))
     }
 
     /// The same, or zero without doubt.
@@ -274,16 +232,11 @@ impl Checker<'_> {
         name: impl Into<String>,
         of: Uncertain,
     ) -> Checked<InputPlace> {
-        if of.value < 0.0 || of.value == 0.0 && !of.is_exact() {
-            return self.refuse(
-                key,
-                of,
-                "a number above zero, or 0 without a standard deviation",
-            );
-        }
-        Ok(self
-            .inputs
-            .add(name, Distribution::new(Spread::Lognormal, of)))
+        let valid = of.value > 0.0 || of.value == 0.0 && of.is_exact();
+        let expected = "a number above zero, or 0 without a standard deviation";
+        self.study.ensure(valid, key, of, expected)?;
+        let distribution = Distribution::new(Spread::Lognormal, of);
+        Ok(self.inputs.add(name, distribution))
     }
 
     fn material(&mut self, side: &str, table: &MaterialTable) -> Checked<MaterialInputs> {
@@ -295,17 +248,15 @@ impl Checker<'_> {
         )?;
         let (low, high) = (-1.0, 0.5);
         let ratio = table.poissons_ratio;
-        if !(ratio.value > low && ratio.value < high) {
-            return self.refuse(
-                key("poissons_ratio"),
-                ratio,
-                "more than −1 and less than 0.5 (0.5 is incompressible: contact formulas divide by its compliance)",
-            );
-        }
-        if let Some(density) = table.density
-            && !(density.is_finite() && density > 0.0)
-        {
-            return self.refuse(key("density"), density, "kg/m³ above zero");
+        self.study.ensure(
+            ratio.value > low && ratio.value < high,
+            key("poissons_ratio"),
+            ratio,
+            "more than −1 and less than 0.5 (0.5 is incompressible: contact formulas divide by its compliance)",
+        )?;
+        if let Some(density) = table.density {
+            self.study
+                .positive(key("density"), density, "kg/m³ above zero")?;
         }
         let distribution = Distribution::new(Spread::NormalWithin { low, high }, ratio);
         Ok(MaterialInputs {
@@ -317,25 +268,14 @@ impl Checker<'_> {
     }
 
     fn monte_carlo(&self, table: Option<&UncertaintyTable>) -> Checked<Option<MonteCarlo>> {
-        let (draws, seed) = match table {
-            Some(table) => (table.draws, table.seed.unwrap_or(1)),
-            None => (DRAWS, 1),
-        };
-        if !(2..=MOST_DRAWS).contains(&draws) {
-            return self.refuse(
-                "uncertainty.draws",
-                draws,
-                format!("a number from 2 to {MOST_DRAWS}"),
-            );
-        }
-        match (self.inputs.are_exact(), table) {
-            (true, Some(_)) => self.refuse(
-                "uncertainty",
-                "no value with a standard deviation",
-                "one at least, such as fractal_dimension = \"1.42 ± 0.02\"",
-            ),
-            (true, None) => Ok(None),
-            (false, _) => Ok(Some(MonteCarlo { draws, seed })),
-        }
+        let (draws, seed) = self.study.draws(table)?;
+        let is_exact = self.inputs.are_exact();
+        self.study.ensure(
+            !is_exact || table.is_none(),
+            "uncertainty",
+            "no value with a standard deviation",
+            "one at least, such as fractal_dimension = \"1.42 ± 0.02\"",
+        )?;
+        Ok((!is_exact).then_some(MonteCarlo { draws, seed }))
     }
 }

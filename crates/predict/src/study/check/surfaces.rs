@@ -1,10 +1,10 @@
 //! What a study says of the surfaces: typed in, or from profiles.
 
 use super::{Checked, Checker, SurfaceInput, SurfaceInputs};
-use crate::study::origin;
 use crate::study::tables::{OneSurfaceTable, SurfaceTable};
 use crate::surface::{FitSettings, Profile, ProfileFit};
 use crate::uncertain::{Distribution, Spread, Uncertain};
+use bolted_joint_study::{StudyError, input_file};
 use std::path::PathBuf;
 
 impl Checker<'_> {
@@ -29,19 +29,14 @@ impl Checker<'_> {
                     || together.roughness.is_some()
                     || together.correlation.is_some()
                 {
-                    return self.refuse(
+                    return self.study.refuse(
                         "surface",
                         "values of both surfaces together beside [surface.a] and [surface.b]",
                         "the one or the other",
                     );
                 }
-                let Some(band) = table.band else {
-                    return self.refuse(
-                        "surface.band",
-                        "nothing",
-                        "{ from = …, to = … }, the wavelengths in m over which the spectra of both surfaces are added",
-                    );
-                };
+                let expected = "{ from = …, to = … }, the wavelengths in m over which the spectra of both surfaces are added";
+                let band = self.study.needed("surface.band", table.band, expected)?;
                 self.check_band("surface.band", band.from, band.to)?;
                 // what was measured on each is fitted over the same band unless it has its own
                 let with_band = |one: &OneSurfaceTable| OneSurfaceTable {
@@ -53,7 +48,7 @@ impl Checker<'_> {
                 let of_b = self.surface("surface.b", " of b", "surface b", &b)?;
                 Ok(SurfaceInputs::Each([of_a, of_b], [band.from, band.to]))
             }
-            _ => self.refuse(
+            _ => self.study.refuse(
                 "surface",
                 "one of [surface.a] and [surface.b]",
                 "both, or values of the two together in [surface]",
@@ -62,14 +57,12 @@ impl Checker<'_> {
     }
 
     fn check_band(&self, key: &str, from: f64, to: f64) -> Checked<()> {
-        match from.is_finite() && to.is_finite() && from > 0.0 && to > from {
-            true => Ok(()),
-            false => self.refuse(
-                key,
-                format!("from {from} to {to} m"),
-                "wavelengths in m, the first above zero and less than the second",
-            ),
-        }
+        self.study.ensure(
+            from > 0.0 && to > from && to.is_finite(),
+            key,
+            format_args!("from {from} to {to} m"),
+            "wavelengths in m, the first above zero and less than the second",
+        )
     }
 
     fn surface(
@@ -91,7 +84,7 @@ impl Checker<'_> {
         match (&table.profiles, table.fractal_dimension, table.roughness) {
             (Some(paths), None, None) => {
                 if let Some(correlation) = table.correlation {
-                    return self.refuse(
+                    return self.study.refuse(
                         place("correlation"),
                         correlation,
                         "none beside profiles, from which it follows",
@@ -116,7 +109,7 @@ impl Checker<'_> {
                     fractal_dimension,
                     fit.correlation(),
                 );
-                let roughness = self.model(place("profiles"), roughness)?;
+                let roughness = self.model(&place("profiles"), roughness)?;
                 self.fits.push((whose, fit));
                 Ok(SurfaceInput {
                     fractal_dimension,
@@ -124,20 +117,18 @@ impl Checker<'_> {
                 })
             }
             (None, Some(dimension), Some(roughness)) => {
-                if !(dimension.value > 1.0 && dimension.value < 2.0) {
-                    return self.refuse(
-                        place("fractal_dimension"),
-                        dimension,
-                        "more than 1 and less than 2, as a profile has (a surface's dimension is one more: subtract 1)",
-                    );
-                }
-                if roughness.value <= 0.0 {
-                    return self.refuse(
-                        place("roughness"),
-                        roughness,
-                        "a length in m above zero, about 1e-13 to 1e-7 for machined metal",
-                    );
-                }
+                self.study.ensure(
+                    dimension.value > 1.0 && dimension.value < 2.0,
+                    place("fractal_dimension"),
+                    dimension,
+                    "more than 1 and less than 2, as a profile has (a surface's dimension is one more: subtract 1)",
+                )?;
+                self.study.ensure(
+                    roughness.value > 0.0,
+                    place("roughness"),
+                    roughness,
+                    "a length in m above zero, about 1e-13 to 1e-7 for machined metal",
+                )?;
                 let fractal_dimension = self
                     .inputs
                     .add(dimension_name, Distribution::new(within, dimension));
@@ -149,9 +140,9 @@ impl Checker<'_> {
                     fractal_dimension,
                     correlation,
                 );
-                let roughness = self.model(place("correlation"), roughness)?;
+                let roughness = self.model(&place("correlation"), roughness)?;
                 if let Some(band) = table.band {
-                    return self.refuse(
+                    return self.study.refuse(
                         place("band"),
                         format!("from {} to {} m", band.from, band.to),
                         "a band only beside profiles, which are fitted over it",
@@ -162,12 +153,12 @@ impl Checker<'_> {
                     roughness,
                 })
             }
-            (Some(_), _, _) => self.refuse(
+            (Some(_), _, _) => self.study.refuse(
                 key,
                 "profiles beside fractal_dimension or roughness",
                 "the one or the other",
             ),
-            (None, _, _) => self.refuse(
+            (None, _, _) => self.study.refuse(
                 key,
                 "neither profiles nor both of fractal_dimension and roughness",
                 "profiles = [\"profile-1.csv\", …] with a band, or fractal_dimension and roughness",
@@ -182,29 +173,25 @@ impl Checker<'_> {
         paths: &[PathBuf],
         table: &OneSurfaceTable,
     ) -> Checked<ProfileFit> {
-        if paths.is_empty() {
-            return self.refuse(format!("{key}.profiles"), "none", "one file or more");
+        let found_any = !paths.is_empty();
+        let key_of_them = format!("{key}.profiles");
+        self.study
+            .ensure(found_any, &key_of_them, "none", "one file or more")?;
+        if let Some(band) = table.band {
+            self.check_band(&format!("{key}.band"), band.from, band.to)?;
         }
-        let wavelength_band_m = match table.band {
-            Some(band) => {
-                self.check_band(&format!("{key}.band"), band.from, band.to)?;
-                Some([band.from, band.to])
-            }
-            None => None,
-        };
         let mut profiles = Vec::with_capacity(paths.len());
         for path in paths {
-            let path = origin::resolved(self.folder, path);
-            let expected = "a profile (CSV of height over distance)";
-            let record = origin::of_file("profile", &path, self.folder, expected)?;
+            let path = self.study.resolved(path);
+            let record = input_file("profile", &path, self.study.folder(), |_, _| {})?;
             self.files.push(record);
-            profiles.push(Profile::read(&path)?);
+            profiles.push(Profile::read(&path).map_err(StudyError::of_file)?);
         }
         let settings = FitSettings {
-            wavelength_band_m,
+            wavelength_band_m: table.band.map(|band| [band.from, band.to]),
             ..FitSettings::default()
         };
         let fit = ProfileFit::new(&profiles, &settings);
-        self.model(format!("{key}.profiles"), fit)
+        self.model(&key_of_them, fit)
     }
 }

@@ -11,33 +11,27 @@ impl Checker<'_> {
         &self,
         table: Option<&TighteningTable>,
     ) -> Checked<(Vec<f64>, Option<f64>)> {
-        let key = "tightening.torques";
         let Some(table) = table else {
             return Ok((Vec::new(), None));
         };
         let Some(torques) = &table.torques else {
             return match table.nominal {
                 None => Ok((Vec::new(), None)),
-                Some(nominal) => self.refuse(
+                Some(nominal) => self.study.refuse(
                     "tightening.nominal",
                     nominal,
                     "a nominal torque only beside torques",
                 ),
             };
         };
-        let ascends = torques.windows(2).all(|pair| pair[0] < pair[1]);
-        let is_positive = torques.iter().all(|t| t.is_finite() && *t > 0.0);
-        if torques.len() < 2 || !ascends || !is_positive {
-            return self.refuse(
-                key,
-                format!("{torques:?}"),
-                "two torques or more in N·m, above zero and ascending",
-            );
-        }
+        let expected = "two torques or more in N·m, above zero and ascending";
+        self.study
+            .ascending("tightening.torques", torques, 2, expected)?;
         let nominal = table.nominal.or(torques.last().copied());
         match nominal {
             Some(nominal) if !torques.contains(&nominal) => {
-                self.refuse("tightening.nominal", nominal, format!("one of {torques:?}"))
+                self.study
+                    .refuse("tightening.nominal", nominal, format!("one of {torques:?}"))
             }
             nominal => Ok((torques.clone(), nominal)),
         }
@@ -59,17 +53,13 @@ impl Checker<'_> {
                 tightness,
             });
         }
-        if bolts.is_empty() && has_table {
-            return self.refuse(
-                "bolts",
-                "none",
-                "[[bolts]], which the torques of [tightening] are for",
-            );
-        }
+        let expected = "[[bolts]], which the torques of [tightening] are for";
+        self.study
+            .ensure(!bolts.is_empty() || !has_table, "bolts", "none", expected)?;
         let moment = file.pressure.as_ref().and_then(|p| p.bending_moment);
         let moments = match moment {
             Some(_) if bolts.is_empty() => {
-                return self.refuse(
+                return self.study.refuse(
                     "pressure.bending_moment",
                     "a moment without bolts",
                     "[[bolts]], whose preloads it changes",
@@ -99,10 +89,11 @@ impl Checker<'_> {
         let key = |name: &str| format!("bolts[{number}].{name}");
         match (bolt.preload, bolt.torque) {
             (Some(_), Some(_)) => {
-                self.refuse(key("preload"), "a torque beside it", "the one or the other")
+                self.study
+                    .refuse(key("preload"), "a torque beside it", "the one or the other")
             }
             (Some(preload), None) => match has_table {
-                true => self.refuse(
+                true => self.study.refuse(
                     key("preload"),
                     preload,
                     "no preload: it follows from the torques of [tightening]",
@@ -120,12 +111,12 @@ impl Checker<'_> {
                     (None, None) => None,
                 };
                 match (torque, has_table, own) {
-                    (Some(torque), true, _) => self.refuse(
+                    (Some(torque), true, _) => self.study.refuse(
                         key("torque"),
                         torque,
                         "no torque: that of each bolt is in tightening.torques",
                     ),
-                    (_, _, None) if torque.is_some() || has_table => self.refuse(
+                    (_, _, None) if torque.is_some() || has_table => self.study.refuse(
                         "tightening.nut_factor",
                         "nothing",
                         "nut_factor, about 0.2 for dry steel, or thread = { friction = …, head_friction = …, head_diameter = …, hole_diameter = … }: \
@@ -138,7 +129,7 @@ impl Checker<'_> {
                     (None, true, Some(wrench)) => {
                         Ok(Tightness::OfTable(wrench.with_diameter(bolt.diameter)))
                     }
-                    (None, false, _) | (Some(_), false, None) | (None, true, None) => self.refuse(
+                    (None, false, _) | (Some(_), false, None) | (None, true, None) => self.study.refuse(
                         key("preload"),
                         "nothing",
                         "a preload in N, or a torque in N·m with [tightening]",
@@ -151,7 +142,7 @@ impl Checker<'_> {
     /// What becomes of a torque; `suffix` tells whose inputs they are.
     fn wrench(&mut self, table: &TighteningTable, suffix: &str) -> Checked<Option<Wrench>> {
         match (table.nut_factor, &table.thread) {
-            (Some(_), Some(_)) => self.refuse(
+            (Some(_), Some(_)) => self.study.refuse(
                 "tightening.nut_factor",
                 "thread beside it",
                 "the one or the other",
@@ -173,9 +164,8 @@ impl Checker<'_> {
             ("head_diameter", table.head_diameter),
             ("hole_diameter", table.hole_diameter),
         ] {
-            if !(value.is_finite() && value > 0.0) {
-                return self.refuse(key(name), value, "a length in m above zero");
-            }
+            self.study
+                .positive(key(name), value, "a length in m above zero")?;
         }
         Ok(Wrench::Friction {
             thread: ThreadFriction {

@@ -1,10 +1,9 @@
 //! Which surface would give moduli that are known of a layer.
 
-use thiserror::Error;
-
-use super::{Loading, Moduli, VirtualMaterialError};
+use super::{Loading, Moduli};
+use crate::ContactError;
 use crate::Pair;
-use crate::surface::{Roughness, RoughnessError};
+use crate::surface::Roughness;
 use problem::Problem;
 
 mod problem;
@@ -57,42 +56,6 @@ pub struct FittedLayer {
     pub area_ratio: f64,
 }
 
-/// A fit that cannot be made.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum FitError {
-    /// There are not enough layers.
-    #[error(
-        "{found} layers for {unknowns} unknowns; expected {expected} or more, with two moduli each"
-    )]
-    TooFew {
-        /// How many there are.
-        found: usize,
-        /// How many unknowns.
-        unknowns: usize,
-        /// How many are needed.
-        expected: usize,
-    },
-    /// A load, area or modulus is not a positive number.
-    #[error("layer {number}: the {quantity} is {found}; expected a positive number")]
-    Observation {
-        /// Its place, counted from 1.
-        number: usize,
-        /// "load or area", "Young's modulus" or "shear modulus".
-        quantity: &'static str,
-        /// What was found.
-        found: f64,
-    },
-    /// No surface of the search has elastic contacts in all layers.
-    #[error("no surface between the bounds of the search has elastic contacts under all loads")]
-    Nothing,
-    /// The contact cannot be made.
-    #[error(transparent)]
-    Contact(#[from] VirtualMaterialError),
-    /// The roughness cannot be made.
-    #[error(transparent)]
-    Roughness(#[from] RoughnessError),
-}
-
 /// Finds D and G by least squares on the logarithms of both moduli, for a pair of materials of a hardness (Pa) under β/f times the friction force.
 ///
 /// All surfaces with elastic contacts in every layer are searched on a grid; the best minima of it are refined by the method of
@@ -106,7 +69,7 @@ pub fn fit(
     hardness_pa: f64,
     friction_ratio: f64,
     magnitudes: Magnitudes,
-) -> Result<Fit, FitError> {
+) -> Result<Fit, ContactError> {
     let problem = Problem {
         observations,
         pair,
@@ -120,6 +83,6 @@ pub fn fit(
         .into_iter()
         .map(|start| problem.refined(start))
         .min_by(|one, other| one.1.total_cmp(&other.1))
-        .ok_or(FitError::Nothing)?;
+        .ok_or(ContactError::NothingFits)?;
     problem.result(best.0)
 }

@@ -1,7 +1,9 @@
 //! How far the layers of a surface are from the known ones.
 
-use super::{FitError, Magnitudes, Observation};
+use super::{Magnitudes, Observation};
+use crate::ContactError;
 use crate::Pair;
+use crate::number::positive;
 use crate::surface::Roughness;
 use crate::virtual_material::{LayerContact, Loading};
 
@@ -17,11 +19,11 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    pub(super) fn check(&self) -> Result<(), FitError> {
+    pub(super) fn check(&self) -> Result<(), ContactError> {
         let unknowns = self.unknowns();
         let found = self.observations.len();
         if 2 * found < unknowns {
-            return Err(FitError::TooFew {
+            return Err(ContactError::TooFewLayers {
                 found,
                 unknowns,
                 expected: unknowns / 2,
@@ -34,13 +36,8 @@ impl Problem<'_> {
                 ("shear modulus", observation.moduli.shear_modulus_pa),
             ];
             for (quantity, found) in quantities {
-                if !(found.is_finite() && found > 0.0) {
-                    return Err(FitError::Observation {
-                        number: index + 1,
-                        quantity,
-                        found,
-                    });
-                }
+                let quantity = format!("layer {}: the {quantity}", index + 1);
+                positive(quantity, found, "", "a positive number")?;
             }
         }
         // Whether hardness and friction make sense does not depend on the roughness.

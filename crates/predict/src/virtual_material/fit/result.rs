@@ -2,17 +2,18 @@
 
 use super::problem::{Problem, Unknowns};
 use super::search::{bounds, solved};
-use super::{Fit, FitError, FittedLayer, Magnitudes};
+use super::{Fit, FittedLayer, Magnitudes};
+use crate::ContactError;
 use crate::surface::Roughness;
-use crate::virtual_material::{LayerContact, Moduli, VirtualMaterialError};
+use crate::virtual_material::{LayerContact, Moduli};
 
 impl Problem<'_> {
-    pub(super) fn result(&self, at: Unknowns) -> Result<Fit, FitError> {
-        let roughness_m = self.roughness_at(at).ok_or(FitError::Nothing)?;
+    pub(super) fn result(&self, at: Unknowns) -> Result<Fit, ContactError> {
+        let roughness_m = self.roughness_at(at).ok_or(ContactError::NothingFits)?;
         let roughness = Roughness::new(at[0], roughness_m)?;
         let contact =
             LayerContact::new(self.pair, roughness, self.hardness_pa, self.friction_ratio)?;
-        let (_, means) = self.differences(contact).ok_or(FitError::Nothing)?;
+        let (_, means) = self.differences(contact).ok_or(ContactError::NothingFits)?;
         let magnitudes = match self.magnitudes {
             Magnitudes::Stated => [1.0; 2],
             Magnitudes::Free => means.map(|mean| (-mean).exp()),
@@ -28,7 +29,7 @@ impl Problem<'_> {
                     / contact.critical_real_area_m2(),
             })
         });
-        let layers = layers.collect::<Result<Vec<_>, VirtualMaterialError>>()?;
+        let layers = layers.collect::<Result<Vec<_>, ContactError>>()?;
         let count = 2 * self.observations.len();
         let sum = self.objective(at);
         let is_at_bound = (0..2).any(|n| bounds()[n].contains(&at[n]));

@@ -1,0 +1,30 @@
+//! Studies: the TOML files that say what is to be identified, predicted or computed. One reader, one set of checks and one error
+//! serve every method, so that a mistake is told in the same words wherever it is made.
+//!
+//! [`StudyText::read`] takes a file, [`StudyText::method`] tells which reader it is for, [`StudyText::tables`] gives that reader
+//! its tables. What the tables say is checked by [`StudyText::ensure`] and its kin, which name the file and the key.
+//!
+//! ```
+//! use std::path::Path;
+//! use bolted_joint_study::{Method, StudyText};
+//!
+//! let study = StudyText::new("method = \"respond\"\n[time]\nduration = -1", Path::new("study.toml"));
+//! assert_eq!(study.method()?, Method::Respond);
+//! let refused = study.positive("time.duration", -1.0, "a duration in s").unwrap_err();
+//! assert_eq!(refused.to_string(), "study.toml: `time.duration`: found -1, expected a duration in s");
+//! # Ok::<(), bolted_joint_study::StudyError>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod check;
+mod error;
+mod method;
+mod origin;
+mod tables;
+mod text;
+
+pub use error::StudyError;
+pub use method::Method;
+pub use origin::{input_file, name_in, provenance};
+pub use tables::{FrequencyTable, OneOrMore, UncertaintyTable, one_or_more_tables};
+pub use text::StudyText;

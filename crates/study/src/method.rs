@@ -1,0 +1,57 @@
+//! The methods: which there are, and which command each is for.
+
+use std::fmt;
+
+use serde::Deserialize;
+
+/// The method that a study asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The joint from frequency response functions of substructures and assembly.
+    FrfDecoupling,
+    /// The lap model from natural frequencies.
+    LapUpdate,
+    /// The lap model from responses at several levels.
+    LapResponse,
+    /// Contact of fractal surfaces under the bolts' pressure (Zhao).
+    FractalContact,
+    /// An elastic layer in place of the joint (Tian).
+    VirtualMaterial,
+    /// A layered beam whose interfaces slip (Kavi).
+    LayeredBeam,
+    /// Responses of laps whose joint files are there.
+    Respond,
+}
+
+impl Method {
+    /// Its name, as a study has it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FrfDecoupling => "frf-decoupling",
+            Self::LapUpdate => "lap-update",
+            Self::LapResponse => "lap-response",
+            Self::FractalContact => "fractal-contact",
+            Self::VirtualMaterial => "virtual-material",
+            Self::LayeredBeam => "layered-beam",
+            Self::Respond => "respond",
+        }
+    }
+
+    /// The command that makes of it what it is for.
+    #[must_use]
+    pub fn command(self) -> &'static str {
+        match self {
+            Self::FrfDecoupling | Self::LapUpdate | Self::LapResponse => "identify",
+            Self::FractalContact | Self::VirtualMaterial | Self::LayeredBeam => "predict",
+            Self::Respond => "respond",
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

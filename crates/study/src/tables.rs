@@ -1,0 +1,78 @@
+//! Tables that several methods have.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+/// `[frequency]`: the band that is used, Hz.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrequencyTable {
+    /// Its lower end.
+    pub from: Option<f64>,
+    /// Its upper end.
+    pub to: Option<f64>,
+}
+
+/// `[uncertainty]`: how a Monte Carlo simulation draws.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyTable {
+    /// Draws.
+    pub draws: u64,
+    /// Seed.
+    pub seed: Option<u64>,
+}
+
+/// A number, or a list of numbers.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+pub enum OneOrMore {
+    /// A number.
+    One(f64),
+    /// A list.
+    More(Vec<f64>),
+}
+
+impl OneOrMore {
+    /// The numbers.
+    #[must_use]
+    pub fn list(&self) -> Vec<f64> {
+        match self {
+            Self::One(number) => vec![*number],
+            Self::More(numbers) => numbers.clone(),
+        }
+    }
+}
+
+/// One table `[key]`, or several `[[key]]`; an untagged enum would not say which key of the table is wrong.
+///
+/// # Errors
+/// That of the table, or that there is something else than `expecting`.
+pub fn one_or_more_tables<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+    expecting: &'static str,
+) -> Result<Vec<T>, D::Error> {
+    deserializer.deserialize_any(Tables(expecting, PhantomData))
+}
+
+struct Tables<T>(&'static str, PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Tables<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(|table| vec![table])
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<Vec<T>, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(sequence))
+    }
+}

@@ -17,7 +17,7 @@ use std::time::Instant;
 use bolted_joint::harmonic::{
     CurveOptions, CurvePoint, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Steps,
 };
-use bolted_joint_dynamics::{Body, JointLaw, Lap, LapIntegrator, LapState};
+use bolted_joint_dynamics::{Body, Lap, LapIntegrator, LapState, Linear, Polynomial};
 use criterion::Criterion;
 use num_complex::Complex64;
 use serde_json::{Value, json};
@@ -45,14 +45,12 @@ fn lap() -> Lap<1> {
         stiffness: [K],
         damping: [C],
     };
-    let joint = JointLaw {
+    let linear = Linear {
         stiffness: [[K12]],
         damping: [[C12]],
-        cubic: [K3],
-        ..JointLaw::NONE
     };
     Lap {
-        joint,
+        joint: linear.beside([Polynomial::cubic(K3)]),
         a: body,
         b: body,
     }

@@ -5,13 +5,14 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use bolted_joint_dynamics::with_dofs;
 use bolted_joint_importer::FmiVersion;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
 use bolted_joint::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
 use bolted_joint::export::Interface;
-use bolted_joint::joint::{DofSet, JointFile};
+use bolted_joint::joint::JointFile;
 
 use super::communication_step::{NeighbourArguments, communication_step};
 use super::error::CliError;
@@ -134,10 +135,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         ));
     }
     if file.bodies.is_some() {
-        facts.push(match file.joint.dofs {
-            DofSet::Translation => lap_fact::<1>(&joints),
-            DofSet::TranslationRotation => lap_fact::<2>(&joints),
-        });
+        facts.push(with_dofs!(file.joint.dofs.size(), D => lap_fact::<D>(&joints)));
     }
     let findings = passivity
         .active()

@@ -1,5 +1,6 @@
 //! The part of `check` that says how long a communication step may be between given neighbours.
 
+use bolted_joint_dynamics::{DofKind, with_dofs};
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -63,7 +64,7 @@ pub(super) fn communication_step(
         (Interface::Element, Some(mass), _) => {
             let dofs = joints
                 .first()
-                .map_or(DofSet::Translation, |file| file.joint.dofs);
+                .map_or(DofSet::TRANSLATION, |file| file.joint.dofs);
             let neighbours = neighbours(dofs, mass, arguments.neighbour_inertia)?;
             of_element(joints, &neighbours, arguments, suggested_s).map(Some)
         }
@@ -89,31 +90,37 @@ fn neighbours(
     mass: [Inertia; 2],
     inertia: Option<[Inertia; 2]>,
 ) -> Result<Neighbours, CliError> {
-    let mut sides = mass.map(|mass| vec![mass]);
-    match (dofs, inertia) {
-        (DofSet::Translation, None) => {}
-        (DofSet::TranslationRotation, Some(inertia)) => {
-            for (side, inertia) in sides.iter_mut().zip(inertia) {
-                side.push(inertia);
-            }
-        }
-        (DofSet::TranslationRotation, None) => {
+    let turns = dofs.rows().any(|dof| dof.kind == DofKind::Rotation);
+    let inertia = match inertia {
+        Some(inertia) if turns => inertia,
+        // no row asks for it
+        None if !turns => mass,
+        None => {
             return Err(CliError::option(
                 "--neighbour-inertia",
                 "none",
                 "the moments of inertia of both neighbours, as the joint has rotation; `fixed,fixed` if they do not turn",
             ));
         }
-        (DofSet::Translation, Some(_)) => {
+        Some(_) => {
             return Err(CliError::option(
                 "--neighbour-inertia",
                 "a joint without rotation",
                 "--neighbour-mass alone",
             ));
         }
-    }
-    let [a, b] = sides;
-    Ok(Neighbours { a, b })
+    };
+    let side = |side: usize| {
+        let rows = dofs.rows().map(|dof| match dof.kind {
+            DofKind::Translation => mass[side],
+            DofKind::Rotation => inertia[side],
+        });
+        rows.collect()
+    };
+    Ok(Neighbours {
+        a: side(0),
+        b: side(1),
+    })
 }
 
 fn of_element(
@@ -174,10 +181,10 @@ fn of_lap(
     let restraints = [&restraint(0), &restraint(1)];
     let longest_s = step_size_max_s.unwrap_or(f64::INFINITY);
     let amplitude = arguments.amplitude.as_deref();
-    let bound = shortest(joints, |file| match file.joint.dofs {
-        DofSet::Translation => lap_bound::<1>(file, restraints, longest_s, amplitude),
-        DofSet::TranslationRotation => lap_bound::<2>(file, restraints, longest_s, amplitude),
-    })?;
+    let bound = shortest(
+        joints,
+        |file| with_dofs!(file.joint.dofs.size(), D => lap_bound::<D>(file, restraints, longest_s, amplitude)),
+    )?;
     let mut facts = vec![
             format!(
                 "communication step: loads of the attached springs and dampers held over the step: {}",
@@ -248,9 +255,7 @@ fn about(joints: &[JointFile], amplitude: Option<&[f64]>) -> Vec<String> {
 }
 
 fn about_amplitude(joints: &[JointFile], amplitude: Option<&[f64]>) -> String {
-    let is_linear = joints.iter().map(|file| &file.joint).all(|joint| {
-        joint.cubic.iter().all(|&cubic| cubic == 0.0) && !joint.has_terms_of_higher_order()
-    });
+    let is_linear = joints.iter().all(|file| file.joint.is_linear());
     match amplitude {
         _ if is_linear => {
             "communication step: the joint is linear, the bound holds for any amplitude".to_owned()

@@ -13,7 +13,7 @@ mod start_file;
 
 use std::{error::Error, time::Duration};
 
-use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Lap};
+use bolted_joint_dynamics::{Body, Lap, Linear, Polynomial};
 use criterion::Criterion;
 
 use crate::{
@@ -105,12 +105,11 @@ fn translational_lap() -> Lap<1> {
         damping: [31.5],
     };
     Lap {
-        joint: JointLaw {
+        joint: Linear {
             stiffness: [[4.56e6]],
             damping: [[10.0]],
-            cubic: [5e12],
-            higher: HigherTerms::NONE,
-        },
+        }
+        .beside([Polynomial::cubic(5e12)]),
         a: body,
         b: body,
     }
@@ -124,12 +123,11 @@ fn rotational_lap() -> Lap<2> {
         damping: [20.0, 0.05],
     };
     Lap {
-        joint: JointLaw {
+        joint: Linear {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[10.83, -0.83], [-0.83, 0.083]],
-            cubic: [5e12, 1e6],
-            higher: HigherTerms::NONE,
-        },
+        }
+        .beside([5e12, 1e6].map(Polynomial::cubic)),
         a: body,
         b: body,
     }
@@ -137,10 +135,8 @@ fn rotational_lap() -> Lap<2> {
 
 /// The same without its cubic springs: the FMU then takes one product for all Runge–Kutta steps of a communication step.
 fn without_cubic<const D: usize>(lap: &Lap<D>) -> Lap<D> {
-    let joint = JointLaw {
-        cubic: [0.0; D],
-        higher: HigherTerms::NONE,
-        ..lap.joint
-    };
-    Lap { joint, ..*lap }
+    Lap {
+        joint: lap.joint.linear.into(),
+        ..*lap
+    }
 }

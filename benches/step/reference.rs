@@ -9,7 +9,7 @@ use std::{
     process::{Command, Output},
 };
 
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Lap, law::Term};
 
 const SOURCE: &str = include_str!("reference.c");
 
@@ -119,11 +119,16 @@ impl<const D: usize> Reference<D> {
         interval_s: f64,
         substeps: u32,
     ) -> Result<Self, Box<dyn Error>> {
-        let cubic = lap.joint.cubic.iter().any(|&cubic| cubic != 0.0);
-        let path = compiler.library(D, cubic, inertias)?;
-        let matrices = lap.joint.stiffness.iter().chain(&lap.joint.damping);
+        let linear = &lap.joint.linear;
+        let cubic = lap
+            .joint
+            .polynomials()
+            .map(|terms| terms.coefficient(Term::CUBIC));
+        let has_cubic = cubic.iter().any(|&cubic| cubic != 0.0);
+        let path = compiler.library(D, has_cubic, inertias)?;
+        let matrices = linear.stiffness.iter().chain(&linear.damping);
         let mut parameters: Vec<f64> = matrices.flatten().copied().collect();
-        parameters.extend(lap.joint.cubic);
+        parameters.extend(cubic);
         for [a, b] in [
             [lap.a.inertia, lap.b.inertia],
             [lap.a.stiffness, lap.b.stiffness],

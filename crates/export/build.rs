@@ -32,7 +32,6 @@ fn build() -> Result<(), String> {
     let out = PathBuf::from(variable("OUT_DIR")?);
     for watched in [
         "crates/export/build.rs",
-        "modelDescription",
         "crates/dynamics/src",
         "crates/fmu/src",
         "crates/fmu/linking.rs",
@@ -41,8 +40,7 @@ fn build() -> Result<(), String> {
         println!("cargo:rerun-if-changed={}", root.join(watched).display());
     }
 
-    let interfaces = Interfaces::read(&root.join("modelDescription"))
-        .map_err(|error| format!("modelDescription: {error}"))?;
+    let interfaces = Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
     let tables = out.join("interface.rs");
     fs::write(&tables, interfaces.to_rust())
         .map_err(|error| format!("{}: {error}", tables.display()))?;

@@ -1,4 +1,4 @@
-//! Turns `modelDescription/*.xml` into the library's tables of variables, and tells the linker what it must know.
+//! Writes the library's tables of variables, and tells the linker what it must know.
 
 use std::{env, fs, path::Path, process::ExitCode};
 
@@ -18,15 +18,9 @@ fn main() -> ExitCode {
 }
 
 fn write_tables() -> Result<(), String> {
-    // asked for when this runs: a checkout may have been moved since it was compiled
-    let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../../modelDescription");
-    for file in Interfaces::FILES {
-        println!("cargo:rerun-if-changed={}", folder.join(file).display());
-    }
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=linking.rs");
-    let interfaces =
-        Interfaces::read(&folder).map_err(|error| format!("modelDescription: {error}"))?;
+    let interfaces = Interfaces::present().map_err(|error| format!("modelDescription: {error}"))?;
     let out = variable("OUT_DIR")?;
     let path = Path::new(&out).join("interface.rs");
     fs::write(&path, interfaces.to_rust()).map_err(|error| format!("{}: {error}", path.display()))

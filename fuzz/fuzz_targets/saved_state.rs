@@ -11,6 +11,8 @@ extern crate bolted_joint as _;
 #[allow(dead_code, unused_imports, reason = "the test uses more of it")]
 mod calls;
 mod folder;
+#[path = "../../crates/fmu/tests/raw/mod.rs"]
+mod raw;
 
 use libfuzzer_sys::fuzz_target;
 

@@ -8,6 +8,8 @@ extern crate bolted_joint as _;
 #[allow(dead_code, unused_imports, reason = "the test uses more of it")]
 mod calls;
 mod folder;
+#[path = "../../crates/fmu/tests/raw/mod.rs"]
+mod raw;
 
 use std::{fs, path::PathBuf, sync::OnceLock};
 

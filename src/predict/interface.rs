@@ -221,13 +221,13 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
     header.push("unit");
     let mut table = Table::new(&header);
     for unknown in found.unknowns(state) {
-        let mut row = vec![unknown.name.to_owned(), number(unknown.value, 5)];
-        if let Some(estimate) = found.estimate(unknown.name, state.torque_n_m) {
+        let mut row = vec![unknown.name.clone(), number(unknown.value, 5)];
+        if let Some(estimate) = found.estimate(&unknown.name, state.torque_n_m) {
             let [low, high] = estimate.interval_95;
             row.push(number(estimate.standard_deviation, 2));
             row.push(format!("{} … {}", number(low, 4), number(high, 4)));
         }
-        row.push(unknown.unit.to_owned());
+        row.push(unknown.unit);
         table.row(row);
     }
     text + &table.render()
@@ -238,7 +238,7 @@ fn shares(found: &Prediction<'_>) -> String {
     let mut text = String::new();
     let state = found.nominal();
     for unknown in found.unknowns(state) {
-        let named = found.main_inputs(unknown.name, state.torque_n_m, WORTH_NAMING);
+        let named = found.main_inputs(&unknown.name, state.torque_n_m, WORTH_NAMING);
         if !named.is_empty() {
             let named: Vec<String> = named
                 .into_iter()

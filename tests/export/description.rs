@@ -1,6 +1,7 @@
 //! What no validator looks at in a model description: bounds, capability flags, and that both versions say the same.
 
 use bolted_joint::export::{FmiVersion, Interface};
+use bolted_joint_interface::Expanded;
 
 use crate::xml::{Element, elements, named};
 use crate::{export_as, text};
@@ -61,18 +62,12 @@ fn description(name: &str, interface: Interface, version: FmiVersion) -> String 
     text(&fmu, "modelDescription.xml").unwrap()
 }
 
-/// Exported ones of both versions, and the hand-written ones, whose every variable is there.
+/// Exported ones of both versions, and those of all joints, which have every variable.
 fn all() -> Vec<(FmiVersion, String)> {
-    let mut all = vec![
-        (
-            FmiVersion::V3,
-            include_str!("../../modelDescription/element.xml").to_owned(),
-        ),
-        (
-            FmiVersion::V3,
-            include_str!("../../modelDescription/lap.xml").to_owned(),
-        ),
-    ];
+    let mut all = Expanded::present()
+        .unwrap()
+        .map(|of_all_joints| (FmiVersion::V3, of_all_joints.xml))
+        .to_vec();
     for version in [FmiVersion::V2, FmiVersion::V3] {
         for (name, interface) in JOINTS {
             all.push((version, description(name, interface, version)));

@@ -127,7 +127,7 @@ def test_a_lap_is_stable_up_to_its_bound(export, bound, tmp_path, file, stiffnes
 
 def test_the_table_of_the_guide_is_what_check_says(export, bound):
     fmu = export(joint(["y", "theta"], TOL_K, TOL_C, [0.0, 0.0]), "element")
-    guide = (ROOT / "docs/fmi.md").read_text(encoding="utf-8")
+    guide = (ROOT / "docs/communication-step.md").read_text(encoding="utf-8")
     rows = guide.partition("| mass, kg | inertia, kg·m² |")[2].partition("\n\n")[0].splitlines()[2:]
     assert len(rows) == 4
     for row in rows:

@@ -21,7 +21,7 @@ def workplace(run, program, tmp_path_factory):
     folder = tmp_path_factory.mktemp("readme")
     shutil.copytree(ROOT / "examples", folder / "examples")
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    commands = re.findall(r"^    bolted-joint (.*)$", text, flags=re.MULTILINE)
+    commands = re.findall(r"^bolted-joint (.*)$", text, flags=re.MULTILINE)
     assert [command.split()[0] for command in commands] == ["identify", "export", "check"]
     for command in commands:
         run(*shlex.split(command), cwd=folder)
@@ -38,12 +38,29 @@ def test_the_examples_run_as_they_stand(workplace, document, count):
         assert done.returncode == 0, f"{example}\n{done.stderr}"
 
 
-def test_the_readmes_example_prints_the_force_of_the_joint(workplace):
+def test_the_readmes_example_prints_and_draws_the_force_of_the_joint_without_a_warning(workplace):
     (example,) = blocks("README.md", "python")
-    done = subprocess.run([sys.executable, "-c", example], cwd=workplace, capture_output=True, text=True, check=True)
-    force = float(re.search(r"([0-9.]+) N", done.stdout).group(1))
+    picture = workplace / "force.png"
+    picture.unlink(missing_ok=True)
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", example], cwd=workplace, capture_output=True, text=True, check=True
+    )
+    assert done.stderr == ""
+    # FMPy's own warnings go to standard output
+    (line,) = done.stdout.splitlines()
+    force = float(re.search(r"([0-9.]+) N", line).group(1))
     # |K + jωC| · 10 µm at 100 Hz with the joint of Tol's Table 5.3
     assert force == pytest.approx(abs(5.73e5 + 2j * 3.14159 * 100 * 10.83) * 1e-5, rel=0.01)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_readme_names_the_packages_that_its_example_imports():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    named = set(re.search(r"`pip install ([^`]*)`", text).group(1).split())
+    (example,) = blocks("README.md", "python")
+    imported = set(re.findall(r"^(?:import|from) (\w+)", example, flags=re.MULTILINE))
+    # FMPy brings NumPy
+    assert imported == named | {"numpy"}
 
 
 def test_the_documented_study_is_the_example(workplace):

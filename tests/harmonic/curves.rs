@@ -3,7 +3,7 @@
 use bolted_joint::harmonic::{
     CurveOptions, CurvePoint, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Target,
 };
-use bolted_joint_dynamics::{JointLaw, Lap};
+use bolted_joint_dynamics::Lap;
 use bolted_joint_testing::close;
 use num_complex::Complex64;
 
@@ -165,11 +165,7 @@ fn the_same_curve_upwards_and_downwards() {
 #[test]
 fn multipliers_of_a_linear_lap_are_those_of_its_modes() {
     let lap: Lap<2> = Lap {
-        joint: JointLaw {
-            cubic: [0.0; 2],
-            higher: JointLaw::NONE.higher,
-            ..with_rotation().joint
-        },
+        joint: with_rotation().joint.linear.into(),
         ..with_rotation()
     };
     let balance = HarmonicBalance::new(&lap, Harmonics::odd(1).unwrap()).unwrap();

@@ -4,7 +4,7 @@ use bolted_joint::harmonic::{
     Derivative, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side, Solution,
     Target,
 };
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Lap, law::Term};
 use num_complex::Complex64;
 
 use super::laps::with_rotation;
@@ -21,22 +21,22 @@ fn changed(lap: &Lap<2>, parameter: Parameter, by: f64) -> Lap<2> {
         Parameter::SupportDamping(Side::A, dof) => lap.a.damping[dof] += by,
         Parameter::SupportDamping(Side::B, dof) => lap.b.damping[dof] += by,
         Parameter::JointStiffness(i, j) => {
-            joint.stiffness[i][j] += by;
+            joint.linear.stiffness[i][j] += by;
             if i != j {
-                joint.stiffness[j][i] += by;
+                joint.linear.stiffness[j][i] += by;
             }
         }
         Parameter::JointDamping(i, j) => {
-            joint.damping[i][j] += by;
+            joint.linear.damping[i][j] += by;
             if i != j {
-                joint.damping[j][i] += by;
+                joint.linear.damping[j][i] += by;
             }
         }
-        Parameter::Cubic(dof) => joint.cubic[dof] += by,
-        Parameter::Quintic(dof) => joint.higher.quintic[dof] += by,
-        Parameter::Septic(dof) => joint.higher.septic[dof] += by,
-        Parameter::DampingQuadratic(dof) => joint.higher.damping_quadratic[dof] += by,
-        Parameter::DampingQuartic(dof) => joint.higher.damping_quartic[dof] += by,
+        Parameter::Term(term, dof) => {
+            let mut polynomials = joint.polynomials();
+            *polynomials[dof].coefficient_mut(term) += by;
+            *joint = joint.linear.beside(polynomials);
+        }
         _ => {}
     }
     lap
@@ -63,15 +63,12 @@ fn parameters() -> Vec<(Parameter, f64)> {
             all.push((Parameter::SupportDamping(side, dof), c));
         }
     }
-    for (dof, sizes) in [[4e12, 3e19, 2e26, 6e8, 2e15], [2e6, 4e9, 5e13, 900.0, 5e5]]
-        .into_iter()
-        .enumerate()
-    {
-        all.push((Parameter::Cubic(dof), sizes[0]));
-        all.push((Parameter::Quintic(dof), sizes[1]));
-        all.push((Parameter::Septic(dof), sizes[2]));
-        all.push((Parameter::DampingQuadratic(dof), sizes[3]));
-        all.push((Parameter::DampingQuartic(dof), sizes[4]));
+    for (dof, polynomial) in with_rotation().joint.polynomials().iter().enumerate() {
+        for term in Term::ALL {
+            let size = polynomial.coefficient(term).abs();
+            assert!(size > 0.0, "the lap has every term");
+            all.push((Parameter::Term(term, dof), size));
+        }
     }
     all
 }

@@ -1,6 +1,6 @@
 //! The laps that the tests are about.
 
-use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Lap};
+use bolted_joint_dynamics::{Body, Lap, Linear, Polynomial};
 
 /// m ẍ + c ẋ + k x + k3 x³ = F cos ωt.
 #[derive(Clone, Copy)]
@@ -20,14 +20,12 @@ impl Duffing {
             stiffness: [0.5 * self.stiffness],
             damping: [0.5 * self.damping],
         };
-        let joint = JointLaw {
+        let linear = Linear {
             stiffness: [[0.75 * self.stiffness]],
             damping: [[0.75 * self.damping]],
-            cubic: [self.cubic],
-            ..JointLaw::NONE
         };
         Lap {
-            joint,
+            joint: linear.beside([Polynomial::cubic(self.cubic)]),
             a: body,
             b: body,
         }
@@ -41,14 +39,12 @@ pub(crate) fn pirdayr(cubic: f64) -> Lap<1> {
         stiffness: [10.56e5],
         damping: [1.39],
     };
-    let joint = JointLaw {
+    let linear = Linear {
         stiffness: [[4.56e6]],
         damping: [[0.54]],
-        cubic: [cubic],
-        ..JointLaw::NONE
     };
     Lap {
-        joint,
+        joint: linear.beside([Polynomial::cubic(cubic)]),
         a: body,
         b: body,
     }
@@ -56,18 +52,15 @@ pub(crate) fn pirdayr(cubic: f64) -> Lap<1> {
 
 /// Two unlike bodies with rotation, the joint of every term.
 pub(crate) fn with_rotation() -> Lap<2> {
+    let linear = Linear {
+        stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+        damping: [[30.0, -2.0], [-2.0, 0.4]],
+    };
     Lap {
-        joint: JointLaw {
-            stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
-            damping: [[30.0, -2.0], [-2.0, 0.4]],
-            cubic: [4e12, 2e6],
-            higher: HigherTerms {
-                quintic: [3e19, -4e9],
-                septic: [-2e26, 5e13],
-                damping_quadratic: [6e8, 900.0],
-                damping_quartic: [2e15, 5e5],
-            },
-        },
+        joint: linear.beside([
+            Polynomial::with(&[4e12, 3e19, -2e26], &[6e8, 2e15]),
+            Polynomial::with(&[2e6, -4e9, 5e13], &[900.0, 5e5]),
+        ]),
         a: Body {
             inertia: [1.2, 2.1e-3],
             stiffness: [8e5, 900.0],

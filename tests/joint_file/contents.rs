@@ -4,6 +4,7 @@ use bolted_joint_testing::has;
 use std::fs;
 
 use bolted_joint::joint::{JointFile, LawError};
+use bolted_joint_dynamics::Polynomial;
 
 use crate::{data, refusal, refusal_with};
 
@@ -119,7 +120,7 @@ fn equations_come_only_in_the_size_of_the_joint() {
     let lap = JointFile::read(&data("pirdayr-ex03.joint.json")).unwrap();
     let equations = lap.lap::<1>().unwrap();
     assert_eq!(equations.a.inertia, [2.35]);
-    assert_eq!(equations.joint.cubic, [1670.0]);
+    assert_eq!(equations.joint.polynomials(), [Polynomial::cubic(1670.0)]);
     assert_eq!(
         lap.lap::<2>().unwrap_err().to_string(),
         "joint.dofs: found [\"y\"], expected 2 degrees of freedom"

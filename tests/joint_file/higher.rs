@@ -1,6 +1,7 @@
 //! Terms of higher order: read, written, refused where they do not fit.
 
 use bolted_joint::joint::JointFile;
+use bolted_joint_dynamics::Polynomial;
 use bolted_joint_testing::has;
 
 use crate::{GOOD, refusal};
@@ -24,17 +25,18 @@ fn terms_of_higher_order_are_part_of_the_law() {
         r#"{ "quintic": [-1e16, 2e8], "damping_quartic": [3e12, 0], "amplitude": [1e-3, 0.01] }"#,
     )
     .unwrap();
-    let terms = file.joint.law::<2>().unwrap().higher;
-    assert_eq!(terms.quintic, [-1e16, 2e8]);
-    assert_eq!(terms.septic, [0.0; 2]);
-    assert_eq!(terms.damping_quadratic, [0.0; 2]);
-    assert_eq!(terms.damping_quartic, [3e12, 0.0]);
+    let terms = file.joint.law::<2>().unwrap().polynomials();
+    let expected = [
+        Polynomial::with(&[0.0, -1e16], &[0.0, 3e12]),
+        Polynomial::with(&[0.0, 2e8], &[]),
+    ];
+    assert_eq!(terms, expected);
     let written = file.to_json().unwrap();
     assert_eq!(JointFile::from_json(&written, "").unwrap(), file);
     assert!(written.contains("\"damping_quartic\": [") && !written.contains("septic"));
     // without any of them
     let file = with("{}").unwrap();
-    assert!(file.joint.law::<2>().unwrap().higher.are_none());
+    assert!(file.joint.law::<2>().unwrap().is_linear());
     assert!(!file.joint.has_terms_of_higher_order());
     assert!(file.passivity().is_passive() && file.passivity().matrices.len() == 2);
 }

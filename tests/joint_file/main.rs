@@ -53,11 +53,11 @@ fn refusal_with(more: &str) -> String {
 #[test]
 fn the_good_text_is_good() {
     let file = JointFile::from_json(GOOD, "m10.joint.json").unwrap();
-    assert_eq!(file.joint.dofs, DofSet::TranslationRotation);
+    assert_eq!(file.joint.dofs, DofSet::TRANSLATION_ROTATION);
     let law = file.joint.law::<2>().unwrap();
-    assert_eq!(law.stiffness, [[5.73e5, 5.82e3], [5.82e3, 1.29e3]]);
-    assert_eq!(law.damping, [[10.83, -0.83], [-0.83, 0.083]]);
-    assert_eq!(law.cubic, [0.0, 0.0]);
+    assert_eq!(law.linear.stiffness, [[5.73e5, 5.82e3], [5.82e3, 1.29e3]]);
+    assert_eq!(law.linear.damping, [[10.83, -0.83], [-0.83, 0.083]]);
+    assert!(law.is_linear());
     assert!(file.passivity().is_passive());
 }
 

@@ -65,9 +65,9 @@ fn a_joint_over_preload_is_taken_at_one_between_those_of_its_table() {
             );
         }
     };
-    near(law.stiffness.as_flattened(), &STIFFNESS);
-    near(law.damping.as_flattened(), &DAMPING);
-    near(&law.cubic, &CUBIC);
+    near(law.linear.stiffness.as_flattened(), &STIFFNESS);
+    near(law.linear.damping.as_flattened(), &DAMPING);
+    near(&law.polynomials().map(|terms| terms.springs[0]), &CUBIC);
     let uncertainty = file.uncertainty.unwrap();
     near(&uncertainty.standard_deviation.stiffness[0], &[240.0, 2.4]);
     near(&uncertainty.standard_deviation.damping[1], &[0.024, 0.0024]);

@@ -83,7 +83,7 @@ fn keys_that_do_not_exist_or_are_not_there() {
     assert_eq!(
         refusal("\"stiffness\"", "\"stifness\""),
         "m10.joint.json:6:14: joint.stifness: unknown key, did you mean \"stiffness\"?; \
-         expected one of dofs, stiffness, damping, cubic, higher, over_preload"
+         expected one of dofs, stiffness, damping, cubic, higher, friction, over_preload"
     );
     assert_eq!(
         refusal("\"name\"", "\"colour\""),

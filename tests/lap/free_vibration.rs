@@ -80,10 +80,10 @@ fn a_free_decay_tells_softening_and_growing_damping() {
     let found = identified(folder.path(), "decay", "[\"k3\", \"k5\", \"c2\"]");
     assert_close(&found, ResponseUnknown::JointStiffness, K12, 1e-4);
     assert_close(&found, ResponseUnknown::JointDamping, C12, 2e-2);
-    assert_close(&found, ResponseUnknown::Term(Term::Cubic), KN, 1e-2);
+    assert_close(&found, ResponseUnknown::Term(Term::CUBIC), KN, 1e-2);
     assert_close(
         &found,
-        ResponseUnknown::Term(Term::DampingQuadratic),
+        ResponseUnknown::Term(Term::named("c2").unwrap()),
         C2,
         3e-2,
     );
@@ -109,10 +109,10 @@ fn a_backbone_with_its_damping_tells_the_same() {
     let found = identified(folder.path(), "backbone", "[\"k3\", \"k5\", \"c2\"]");
     assert_close(&found, ResponseUnknown::JointStiffness, K12, 1e-5);
     assert_close(&found, ResponseUnknown::JointDamping, C12, 1e-3);
-    assert_close(&found, ResponseUnknown::Term(Term::Cubic), KN, 5e-3);
+    assert_close(&found, ResponseUnknown::Term(Term::CUBIC), KN, 5e-3);
     assert_close(
         &found,
-        ResponseUnknown::Term(Term::DampingQuadratic),
+        ResponseUnknown::Term(Term::named("c2").unwrap()),
         C2,
         1e-3,
     );

@@ -8,6 +8,7 @@ use bolted_joint::identify::lap::{
     Model, Noise, Place, ResponseUnknown, SineLine, SineRun, Term, TermSet, Use, Values,
     fit_responses,
 };
+use bolted_joint_dynamics::Polynomial;
 use nalgebra::SMatrix;
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
@@ -25,7 +26,7 @@ const UNKNOWNS: [ResponseUnknown; 6] = [
     ResponseUnknown::SupportDamping,
     ResponseUnknown::JointStiffness,
     ResponseUnknown::JointDamping,
-    ResponseUnknown::Term(Term::Cubic),
+    ResponseUnknown::Term(Term::CUBIC),
 ];
 
 fn truth(cubic: f64) -> Truth {
@@ -44,7 +45,7 @@ fn model() -> Model {
     Model {
         drive: Place::B,
         response: Place::B,
-        terms: TermSet::of(&[Term::Cubic]),
+        terms: TermSet::of(&[Term::CUBIC]),
         unknowns: UNKNOWNS.to_vec(),
         harmonics: 1,
     }
@@ -199,7 +200,7 @@ fn many_harmonics_find_what_time_integration_gives() {
         mass: 2.0,
         joint_stiffness: 1e4,
         joint_damping: 4.0,
-        terms: [4e9, 0.0, 0.0, 3e5, 0.0],
+        terms: Polynomial::with(&[4e9], &[3e5]),
         ..Values::default()
     };
     let runs = [4.0, 12.0].map(|force_n| SineRun {
@@ -218,7 +219,7 @@ fn many_harmonics_find_what_time_integration_gives() {
             })
             .to_vec(),
     });
-    let terms = [Term::Cubic, Term::DampingQuadratic];
+    let terms = [Term::CUBIC, Term::named("c2").unwrap()];
     let unknowns = [
         ResponseUnknown::Mass,
         ResponseUnknown::JointStiffness,
@@ -258,8 +259,8 @@ fn steady_state(values: &Values, omega: f64, force: f64) -> Complex64 {
     const STEPS: usize = 1000;
     let rate = |t: f64, [r, v]: [f64; 2]| {
         let load = force * (omega * t).cos();
-        let spring = values.joint_stiffness * r + values.terms[0] * r.powi(3);
-        let damper = (values.joint_damping + values.terms[3] * r * r) * v;
+        let spring = values.joint_stiffness * r + values.terms.springs[0] * r.powi(3);
+        let damper = (values.joint_damping + values.terms.dampers[0] * r * r) * v;
         [v, (load - spring - damper) / (0.5 * values.mass)]
     };
     let h = std::f64::consts::TAU / omega / STEPS as f64;

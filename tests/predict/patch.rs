@@ -189,7 +189,7 @@ fn the_planar_part_has_the_signs_of_its_axes() {
     let axis = |text| SignedAxis::parse(text).unwrap();
     let k = found.stiffness();
     let slope = Planar::new(axis("z"), Some(axis("-y"))).unwrap();
-    assert_eq!(slope.dofs(), DofSet::TranslationRotation);
+    assert_eq!(slope.dofs(), DofSet::TRANSLATION_ROTATION);
     let part = slope.part(k);
     // A deflection w(x) = w0 + θ x of side a, θ = dw/dx: F = Σ k_n ΔA (w0 + θ x) and M = Σ k_n ΔA x (w0 + θ x).
     let sums = parts.iter().fold([0.0; 3], |sums, (element, contact)| {
@@ -204,7 +204,7 @@ fn the_planar_part_has_the_signs_of_its_axes() {
     let reversed = Planar::new(axis("-z"), Some(axis("y"))).unwrap();
     assert_eq!(reversed.part(k), slope.part(k));
     let one = Planar::new(axis("x"), None).unwrap();
-    assert_eq!(one.dofs(), DofSet::Translation);
+    assert_eq!(one.dofs(), DofSet::TRANSLATION);
     assert_eq!(one.part(k), [[k[0][0]]]);
     let message = Planar::new(axis("z"), Some(axis("-z")))
         .unwrap_err()

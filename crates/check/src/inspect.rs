@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Lap, with_dofs};
 use bolted_joint_importer::FmiVersion;
 use bolted_joint_interface::Interface as Declared;
 use roxmltree::Document;
@@ -10,8 +10,8 @@ use roxmltree::Document;
 use super::archive::Archive;
 use super::described::{Described, FILE};
 use super::{InspectError, attributes, parts, variables};
-use bolted_joint_export::{Interface, StartFile, declared, start_value, table_lines};
-use bolted_joint_joint::{DofSet, JointFile, Passivity};
+use bolted_joint_export::{Interface, StartFile, declared, laws_line, start_value, table_lines};
+use bolted_joint_joint::{JointFile, Passivity};
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
 const SAME_START: f64 = 1e-15;
@@ -86,7 +86,8 @@ pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
         }
     };
     findings.extend(against_joint_file(&start, &joint));
-    if start.table != table_lines(joint.joint.over_preload.as_ref(), start.extrapolates()) {
+    let table = table_lines(joint.joint.over_preload.as_ref(), start.extrapolates());
+    if start.table != laws_line(&joint) + &table {
         findings.push(
             "resources/start.txt: found another table over the preload than that of resources/joint.json; export the FMU again"
                 .to_owned(),
@@ -212,14 +213,9 @@ fn step_finding(joint: &JointFile, step_s: f64) -> Option<String> {
         })
     }
     let at_one = |joint: &JointFile| {
-        let finding = match joint.joint.dofs {
-            DofSet::Translation => joint
-                .tangent_laps::<1>()
-                .map(|laps| unstable(&laps, step_s)),
-            DofSet::TranslationRotation => joint
-                .tangent_laps::<2>()
-                .map(|laps| unstable(&laps, step_s)),
-        };
+        let finding = with_dofs!(joint.joint.dofs.size(), D => {
+            joint.tangent_laps::<D>().map(|laps| unstable(&laps, step_s))
+        });
         finding.unwrap_or_else(|error| Some(format!("resources/joint.json: {error}")))
     };
     match joint.over_its_preloads() {

@@ -1,12 +1,12 @@
 //! The joint element between two rigid neighbours that the importer integrates.
 
-use bolted_joint_dynamics::JointLaw;
+use bolted_joint_dynamics::{JointLaw, with_dofs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use thiserror::Error;
 
 use super::StepBound;
 use super::stability::Search;
-use bolted_joint_joint::{DofSet, Joint, LawError, displacements};
+use bolted_joint_joint::{Joint, LawError, displacements};
 
 /// Inertia of a neighbour in one DOF, at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -124,10 +124,7 @@ pub fn element_bound(
         }
     }
     let mut bound = StepBound::Nothing;
-    let tangents = match joint.dofs {
-        DofSet::Translation => tangents::<1>(joint, amplitude),
-        DofSet::TranslationRotation => tangents::<2>(joint, amplitude),
-    }?;
+    let tangents = with_dofs!(joint.dofs.size(), D => tangents::<D>(joint, amplitude))?;
     for tangent in tangents {
         let Some(relative) = Relative::new(&tangent.stiffness, &tangent.damping, neighbours) else {
             continue;
@@ -177,7 +174,7 @@ fn tangents<const D: usize>(
     Ok(places(&law, amplitude)?
         .iter()
         .map(|place| {
-            let linear = law.linearised_about(place);
+            let linear = law.linearised_about(place).linear;
             Tangent {
                 at: place.to_vec(),
                 stiffness: matrix(&linear.stiffness),
@@ -313,17 +310,10 @@ mod tests {
 
     fn joint(stiffness: &[&[f64]], damping: &[&[f64]], cubic: &[f64]) -> Joint {
         let rows = |rows: &[&[f64]]| rows.iter().map(|row| row.to_vec()).collect();
+        let dofs = DofSet::all().find(|dofs| dofs.count() == cubic.len());
         Joint {
-            dofs: if cubic.len() == 1 {
-                DofSet::Translation
-            } else {
-                DofSet::TranslationRotation
-            },
-            stiffness: rows(stiffness),
-            damping: rows(damping),
             cubic: cubic.to_vec(),
-            higher: None,
-            over_preload: None,
+            ..Joint::linear(dofs.unwrap(), rows(stiffness), rows(damping))
         }
     }
 

@@ -3,8 +3,8 @@
 mod balance;
 
 use crate::{
-    joint::JointLaw,
     lap::{Body, Lap},
+    law::JointLaw,
 };
 use balance::{Balance, Spring};
 
@@ -94,7 +94,8 @@ fn tangent<const D: usize>(laws: [&JointLaw<D>; 2], supports: [&[f64; D]; 2]) ->
 
 /// Coupling stiffness of two DOFs.
 fn coupling<const D: usize>(law: &JointLaw<D>, i: usize, j: usize) -> f64 {
-    0.5 * (law.stiffness[i][j] + law.stiffness[j][i])
+    let stiffness = &law.linear.stiffness;
+    0.5 * (stiffness[i][j] + stiffness[j][i])
 }
 
 #[cfg(test)]

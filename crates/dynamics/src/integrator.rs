@@ -5,8 +5,9 @@ mod higher;
 use std::{array::from_fn, num::NonZeroU32};
 
 use crate::{
-    joint::Motion,
     lap::{Body, Lap, LapLoads, LapState},
+    law::Polynomial,
+    motion::Motion,
     pair::Pair,
 };
 use higher::Higher;
@@ -25,6 +26,7 @@ pub struct LapIntegrator<const D: usize> {
     damping: Damping<D>,
     /// The joint's terms of higher order; `None` where it has none, so that nothing is spent on them.
     higher: Option<Higher<D>>,
+    has_memory: bool,
 }
 
 /// The dampers of supports and joint, as a linear map of velocities to accelerations.
@@ -58,16 +60,20 @@ impl<const D: usize> LapIntegrator<D> {
             from_fn(|i| from_fn(|j| over_inertia(i, matrix[i][j], matrix[i][j])))
         };
         let law = &lap.joint;
+        let polynomials = law.polynomials();
         Self {
             mobility: of_bodies(|_, _| 1.0),
             support: of_bodies(|body, i| body.stiffness[i]),
-            joint: of_joint(&law.stiffness),
-            cubic: from_fn(|i| over_inertia(i, law.cubic[i], law.cubic[i])),
+            joint: of_joint(&law.linear.stiffness),
+            cubic: from_fn(|i| {
+                over_inertia(i, polynomials[i].springs[0], polynomials[i].springs[0])
+            }),
             damping: Damping {
                 support: of_bodies(|body, i| body.damping[i]),
-                joint: of_joint(&law.damping),
+                joint: of_joint(&law.linear.damping),
             },
-            higher: (!law.higher.are_none()).then(|| Higher::new(lap)),
+            higher: (!polynomials.iter().all(Polynomial::is_cubic)).then(|| Higher::new(lap)),
+            has_memory: law.has_memory(),
         }
     }
 
@@ -75,7 +81,9 @@ impl<const D: usize> LapIntegrator<D> {
     #[inline]
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.higher.is_none() && self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
+        !self.has_memory
+            && self.higher.is_none()
+            && self.cubic.iter().all(|&cubic| cubic == Pair::both(0.0))
     }
 
     /// State after `interval_s` (s) in `substeps` equal RK4 steps, the loads held; it ends exactly at the interval's end.
@@ -92,6 +100,13 @@ impl<const D: usize> LapIntegrator<D> {
             None => self.advance_without_higher(state, loads, interval_s, substeps),
             Some(higher) => self.advance_higher(higher, state, loads, interval_s, substeps),
         }
+    }
+
+    /// Whether the joint remembers its motion. Such a lap is stepped by [`crate::LapConditions::step`], not by this.
+    #[inline]
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.has_memory
     }
 
     /// Whether the joint has terms of higher order.

@@ -1,35 +1,41 @@
 //! Equations of a bolted joint and their time integration.
 //!
 //! This crate is what runs inside every exported FMU: no dependencies, no I/O, no allocation in a step.
-//! All quantities are in SI units; the const generic `D` is the number of DOFs a side: 1 (translation y)
-//! or 2 (translation y, rotation θ).
+//! All quantities are in SI units. The const generic `D` is the number of DOFs a side, the first rows of [`DOFS`]; `N` is the
+//! kind of number, real ones or [`Dual`] ones that carry their changes.
 #![forbid(unsafe_code)]
 
+mod counted;
 mod definiteness;
+mod dof;
 mod eigenvalues;
 mod elementary;
 mod escape;
-mod higher;
 mod integrator;
-mod joint;
 mod lap;
-mod linearised;
-mod loosening;
-mod over_preload;
+pub mod law;
+mod motion;
+mod number;
 mod pair;
+mod power_series;
 mod propagator;
 mod rk4;
 mod spectrum;
-mod tangent;
+mod stepper;
 mod vector;
 
+pub use counted::{CountedState, LapConditions, PassedEnergy};
 pub use definiteness::is_positive_semidefinite;
-pub use higher::HigherTerms;
+pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
 pub use integrator::LapIntegrator;
-pub use joint::{JointLaw, Motion};
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
-pub use loosening::{CountedState, LapConditions, PassedEnergy};
-pub use over_preload::{Beyond, JointOverPreload, TableDefect};
+pub use law::{
+    Beyond, DofLaws, DofMemory, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial,
+    TableDefect,
+};
+pub use motion::Motion;
+pub use number::{Dual, Number};
 pub use propagator::LapPropagator;
 pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
 pub use spectrum::{Eigenvalue, Spectrum};
+pub use stepper::{LapMoment, LapStepper};

@@ -4,8 +4,8 @@ use std::num::NonZeroU32;
 
 use crate::{
     integrator::LapIntegrator,
-    joint::Motion,
     lap::{LapLoads, LapState},
+    motion::Motion,
 };
 
 impl<const D: usize> LapState<D> {
@@ -225,9 +225,8 @@ fn of_two<const D: usize>(columns: [&[LapState<D>; D]; 2], numbers: [&[f64; D]; 
 mod tests {
     use super::*;
     use crate::{
-        higher::HigherTerms,
-        joint::JointLaw,
         lap::{Body, Lap},
+        law::{Linear, Polynomial},
     };
 
     /// Numbers from a linear congruential generator (Knuth's MMIX constants).
@@ -279,12 +278,11 @@ mod tests {
                     std::array::from_fn(|j| if i == j { diagonal[i] } else { coupling })
                 })
             };
-            let joint = JointLaw {
+            let joint = Linear {
                 stiffness: matrix([1e6, 1e3]),
                 damping: matrix([10.0, 1e-2]),
-                cubic: [0.0; D],
-                higher: HigherTerms::NONE,
-            };
+            }
+            .beside([0.0; D].map(Polynomial::cubic));
             Lap {
                 joint,
                 a: self.body(),
@@ -371,12 +369,11 @@ mod tests {
             damping: [0.0],
         };
         let lap = Lap {
-            joint: JointLaw {
+            joint: Linear {
                 stiffness: [[1e4]],
                 damping: [[1.0]],
-                cubic: [0.0],
-                higher: HigherTerms::NONE,
-            },
+            }
+            .beside([0.0].map(Polynomial::cubic)),
             a: body,
             b: body,
         };
@@ -408,9 +405,9 @@ mod tests {
         let mut lap = Random(7).lap::<2>();
         let count = NonZeroU32::new(1000).unwrap();
         assert!(LapPropagator::new(&LapIntegrator::new(&lap), 1e-3, count).is_some());
-        lap.joint.cubic[1] = 1.0;
+        lap.joint.on[1] = Polynomial::cubic(1.0).into();
         assert!(LapPropagator::new(&LapIntegrator::new(&lap), 1e-3, count).is_none());
-        lap.joint.cubic[1] = 0.0;
+        lap.joint.on[1] = Polynomial::NONE.into();
         lap.a.stiffness[0] = -1e8;
         let long_s = 1.0;
         assert!(LapPropagator::new(&LapIntegrator::new(&lap), long_s, count).is_none());

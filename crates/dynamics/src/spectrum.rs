@@ -81,14 +81,15 @@ impl<const D: usize> Lap<D> {
             return None;
         }
         let size = 2 * D;
+        let joint = self.joint.linearised_about(&[0.0; D]).linear;
         let mut stiffness = [[0.0; MAX_ORDER]; MAX_ORDER];
         let mut damping = [[0.0; MAX_ORDER]; MAX_ORDER];
         self.assemble(
-            &self.joint.stiffness,
+            &joint.stiffness,
             |body, i| body.stiffness[i],
             &mut stiffness,
         );
-        self.assemble(&self.joint.damping, |body, i| body.damping[i], &mut damping);
+        self.assemble(&joint.damping, |body, i| body.damping[i], &mut damping);
 
         // State (s x, ẋ) in mass-normalised coordinates x ← √m x with s² = ‖M⁻½ K M⁻½‖, so that both halves of the
         // companion matrix [[0, sI], [−K̃/s, −C̃]] have entries of one size.
@@ -139,7 +140,7 @@ impl<const D: usize> Lap<D> {
 mod tests {
     use super::*;
     use crate::lap::Body;
-    use crate::{higher::HigherTerms, joint::JointLaw};
+    use crate::law::{Linear, Polynomial};
 
     fn pirdayr(k: f64, c: f64, m: f64, k12: f64, c12: f64) -> Lap<1> {
         let body = Body {
@@ -148,12 +149,11 @@ mod tests {
             damping: [c],
         };
         Lap {
-            joint: JointLaw {
+            joint: Linear {
                 stiffness: [[k12]],
                 damping: [[c12]],
-                cubic: [0.0],
-                higher: HigherTerms::NONE,
-            },
+            }
+            .beside([0.0].map(Polynomial::cubic)),
             a: body,
             b: body,
         }

@@ -1,6 +1,7 @@
 //! What the FMU of a joint must declare, for whoever looks into one.
 
-use bolted_joint_interface::{Dependence, Interface as Declared};
+use bolted_joint_dynamics::law::DECLARATIONS;
+use bolted_joint_interface::{Interface as Declared, Joints};
 
 use super::description::Description;
 use super::parameters::start_value;
@@ -13,7 +14,7 @@ pub fn declared(
     interface: Interface,
     step_size_max_s: Option<f64>,
 ) -> Result<Declared, ExportError> {
-    let mut description = Description::new(interface, file.joint.dofs, dependence(file))?;
+    let mut description = Description::new(interface, file.joint.dofs, kind(file))?;
     description.set_parameters(|name| start_value(file, step_size_max_s, name))?;
     if let Some(table) = &file.joint.over_preload {
         description.set_preload(table.nominal, None);
@@ -22,10 +23,17 @@ pub fn declared(
     Ok(declared)
 }
 
-/// Whether the FMU's joint is a constant one or one over the preload.
-pub(super) fn dependence(file: &JointFile) -> Dependence {
-    match file.joint.over_preload {
-        Some(_) => Dependence::OverPreload,
-        None => Dependence::Constant,
+/// Whether the FMU's joint is a constant one, one over the preload, or one with memory.
+pub(super) fn kind(file: &JointFile) -> Joints {
+    if file.joint.over_preload.is_some() {
+        return Joints::OVER_PRELOAD;
     }
+    let of_laws = Joints::of_memory_laws(DECLARATIONS);
+    let own = file.joint.laws_with_memory();
+    of_laws
+        .into_iter()
+        .filter(|(name, _)| own.contains(name))
+        .map(|(_, joints)| joints)
+        .reduce(Joints::with)
+        .unwrap_or(Joints::CONSTANT)
 }

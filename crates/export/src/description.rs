@@ -1,9 +1,9 @@
-//! Writes an FMU's `modelDescription.xml`: the hand-written one, without what the joint lacks, with the joint's values.
+//! Writes an FMU's `modelDescription.xml`: that of all joints, without what the joint lacks, with the joint's values.
 
-use bolted_joint_interface::{Dependence, Interface as Checked, dependence, requires_rotation};
+use bolted_joint_interface::{Expanded, Interface as Checked, Joints, Rows};
 use fmi_schema::fmi3::{
-    AbstractVariableTrait as _, Causality, DefaultExperiment, DependenciesKind,
-    Fmi3ModelDescription, Fmi3Unknown, TypeDefinition, Variable, VariableDependency,
+    Causality, DefaultExperiment, DependenciesKind, Fmi3ModelDescription, Fmi3Unknown, FmiFloat64,
+    TypeDefinition, Variable, VariableDependency,
 };
 use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
@@ -18,25 +18,34 @@ pub(super) const FILE: &str = "modelDescription.xml";
 /// A model description in the making.
 pub(super) struct Description {
     tree: Fmi3ModelDescription,
+    /// What the tree is made from.
+    expanded: Expanded,
     version: FmiVersion,
 }
 
 impl Description {
-    /// The interface as declared, without rotation where the joint has none, and with what belongs to its law alone: the
-    /// parameters of a constant one, or the preload of one over the preload.
+    /// The interface as declared, without what belongs to DOFs that the joint does not have, and with what belongs to its law
+    /// alone: the parameters of a constant one, or the preload of one over the preload.
     pub(super) fn new(
         interface: Interface,
         dofs: DofSet,
-        law: Dependence,
+        law: Joints,
     ) -> Result<Self, ExportError> {
-        let mut tree = Fmi3ModelDescription::deserialize(interface.template())?;
+        let expanded = interface.expanded()?;
+        let mut tree = Fmi3ModelDescription::deserialize(&expanded.xml)?;
+        let rows = Rows::of(dofs.indices());
         drop_variables(&mut tree, |name| {
-            let of = dependence(name);
-            of != Dependence::Any && of != law
-                || dofs == DofSet::Translation && requires_rotation(name)
+            !expanded
+                .scope(name)
+                .is_some_and(|scope| scope.includes(rows, law))
         });
-        if law == Dependence::OverPreload {
-            make_factors_change(&mut tree);
+        if law == Joints::OVER_PRELOAD {
+            make_factors_change(&mut tree, &expanded);
+        }
+        if law.remembers() {
+            tree.model_exchange
+                .iter_mut()
+                .for_each(|exchange| exchange.needs_completed_integrator_step = Some(true));
         }
         drop_unused_types(&mut tree);
         // Set last, by `finish`.
@@ -44,6 +53,7 @@ impl Description {
         tree.generation_date_and_time = None;
         Ok(Self {
             tree,
+            expanded,
             version: FmiVersion::default(),
         })
     }
@@ -94,8 +104,7 @@ impl Description {
     pub(super) fn set_preload(&mut self, nominal_n_m: f64, range_n_m: Option<[f64; 2]>) {
         for variable in &mut self.tree.model_variables.variables {
             if let Variable::Float64(float64) = variable
-                && dependence(&float64.name) == Dependence::OverPreload
-                && float64.causality == Some(Causality::Input)
+                && is_preload(float64, &self.expanded)
             {
                 float64.start = Some(AttrList(vec![nominal_n_m]));
                 if let Some([first, last]) = range_n_m {
@@ -196,14 +205,14 @@ fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) 
 }
 
 /// What is linear in a known with a factor that only parameters change is no longer so where the preload changes that factor.
-fn make_factors_change(tree: &mut Fmi3ModelDescription) {
+fn make_factors_change(tree: &mut Fmi3ModelDescription, expanded: &Expanded) {
     let inputs: Vec<u32> = tree
         .model_variables
         .variables
         .iter()
         .filter_map(|variable| match variable {
-            Variable::Float64(float64) if dependence(float64.name()) == Dependence::OverPreload => {
-                (float64.causality == Some(Causality::Input)).then_some(float64.value_reference)
+            Variable::Float64(float64) => {
+                is_preload(float64, expanded).then_some(float64.value_reference)
             }
             _ => None,
         })
@@ -218,6 +227,14 @@ fn make_factors_change(tree: &mut Fmi3ModelDescription) {
             kinds.fill_with(|| DependenciesKind::Dependent);
         }
     }
+}
+
+/// Whether it is the input that the law of a joint over the preload follows.
+fn is_preload(variable: &FmiFloat64, expanded: &Expanded) -> bool {
+    variable.causality == Some(Causality::Input)
+        && expanded
+            .scope(&variable.name)
+            .is_some_and(|scope| scope.is_only_of(Joints::OVER_PRELOAD))
 }
 
 fn inner(unknown: &mut VariableDependency) -> &mut Fmi3Unknown {
@@ -322,12 +339,13 @@ mod tests {
     #[test]
     fn reading_and_writing_loses_nothing() {
         for interface in [Interface::Element, Interface::Lap] {
-            let tree = Fmi3ModelDescription::deserialize(interface.template()).unwrap();
+            let xml = interface.expanded().unwrap().xml;
+            let tree = Fmi3ModelDescription::deserialize(&xml).unwrap();
             let text = indented(&tree.serialize().unwrap());
             assert_eq!(Fmi3ModelDescription::deserialize(&text).unwrap(), tree);
             // The parser is strict, but could still leave out what it does not know: compare tags and attributes
             // with those of the file itself.
-            assert_eq!(attributes(&text), attributes(interface.template()));
+            assert_eq!(attributes(&text), attributes(&xml));
         }
     }
 
@@ -357,12 +375,8 @@ mod tests {
 
     #[test]
     fn user_text_is_escaped() {
-        let mut description = Description::new(
-            Interface::Element,
-            DofSet::Translation,
-            Dependence::Constant,
-        )
-        .unwrap();
+        let mut description =
+            Description::new(Interface::Element, DofSet::TRANSLATION, Joints::CONSTANT).unwrap();
         let name = "M8 <\"steel\" & 'brass'> ü";
         description.set_names(name, format!("{name}: x"));
         let text = description.text().unwrap();
@@ -376,7 +390,7 @@ mod tests {
     #[test]
     fn nothing_of_the_rotation_is_left() {
         for interface in [Interface::Element, Interface::Lap] {
-            let text = Description::new(interface, DofSet::Translation, Dependence::Constant)
+            let text = Description::new(interface, DofSet::TRANSLATION, Joints::CONSTANT)
                 .unwrap()
                 .text()
                 .unwrap();

@@ -130,6 +130,14 @@ pub enum ExportError {
         /// Name of the variable.
         variable: String,
     },
+    /// An input or output of the FMU that the reference run computes nothing for. A mistake in this program.
+    #[error(
+        "{variable} of the model description is nothing that the reference run computes; please report this"
+    )]
+    NotComputed {
+        /// Name of the variable.
+        variable: String,
+    },
     /// The model description cannot be read or written. A mistake in this program.
     #[error("model description: {0}; please report this")]
     Description(#[from] fmi_schema::Error),

@@ -2,23 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
-use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum};
+use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum, with_dofs};
 
 use super::archive::{File, archive};
 use super::assets::pictures;
-use super::declared::dependence;
+use super::declared::kind;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
 use super::parameters::start_value;
 use super::platforms::{Library, binaries};
 use super::reference_run::ReferenceRun;
-use super::start_file::{parameter_lines, start_file, table_lines};
+use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
 use super::step::{Experiment, StepSize};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
 use bolted_joint_files::whole_file;
-use bolted_joint_joint::{DofSet, JointFile, OverPreload, Passivity};
+use bolted_joint_joint::{JointFile, OverPreload, Passivity};
 
 /// What to export, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -205,7 +205,7 @@ fn fmu(
     let step = lap.as_ref().map(|lap| lap.step);
 
     let dofs = file.joint.dofs;
-    let mut description = Description::new(options.interface, dofs, dependence(subject.source()))?;
+    let mut description = Description::new(options.interface, dofs, kind(subject.source()))?;
     description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
@@ -224,7 +224,7 @@ fn fmu(
         description.set_preload(table.nominal, range);
         parameters.push(("preload".to_owned(), table.nominal));
     }
-    let table = table_lines(subject.table(), options.extrapolate);
+    let table = laws_line(subject.source()) + &table_lines(subject.table(), options.extrapolate);
     let library_name = description.model_identifier();
     let parameters = parameter_lines(&parameters);
     let resources = format!("{table}{parameters}");
@@ -310,9 +310,8 @@ fn lap_facts(
             Some(found_s) => Err(ExportError::StepOfElement { found_s }),
             None => Ok(None),
         },
-        (Interface::Lap, DofSet::Translation) => sized_lap_facts::<1>(subject, options).map(Some),
-        (Interface::Lap, DofSet::TranslationRotation) => {
-            sized_lap_facts::<2>(subject, options).map(Some)
+        (Interface::Lap, dofs) => {
+            with_dofs!(dofs.size(), D => sized_lap_facts::<D>(subject, options)).map(Some)
         }
     }
 }

@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use bolted_joint_interface::Expanded;
+
+use super::ExportError;
+
 /// Interface of the FMU.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum Interface {
@@ -33,12 +37,14 @@ impl Interface {
         }
     }
 
-    /// The hand-written model description, the only place where variables are declared.
-    pub(super) fn template(self) -> &'static str {
-        match self {
-            Self::Element => include_str!("../../../modelDescription/element.xml"),
-            Self::Lap => include_str!("../../../modelDescription/lap.xml"),
-        }
+    /// The model description with the variables of all joints.
+    pub(super) fn expanded(self) -> Result<Expanded, ExportError> {
+        let [element, lap] =
+            Expanded::present().map_err(|refused| ExportError::Interface(Box::new(refused)))?;
+        Ok(match self {
+            Self::Element => element,
+            Self::Lap => lap,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Interface;
-use bolted_joint_joint::{DofSet, OverPreload};
+use bolted_joint_joint::{DofSet, JointFile, OverPreload};
 
 /// First line of the file.
 const HEADER: &str = "bolted-joint-start/1";
@@ -16,6 +16,14 @@ pub fn parameter_lines(parameters: &[(String, f64)]) -> String {
         let _ = writeln!(text, "{name} {value:?}");
     }
     text
+}
+
+/// The line with the joint's laws that remember the motion; empty where there are none.
+pub fn laws_line(file: &JointFile) -> String {
+    match file.joint.laws_with_memory().as_slice() {
+        [] => String::new(),
+        names => format!("laws {}\n", names.join(" ")),
+    }
 }
 
 /// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K
@@ -70,7 +78,7 @@ pub struct StartFile {
     pub dof_count: usize,
     /// The FMU's instantiation token.
     pub token: String,
-    /// Heading and lines of the table over the preload; empty for a constant joint.
+    /// The line of the laws with memory, or heading and lines of the table over the preload; empty for a constant joint.
     pub table: String,
     /// Names and values.
     pub parameters: Vec<(String, f64)>,
@@ -93,6 +101,9 @@ impl StartFile {
         let token = field("token")?.to_owned();
         let mut lines = lines.peekable();
         let mut table = String::new();
+        if let Some(laws) = lines.next_if(|line| line.starts_with("laws ")) {
+            table = format!("{laws}\n");
+        }
         if let Some(heading) = lines.next_if(|line| line.starts_with("table ")) {
             let count = heading.split(' ').nth(1)?.parse::<usize>().ok()?;
             let mut all = vec![heading];
@@ -142,7 +153,7 @@ mod tests {
         ];
         let text = start_file(
             Interface::Lap,
-            DofSet::Translation,
+            DofSet::TRANSLATION,
             "0123",
             "",
             &parameter_lines(&parameters),

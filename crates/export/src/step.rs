@@ -185,9 +185,7 @@ pub(super) fn rounded_down(value: f64, digits: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bolted_joint_dynamics::{
-        Body, HigherTerms, JointLaw, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL,
-    };
+    use bolted_joint_dynamics::{Body, Linear, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL};
 
     fn lap(mass: f64, k: f64, c: f64, k12: f64, c12: f64) -> Lap<1> {
         let body = Body {
@@ -196,12 +194,11 @@ mod tests {
             damping: [c],
         };
         Lap {
-            joint: JointLaw {
+            joint: Linear {
                 stiffness: [[k12]],
                 damping: [[c12]],
-                cubic: [0.0],
-                higher: HigherTerms::NONE,
-            },
+            }
+            .into(),
             a: body,
             b: body,
         }

@@ -1,5 +1,6 @@
 //! Terminals of an FMU, one flange a side, and where they stand on its icon.
 
+use bolted_joint_dynamics::DofKind;
 use bolted_joint_interface::{Interface as Declared, Role};
 
 use super::xml::{Attributes, Document, number};
@@ -37,27 +38,39 @@ pub(super) fn terminals_and_icons(declared: &Declared, dofs: DofSet) -> String {
 
 /// The flange of one side: motion, equal on both sides of a connection, and load, whose sum there is zero.
 fn terminal(document: &mut Document, declared: &Declared, dofs: DofSet, side: &str, middle: f64) {
-    let kind = match dofs {
-        DofSet::Translation => "_bolted_joint.TranslationalFlange",
-        DofSet::TranslationRotation => "_bolted_joint.TranslationalRotationalFlange",
+    let of_kind = |kind, word| {
+        let mut members = dofs.rows();
+        if members.any(|dof| dof.kind == kind) {
+            word
+        } else {
+            ""
+        }
     };
+    let kind = format!(
+        "_bolted_joint.{}{}Flange",
+        of_kind(DofKind::Translation, "Translational"),
+        of_kind(DofKind::Rotation, "Rotational")
+    );
     let attributes = Attributes::new()
         .with("name", side)
         .with("matchingRule", "plug")
         .with("terminalKind", kind)
         .with("description", format!("Flange of side {side}"));
     document.element("Terminal", attributes, |document| {
-        for member in ["y", "theta", "v", "omega", "F", "M"] {
+        let displacements = dofs.rows().map(|dof| (dof.name, false));
+        let rates = dofs.rows().map(|dof| (dof.rate, false));
+        let loads = dofs.rows().map(|dof| (dof.load, true));
+        for (member, is_load) in displacements.chain(rates).chain(loads) {
             let name = format!("{side}.{member}");
             let Some(variable) = declared.variable(&name) else {
                 continue;
             };
             // Loads are counted as acting on the body: the lap's flow in, those that the element puts on its
             // neighbours flow out.
-            let kind = match (member, variable.role) {
-                ("F" | "M", Role::Input) => "inflow",
-                ("F" | "M", _) => "outflow",
-                _ => "signal",
+            let kind = match (is_load, variable.role) {
+                (true, Role::Input) => "inflow",
+                (true, _) => "outflow",
+                (false, _) => "signal",
             };
             let attributes = Attributes::new()
                 .with("variableName", &name)

@@ -15,23 +15,56 @@
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
-//! | 4 + 8 n | number of values, and the values by value reference, then what is remembered beside the variables |
+//! | 4 + 8 n | number of values, and the values by value reference, then what is remembered beside the variables: all of [`Values`] |
 //! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
 
 use crate::{
-    abi::Abi,
     input_course::InputCourse,
-    interface::{Dependence, Dofs, InterfaceType, Kind, VALUE_COUNT, Values, Variables},
+    interface::{
+        Dependence, Dofs, InterfaceType, Kind, REFERENCE_COUNT, VALUE_COUNT, Values, Variables,
+    },
     mode::Mode,
     pace::Pace,
-    refusal::Refusal,
+    version::Abi,
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
 const VERSION: u32 = 4;
+
+/// An enumeration of which one byte is written.
+trait Numbered: Copy + 'static {
+    const ALL: &'static [Self];
+
+    fn number(self) -> u8;
+}
+
+macro_rules! numbered {
+    ($($type:ident { $($variant:ident = $number:literal),* })*) => {$(
+        impl Numbered for $type {
+            const ALL: &'static [Self] = &[$(Self::$variant),*];
+
+            fn number(self) -> u8 {
+                match self {
+                    $(Self::$variant => $number),*
+                }
+            }
+        }
+    )*};
+}
+
+numbered! {
+    Abi { Fmi2 = 2, Fmi3 = 3 }
+    Kind { Element = 0, Lap = 1 }
+    Dofs { One = 1, Two = 2 }
+    InterfaceType { CoSimulation = 0, ModelExchange = 1 }
+    Mode {
+        Instantiated = 0, Initialization = 1, Step = 2, Terminated = 3, Event = 4, ContinuousTime = 5, SetUp = 6,
+        IntermediateUpdate = 7
+    }
+}
 
 /// What makes two FMUs the same one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +88,8 @@ impl fmt::Display for Identity {
         } = self.variables;
         let preload = match dependence {
             Dependence::OverPreload => " over the preload",
-            Dependence::Any | Dependence::Constant => "",
+            Dependence::Constant => "",
+            Dependence::Memory(_) => " with memory",
         };
         write!(
             f,
@@ -63,7 +97,7 @@ impl fmt::Display for Identity {
             kind.name(),
             dofs.count(),
             self.interface_type.name(),
-            self.abi.name(),
+            self.abi.words().version,
             self.token
         )
     }
@@ -80,16 +114,18 @@ pub(crate) struct Snapshot {
     pub(crate) stop_s: Option<f64>,
     /// How regular the communication steps were.
     pub(crate) pace: Pace,
-    /// Values of all variables, time among them.
+    /// Values of all variables, time among them, and what is remembered beside them.
     pub(crate) values: Values,
     /// How the inputs go on.
     pub(crate) inputs: InputCourse,
 }
 
-/// Why bytes are no FMU state.
+/// Why a state is not taken up.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Damage {
-    /// They do not begin like one.
+pub(crate) enum StateError {
+    /// It is one of another FMU.
+    OtherFmu { found: String, expected: String },
+    /// The bytes do not begin like a state.
     Magic,
     /// They have another layout.
     Version { found: u32 },
@@ -97,39 +133,63 @@ pub(crate) enum Damage {
     Length { found: usize, expected: usize },
     /// They are not those that were written.
     Checksum,
+    /// They hold more or fewer values than an instance remembers: another build of the library wrote them.
+    Values { found: u32 },
     /// A field has a value that it cannot have.
     Field { name: &'static str },
     /// A variable is NaN or infinite.
     Value { name: &'static str },
+    /// A number that is remembered beside the variables is NaN or infinite.
+    Remembered { index: usize },
 }
 
-impl fmt::Display for Damage {
+impl StateError {
+    /// Refuses a state of another FMU.
+    pub(crate) fn unless_same(found: &Identity, expected: &Identity) -> Result<(), Self> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(Self::OtherFmu {
+            found: found.to_string(),
+            expected: expected.to_string(),
+        })
+    }
+}
+
+impl fmt::Display for StateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !matches!(self, Self::OtherFmu { .. }) {
+            f.write_str("the serialised FMU state cannot be used: ")?;
+        }
         match self {
+            Self::OtherFmu { found, expected } => write!(
+                f,
+                "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
+            ),
             Self::Magic => f.write_str("the bytes were not written by this library"),
-            Self::Version { found } => {
-                write!(
-                    f,
-                    "it has layout {found}, this library reads layout {VERSION}"
-                )
-            }
+            Self::Version { found } => write!(
+                f,
+                "it has layout {found}, this library reads layout {VERSION}"
+            ),
             Self::Length { found, expected } => {
                 write!(f, "it has {found} bytes, expected {expected}")
             }
             Self::Checksum => f.write_str("its checksum is wrong, the bytes were changed"),
+            Self::Values { found } => write!(
+                f,
+                "it has {found} values, this library remembers {VALUE_COUNT}: another build of the library wrote it"
+            ),
             Self::Field { name } => write!(f, "its {name} is impossible"),
             Self::Value { name } => write!(f, "its value of {name} is impossible"),
+            Self::Remembered { index } => write!(
+                f,
+                "number {index} of what it remembers beside the variables is impossible"
+            ),
         }
     }
 }
 
 impl Snapshot {
-    /// Number of bytes of the serialised state.
-    pub(crate) fn serialized_size(&self) -> usize {
-        let header = MAGIC.len() + 4 + 4 + self.identity.token.len() + 6;
-        header + 1 + 8 + Pace::SIZE + 4 + 8 * VALUE_COUNT + InputCourse::SIZE + 8
-    }
-
     /// The state in bytes.
     pub(crate) fn serialize(&self) -> Vec<u8> {
         let Identity {
@@ -138,152 +198,87 @@ impl Snapshot {
             interface_type,
             token,
         } = &*self.identity;
-        let mut bytes = Vec::with_capacity(self.serialized_size());
-        bytes.extend(MAGIC);
+        let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((token.len() as u32).to_le_bytes());
         bytes.extend(token.as_bytes());
-        bytes.push(match abi {
-            Abi::Fmi2 => 2,
-            Abi::Fmi3 => 3,
-        });
-        bytes.push(kind_number(variables.kind));
-        bytes.push(variables.dofs.count());
-        bytes.push(u8::from(variables.dependence == Dependence::OverPreload));
-        bytes.push(match interface_type {
-            InterfaceType::CoSimulation => 0,
-            InterfaceType::ModelExchange => 1,
-        });
-        bytes.push(self.mode.number());
+        bytes.extend([
+            abi.number(),
+            variables.kind.number(),
+            variables.dofs.number(),
+            variables.dependence.number(),
+            interface_type.number(),
+            self.mode.number(),
+        ]);
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
         bytes.extend(self.pace.to_bytes());
-        bytes.extend((VALUE_COUNT as u32).to_le_bytes());
-        for value in self.values {
-            bytes.extend(value.to_le_bytes());
-        }
+        bytes.extend((self.values.len() as u32).to_le_bytes());
+        bytes.extend(self.values.into_iter().flat_map(f64::to_le_bytes));
         bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
     }
 
     /// The state that was serialised, if it is one of the FMU `identity`.
-    pub(crate) fn deserialize(bytes: &[u8], identity: &Arc<Identity>) -> Result<Self, Refusal> {
+    pub(crate) fn deserialize(bytes: &[u8], identity: &Arc<Identity>) -> Result<Self, StateError> {
         let mut reader = Reader {
             rest: bytes,
             total: bytes.len(),
         };
         if reader.array::<8>()? != MAGIC {
-            return Err(Damage::Magic.into());
+            return Err(StateError::Magic);
         }
         let version = reader.u32()?;
         if version != VERSION {
-            return Err(Damage::Version { found: version }.into());
+            return Err(StateError::Version { found: version });
         }
-        let (content, checksum) = bytes.split_last_chunk::<8>().ok_or(Damage::Length {
+        let (content, checksum) = bytes.split_last_chunk::<8>().ok_or(StateError::Length {
             found: bytes.len(),
             expected: 8,
         })?;
         if fnv1a(content) != u64::from_le_bytes(*checksum) {
-            return Err(Damage::Checksum.into());
+            return Err(StateError::Checksum);
         }
         let length = reader.u32()? as usize;
         let token = String::from_utf8(reader.take(length)?.to_vec())
-            .map_err(|_| Damage::Field { name: "token" })?;
-        let abi = match reader.u8()? {
-            2 => Abi::Fmi2,
-            3 => Abi::Fmi3,
-            _ => {
-                return Err(Damage::Field {
-                    name: "FMI version",
-                }
-                .into());
-            }
-        };
-        let kind = match reader.u8()? {
-            0 => Kind::Element,
-            1 => Kind::Lap,
-            _ => return Err(Damage::Field { name: "kind" }.into()),
-        };
-        let dofs = match reader.u8()? {
-            1 => Dofs::One,
-            2 => Dofs::Two,
-            _ => {
-                return Err(Damage::Field {
-                    name: "number of degrees of freedom",
-                }
-                .into());
-            }
-        };
-        let dependence = match reader.u8()? {
-            0 => Dependence::Constant,
-            1 => Dependence::OverPreload,
-            _ => return Err(Damage::Field { name: "joint" }.into()),
-        };
-        let interface_type = match reader.u8()? {
-            0 => InterfaceType::CoSimulation,
-            1 => InterfaceType::ModelExchange,
-            _ => {
-                return Err(Damage::Field {
-                    name: "interface type",
-                }
-                .into());
-            }
+            .map_err(|_| StateError::Field { name: "token" })?;
+        let abi = reader.one_of("FMI version")?;
+        let variables = Variables {
+            kind: reader.one_of("kind")?,
+            dofs: reader.one_of("number of degrees of freedom")?,
+            dependence: Dependence::from_number(reader.u8()?)
+                .ok_or(StateError::Field { name: "joint" })?,
         };
         let found = Identity {
-            variables: Variables {
-                kind,
-                dofs,
-                dependence,
-            },
+            variables,
             abi,
-            interface_type,
+            interface_type: reader.one_of("interface type")?,
             token,
         };
-        if found != **identity {
-            return Err(Refusal::OtherFmu {
-                found: found.to_string(),
-                expected: identity.to_string(),
-            });
+        StateError::unless_same(&found, identity)?;
+        let mode: Mode = reader.one_of("mode")?;
+        if !mode.belongs_to(abi, found.interface_type) {
+            return Err(StateError::Field { name: "mode" });
         }
-        let mode = Mode::from_number(reader.u8()?)
-            .filter(|mode| mode.belongs_to(identity.abi, interface_type))
-            .ok_or(Damage::Field { name: "mode" })?;
         let has_stop = reader.u8()? != 0;
         let stop_s = reader.f64()?;
         if !stop_s.is_finite() {
-            return Err(Damage::Field { name: "stop time" }.into());
+            return Err(StateError::Field { name: "stop time" });
         }
-        let pace = Pace::from_bytes(reader.array()?).ok_or(Damage::Field {
+        let pace = Pace::from_bytes(reader.array()?).ok_or(StateError::Field {
             name: "communication step",
         })?;
-        if reader.u32()? as usize != VALUE_COUNT {
-            return Err(Damage::Field {
-                name: "number of variables",
-            }
-            .into());
-        }
-        let mut values = [0.0; VALUE_COUNT];
-        for (reference, value) in values.iter_mut().enumerate() {
-            *value = reader.f64()?;
-            if !value.is_finite() {
-                return Err(Damage::Value {
-                    name: identity.variables.name(reference),
-                }
-                .into());
-            }
-        }
-        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(Damage::Field {
+        let values = reader.values(variables)?;
+        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(StateError::Field {
             name: "course of the inputs",
         })?;
         reader.array::<8>()?;
         if !reader.rest.is_empty() {
-            let expected = bytes.len() - reader.rest.len();
-            return Err(Damage::Length {
+            return Err(StateError::Length {
                 found: bytes.len(),
-                expected,
-            }
-            .into());
+                expected: bytes.len() - reader.rest.len(),
+            });
         }
         Ok(Self {
             identity: Arc::clone(identity),
@@ -303,39 +298,63 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn take(&mut self, length: usize) -> Result<&'a [u8], Damage> {
-        let (field, rest) = self.rest.split_at_checked(length).ok_or(Damage::Length {
-            found: self.total,
-            expected: (self.total - self.rest.len()).saturating_add(length),
-        })?;
+    fn take(&mut self, length: usize) -> Result<&'a [u8], StateError> {
+        let (field, rest) = self
+            .rest
+            .split_at_checked(length)
+            .ok_or(StateError::Length {
+                found: self.total,
+                expected: (self.total - self.rest.len()).saturating_add(length),
+            })?;
         self.rest = rest;
         Ok(field)
     }
 
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
         let field = self.take(N)?;
         let mut array = [0; N];
         array.copy_from_slice(field);
         Ok(array)
     }
 
-    fn u8(&mut self) -> Result<u8, Damage> {
+    fn u8(&mut self) -> Result<u8, StateError> {
         self.array().map(u8::from_le_bytes)
     }
 
-    fn u32(&mut self) -> Result<u32, Damage> {
+    fn u32(&mut self) -> Result<u32, StateError> {
         self.array().map(u32::from_le_bytes)
     }
 
-    fn f64(&mut self) -> Result<f64, Damage> {
+    fn f64(&mut self) -> Result<f64, StateError> {
         self.array().map(f64::from_le_bytes)
     }
-}
 
-const fn kind_number(kind: Kind) -> u8 {
-    match kind {
-        Kind::Element => 0,
-        Kind::Lap => 1,
+    fn one_of<T: Numbered>(&mut self, name: &'static str) -> Result<T, StateError> {
+        let found = self.u8()?;
+        let mut all = T::ALL.iter().copied();
+        all.find(|value| value.number() == found)
+            .ok_or(StateError::Field { name })
+    }
+
+    /// Everything that an instance remembers as numbers: as many as this build of the library has.
+    fn values(&mut self, variables: Variables) -> Result<Values, StateError> {
+        let found = self.u32()?;
+        if found as usize != VALUE_COUNT {
+            return Err(StateError::Values { found });
+        }
+        let mut values = [0.0; VALUE_COUNT];
+        for (place, value) in values.iter_mut().enumerate() {
+            *value = self.f64()?;
+            if !value.is_finite() {
+                return Err(match place.checked_sub(REFERENCE_COUNT) {
+                    Some(index) => StateError::Remembered { index },
+                    None => StateError::Value {
+                        name: variables.name(place),
+                    },
+                });
+            }
+        }
+        Ok(values)
     }
 }
 

@@ -15,7 +15,6 @@ pub(crate) use intermediate::Update;
 use std::sync::Arc;
 
 use crate::{
-    abi::Abi,
     fmu_state::Identity,
     input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Roles, Values, reference::TIME},
@@ -24,6 +23,7 @@ use crate::{
     pace::Pace,
     refusal::{Active, Refusal, Warning},
     start_file::StartFile,
+    version::{Abi, Words},
 };
 use intermediate::Access;
 
@@ -60,7 +60,7 @@ impl Instance {
         } = file;
         if token != expected {
             return Err(Refusal::Token {
-                argument: abi.token_argument(),
+                argument: abi.words().token,
                 found: token.to_owned(),
                 expected,
             });
@@ -90,6 +90,12 @@ impl Instance {
     /// State of the state machine.
     pub(crate) fn mode(&self) -> Mode {
         self.mode
+    }
+
+    /// The words of the version that the instance is used through.
+    #[inline]
+    pub(crate) fn words(&self) -> &'static Words {
+        self.identity.abi.words()
     }
 
     /// Current time, s.

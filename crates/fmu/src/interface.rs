@@ -1,6 +1,8 @@
-//! Tables of variables, generated from `modelDescription/*.xml`.
+//! Tables of variables, generated from `modelDescription/*.xml`, the table of DOFs and the laws of the joint.
 
 use std::fmt;
+
+use bolted_joint_dynamics::DOF_COUNT;
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
@@ -15,10 +17,10 @@ pub(crate) struct Variable {
     pub(crate) role: Role,
     /// Start value that the FMU has before its start-value file and the importer set others; 0 for what is calculated.
     pub(crate) start: f64,
-    /// Whether it exists only where the joint rotates.
-    pub(crate) rotational: bool,
-    /// Of which joints it is.
-    pub(crate) dependence: Dependence,
+    /// The DOFs that it needs, a bit for each row of the table; each of several such sets suffices.
+    pub(crate) rows: &'static [u32],
+    /// The kinds of joints that it is of, a bit for each.
+    pub(crate) joints: u32,
     /// Whether the importer may access it inside a communication step.
     pub(crate) intermediate: bool,
 }
@@ -34,15 +36,60 @@ pub(crate) struct ContinuousState {
     pub(crate) nominal: f64,
 }
 
-/// Of which joints a variable is, and which of them the joint of an FMU is.
+/// What the law of an FMU's joint rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dependence {
-    /// Of every joint.
-    Any,
-    /// Of a joint whose law is given by parameters.
+    /// Parameters alone.
     Constant,
-    /// Of a joint whose law follows from the preload.
+    /// The preload.
     OverPreload,
+    /// Parameters, and what these laws remember of the motion, a bit for each as in [`Variable::joints`]; not empty.
+    Memory(u32),
+}
+
+/// Kinds of joints that remember nothing: their bits are the lowest ones, and a byte takes those of the laws with memory, the
+/// first of which are the linear and the polynomial law, which have none.
+const KINDS_WITHOUT_MEMORY: u32 = 2;
+
+impl Dependence {
+    /// The joint whose laws with memory have these names, separated by spaces.
+    pub(crate) fn on_memory_of(names: &str) -> Option<Self> {
+        let law = |name: &str| MEMORY_LAWS.iter().find(|(other, _)| *other == name);
+        names
+            .split(' ')
+            .try_fold(0, |laws, name| Some(laws | law(name)?.1))
+            .map(Self::Memory)
+    }
+
+    /// As one number, for a state that is written down.
+    pub(crate) const fn number(self) -> u8 {
+        match self {
+            Self::Constant => 0,
+            Self::OverPreload => 1,
+            Self::Memory(laws) => (laws >> KINDS_WITHOUT_MEMORY) as u8,
+        }
+    }
+
+    /// The reverse of [`Dependence::number`].
+    pub(crate) fn from_number(number: u8) -> Option<Self> {
+        let known = MEMORY_LAWS.iter().fold(0, |all, (_, law)| all | law);
+        match number {
+            0 => Some(Self::Constant),
+            1 => Some(Self::OverPreload),
+            _ => Some(u32::from(number) << KINDS_WITHOUT_MEMORY)
+                .filter(|laws| laws & !known == 0)
+                .map(Self::Memory),
+        }
+    }
+
+    /// Bit of such joints in [`Variable::joints`].
+    const fn joints(self) -> u32 {
+        match self {
+            Self::Constant => CONSTANT_JOINTS,
+            Self::OverPreload => JOINTS_OVER_PRELOAD,
+            Self::Memory(laws) => laws,
+        }
+    }
 }
 
 /// What a variable is to the library; each role is one bit of a [`Roles`] set.
@@ -123,9 +170,9 @@ impl Roles {
 pub(crate) type Values = [f64; VALUE_COUNT];
 
 /// Number of values.
-pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 4;
+pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 6;
 
-/// What is remembered of a joint over the preload beside its variables, as indices.
+/// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
 pub(crate) mod memory {
     use super::REFERENCE_COUNT;
 
@@ -137,7 +184,42 @@ pub(crate) mod memory {
     pub(crate) const FIRST_ENERGY: usize = REFERENCE_COUNT + 2;
     /// Rate of the preload at present, N·m/s, as far as it is known; not remembered, but calculated from the inputs' course.
     pub(crate) const PRELOAD_RATE: usize = REFERENCE_COUNT + 3;
+    /// Time of the latest commit of a joint with memory, s.
+    pub(crate) const COMMITTED_TIME: usize = REFERENCE_COUNT + 4;
+    /// Power of its dampers then, W.
+    pub(crate) const COMMITTED_POWER: usize = REFERENCE_COUNT + 5;
 }
+
+/// Values of the first `D` DOFs.
+#[inline]
+pub(crate) fn gather<const D: usize>(values: &Values, references: &[usize; DOF_COUNT]) -> [f64; D] {
+    std::array::from_fn(|dof| values[references[dof]])
+}
+
+/// Writes values of the first `D` DOFs.
+#[inline]
+pub(crate) fn scatter<const D: usize>(
+    values: &mut Values,
+    references: &[usize; DOF_COUNT],
+    from: &[f64; D],
+) {
+    for dof in 0..D {
+        values[references[dof]] = from[dof];
+    }
+}
+
+/// Whether an output is what was committed where the last step ended, and not calculated anew.
+pub(crate) fn is_committed(index: usize) -> bool {
+    index == reference::ENERGY_DISSIPATED
+        || reference::LAW_MEMORY
+            .iter()
+            .flatten()
+            .any(|&remembered| remembered == index)
+}
+
+// the tables are those of the same DOFs and laws
+const _: () = assert!(reference::LAW_PARAMETERS.len() == DOF_COUNT);
+const _: () = assert!(reference::LAW_MEMORY.len() == DOF_COUNT);
 
 /// Who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -194,10 +276,18 @@ impl Dofs {
             Self::Two => 2,
         }
     }
+
+    /// The DOFs, a bit for each row of the table.
+    const fn rows(self) -> u32 {
+        match self {
+            Self::One => 0b01,
+            Self::Two => 0b11,
+        }
+    }
 }
 
-/// Variables that one FMU has: a table of its kind, without the rotational ones for a joint that only translates, and without
-/// those that only joints of the other dependence have.
+/// Variables that one FMU has: a table of its kind, without those of DOFs that its joint does not have, and without those that
+/// only other kinds of joints have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Variables {
     /// Which of the two FMUs.
@@ -218,9 +308,10 @@ impl Variables {
         table
             .get(reference)?
             .as_ref()
-            .filter(|variable| self.dofs == Dofs::Two || !variable.rotational)
+            .filter(|variable| variable.joints & self.dependence.joints() != 0)
             .filter(|variable| {
-                variable.dependence == Dependence::Any || variable.dependence == self.dependence
+                let missing = !self.dofs.rows();
+                variable.rows.iter().any(|needed| needed & missing == 0)
             })
     }
 
@@ -235,9 +326,10 @@ impl Variables {
             Kind::Element => ELEMENT_STATES,
             Kind::Lap => LAP_STATES,
         };
-        states
-            .iter()
-            .filter(move |state| self.get(state.reference).is_some())
+        states.iter().filter(move |state| {
+            let has = |reference| self.get(reference).is_some();
+            has(state.reference) && has(state.derivative)
+        })
     }
 
     /// Name of the variable with this value reference, for messages.

@@ -2,13 +2,12 @@
 //!
 //! The library is the same for every joint, for FMI 2.0 and for FMI 3.0. What it simulates, and with which start values,
 //! it reads from `resources/start.txt` of the FMU that it is instantiated for. `instance` holds all behaviour in safe
-//! Rust; `fmi2` and `fmi3` turn C pointers and arrays into slices, and refusals into statuses and log messages, with
-//! what they share in `abi`.
+//! Rust; `functions` are the C functions of both versions, which turn C pointers and arrays into slices, and refusals into
+//! statuses and log messages, by means of `abi`.
 
 mod abi;
-mod fmi2;
-mod fmi3;
 mod fmu_state;
+mod functions;
 mod input_course;
 mod instance;
 mod interface;
@@ -21,3 +20,4 @@ mod preload_table;
 mod refusal;
 mod resources;
 mod start_file;
+mod version;

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::{
-    abi::Abi,
     interface::{InterfaceType, Role, Roles},
+    version::Abi,
 };
 
 /// State of the state machine.
@@ -84,34 +84,6 @@ impl Mode {
                 Roles::of(&[Role::State, Role::Output, Role::Derivative]),
                 KNOWN,
             )),
-        }
-    }
-
-    /// Number in a serialised FMU state.
-    pub(crate) const fn number(self) -> u8 {
-        match self {
-            Self::Instantiated => 0,
-            Self::Initialization => 1,
-            Self::Step => 2,
-            Self::Terminated => 3,
-            Self::Event => 4,
-            Self::ContinuousTime => 5,
-            Self::SetUp => 6,
-            Self::IntermediateUpdate => 7,
-        }
-    }
-
-    /// Inverse of [`Mode::number`].
-    pub(crate) const fn from_number(number: u8) -> Option<Self> {
-        match number {
-            0 => Some(Self::Instantiated),
-            1 => Some(Self::Initialization),
-            2 => Some(Self::Step),
-            3 => Some(Self::Terminated),
-            4 => Some(Self::Event),
-            5 => Some(Self::ContinuousTime),
-            6 => Some(Self::SetUp),
-            _ => None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The table of a joint over the preload of its bolt, as the start-value file gives it.
 
-use bolted_joint_dynamics::{Beyond, HigherTerms, JointLaw, JointOverPreload, TableDefect};
+use bolted_joint_dynamics::{Beyond, JointLaw, JointOverPreload, Linear, Polynomial, TableDefect};
 
 use crate::interface::Dofs;
 
@@ -16,43 +16,15 @@ pub(crate) enum PreloadTable {
 impl PreloadTable {
     /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3.
     pub(crate) const fn columns(dofs: Dofs) -> usize {
-        match dofs {
-            Dofs::One => 4,
-            Dofs::Two => 9,
-        }
+        let order = dofs.count() as usize;
+        1 + order * (order + 1) + order
     }
 
     /// The joint through these rows, each of [`PreloadTable::columns`] numbers.
     pub(crate) fn new(dofs: Dofs, rows: &[Vec<f64>], beyond: Beyond) -> Result<Self, TableDefect> {
         match dofs {
-            Dofs::One => {
-                let table: Vec<_> = rows
-                    .iter()
-                    .filter_map(|row| match *row.as_slice() {
-                        [preload_n_m, k, c, k3] => Some((preload_n_m, law([[k]], [[c]], [k3]))),
-                        _ => None,
-                    })
-                    .collect();
-                JointOverPreload::new(&table, beyond).map(Self::One)
-            }
-            Dofs::Two => {
-                let table: Vec<_> = rows
-                    .iter()
-                    .filter_map(|row| match *row.as_slice() {
-                        [preload_n_m, k11, k12, k22, c11, c12, c22, k3_y, k3_theta] => {
-                            let symmetric = |a, b, d| [[a, b], [b, d]];
-                            let law = law(
-                                symmetric(k11, k12, k22),
-                                symmetric(c11, c12, c22),
-                                [k3_y, k3_theta],
-                            );
-                            Some((preload_n_m, law))
-                        }
-                        _ => None,
-                    })
-                    .collect();
-                JointOverPreload::new(&table, beyond).map(Self::Two)
-            }
+            Dofs::One => over_preload(rows, beyond).map(Self::One),
+            Dofs::Two => over_preload(rows, beyond).map(Self::Two),
         }
     }
 
@@ -73,15 +45,35 @@ impl PreloadTable {
     }
 }
 
-fn law<const D: usize>(
-    stiffness: [[f64; D]; D],
-    damping: [[f64; D]; D],
-    cubic: [f64; D],
-) -> JointLaw<D> {
-    JointLaw {
-        stiffness,
-        damping,
-        cubic,
-        higher: HigherTerms::NONE,
+fn over_preload<const D: usize>(
+    rows: &[Vec<f64>],
+    beyond: Beyond,
+) -> Result<JointOverPreload<D>, TableDefect> {
+    let table: Vec<_> = rows.iter().filter_map(|row| law(row)).collect();
+    JointOverPreload::new(&table, beyond)
+}
+
+/// Preload and law of one row.
+fn law<const D: usize>(row: &[f64]) -> Option<(f64, JointLaw<D>)> {
+    let mut numbers = row.iter().copied();
+    let preload_n_m = numbers.next()?;
+    let mut matrix = || {
+        let mut matrix = [[0.0; D]; D];
+        for i in 0..D {
+            for j in i..D {
+                matrix[i][j] = numbers.next()?;
+                matrix[j][i] = matrix[i][j];
+            }
+        }
+        Some(matrix)
+    };
+    let linear = Linear {
+        stiffness: matrix()?,
+        damping: matrix()?,
+    };
+    let mut cubic = [Polynomial::NONE; D];
+    for polynomial in &mut cubic {
+        *polynomial = Polynomial::cubic(numbers.next()?);
     }
+    Some((preload_n_m, linear.beside(cubic)))
 }

@@ -6,12 +6,11 @@ mod warning;
 pub(crate) use warning::{Active, Limit, Reached, Warning};
 
 use crate::{
-    abi::Abi,
-    fmu_state::Damage,
+    fmu_state::StateError,
     interface::{InterfaceType, Role},
     mode::Mode,
     resources::ResourceError,
-    start_file::StartFileError,
+    version::Abi,
 };
 
 /// Reason for an error status.
@@ -151,6 +150,7 @@ pub(crate) enum Refusal {
     TooManySubsteps {
         interval_s: f64,
         step_size_max_s: f64,
+        most: u32,
     },
     /// An inertia is not positive.
     Inertia {
@@ -179,10 +179,8 @@ pub(crate) enum Refusal {
     UnknownCategory { found: String },
     /// An FMU state that this library did not make.
     ForeignState,
-    /// An FMU state of another FMU.
-    OtherFmu { found: String, expected: String },
-    /// Serialised bytes that are no FMU state.
-    Damaged(Damage),
+    /// An FMU state that cannot be taken up.
+    State(StateError),
     /// The importer's token is not that of the FMU's resources.
     Token {
         argument: &'static str,
@@ -197,10 +195,8 @@ pub(crate) enum Refusal {
     NoStatus { kind: i32 },
     /// A function or an option that this FMU does not offer.
     NotProvided { reason: &'static str },
-    /// The FMU's resources cannot be found.
+    /// The FMU's resources cannot be found or used.
     Resource(ResourceError),
-    /// The start-value file cannot be used.
-    StartFile(StartFileError),
     /// A defect of the library itself.
     Internal,
 }
@@ -244,20 +240,14 @@ impl Refusal {
     }
 }
 
-impl From<StartFileError> for Refusal {
-    fn from(error: StartFileError) -> Self {
-        Self::StartFile(error)
-    }
-}
-
 impl From<ResourceError> for Refusal {
     fn from(error: ResourceError) -> Self {
         Self::Resource(error)
     }
 }
 
-impl From<Damage> for Refusal {
-    fn from(damage: Damage) -> Self {
-        Self::Damaged(damage)
+impl From<StateError> for Refusal {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
     }
 }

@@ -6,7 +6,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{library, refusal::Refusal, start_file::StartFile};
+use crate::{
+    library,
+    start_file::{StartFile, StartFileError},
+};
 
 /// Name of the start-value file in the FMU's `resources` folder.
 const START_FILE: &str = "start.txt";
@@ -15,7 +18,7 @@ const START_FILE: &str = "start.txt";
 const LARGEST_FILE: u64 = 1 << 20;
 
 /// Why the resources cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ResourceError {
     /// No path was given, and the library does not know where it was loaded from.
     NoPath { argument: &'static str },
@@ -26,6 +29,14 @@ pub(crate) enum ResourceError {
     },
     /// The file cannot be read.
     Unreadable { path: String, reason: String },
+    /// The start-value file cannot be used.
+    StartFile(StartFileError),
+}
+
+impl From<StartFileError> for ResourceError {
+    fn from(error: StartFileError) -> Self {
+        Self::StartFile(error)
+    }
 }
 
 impl fmt::Display for ResourceError {
@@ -44,6 +55,7 @@ impl fmt::Display for ResourceError {
                 f,
                 "{path} cannot be read: {reason}; give the path of the FMU's resources folder"
             ),
+            Self::StartFile(error) => error.fmt(f),
         }
     }
 }
@@ -53,7 +65,7 @@ impl fmt::Display for ResourceError {
 pub(crate) fn read_start_file(
     resource_path: Option<&str>,
     argument: &'static str,
-) -> Result<StartFile, Refusal> {
+) -> Result<StartFile, ResourceError> {
     let folders = match resource_path {
         Some(path) if !path.is_empty() => {
             let readings = readings(path, cfg!(windows)).ok_or_else(|| ResourceError::Uri {
@@ -94,6 +106,7 @@ fn own_folder() -> Option<PathBuf> {
     let root = library.parent()?.parent()?.parent()?;
     Some(root.join("resources"))
 }
+
 /// The folder that a path or a `file:` URI leads to, read as the standards say; and, for importers that encode where
 /// they must not or do not where they must, read the other way. `None` for what is not on this machine.
 fn readings(location: &str, windows: bool) -> Option<[String; 2]> {

@@ -133,9 +133,10 @@ impl StartFile {
             (!found.trim().is_empty()).then(|| found.to_owned())
         })?;
         let table = header.table(dofs)?;
-        let dependence = match table {
-            Some(_) => Dependence::OverPreload,
-            None => Dependence::Constant,
+        let dependence = match (&table, header.laws()?) {
+            (Some(_), _) => Dependence::OverPreload,
+            (None, Some(dependence)) => dependence,
+            (None, None) => Dependence::Constant,
         };
         let variables = Variables {
             kind,
@@ -198,6 +199,17 @@ impl Header<'_> {
 }
 
 impl Header<'_> {
+    /// The line with the joint's laws that remember the motion, if there is one.
+    fn laws(&mut self) -> Result<Option<Dependence>, StartFileError> {
+        let is_there = self.lines.clone().next();
+        if !is_there.is_some_and(|line| line.starts_with("laws ")) {
+            return Ok(None);
+        }
+        let expected = "\"laws\" and names of laws with memory that this library has";
+        self.next("laws ", expected, Dependence::on_memory_of)
+            .map(Some)
+    }
+
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, and the lines.
     fn table(&mut self, dofs: Dofs) -> Result<Option<PreloadTable>, StartFileError> {
         const EXPECTED: &str = "\"table\", the number of its lines, and \"refused\" or \"held\"";

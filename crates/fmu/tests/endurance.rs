@@ -12,12 +12,15 @@ use std::{
     ffi::{CString, c_char, c_int, c_void},
     fs,
     path::Path,
-    ptr,
     sync::atomic::{AtomicIsize, Ordering},
 };
 
 // the functions come from the library's symbols
 extern crate bolted_joint as _;
+
+mod raw;
+
+use raw::request::Request;
 
 /// Counts the bytes that are allocated at present. The library is linked into this program and allocates here too.
 struct Counting;
@@ -42,47 +45,6 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-type Log = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
-
-unsafe extern "C" {
-    fn fmi3InstantiateCoSimulation(
-        name: *const c_char,
-        token: *const c_char,
-        resources: *const c_char,
-        visible: bool,
-        logging: bool,
-        event_mode: bool,
-        early_return: bool,
-        intermediate: *const u32,
-        intermediate_count: usize,
-        environment: *mut c_void,
-        log: Option<Log>,
-        update: Option<unsafe extern "C" fn()>,
-    ) -> *mut c_void;
-    fn fmi3EnterInitializationMode(
-        i: *mut c_void,
-        tolerance_defined: bool,
-        tolerance: f64,
-        start: f64,
-        stop_defined: bool,
-        stop: f64,
-    ) -> c_int;
-    fn fmi3ExitInitializationMode(i: *mut c_void) -> c_int;
-    fn fmi3DoStep(
-        i: *mut c_void,
-        t: f64,
-        h: f64,
-        no_set_prior: bool,
-        event: *mut bool,
-        terminate: *mut bool,
-        early: *mut bool,
-        last: *mut f64,
-    ) -> c_int;
-    fn fmi3GetFMUState(i: *mut c_void, state: *mut *mut c_void) -> c_int;
-    fn fmi3FreeFMUState(i: *mut c_void, state: *mut *mut c_void) -> c_int;
-    fn fmi3FreeInstance(i: *mut c_void);
-}
-
 /// Counts messages.
 unsafe extern "C" fn count(environment: *mut c_void, _: c_int, _: *const c_char, _: *const c_char) {
     // SAFETY: the environment is a number that outlives the instance
@@ -96,48 +58,21 @@ const START: &str = "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken {endurance}\
 /// An instance from its beginning to its end, with a step, a saved state, and a refused step.
 fn live(resources: &CString) {
     let mut messages = 0_u64;
-    // SAFETY: strings are terminated, pointers are to locals that outlive the instance, handles live
-    unsafe {
-        let instance = fmi3InstantiateCoSimulation(
-            c"joint".as_ptr(),
-            c"{endurance}".as_ptr(),
-            resources.as_ptr(),
-            false,
-            false,
-            false,
-            false,
-            ptr::null(),
-            0,
-            (&raw mut messages).cast(),
-            Some(count),
-            None,
-        );
-        assert!(!instance.is_null());
-        assert_eq!(
-            fmi3EnterInitializationMode(instance, false, 0.0, 0.0, false, 0.0),
-            0
-        );
-        assert_eq!(fmi3ExitInitializationMode(instance), 0);
-        let mut state = ptr::null_mut();
-        assert_eq!(fmi3GetFMUState(instance, &raw mut state), 0);
-        let (mut event, mut terminate, mut early, mut last) = (false, false, false, 0.0);
-        let mut step = |t, h| {
-            fmi3DoStep(
-                instance,
-                t,
-                h,
-                true,
-                &raw mut event,
-                &raw mut terminate,
-                &raw mut early,
-                &raw mut last,
-            )
-        };
-        assert_eq!(step(0.0, 1e-4), 0);
-        assert_eq!(step(0.5, 1e-4), 3);
-        assert_eq!(fmi3FreeFMUState(instance, &raw mut state), 0);
-        fmi3FreeInstance(instance);
-    }
+    let request = Request {
+        token: Some(c"{endurance}"),
+        resources: Some(resources),
+        environment: (&raw mut messages).cast(),
+        log: (None, Some(count)),
+        ..Request::NONE
+    };
+    let instance = request.instantiate().unwrap();
+    assert_eq!(instance.enter_initialization(0.0, None), 0);
+    assert_eq!(instance.exit_initialization(), 0);
+    let state = instance.save();
+    assert_eq!(instance.step(0.0, 1e-4), 0);
+    assert_eq!(instance.step(0.5, 1e-4), 3);
+    instance.free_state(state);
+    instance.free();
     assert_eq!(messages, 1);
 }
 

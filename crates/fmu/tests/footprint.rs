@@ -9,12 +9,16 @@
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     cell::Cell,
-    ffi::{CString, c_char, c_int, c_void},
-    fs, ptr,
+    ffi::CString,
+    fs,
 };
 
 // the functions come from the library's symbols
 extern crate bolted_joint as _;
+
+mod raw;
+
+use raw::request::Request;
 
 /// Bytes that an instance of any FMU may hold.
 const LIMIT: isize = 4096;
@@ -48,44 +52,6 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-unsafe extern "C" {
-    fn fmi3InstantiateCoSimulation(
-        name: *const c_char,
-        token: *const c_char,
-        resources: *const c_char,
-        visible: bool,
-        logging: bool,
-        event_mode: bool,
-        early_return: bool,
-        intermediate: *const u32,
-        intermediate_count: usize,
-        environment: *mut c_void,
-        log: Option<unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char)>,
-        update: Option<unsafe extern "C" fn()>,
-    ) -> *mut c_void;
-    fn fmi3EnterInitializationMode(
-        i: *mut c_void,
-        tolerance_defined: bool,
-        tolerance: f64,
-        start: f64,
-        stop_defined: bool,
-        stop: f64,
-    ) -> c_int;
-    fn fmi3ExitInitializationMode(i: *mut c_void) -> c_int;
-    fn fmi3DoStep(
-        i: *mut c_void,
-        t: f64,
-        h: f64,
-        no_set_prior: bool,
-        event: *mut bool,
-        terminate: *mut bool,
-        early: *mut bool,
-        last: *mut f64,
-    ) -> c_int;
-    fn fmi3GetFloat64(i: *mut c_void, vr: *const u32, n: usize, v: *mut f64, nv: usize) -> c_int;
-    fn fmi3FreeInstance(i: *mut c_void);
-}
-
 fn start_text(model: &str, dofs: u8, k3: f64) -> String {
     let mut text = format!(
         "bolted-joint-start/1\nmodel {model}\ndofs {dofs}\ntoken {{footprint}}\njoint.k_yy 4e6\njoint.c_yy 8\n\
@@ -110,50 +76,26 @@ fn start_text(model: &str, dofs: u8, k3: f64) -> String {
 /// Bytes held by an instance with these resources after instantiation, and after steps and a look at an output.
 fn held(resources: &CString) -> [isize; 2] {
     let before = HELD.get();
-    // SAFETY: strings are terminated, pointers are to locals, the handle lives until it is freed
-    unsafe {
-        let instance = fmi3InstantiateCoSimulation(
-            c"joint".as_ptr(),
-            c"{footprint}".as_ptr(),
-            resources.as_ptr(),
-            false,
-            false,
-            false,
-            false,
-            ptr::null(),
-            0,
-            ptr::null_mut(),
-            None,
-            None,
-        );
-        assert!(!instance.is_null());
-        let made = HELD.get() - before;
-        assert_eq!(
-            fmi3EnterInitializationMode(instance, false, 0.0, 0.0, false, 0.0),
-            0
-        );
-        assert_eq!(fmi3ExitInitializationMode(instance), 0);
-        let (mut event, mut terminate, mut early, mut time_s) = (false, false, false, 0.0);
-        for _ in 0..100 {
-            let status = fmi3DoStep(
-                instance,
-                time_s,
-                1e-3,
-                true,
-                &raw mut event,
-                &raw mut terminate,
-                &raw mut early,
-                &raw mut time_s,
-            );
-            assert_eq!(status, 0);
-        }
-        let mut force = f64::NAN;
-        assert_eq!(fmi3GetFloat64(instance, &13, 1, &raw mut force, 1), 0);
-        let used = HELD.get() - before;
-        fmi3FreeInstance(instance);
-        assert_eq!(HELD.get(), before, "something was not freed");
-        [made, used]
+    let request = Request {
+        token: Some(c"{footprint}"),
+        resources: Some(resources),
+        ..Request::NONE
+    };
+    let instance = request.instantiate().unwrap();
+    let made = HELD.get() - before;
+    assert_eq!(instance.enter_initialization(0.0, None), 0);
+    assert_eq!(instance.exit_initialization(), 0);
+    let mut time_s = 0.0;
+    for _ in 0..100 {
+        let (status, last) = instance.step_to(time_s, 1e-3);
+        assert_eq!(status, 0);
+        time_s = last;
     }
+    instance.get([13]);
+    let used = HELD.get() - before;
+    instance.free();
+    assert_eq!(HELD.get(), before, "something was not freed");
+    [made, used]
 }
 
 #[test]

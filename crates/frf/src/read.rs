@@ -75,7 +75,15 @@ pub fn read_frfs_watched(
     options: &ReadOptions,
     watch: &dyn Fn(u64, u64),
 ) -> Result<FrfReading, FrfError> {
-    let path = path.as_ref();
+    reading(path.as_ref(), options, watch)
+}
+
+/// Not generic, so that callers do not compile the readers anew.
+fn reading(
+    path: &Path,
+    options: &ReadOptions,
+    watch: &dyn Fn(u64, u64),
+) -> Result<FrfReading, FrfError> {
     let failed = |source| FrfError::Read {
         path: path.to_owned(),
         source,

@@ -1,12 +1,11 @@
 //! The equations: what is out of balance at each harmonic of the relative motion, and how that changes with everything.
 
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Lap, Polynomial, law::Term};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::condensed::{BodyNumber, Circumstances, Condensed};
 use super::sampling::{Sampling, Spectrum};
-use super::terms::{Term, Terms};
 use super::{HarmonicError, HarmonicLoads, Harmonics, Parameter};
 
 /// A lap model made ready for harmonic balance.
@@ -17,7 +16,7 @@ pub struct HarmonicBalance<const D: usize> {
     pub(super) lap: Lap<D>,
     pub(super) harmonics: Harmonics,
     pub(super) sampling: Sampling,
-    pub(super) terms: [Terms; D],
+    pub(super) terms: [Polynomial; D],
     /// Length of each DOF's coordinate, so that all have the same stiffness.
     pub(super) length: [f64; D],
     /// That stiffness, N/m.
@@ -48,17 +47,21 @@ impl<const D: usize> HarmonicBalance<D> {
     /// Prepares `lap`.
     ///
     /// # Errors
-    /// [`HarmonicError::Model`] if the lap has an inertia that is not positive or anything that is not finite.
+    /// [`HarmonicError::Model`] if the lap has an inertia that is not positive or anything that is not finite,
+    /// [`HarmonicError::Memory`] if its joint remembers the motion.
     pub fn new(lap: &Lap<D>, harmonics: Harmonics) -> Result<Self, HarmonicError> {
         if let Some(defect) = lap.defect() {
             return Err(HarmonicError::Model(defect));
         }
-        let terms = std::array::from_fn(|dof| Terms::of(&lap.joint, dof));
-        let degree = terms.iter().map(Terms::degree).fold(3, usize::max);
+        if lap.joint.has_memory() {
+            return Err(HarmonicError::Memory);
+        }
+        let terms = lap.joint.polynomials();
+        let degree = terms.iter().map(Polynomial::degree).fold(0, usize::max);
         // Relative stiffness and inertia of each DOF: the joint's, and those of the bodies in series.
         let in_series = |a: f64, b: f64| if a + b > 0.0 { a * b / (a + b) } else { 0.0 };
         let stiffness: [f64; D] = std::array::from_fn(|i| {
-            let own = lap.joint.stiffness[i][i].abs();
+            let own = lap.joint.linear.stiffness[i][i].abs();
             let held = own + in_series(lap.a.stiffness[i], lap.b.stiffness[i]);
             if held > 0.0 { held } else { 1.0 }
         });
@@ -207,7 +210,7 @@ impl<const D: usize> HarmonicBalance<D> {
         result: &mut Evaluation,
     ) {
         let slots = self.harmonics.slots();
-        let law = &self.lap.joint;
+        let law = &self.lap.joint.linear;
         for (order, place) in self.all_places() {
             let harmonic = (order, place);
             let h = order as f64;
@@ -359,14 +362,8 @@ impl<const D: usize> HarmonicBalance<D> {
                     *result = at.load_factor * by_factor;
                 }
             }
-            Parameter::Cubic(dof)
-            | Parameter::Quintic(dof)
-            | Parameter::Septic(dof)
-            | Parameter::DampingQuadratic(dof)
-            | Parameter::DampingQuartic(dof) => {
-                if let Some(term) = parameter.term() {
-                    self.add_term(term, dof, coefficients, at.omega, &mut result);
-                }
+            Parameter::Term(term, dof) => {
+                self.add_term(term, dof, coefficients, at.omega, &mut result);
             }
             Parameter::JointStiffness(row, column) => {
                 let unit = |_| Complex64::ONE;
@@ -430,7 +427,7 @@ impl<const D: usize> HarmonicBalance<D> {
         let mut rate = r.clone();
         let motion = &coefficients[own.clone()];
         sampling.motion(&self.harmonics, motion, &mut r, &mut rate);
-        let (of_r, of_rate) = term.powers();
+        let [of_r, of_rate] = term.powers();
         for (r, rate) in r.iter_mut().zip(&rate) {
             *r = r.powi(of_r) * (omega * rate).powi(of_rate);
         }
@@ -445,17 +442,6 @@ impl Parameter {
             Self::Inertia(side, dof) => Some((side, BodyNumber::Inertia, dof)),
             Self::SupportStiffness(side, dof) => Some((side, BodyNumber::Stiffness, dof)),
             Self::SupportDamping(side, dof) => Some((side, BodyNumber::Damping, dof)),
-            _ => None,
-        }
-    }
-
-    fn term(self) -> Option<Term> {
-        match self {
-            Self::Cubic(_) => Some(Term::Cubic),
-            Self::Quintic(_) => Some(Term::Quintic),
-            Self::Septic(_) => Some(Term::Septic),
-            Self::DampingQuadratic(_) => Some(Term::DampingQuadratic),
-            Self::DampingQuartic(_) => Some(Term::DampingQuartic),
             _ => None,
         }
     }

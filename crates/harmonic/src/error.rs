@@ -19,6 +19,12 @@ pub enum HarmonicError {
         "the lap model has an inertia that is not positive or a number that is not finite: {0:?}"
     )]
     Model(Defect),
+    /// The joint remembers its motion.
+    #[error(
+        "the joint has friction, which remembers the motion: harmonic balance knows springs and dampers alone; compute the \
+         response in time"
+    )]
+    Memory,
     /// A number of the problem is outside of what it can be.
     #[error("{what}: found {found}, expected {expected}")]
     Value {

@@ -6,12 +6,13 @@
 //! (alternating frequency/time). Newton's method uses exact derivatives.
 //!
 //! ```
-//! use bolted_joint::harmonic::{HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side};
-//! use bolted_joint_dynamics::{Body, JointLaw, Lap};
+//! use bolted_joint_harmonic::{HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side};
+//! use bolted_joint_dynamics::{Body, Lap, Linear, Polynomial, law::Term};
 //!
-//! # fn main() -> Result<(), bolted_joint::harmonic::HarmonicError> {
+//! # fn main() -> Result<(), bolted_joint_harmonic::HarmonicError> {
 //! let body = Body { inertia: [2.35], stiffness: [10.56e5], damping: [1.39] };
-//! let joint = JointLaw { stiffness: [[4.56e6]], damping: [[0.54]], cubic: [1e12], ..JointLaw::NONE };
+//! let linear = Linear { stiffness: [[4.56e6]], damping: [[0.54]] };
+//! let joint = linear.beside([Polynomial::cubic(1e12)]);
 //! let lap = Lap { joint, a: body, b: body };
 //! let balance = HarmonicBalance::new(&lap, Harmonics::odd(7)?)?;
 //!
@@ -19,7 +20,7 @@
 //! let response = balance.forced(2000.0, &HarmonicLoads::on_b(10.0), None)?;
 //! let on_b = Observed::Body(Side::B, 0);
 //! let x = balance.amplitude_of(&response, on_b, 1);
-//! let parameters = [Parameter::Cubic(0), Parameter::Inertia(Side::A, 0)];
+//! let parameters = [Parameter::Term(Term::CUBIC, 0), Parameter::Inertia(Side::A, 0)];
 //! for change in balance.sensitivities(&response, &parameters)? {
 //!     let dx = balance.amplitude_change(&response, &change, on_b, 1);
 //!     println!("{:?}: {dx} of {x}", change.parameter);
@@ -54,7 +55,6 @@ mod sensitivity;
 mod solution;
 mod stability;
 mod system;
-mod terms;
 
 pub use balance::HarmonicBalance;
 pub use continuation::Steps;

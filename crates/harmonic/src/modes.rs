@@ -43,7 +43,8 @@ impl<const D: usize> HarmonicBalance<D> {
         let matrix = DMatrix::from_fn(2 * D, 2 * D, |row, column| {
             let (of_row, of_column) = (bodies[row / D], bodies[column / D]);
             let (i, j) = (row % D, column % D);
-            let joint = 0.5 * (self.lap.joint.stiffness[i][j] + self.lap.joint.stiffness[j][i]);
+            let stiffness = &self.lap.joint.linear.stiffness;
+            let joint = 0.5 * (stiffness[i][j] + stiffness[j][i]);
             let mut entry = if row / D == column / D { joint } else { -joint };
             if row == column {
                 entry += of_row.stiffness[i];

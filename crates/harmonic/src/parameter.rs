@@ -1,5 +1,7 @@
 //! What a periodic response depends on, one number at a time.
 
+use bolted_joint_dynamics::law::Term;
+
 /// One side of the joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -26,16 +28,8 @@ pub enum Parameter {
     JointStiffness(usize, usize),
     /// Entry of the joint's C; off the diagonal both symmetric entries together.
     JointDamping(usize, usize),
-    /// k3 of a relative DOF.
-    Cubic(usize),
-    /// k5 of a relative DOF.
-    Quintic(usize),
-    /// k7 of a relative DOF.
-    Septic(usize),
-    /// c2 of a relative DOF.
-    DampingQuadratic(usize),
-    /// c4 of a relative DOF.
-    DampingQuartic(usize),
+    /// Coefficient of a term of the polynomial law on a relative DOF.
+    Term(Term, usize),
     /// Factor by which all harmonic loads are changed, 1 as they are.
     LoadFactor,
     /// Angular frequency of the loads, rad/s.

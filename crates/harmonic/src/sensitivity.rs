@@ -203,11 +203,7 @@ impl Parameter {
             Self::Inertia(_, dof)
             | Self::SupportStiffness(_, dof)
             | Self::SupportDamping(_, dof)
-            | Self::Cubic(dof)
-            | Self::Quintic(dof)
-            | Self::Septic(dof)
-            | Self::DampingQuadratic(dof)
-            | Self::DampingQuartic(dof) => [dof; 2],
+            | Self::Term(_, dof) => [dof; 2],
             Self::JointStiffness(row, column) | Self::JointDamping(row, column) => [row, column],
             Self::LoadFactor | Self::AngularFrequency => [0; 2],
         }

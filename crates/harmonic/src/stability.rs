@@ -68,8 +68,8 @@ impl<const D: usize> HarmonicBalance<D> {
         let tangents = self.tangents(solution, 2 * steps);
         let equations = Linearised {
             bodies: [&self.lap.a, &self.lap.b],
-            joint_stiffness: &self.lap.joint.stiffness,
-            joint_damping: &self.lap.joint.damping,
+            joint_stiffness: &self.lap.joint.linear.stiffness,
+            joint_damping: &self.lap.joint.linear.damping,
             omega,
         };
         let mut deviations = Deviation::units();
@@ -143,7 +143,7 @@ impl<const D: usize> HarmonicBalance<D> {
                 let mut sum = row.stiffness[i].abs() / row.inertia[i];
                 for column in &bodies {
                     for j in 0..D {
-                        let mut entry = self.lap.joint.stiffness[i][j].abs();
+                        let mut entry = self.lap.joint.linear.stiffness[i][j].abs();
                         if i == j {
                             entry += stiffest[i];
                         }

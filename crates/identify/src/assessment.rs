@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use num_complex::Complex64;
 
+use super::data::Misfit;
 use super::estimator::Estimate;
-use super::group::{Side, Source};
-use super::line::Line;
-use super::noise::{Noise, StatedLevel};
-use super::objective::{Objective, Weights};
+use super::noise::Noise;
+use super::objective::{State, Weights};
+use super::residuals::Residuals;
 
 /// Standard deviations beyond which a statistic is not chance.
 pub(super) const SIGNIFICANT: f64 = 5.0;
@@ -79,14 +78,14 @@ impl Assessment {
 }
 
 /// Judges the residuals of `estimate`.
-pub(super) fn assess<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn assess(
+    objective: &dyn Misfit,
     estimate: &Estimate,
     noise: &Noise,
 ) -> Option<Assessment> {
     let corrections = Some(Arc::clone(&estimate.corrections));
     let state = objective.unweighted(estimate.unknowns.clone(), corrections);
-    let groups = objective.gather_whitened(estimate.levels, &state, Residuals::add)?;
+    let groups = objective.residuals(estimate.levels, &state)?;
     let groups = groups.into_iter().map(|pieces| {
         let joined = pieces.into_iter().reduce(Residuals::followed_by);
         joined.unwrap_or_default()
@@ -104,8 +103,7 @@ pub(super) fn assess<const N: usize>(
     let deviation = (2.0 * pairs.max(1) as f64).sqrt().recip();
     let reduced = estimate.reduced_chi_squared();
     let freedom = estimate.degrees_of_freedom as f64;
-    let lines: usize = objective.groups.iter().map(|group| group.lines()).sum();
-    let noise_is_known = is_known(objective, noise);
+    let noise_is_known = objective.is_known(noise);
     Some(Assessment {
         reduced_chi_squared: reduced,
         noise_is_stated: noise.is_stated() && !noise_is_known,
@@ -113,106 +111,22 @@ pub(super) fn assess<const N: usize>(
         chi_squared_excess: reduced.map_or(0.0, |chi| (chi - 1.0) / (2.0 / freedom).sqrt()),
         line_correlation,
         line_correlation_excess: line_correlation / deviation,
-        has_power: lines >= FEWEST_LINES,
+        has_power: objective.lines() >= FEWEST_LINES,
         is_exact: relative_power / (count.max(1) as f64) < ROUNDING_POWER,
-    })
-}
-
-/// Sums over the whitened residuals of consecutive lines.
-#[derive(Default)]
-struct Residuals {
-    /// Σ|r|²/|H|² of the residuals as they were before.
-    relative_power: f64,
-    /// Σ|r|²
-    power: f64,
-    count: usize,
-    /// Σ Re r̄ r' over neighbouring lines.
-    product: f64,
-    pairs: usize,
-    /// Those of the first line and of the last.
-    ends: Option<[Vec<Complex64>; 2]>,
-}
-
-impl Residuals {
-    fn add<const N: usize>(&mut self, line: &Line<'_, N>) {
-        self.relative_power += line.relative_power;
-        self.count += line.residual.len();
-        self.power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
-        let Some([_, last]) = &mut self.ends else {
-            self.ends = Some([line.residual.clone(), line.residual.clone()]);
-            return;
-        };
-        self.product += product(last, &line.residual);
-        self.pairs += line.residual.len();
-        last.copy_from_slice(&line.residual);
-    }
-
-    /// The sums over both, `next` being those of the lines that follow.
-    fn followed_by(self, next: Self) -> Self {
-        let both = self.beside(&next);
-        let (Some([first, last]), Some([next_first, next_last])) = (self.ends, next.ends) else {
-            return both;
-        };
-        Self {
-            product: both.product + product(&last, &next_first),
-            pairs: both.pairs + last.len(),
-            ends: Some([first, next_last]),
-            ..both
-        }
-    }
-
-    /// The sums over both, which have no neighbours among each other.
-    fn beside(&self, other: &Self) -> Self {
-        Self {
-            relative_power: self.relative_power + other.relative_power,
-            power: self.power + other.power,
-            count: self.count + other.count,
-            product: self.product + other.product,
-            pairs: self.pairs + other.pairs,
-            ends: None,
-        }
-    }
-}
-
-/// Σ Re r̄ r'
-fn product(one: &[Complex64], other: &[Complex64]) -> f64 {
-    let both = one.iter().zip(other);
-    both.map(|(a, b)| (a.conj() * b).re).sum()
-}
-
-/// Whether no variance depends on a level that is estimated.
-fn is_known<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> bool {
-    let is_stated = |level: StatedLevel| level.relative.is_some() && level.floor.is_some();
-    let of_source = |source: &Source<N>| {
-        !source.known.is_empty()
-            || is_stated(match source.side {
-                Side::A => noise.a,
-                Side::B => noise.b,
-            })
-    };
-    objective.groups.iter().all(|group| {
-        let mut blocks = group.blocks.iter();
-        blocks.all(|block| !block.known.is_empty()) && group.sources.iter().all(of_source)
     })
 }
 
 /// By how much the standard deviation of each unknown has to grow because the residuals of neighbouring lines are
 /// correlated: √ of the variance of the scores beside the one that the information promises (a sandwich with Bartlett's
 /// weights; Newey and West), at least one. `unit` times `scale` is the covariance that it promises.
-pub(super) fn inflation<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn inflation(
+    objective: &dyn Misfit,
     estimate: &Estimate,
     unit: &DMatrix<f64>,
     scale: f64,
 ) -> Option<DVector<f64>> {
-    let (weights, state) = objective.reached(estimate)?;
-    let mut scores: Vec<Vec<(usize, DVector<f64>)>> = Vec::new();
-    objective.visit_scores(&weights, &state, |group, line| {
-        if scores.len() <= group {
-            scores.resize_with(group + 1, Vec::new);
-        }
-        scores[group].push((line.index, DVector::from_vec(line.score())));
-    })?;
+    let (weights, state) = reached(objective, estimate)?;
+    let scores = objective.scores(&weights, &state)?;
     let size = estimate.unknowns.len();
     let mut variance = DMatrix::zeros(size, size);
     for scores in &scores {
@@ -220,7 +134,7 @@ pub(super) fn inflation<const N: usize>(
         for lag in 0..=lags {
             let weight = 1.0 - lag as f64 / (lags as f64 + 1.0);
             for (early, late) in scores.iter().zip(&scores[lag.min(scores.len())..]) {
-                let product = &early.1 * late.1.transpose() * weight;
+                let product = early * late.transpose() * weight;
                 if lag == 0 {
                     variance += product;
                 } else {
@@ -237,16 +151,12 @@ pub(super) fn inflation<const N: usize>(
     }))
 }
 
-impl<const N: usize> Objective<'_, N> {
-    /// The point at which an estimate came to rest, with its weights.
-    pub(super) fn reached(
-        &self,
-        estimate: &Estimate,
-    ) -> Option<(Vec<Weights>, super::objective::State)> {
-        let state = self.unweighted(
-            estimate.unknowns.clone(),
-            Some(Arc::clone(&estimate.corrections)),
-        );
-        Some((self.weights(estimate.levels, &state)?, state))
-    }
+/// The point at which an estimate came to rest, with its weights.
+pub(super) fn reached(
+    objective: &dyn Misfit,
+    estimate: &Estimate,
+) -> Option<(Vec<Weights>, State)> {
+    let corrections = Some(Arc::clone(&estimate.corrections));
+    let state = objective.unweighted(estimate.unknowns.clone(), corrections);
+    Some((objective.weights(estimate.levels, &state)?, state))
 }

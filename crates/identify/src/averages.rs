@@ -4,7 +4,6 @@ use bolted_joint_frf::structure::ComplexMatrix;
 
 use super::band_choice;
 use super::bands::{self, BandChoices, Bands, UsedBands};
-use super::block::Block;
 use super::layout::Layout;
 use super::lines::Lines;
 use super::model::JointMatrices;
@@ -42,7 +41,7 @@ pub(super) fn first_bands(layout: &Layout, choices: &BandChoices) -> Vec<Vec<Use
 }
 
 /// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at the estimate.
-pub(super) fn used_bands<const N: usize>(
+pub(super) fn used_bands(
     all: &[Decoupled<'_>],
     layout: &Layout,
     choices: &BandChoices,
@@ -54,10 +53,8 @@ pub(super) fn used_bands<const N: usize>(
             return None;
         }
         let first = all.first()?.lines;
-        let block = Block::<N>::new(first, 0, 1);
         let own_hz = band_choice::own_resonances(all.iter().map(|assembly| assembly.lines));
-        let (hz, given) = (&first.frequency_hz, choices.given());
-        band_choice::chosen(&block, hz, &own_hz, layout, unknowns, &given)
+        band_choice::chosen(first, &own_hz, layout, unknowns, &choices.given())
     };
     band_choice::used(layout, choices, chosen().as_deref())
 }

@@ -9,6 +9,7 @@ use bolted_joint_frf::structure::SingularAssembly;
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
+use super::data::for_dofs;
 use super::independent_parts::IndependentParts;
 use super::kernel::{Kernel, complex_stiffness};
 use super::layout::{Layout, Place};
@@ -54,36 +55,9 @@ pub(super) fn for_joints(
     joints: &[JointMatrices],
     given: &Bands,
 ) -> Result<Vec<Bands>, SingularAssembly> {
-    let choose = match lines.joint_dofs() {
-        1 => with_dofs::<1>,
-        2 => with_dofs::<2>,
-        3 => with_dofs::<3>,
-        4 => with_dofs::<4>,
-        6 => with_dofs::<6>,
-        8 => with_dofs::<8>,
-        _ => return Err(SingularAssembly),
-    };
-    choose(lines, layout, joints, given)
-}
-
-fn with_dofs<const N: usize>(
-    lines: &Lines,
-    layout: &Layout,
-    joints: &[JointMatrices],
-    given: &Bands,
-) -> Result<Vec<Bands>, SingularAssembly> {
     let unknowns = layout.unknowns_of(joints).ok_or(SingularAssembly)?;
-    let block = Block::<N>::new(lines, 0, 1);
     let own_hz = own_resonances(std::iter::once(lines));
-    chosen(
-        &block,
-        &lines.frequency_hz,
-        &own_hz,
-        layout,
-        &unknowns,
-        given,
-    )
-    .ok_or(SingularAssembly)
+    chosen(lines, &own_hz, layout, &unknowns, given).ok_or(SingularAssembly)
 }
 
 /// The bands that each entry of each joint is averaged over. `chosen` are the automatic ones, `None` if there is no
@@ -139,18 +113,18 @@ pub(super) fn own_resonances<'a>(all: impl Iterator<Item = &'a Lines>) -> Vec<f6
 }
 
 /// The bands of each joint; `None` where the assembly cannot be computed.
-pub(super) fn chosen<const N: usize>(
-    block: &Block<N>,
-    frequency_hz: &[f64],
+pub(super) fn chosen(
+    lines: &Lines,
     own_hz: &[f64],
     layout: &Layout,
     unknowns: &[f64],
     given: &Bands,
 ) -> Option<Vec<Bands>> {
+    let frequency_hz = &lines.frequency_hz;
     let is_far = |hz: f64| own_hz.iter().all(|own| (hz - own).abs() >= DISTANCE * own);
     let far: Vec<bool> = frequency_hz.iter().map(|&hz| is_far(hz)).collect();
     let decoupled = layout.decoupled_places();
-    let measures = measures(block, &layout.places(), unknowns, &decoupled)?;
+    let measures = measures(lines, &layout.places(), unknowns, &decoupled)?;
     let measure_at = |place: (usize, usize)| {
         let index = decoupled.iter().position(|other| other.first() == place)?;
         measures.get(index)
@@ -182,22 +156,19 @@ pub(super) fn chosen<const N: usize>(
 
 /// For each of `decoupled` and each line, how well the line determines that entry of K* while the others are unknown, too:
 /// 1/√[(JᴴΣ⁻¹J)⁻¹]_ii with J = ∂H^C/∂K* and Σ = diag |H^C|², at the joint with these `unknowns`.
-fn measures<const N: usize>(
-    block: &Block<N>,
+fn measures(
+    lines: &Lines,
     places: &[Place],
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<Vec<Vec<f64>>> {
-    let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
-    let parts = parallel::map(&parts, |lines| {
-        Part::of(block, lines.clone(), places, unknowns, decoupled)
-    });
-    let parts: Vec<Part> = parts.into_iter().collect::<Option<_>>()?;
-    let usual: Vec<f64> = (0..block.entries.len())
+    let parts: PartsOf = for_dofs!(lines.joint_dofs(), parts)?;
+    let (entries, parts) = parts(lines, places, unknowns, decoupled)?;
+    let usual: Vec<f64> = (0..entries)
         .map(|e| {
             let sizes = parts
                 .iter()
-                .flat_map(|part| part.sizes.iter().skip(e).step_by(block.entries.len()));
+                .flat_map(|part| part.sizes.iter().skip(e).step_by(entries));
             median(sizes.copied().collect()).unwrap_or(0.0)
         })
         .collect();
@@ -212,6 +183,24 @@ struct Part {
     sizes: Vec<f64>,
     /// The rows of each line's Jacobian one after the other.
     jacobians: Vec<Complex64>,
+}
+
+/// How many entries the assembly's block has, and all its parts.
+type PartsOf = fn(&Lines, &[Place], &[f64], &[Place]) -> Option<(usize, Vec<Part>)>;
+
+fn parts<const N: usize>(
+    lines: &Lines,
+    places: &[Place],
+    unknowns: &[f64],
+    decoupled: &[Place],
+) -> Option<(usize, Vec<Part>)> {
+    let block = Block::<N>::new(lines, 0, 1);
+    let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
+    let parts = parallel::map(&parts, |lines| {
+        Part::of(&block, lines.clone(), places, unknowns, decoupled)
+    });
+    let parts = parts.into_iter().collect::<Option<_>>()?;
+    Some((block.entries.len(), parts))
 }
 
 impl Part {

@@ -2,16 +2,17 @@
 
 use nalgebra::DVector;
 
+use super::data::Data;
 use super::layout::Layout;
 use super::noise::Noise;
-use super::search::{self, Data, Effort};
+use super::search::{self, Effort};
 
 /// Factors by which one of several bolts is softer or stiffer in a start than the joint that suits them all.
 const UNLIKE: [f64; 2] = [0.2, 5.0];
 
 /// `first` and, in a whole search for bolts that differ, the starts that an estimate with bolts that are alike gives.
-pub(super) fn bolt_starts<const N: usize>(
-    data: &Data<N>,
+pub(super) fn bolt_starts(
+    data: &Data,
     layout: &Layout,
     noise: &Noise,
     mut first: Vec<DVector<f64>>,

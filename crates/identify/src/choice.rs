@@ -42,11 +42,7 @@ pub(super) fn bayesian_criterion(estimate: &Estimate) -> f64 {
 }
 
 /// Compares the models; `found` is the estimate of `layout`. All bolts have the same model, at every torque.
-pub(super) fn compare<const N: usize>(
-    problem: &Problem<'_, N>,
-    layout: &Layout,
-    found: &Found,
-) -> ModelChoice {
+pub(super) fn compare(problem: &Problem<'_>, layout: &Layout, found: &Found) -> ModelChoice {
     let all = [
         JointModel::Translation,
         JointModel::Diagonal,

@@ -5,15 +5,13 @@
 //! raising its own σ would. For the same reason ln det of J Σ_H Jᴴ does not count: the errors of the substructures are
 //! unknowns of their own (see `objective`), not part of the residual's variance.
 
-use std::slice;
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector};
 
-use super::group::Group;
+use super::data::Misfit;
+use super::likelihood::log_variances;
 use super::noise::{Levels, Noise, NoiseLevel};
 use super::normal::{Normal, TOLERANCE, relative_change};
-use super::objective::{Corrections, Objective, State, Weights};
+use super::objective::{Corrections, State, Weights};
 
 /// How the unknowns follow from the coordinates in which they are sought.
 pub(super) trait Chart {
@@ -38,7 +36,7 @@ impl Chart for Free {
 
 impl State {
     /// Its normal equations by the coordinates.
-    fn normal_in(&self, chart: &impl Chart, coordinates: &DVector<f64>) -> Normal {
+    fn normal_in(&self, chart: &dyn Chart, coordinates: &DVector<f64>) -> Normal {
         match chart.derivative(coordinates) {
             Some(derivative) => self.normal.in_chart(&derivative),
             None => self.normal.clone(),
@@ -104,11 +102,11 @@ const GAIN_WHILE_EASING: f64 = 1e-3;
 ///
 /// With `levels`, as for the trial of a start, the weights follow from them and no level is estimated, and an iteration that
 /// wanders is given up.
-pub(super) fn estimate<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn estimate(
+    objective: &dyn Misfit,
     noise: &Noise,
     levels: Option<Levels>,
-    chart: &impl Chart,
+    chart: &dyn Chart,
     start: &DVector<f64>,
     corrections: Option<Corrections>,
 ) -> Option<Estimate> {
@@ -117,7 +115,7 @@ pub(super) fn estimate<const N: usize>(
     let mut levels = levels.unwrap_or_else(|| first_levels(objective, noise));
     let mut coordinates = start.clone();
     let (mut weights, mut state) = objective.renewed(levels, chart.unknowns(start), corrections)?;
-    let measurements = measurements(objective);
+    let measurements = objective.measurements();
     let unknowns = start.len();
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
@@ -166,11 +164,11 @@ pub(super) fn estimate<const N: usize>(
             break;
         }
     }
-    let scatter = log_variances_of_scatter(objective, &weights);
+    let scatter = objective.log_variances_of_scatter(&weights);
     let log_determinant = if noise.is_stated() {
         scatter + log_variances(&weights)
     } else {
-        scatter + log_determinant(objective, &weights, &state)?
+        scatter + objective.log_determinant(&weights, &state)?
     };
     let cost = state.normal.linearised_cost;
     let count = measurements as f64;
@@ -204,10 +202,10 @@ struct Near {
 
 /// Full steps from a point near the minimum, each with the weights of the point before it: there the promise falls with each,
 /// whatever the weights do, and no step has to be tried with weights that are held. Far from it the point stays where it is.
-fn follow<const N: usize>(
-    objective: &Objective<'_, N>,
+fn follow(
+    objective: &dyn Misfit,
     levels: Levels,
-    chart: &impl Chart,
+    chart: &dyn Chart,
     mut point: Weighted,
 ) -> Option<Near> {
     let settled = |point, has_settled| Some(Near { point, has_settled });
@@ -233,84 +231,10 @@ fn follow<const N: usize>(
     }
 }
 
-/// Σ ln σ² over measurements beyond the first of each entry.
-fn log_variances_of_scatter<const N: usize>(
-    objective: &Objective<'_, N>,
-    weights: &[Weights],
-) -> f64 {
-    let of_group = |(group, weights): (&Group<N>, &Weights)| {
-        let entries = group.blocks.iter().flat_map(|block| &block.entries);
-        let counts: Vec<f64> = entries.map(|entry| f64::from(entry.count)).collect();
-        let lines = weights.entries.chunks_exact(counts.len().max(1));
-        let of_line = |variances: &[f64]| -> f64 {
-            let pairs = counts.iter().zip(variances);
-            let repeated = pairs.filter(|(count, _)| **count > 1.0);
-            repeated
-                .map(|(n, of_mean)| (n - 1.0) * (n * of_mean).ln())
-                .sum()
-        };
-        lines.map(of_line).sum::<f64>()
-    };
-    objective.groups.iter().zip(weights).map(of_group).sum()
-}
-
-/// Σ ln σ² of the means of everything measured: the likelihood with the corrections as unknowns.
-fn log_variances(weights: &[Weights]) -> f64 {
-    let of = |weights: &Weights| -> f64 { log_sum(&weights.entries) + log_sum(&weights.sources) };
-    weights.iter().map(of).sum()
-}
-
-/// Σ ln v over those above zero. The logarithm of a product takes the time of one.
-fn log_sum(values: &[f64]) -> f64 {
-    let each = |values: &[f64]| -> f64 {
-        let positive = values.iter().filter(|value| **value > 0.0);
-        positive.map(|value| value.ln()).sum()
-    };
-    let together = |values: &[f64]| {
-        let product: f64 = values.iter().product();
-        if product.is_normal() {
-            product.ln()
-        } else {
-            each(values)
-        }
-    };
-    values.chunks(8).map(together).sum()
-}
-
-/// Σ ln det Σ: the likelihood with the corrections integrated out, in which the level of the noise can be estimated.
-fn log_determinant<const N: usize>(
-    objective: &Objective<'_, N>,
-    weights: &[Weights],
-    state: &State,
-) -> Option<f64> {
-    let pairs = objective.groups.iter().zip(weights);
-    let independent = pairs.filter(|(group, _)| group.sources.is_empty());
-    let mut sum: f64 = independent
-        .map(|(_, weights)| log_variances(slice::from_ref(weights)))
-        .sum();
-    if !objective.is_independent() {
-        objective.visit(Some(weights), state, |group, line| {
-            if !objective.groups[group].sources.is_empty() {
-                sum += line.log_determinant();
-            }
-        })?;
-    }
-    Some(sum)
-}
-
-pub(super) fn measurements<const N: usize>(objective: &Objective<'_, N>) -> usize {
-    let groups = objective.groups.iter();
-    groups
-        .map(|group| group.lines() * group.measurements())
-        .sum()
-}
-
 /// Levels to begin with: what is not stated is proportional to the receptance.
-pub(super) fn first_levels<const N: usize>(objective: &Objective<'_, N>, noise: &Noise) -> Levels {
+pub(super) fn first_levels(objective: &dyn Misfit, noise: &Noise) -> Levels {
     let floor = if noise.assembly.relative == Some(0.0) {
-        let values = objective.groups.iter().flat_map(|group| &group.blocks);
-        let largest = values.flat_map(|block| &block.measured);
-        largest.fold(0.0, |largest, value| f64::max(largest, value.norm()))
+        objective.largest_measured()
     } else {
         0.0
     };
@@ -321,13 +245,12 @@ pub(super) fn first_levels<const N: usize>(objective: &Objective<'_, N>, noise: 
 }
 
 /// The unknowns at which the cost with these weights is lowest, roughly.
-pub(super) fn minimum<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn minimum(
+    objective: &dyn Misfit,
     weights: &[Weights],
     start: &DVector<f64>,
 ) -> Option<DVector<f64>> {
-    let none = vec![Vec::new(); objective.groups.len()];
-    let state = objective.at(weights, start.clone(), Some(Arc::new(none)))?;
+    let state = objective.at(weights, start.clone(), None)?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
     Some(levenberg_marquardt(objective, weights, &Free, start, state, control).coordinates)
 }
@@ -339,8 +262,8 @@ const EASING: [f64; 5] = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
 /// Unknowns and corrections near the minimum that `start` belongs to, where the errors of the substructures act too far from
 /// linearly to be let free at once: near a resonance a correction that has to explain several assemblies exactly ends far off.
 /// First the assemblies count for no better than they can be computed from the substructures as measured.
-pub(super) fn eased_minimum<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn eased_minimum(
+    objective: &dyn Misfit,
     noise: &Noise,
     start: DVector<f64>,
 ) -> Option<(DVector<f64>, Corrections)> {
@@ -367,10 +290,10 @@ struct Rest {
 }
 
 /// The iteration from `start` coordinates, at which `state` is.
-fn levenberg_marquardt<const N: usize>(
-    objective: &Objective<'_, N>,
+fn levenberg_marquardt(
+    objective: &dyn Misfit,
     weights: &[Weights],
-    chart: &impl Chart,
+    chart: &dyn Chart,
     start: &DVector<f64>,
     mut state: State,
     (negligible_gain, first_damping): (f64, f64),

@@ -6,10 +6,10 @@ use nalgebra::{DMatrix, DVector};
 use super::assessment;
 use super::bands::UsedBands;
 use super::bootstrap::Bootstrap;
+use super::data::Misfit;
 use super::layout::Layout;
 use super::model::{JointMatrices, JointModel, is_positive_semidefinite};
 use super::noise::Noise;
-use super::objective::Objective;
 use super::search::Found;
 use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
@@ -157,11 +157,7 @@ pub(super) struct CovarianceOfAll {
 }
 
 impl CovarianceOfAll {
-    pub(super) fn of<const N: usize>(
-        objective: &Objective<'_, N>,
-        noise: &Noise,
-        found: &Found,
-    ) -> Self {
+    pub(super) fn of(objective: &dyn Misfit, noise: &Noise, found: &Found) -> Self {
         let estimate = &found.estimate;
         let unit = uncertainty::unit_covariance(&estimate.information);
         let reduced = estimate.reduced_chi_squared();
@@ -200,9 +196,9 @@ impl CovarianceOfAll {
     }
 
     /// The part of torque number `joint`; `bolts` are the names of those that have joints of their own.
-    pub(super) fn of_torque<const N: usize>(
+    pub(super) fn of_torque(
         &self,
-        objective: &Objective<'_, N>,
+        objective: &dyn Misfit,
         layout: &Layout,
         bolts: &[String],
         found: &Found,
@@ -216,17 +212,14 @@ impl CovarianceOfAll {
             .view((own.start, own.start), (size, size))
             .into_owned();
         let deviation: Vec<f64> = matrix.diagonal().iter().map(|v| v.sqrt()).collect();
-        let mut blocks = objective.groups.iter().flat_map(|group| &group.blocks);
-        let block = blocks.find(|block| block.joint == joint);
-        let dynamic = block.map_or([1.0; N], |block| block.dynamic_stiffness);
-        let omega = block.map_or(1.0, |block| block.omega[block.lines() / 2]);
+        let (dynamic, omega) = objective.substructures(joint);
         let unknowns = Unknown::of_joints(layout.model(), layout.joints());
         let names: Vec<String> = unknowns
             .iter()
             .map(|unknown| unknown.label(bolts))
             .collect();
         let (identified, sizes) =
-            uncertainty::identified(layout, &values, &deviation, &dynamic, omega);
+            uncertainty::identified(layout, &values, &deviation, dynamic, omega);
         Covariance {
             determined_together: uncertainty::determined_together(
                 &names,

@@ -57,13 +57,10 @@ impl Identification {
 
     fn joint_record(&self, bolt: usize) -> Joint {
         let joint = &self.estimate.bolts()[bolt];
+        let (stiffness, damping) = (rows(&joint.stiffness), rows(&joint.damping));
         let constant = Joint {
-            dofs: self.model.into(),
-            stiffness: rows(&joint.stiffness),
-            damping: rows(&joint.damping),
             cubic: vec![0.0; self.model.dofs()],
-            higher: None,
-            over_preload: None,
+            ..Joint::linear(self.model.into(), stiffness, damping)
         };
         let joints = self.ascending();
         // The nominal torque is that of the first assembly.

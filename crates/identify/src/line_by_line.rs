@@ -3,6 +3,7 @@
 use bolted_joint_frf::structure::{ComplexMatrix, Partition};
 
 use super::block::Small;
+use super::data::for_dofs;
 use super::decoupling;
 use super::kernel::{dot, inverse};
 use super::lanes::{Complexes, LANES, Number, Reals};
@@ -22,16 +23,20 @@ pub(super) fn is_complete(lines: &Lines) -> bool {
 }
 
 /// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
-pub(super) fn decouple<const N: usize>(
-    lines: &Lines,
-    layout: &Layout,
-) -> Vec<Option<ComplexMatrix>> {
-    let count = lines.frequency_hz.len();
-    if !is_complete(lines) {
-        return vec![None; count];
+pub(super) fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
+    let of: Option<OfLines> = for_dofs!(lines.joint_dofs(), with_dofs);
+    match of {
+        Some(of) if is_complete(lines) => of(lines, layout),
+        _ => vec![None; lines.frequency_hz.len()],
     }
+}
+
+type OfLines = fn(&Lines, &Layout) -> Vec<Option<ComplexMatrix>>;
+
+fn with_dofs<const N: usize>(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
+    let count = lines.frequency_hz.len();
     let used = layout.used_dofs();
-    let is_fixed = lines.points.len() > N && used.len() == N && lines.joint_dofs() == N;
+    let is_fixed = lines.points.len() > N && used.len() == N;
     let mut least_squares = LeastSquares::<N>::default();
     let mut decoupled = Vec::with_capacity(count);
     for first in (0..count).step_by(LANES) {

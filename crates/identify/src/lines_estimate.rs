@@ -12,7 +12,6 @@ use super::bootstrap::{self, Bootstrap};
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
-use super::group::{Group, Side};
 use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
 use super::layout::{Bolts, Layout};
 use super::line_by_line::{decouple, is_complete};
@@ -21,7 +20,7 @@ use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel};
 use super::parallel;
 use super::passive;
-use super::search::{self, Data, Effort, Found};
+use super::search::{Effort, Found};
 use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
 use super::uncertainty::Covariance;
@@ -245,22 +244,6 @@ pub fn identify_lines(
     let Some(layout) = layout.filter(|_| !is_empty) else {
         return Err(no_estimate(all, 0));
     };
-    match dofs {
-        1 => identify_with::<1>(all, layout, options),
-        2 => identify_with::<2>(all, layout, options),
-        3 => identify_with::<3>(all, layout, options),
-        4 => identify_with::<4>(all, layout, options),
-        6 => identify_with::<6>(all, layout, options),
-        8 => identify_with::<8>(all, layout, options),
-        _ => Err(no_estimate(all, 0)),
-    }
-}
-
-fn identify_with<const N: usize>(
-    all: &[Lines],
-    layout: Layout,
-    options: &Options<'_>,
-) -> Result<LinesEstimate, IdentifyError> {
     let torques = Torques::of(&options.torques_n_m, all.len());
     let dependence = options.dependence;
     let separate = match (dependence, &torques) {
@@ -283,14 +266,15 @@ fn identify_with<const N: usize>(
     );
     let noise = &options.noise;
     let (problem, decoupled) = parallel::both(
-        || Problem::<N>::new(assignment, noise),
+        || Problem::new(assignment, noise),
         || {
             let lines = all.iter();
             lines
-                .map(|lines| decouple::<N>(lines, &layout))
+                .map(|lines| decouple(lines, &layout))
                 .collect::<Vec<_>>()
         },
     );
+    let problem = problem.ok_or_else(|| no_estimate(all, 0))?;
     let decoupled_of = |joint: usize| -> Vec<Decoupled<'_>> {
         let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
         own.filter(|(_, own)| **own == joint)
@@ -312,11 +296,18 @@ fn identify_with<const N: usize>(
     let objective = problem.objective(&places);
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
-    let covariance = CovarianceOfAll::of(&objective, noise, &found);
-    let passive = passive::passive(&objective, &layout, noise, estimate);
+    let covariance = CovarianceOfAll::of(objective.as_ref(), noise, &found);
+    let passive = passive::passive(objective.as_ref(), &layout, noise, estimate);
     let draws = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
-        let draws = bootstrap::draws(&objective, noise, estimate, bootstrap, progress)?;
+        let draws = bootstrap::draws(
+            objective.as_ref(),
+            &places,
+            noise,
+            estimate,
+            bootstrap,
+            progress,
+        )?;
         Some((bootstrap, draws))
     });
     let size = layout.unknowns();
@@ -326,7 +317,7 @@ fn identify_with<const N: usize>(
             decoupled_of(joint),
             &estimate.unknowns.as_slice()[own.clone()],
         );
-        let bands = used_bands::<N>(&data, &layout, &options.bands, unknowns);
+        let bands = used_bands(&data, &layout, &options.bands, unknowns);
         let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
         let free = matrices(&estimate.unknowns);
         let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
@@ -338,7 +329,7 @@ fn identify_with<const N: usize>(
                 band_averages(&data, &layout, &bands)
             },
             bands,
-            covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
+            covariance: covariance.of_torque(objective.as_ref(), &layout, names, &found, joint),
             bootstrap: draws
                 .as_ref()
                 .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
@@ -350,6 +341,7 @@ fn identify_with<const N: usize>(
     };
     let joints: Vec<JointEstimate> = (0..count).map(of_torque).collect();
     drop(passive);
+    drop(objective);
     let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
         .then_some(estimate.levels.assembly)
         .filter(|_| !found.assessment.noise_is_known);
@@ -360,9 +352,7 @@ fn identify_with<const N: usize>(
     drop(problem);
     let torque_choice = torques
         .filter(|_| options.compare_models)
-        .and_then(|torques| {
-            torque::compare::<N>(all, &torques, noise, &layout, dependence, &found)
-        });
+        .and_then(|torques| torque::compare(all, &torques, noise, &layout, dependence, &found));
     let mut warnings = warnings(all, &layout, &found, &joints);
     warnings.extend(joints.iter().flat_map(|joint| joint.warnings(names)));
     warnings.extend(
@@ -398,29 +388,6 @@ fn starts(
         .filter_map(|joints| layout.unknowns_of(joints).map(DVector::from_vec))
         .filter(|start| start.iter().all(|value| value.is_finite()))
         .collect()
-}
-
-impl<const N: usize> Data<N> {
-    /// Assemblies, each with the number of its joint, in the forms that a search goes through.
-    pub(super) fn of(all: &[(&Lines, usize)], noise: &Noise) -> Self {
-        let stride = search::stride(all);
-        let noisy = |side: Side| noise.acts_on(side);
-        let whole = Group::all(all, 1, noisy);
-        let has_sources = whole.iter().any(|group| !group.sources.is_empty());
-        let thinned = Group::all(all, stride, noisy);
-        if !has_sources {
-            return Self {
-                thinned,
-                thinned_whole: Vec::new(),
-                whole,
-            };
-        }
-        Self {
-            thinned: thinned.iter().flat_map(Group::with_exact_sources).collect(),
-            thinned_whole: thinned,
-            whole,
-        }
-    }
 }
 
 pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {

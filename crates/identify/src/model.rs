@@ -51,8 +51,8 @@ impl JointModel {
 impl From<JointModel> for DofSet {
     fn from(model: JointModel) -> Self {
         match model {
-            JointModel::Translation => Self::Translation,
-            JointModel::Diagonal | JointModel::Full => Self::TranslationRotation,
+            JointModel::Translation => Self::TRANSLATION,
+            JointModel::Diagonal | JointModel::Full => Self::TRANSLATION_ROTATION,
         }
     }
 }

@@ -238,16 +238,16 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: Option<&[Weights]>,
         state: &State,
-        mut visit: impl FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_, N>),
     ) -> Option<()> {
         for (number, group) in self.groups.iter().enumerate() {
             let weights = weights.map(|weights| &weights[number]);
             if group.sources.is_empty() {
                 let held = weights.map_or(Whitening::None, Whitening::Held);
                 let all = 0..group.lines();
-                self.visit_independent(group, held, state, all, |line| visit(number, line))?;
+                self.visit_independent(group, held, state, all, &mut |line| visit(number, line))?;
             } else {
-                self.visit_linearised(number, weights, state, |line| visit(number, line))?;
+                self.visit_linearised(number, weights, state, &mut |line| visit(number, line))?;
             }
         }
         Some(())
@@ -265,7 +265,7 @@ impl<const N: usize> Objective<'_, N> {
             let weights = self.weights(levels, state)?;
             let mut gathered: Vec<Vec<T>> =
                 self.groups.iter().map(|_| vec![T::default()]).collect();
-            self.visit(Some(&weights), state, |group, line| {
+            self.visit(Some(&weights), state, &mut |group, line| {
                 visit(&mut gathered[group][0], line);
             })?;
             return Some(gathered);
@@ -275,7 +275,7 @@ impl<const N: usize> Objective<'_, N> {
             let pieces = parallel::pieces(group.lines(), independent::PIECE);
             let of_piece = |lines: &Range<usize>| {
                 let mut gathered = T::default();
-                self.visit_independent(group, own, state, lines.clone(), |line| {
+                self.visit_independent(group, own, state, lines.clone(), &mut |line| {
                     visit(&mut gathered, line);
                 })?;
                 Some(gathered)
@@ -290,10 +290,12 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: &[Weights],
         state: &State,
-        mut visit: impl FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_, N>),
     ) -> Option<()> {
         for (number, weights) in weights.iter().enumerate() {
-            self.visit_linearised(number, Some(weights), state, |line| visit(number, line))?;
+            self.visit_linearised(number, Some(weights), state, &mut |line| {
+                visit(number, line)
+            })?;
         }
         Some(())
     }
@@ -304,7 +306,7 @@ impl<const N: usize> Objective<'_, N> {
         whitening: Whitening<'_>,
         state: &State,
         lines: Range<usize>,
-        mut visit: impl FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_, N>),
     ) -> Option<()> {
         let unknowns = state.unknowns.as_slice();
         let blocks = group.blocks.iter();
@@ -334,7 +336,7 @@ impl<const N: usize> Objective<'_, N> {
         number: usize,
         weights: Option<&Weights>,
         state: &State,
-        mut visit: impl FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_, N>),
     ) -> Option<()> {
         let group = &self.groups[number];
         let mut line = Line::new(group, self.entries);

@@ -1,6 +1,7 @@
 //! Independent pieces of work on all processors, in a result that does not depend on how many there are.
 
 use std::ops::Range;
+use std::sync::Mutex;
 
 use rayon::prelude::*;
 
@@ -13,19 +14,46 @@ pub fn pieces(count: usize, length: usize) -> Vec<Range<usize>> {
 }
 
 /// `work` of each item, in the order of the items.
-pub fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
-    if is_alone(items.len()) {
-        return items.iter().map(work).collect();
-    }
-    items.par_iter().with_max_len(1).map(work).collect()
+pub fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    by_index(items.len(), &|index| work(&items[index]))
 }
 
 /// The same with items that are handed over.
-pub fn map_each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Send + Sync) -> Vec<R> {
-    if is_alone(items.len()) {
-        return items.into_iter().map(work).collect();
+pub fn map_each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let items: Vec<Mutex<Option<T>>> = items
+        .into_iter()
+        .map(|item| Mutex::new(Some(item)))
+        .collect();
+    let of_item = |index: usize| {
+        let item = items[index].lock().ok().and_then(|mut item| item.take());
+        item.map(&work)
+    };
+    let results = by_index(items.len(), &of_item);
+    results.into_iter().flatten().collect()
+}
+
+/// `work` of each index below `count`, in order. Callers differ in their work and their results, not in how these are
+/// shared out: that is compiled once, and each piece of work once, instead of into a copy of the scheduler's own.
+fn by_index<R: Send>(count: usize, work: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
+    if is_alone(count) {
+        return (0..count).map(work).collect();
     }
-    items.into_par_iter().with_max_len(1).map(work).collect()
+    let results: Vec<Mutex<Option<R>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    share(count, &|index| {
+        let result = work(index);
+        if let Ok(mut place) = results[index].lock() {
+            *place = Some(result);
+        }
+    });
+    let results = results.into_iter();
+    results
+        .filter_map(|place| place.into_inner().ok().flatten())
+        .collect()
+}
+
+/// Does `work` of each index below `count` on all processors, one index at a time.
+fn share(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().with_max_len(1).for_each(work);
 }
 
 /// What two pieces of work come to.

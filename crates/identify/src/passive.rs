@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::data::Misfit;
 use super::estimator::{Chart, Estimate, estimate};
 use super::layout::Layout;
 use super::model::JointModel;
 use super::noise::Noise;
-use super::objective::Objective;
 
 /// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
 const MOST_COMBINATIONS: usize = 256;
@@ -174,8 +174,8 @@ pub(super) const CHANCE: f64 = 25.0;
 ///
 /// Joints of different torques that measured substructures couple tell of each other's errors: if one of them is active by
 /// chance, the others move with it. If noise does not explain that it is active, they are held where they are.
-pub(super) fn passive<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn passive(
+    objective: &dyn Misfit,
     layout: &Layout,
     noise: &Noise,
     free: &Estimate,
@@ -195,8 +195,8 @@ enum Others {
 }
 
 /// One active torque after the other gets its faces, those before it keeping theirs.
-fn constrained<const N: usize>(
-    objective: &Objective<'_, N>,
+fn constrained(
+    objective: &dyn Misfit,
     layout: &Layout,
     noise: &Noise,
     free: &Estimate,
@@ -226,8 +226,8 @@ fn constrained<const N: usize>(
 }
 
 /// The lowest minimum that has the joints of torque number `active` on faces of the cone.
-fn on_a_face<const N: usize>(
-    objective: &Objective<'_, N>,
+fn on_a_face(
+    objective: &dyn Misfit,
     layout: &Layout,
     noise: &Noise,
     from: &Estimate,
@@ -255,8 +255,8 @@ fn on_a_face<const N: usize>(
 
 /// The lowest minimum that is passive at torque number `active`, over all combinations of the faces that each of its matrices
 /// may lie on.
-fn lowest<const N: usize>(
-    objective: &Objective<'_, N>,
+fn lowest(
+    objective: &dyn Misfit,
     layout: &Layout,
     noise: &Noise,
     from: &Estimate,

@@ -3,24 +3,12 @@
 use nalgebra::DVector;
 
 use super::assessment::{Assessment, assess};
+use super::data::{Data, Misfit};
 use super::estimator::{Estimate, Free, estimate, first_levels, minimum};
-use super::group::Group;
 use super::layout::Place;
-use super::lines::Lines;
 use super::noise::Noise;
 use super::normal::relative_change;
-use super::objective::Objective;
 use super::parallel;
-use super::starts;
-
-/// Lines that are enough to tell which start leads to the best estimate.
-const LINES_FOR_STARTS: usize = 200;
-
-/// Which part of the lines is enough: every one, or every second …
-pub(super) fn stride(all: &[(&Lines, usize)]) -> usize {
-    let longest = all.iter().map(|(lines, _)| lines.frequency_hz.len()).max();
-    (longest.unwrap_or(0) / LINES_FOR_STARTS).max(1)
-}
 
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;
@@ -47,16 +35,6 @@ const COMPARABLE: f64 = 10.0;
 
 /// Starts of the grid between two looks at whether the fit is beyond doubt.
 const STARTS_AT_A_TIME: usize = 4;
-
-/// The data in the three forms that the search goes through.
-pub(super) struct Data<const N: usize> {
-    /// Few lines, substructures taken as exact.
-    pub(super) thinned: Vec<Group<N>>,
-    /// Few lines with the errors of the substructures; empty where these are exact.
-    pub(super) thinned_whole: Vec<Group<N>>,
-    /// All lines with the errors of the substructures.
-    pub(super) whole: Vec<Group<N>>,
-}
 
 /// How far to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,24 +67,22 @@ impl Found {
 }
 
 /// The best estimate from `first` and from the search's own starts; `Err` with the number of starts if there is none.
-pub(super) fn best<const N: usize>(
-    data: &Data<N>,
+pub(super) fn best(
+    data: &Data,
     entries: &[Place],
     noise: &Noise,
     first: Vec<DVector<f64>>,
     effort: Effort,
 ) -> Result<Found, usize> {
     let mut candidates = first;
-    let linear = starts::Linear::of(&data.thinned);
     let guesses = [None, candidates.last().cloned()];
-    let from_guess = |guess: &Option<DVector<f64>>| linear.from(entries, guess.as_ref());
-    candidates.extend(parallel::map(&guesses, from_guess).into_iter().flatten());
+    candidates.extend(data.thinned.linear_starts(entries, &guesses));
     let mut ways = Vec::new();
     let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
     let mut tried = candidates.len();
     let mut finals = finalists(data, entries, noise, &trials, Vec::new());
     if effort == Effort::Whole {
-        for part in starts::grid(&data.thinned, entries).chunks(STARTS_AT_A_TIME) {
+        for part in data.thinned.grid(entries).chunks(STARTS_AT_A_TIME) {
             if is_certain(&trials, &finals) {
                 break;
             }
@@ -115,12 +91,9 @@ pub(super) fn best<const N: usize>(
             finals = finalists(data, entries, noise, &trials, finals);
         }
     }
-    let best = softest_of_the_best(&finals, &data.whole, entries).ok_or(tried)?;
+    let whole = data.whole.objective(entries);
+    let best = softest_of_the_best(&finals, whole.as_ref(), entries).ok_or(tried)?;
     let agreeing = agreeing(&trials, &finals, &best.estimate);
-    let whole = Objective {
-        groups: &data.whole,
-        entries,
-    };
     let estimate = if best.has_corrections {
         best.estimate.clone()
     } else if whole.is_independent() {
@@ -130,7 +103,7 @@ pub(super) fn best<const N: usize>(
         }
     } else {
         let start = &best.estimate.unknowns;
-        estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?
+        estimate(whole.as_ref(), noise, None, &Free, start, None).ok_or(tried)?
     };
     Ok(Found {
         estimate,
@@ -142,13 +115,13 @@ pub(super) fn best<const N: usize>(
 
 /// The best estimate; of several that explain the data equally well, as when there are no more numbers than unknowns, the
 /// one that is softest beside the substructures.
-fn softest_of_the_best<'f, const N: usize>(
+fn softest_of_the_best<'f>(
     finals: &'f [Final],
-    groups: &[Group<N>],
+    whole: &dyn Misfit,
     entries: &[Place],
 ) -> Option<&'f End> {
     let lowest = finals.first()?.rank();
-    let own = groups.first()?.blocks.first()?.dynamic_stiffness;
+    let (own, _) = whole.substructures(0);
     let size = |end: &&End| -> f64 {
         let places = entries.iter().enumerate();
         let parts = places.map(|(t, place)| {
@@ -222,28 +195,24 @@ struct Way {
 }
 
 /// Where each of the starts leads on few lines. `ways` are those gone so far: two starts that meet go on as one.
-fn try_starts<const N: usize>(
-    data: &Data<N>,
+fn try_starts(
+    data: &Data,
     entries: &[Place],
     noise: &Noise,
     starts: &[DVector<f64>],
     ways: &mut Vec<Way>,
 ) -> Vec<Estimate> {
-    let thinned = Objective {
-        groups: &data.thinned,
-        entries,
-    };
+    let thinned = data.thinned.objective(entries);
+    let thinned = thinned.as_ref();
     // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-    let levels = Some(first_levels(&thinned, noise));
-    if data.thinned_whole.is_empty() {
-        let trial = |start: &DVector<f64>| estimate(&thinned, noise, levels, &Free, start, None);
+    let levels = Some(first_levels(thinned, noise));
+    let Some(whole) = &data.thinned_whole else {
+        let trial = |start: &DVector<f64>| estimate(thinned, noise, levels, &Free, start, None);
         return parallel::map(starts, trial).into_iter().flatten().collect();
-    }
-    let whole = Objective {
-        groups: &data.thinned_whole,
-        entries,
     };
-    let robust = |start: &DVector<f64>| robust_start(&thinned, &whole, noise, start.clone());
+    let whole = whole.objective(entries);
+    let whole = whole.as_ref();
+    let robust = |start: &DVector<f64>| robust_start(thinned, whole, noise, start.clone());
     let starts: Vec<DVector<f64>> = parallel::map(starts, robust)
         .into_iter()
         .flatten()
@@ -259,7 +228,7 @@ fn try_starts<const N: usize>(
         }
     }
     let trial = |start: &DVector<f64>| {
-        let found = estimate(&whole, noise, levels, &Free, start, None)?;
+        let found = estimate(whole, noise, levels, &Free, start, None)?;
         Some(found.without_corrections())
     };
     let estimates = parallel::map(&new, trial);
@@ -273,8 +242,8 @@ fn try_starts<const N: usize>(
 }
 
 /// The best few different `trials`, on all lines, best first; `known` are those of fewer trials.
-fn finalists<const N: usize>(
-    data: &Data<N>,
+fn finalists(
+    data: &Data,
     entries: &[Place],
     noise: &Noise,
     trials: &[Estimate],
@@ -295,10 +264,7 @@ fn finalists<const N: usize>(
             chosen.push(candidate);
         }
     }
-    let whole = Objective {
-        groups: &data.whole,
-        entries,
-    };
+    let whole = data.whole.objective(entries);
     // Thinned lines may have passed over the resonances that tell two minima apart.
     let mut finals: Vec<Final> = Vec::new();
     // The corrections of all of them would be much memory: those of the last one are kept, most likely the best.
@@ -311,11 +277,11 @@ fn finalists<const N: usize>(
         finals = finals.into_iter().map(Final::without_corrections).collect();
         known = known.into_iter().map(Final::without_corrections).collect();
         let start = &candidate.unknowns;
-        let found = estimate(&whole, noise, None, &Free, start, None);
+        let found = estimate(whole.as_ref(), noise, None, &Free, start, None);
         finals.push(Final {
             candidate: candidate.clone(),
             end: found.and_then(|estimate| {
-                let assessment = assess(&whole, &estimate, noise)?;
+                let assessment = assess(whole.as_ref(), &estimate, noise)?;
                 Some(End {
                     estimate,
                     assessment,
@@ -333,9 +299,9 @@ const ROBUST_ROUNDS: usize = 8;
 
 /// An estimate that takes the substructures as measured, but each value of the assembly only for as good as the errors of
 /// the substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
-pub(super) fn robust_start<const N: usize>(
-    exact: &Objective<'_, N>,
-    whole: &Objective<'_, N>,
+pub(super) fn robust_start(
+    exact: &dyn Misfit,
+    whole: &dyn Misfit,
     noise: &Noise,
     mut start: DVector<f64>,
 ) -> Option<DVector<f64>> {

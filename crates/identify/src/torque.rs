@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 use super::assessment::{Assessment, assess};
 use super::bolt_starts::bolt_starts;
 use super::choice::bayesian_criterion;
+use super::data::{Data, Misfit};
 use super::estimator::{Estimate, Free, eased_minimum, estimate};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::noise::Noise;
-use super::objective::Objective;
-use super::search::{self, Data, Effort, Found};
+use super::search::{self, Effort, Found};
 
 /// Whether the joint depends on the tightening torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -152,27 +152,25 @@ impl<'a> Assignment<'a> {
 }
 
 /// What joints are sought in: the data of all assemblies, each with its own joint.
-pub(super) struct Problem<'a, const N: usize> {
+pub(super) struct Problem<'a> {
     assignment: Assignment<'a>,
     noise: &'a Noise,
-    data: Data<N>,
+    data: Data,
 }
 
-impl<'a, const N: usize> Problem<'a, N> {
-    pub(super) fn new(assignment: Assignment<'a>, noise: &'a Noise) -> Self {
-        Self {
-            data: Data::of(&assignment.all, noise),
+impl<'a> Problem<'a> {
+    /// `None` if there is no assembly, or none of a joint with so many DOFs.
+    pub(super) fn new(assignment: Assignment<'a>, noise: &'a Noise) -> Option<Self> {
+        Some(Self {
+            data: Data::of(&assignment.all, noise)?,
             assignment,
             noise,
-        }
+        })
     }
 
     /// The objective over all lines.
-    pub(super) fn objective<'o>(&'o self, entries: &'o [Place]) -> Objective<'o, N> {
-        Objective {
-            groups: &self.data.whole,
-            entries,
-        }
+    pub(super) fn objective<'o>(&'o self, entries: &'o [Place]) -> Box<dyn Misfit + 'o> {
+        self.data.whole.objective(entries)
     }
 
     /// How many joints are sought.
@@ -200,7 +198,7 @@ impl<'a, const N: usize> Problem<'a, N> {
         let mut joints = Vec::with_capacity(self.joints());
         let (mut tried, mut agreeing) = (0, 0);
         for joint in 0..self.joints() {
-            let data: Data<N> = Data::of(&self.assignment.only(joint), noise);
+            let data = Data::of(&self.assignment.only(joint), noise).ok_or(tried)?;
             let starts = bolt_starts(&data, layout, noise, own_starts(joint), effort);
             let found =
                 search::best(&data, entries, noise, starts, effort).map_err(|more| tried + more)?;
@@ -237,10 +235,10 @@ impl<'a, const N: usize> Problem<'a, N> {
         let starts = std::iter::once(concatenated(&mut joints.iter())).chain(everywhere);
         let mut best: Option<(Estimate, Assessment)> = None;
         for start in starts {
-            let Some(found) = self.estimate_together(&objective, start) else {
+            let Some(found) = self.estimate_together(entries, objective.as_ref(), start) else {
                 continue;
             };
-            let Some(assessment) = assess(&objective, &found, noise) else {
+            let Some(assessment) = assess(objective.as_ref(), &found, noise) else {
                 continue;
             };
             let fits = found.converged && assessment.fits();
@@ -258,21 +256,19 @@ impl<'a, const N: usize> Problem<'a, N> {
     /// The estimate that a start of all joints leads to.
     fn estimate_together(
         &self,
-        objective: &Objective<'_, N>,
+        entries: &[Place],
+        objective: &dyn Misfit,
         start: DVector<f64>,
     ) -> Option<Estimate> {
         let noise = self.noise;
-        if self.data.thinned_whole.is_empty() {
+        let Some(whole) = &self.data.thinned_whole else {
             return estimate(objective, noise, None, &Free, &start, None);
-        }
+        };
         // Each joint by itself has been moved by other corrections of the same substructures. First all are moved alike, to where
         // there are no corrections at all.
-        let few = |groups| Objective {
-            groups,
-            ..*objective
-        };
-        let (thinned, whole) = (few(&self.data.thinned), few(&self.data.thinned_whole));
-        let start = search::robust_start(&thinned, &whole, noise, start)?;
+        let thinned = self.data.thinned.objective(entries);
+        let whole = whole.objective(entries);
+        let start = search::robust_start(thinned.as_ref(), whole.as_ref(), noise, start)?;
         let (start, corrections) = eased_minimum(objective, noise, start)?;
         estimate(objective, noise, None, &Free, &start, Some(corrections))
     }
@@ -280,7 +276,7 @@ impl<'a, const N: usize> Problem<'a, N> {
 
 /// Compares the `found` estimate of `problem`, whose joints are `used`, with that of the other dependence on the torque;
 /// `None` if that has none.
-pub(super) fn compare<const N: usize>(
+pub(super) fn compare(
     all: &[Lines],
     torques: &Torques,
     noise: &Noise,
@@ -298,7 +294,7 @@ pub(super) fn compare<const N: usize>(
         ),
         TorqueDependence::Separate => (Assignment::common(all), vec![joints]),
     };
-    let other = Problem::<N>::new(assignment, noise);
+    let other = Problem::new(assignment, noise)?;
     let other = other.best(layout, &starts, Effort::Related).ok()?;
     let (common, separate) = match used {
         TorqueDependence::Common => (found, &other),

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use bolted_joint_frf::structure::SingularAssembly;
 
 use super::block::Block;
+use super::data::for_dofs;
 use super::kernel::{Kernel, complex_stiffness};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
@@ -51,17 +52,13 @@ pub fn update_in_two_steps(
     start: &JointMatrices,
     amplitudes: Amplitudes,
 ) -> Result<TwoStep, SingularAssembly> {
-    let update = match start.stiffness.nrows() {
-        1 => updated::<1>,
-        2 => updated::<2>,
-        3 => updated::<3>,
-        4 => updated::<4>,
-        6 => updated::<6>,
-        8 => updated::<8>,
-        _ => return Err(SingularAssembly),
-    };
+    let update: Option<Updated> = for_dofs!(start.stiffness.nrows(), updated);
+    let update = update.ok_or(SingularAssembly)?;
     update(lines, model, start, amplitudes)
 }
+
+type Updated =
+    fn(&Lines, JointModel, &JointMatrices, Amplitudes) -> Result<TwoStep, SingularAssembly>;
 
 fn updated<const N: usize>(
     lines: &Lines,

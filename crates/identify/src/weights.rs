@@ -26,7 +26,7 @@ impl<const N: usize> Objective<'_, N> {
             })
             .collect();
         let mut usable = true;
-        self.visit(None, state, |number, line| {
+        self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &mut all[number];
             for_each_entry(group, line, |entry| {
@@ -60,7 +60,7 @@ impl<const N: usize> Objective<'_, N> {
                 scatter: 0.0,
             }));
         }
-        self.visit(None, state, |number, line| {
+        self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &weights[number];
             let size = line.computed.len();
@@ -89,7 +89,7 @@ impl<const N: usize> Objective<'_, N> {
         part: f64,
     ) -> Option<Vec<Weights>> {
         let mut all = self.weights(levels, state)?;
-        self.visit(None, state, |number, line| {
+        self.visit(None, state, &mut |number, line| {
             let weights = &mut all[number];
             let (size, sources) = (line.computed.len(), self.groups[number].sources.len());
             for e in 0..size {
@@ -109,7 +109,7 @@ impl<const N: usize> Objective<'_, N> {
     /// `shrinkage` is what fitting has left of the residuals' variance.
     pub(super) fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel> {
         let mut samples = Vec::new();
-        self.visit(None, state, |number, line| {
+        self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let size = line.computed.len();
             for_each_entry(group, line, |entry| {

@@ -1,16 +1,24 @@
 //! An instance of an FMU: made, initialised, stepped and freed.
 
-use std::ffi::{CString, c_int};
+use std::ffi::{CString, c_void};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::{fmt, ptr};
 
-use crate::abi::{Opaque, StatusCode};
 use crate::error::ImportError;
-use crate::fmi2::{self, Callbacks};
-use crate::library::{FmiVersion, Functions, Library};
+use crate::header::{
+    Opaque, Reference, StatusCode,
+    fmi2::{self, CallbackFunctions},
+};
+use crate::library::{Either, FmiVersion, Functions, Library, Named};
 use crate::message::{Listener, Log, Message, Status, log_fmi2, log_fmi3};
+
+// the C library that std links
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(pointer: *mut c_void);
+}
 
 /// How to instantiate.
 pub struct Setup<'a> {
@@ -45,7 +53,7 @@ pub(crate) struct Handle<'l> {
     pub(crate) pointer: Opaque,
     pub(crate) log: Arc<Log>,
     /// What the library may call until it is freed (FMI 2.0).
-    _callbacks: Option<Rc<Callbacks>>,
+    _callbacks: Option<Rc<CallbackFunctions>>,
 }
 
 impl Drop for Handle<'_> {
@@ -80,19 +88,25 @@ impl Library {
         let log = Arc::new(Log::new(setup.listener));
         let environment = Arc::as_ptr(&log).cast_mut().cast();
         let path = utf8(setup.resources)?;
-        let (function, pointer, callbacks) = match &self.functions {
-            Functions::Three(functions) => {
+        let Named {
+            name: function,
+            function: instantiate,
+        } = self.functions.instantiate;
+        let (visible, logging) = (0_u8, setup.logging);
+        let (pointer, callbacks) = match instantiate {
+            Either::Three(instantiate) => {
                 let resources = terminated("resource path", &with_separator(path))?;
+                let (event_mode_used, early_return_allowed) = (0, 0);
                 // SAFETY: the strings are terminated, the log outlives the instance
                 let pointer = unsafe {
-                    (functions.instantiate)(
+                    instantiate(
                         name.as_ptr(),
                         token.as_ptr(),
                         resources.as_ptr(),
-                        false,
-                        setup.logging,
-                        false,
-                        false,
+                        visible,
+                        logging.into(),
+                        event_mode_used,
+                        early_return_allowed,
                         ptr::null(),
                         0,
                         environment,
@@ -100,30 +114,30 @@ impl Library {
                         None,
                     )
                 };
-                ("fmi3InstantiateCoSimulation", pointer, None)
+                (pointer, None)
             }
-            Functions::Two(functions) => {
+            Either::Two(instantiate) => {
                 let resources = terminated("resource location", &file_uri(path))?;
-                let callbacks = Rc::new(Callbacks {
-                    logger: Some(log_fmi2),
-                    allocate_memory: Some(fmi2::calloc),
-                    free_memory: Some(fmi2::free),
+                let callbacks = Rc::new(CallbackFunctions {
+                    logger: Some(fmi2::variadic(log_fmi2)),
+                    allocate_memory: Some(calloc),
+                    free_memory: Some(free),
                     step_finished: None,
                     environment,
                 });
                 // SAFETY: the strings are terminated, log and callbacks outlive the instance
                 let pointer = unsafe {
-                    (functions.instantiate)(
+                    instantiate(
                         name.as_ptr(),
                         fmi2::CO_SIMULATION,
                         token.as_ptr(),
                         resources.as_ptr(),
                         Rc::as_ptr(&callbacks),
-                        0,
-                        c_int::from(setup.logging),
+                        visible.into(),
+                        logging.into(),
                     )
                 };
-                ("fmi2Instantiate", pointer, Some(callbacks))
+                (pointer, Some(callbacks))
             }
         };
         if pointer.is_null() {
@@ -166,30 +180,17 @@ impl Instance<'_> {
     ) -> Result<(), ImportError> {
         let (defined, stop_s) = (stop_s.is_some(), stop_s.unwrap_or(0.0));
         let instance = self.handle.pointer;
-        match self.functions() {
-            Functions::Three(functions) => {
-                // SAFETY: the instance lives
-                self.call("fmi3EnterInitializationMode", || unsafe {
-                    (functions.enter_initialization)(instance, false, 0.0, start_s, defined, stop_s)
-                })
+        let Named { name, function } = self.functions().set_time_span;
+        // SAFETY: the instance lives
+        self.call(name, || unsafe {
+            match function {
+                Either::Three(enter) => enter(instance, 0, 0.0, start_s, defined.into(), stop_s),
+                Either::Two(set_up) => set_up(instance, 0, 0.0, start_s, defined.into(), stop_s),
             }
-            Functions::Two(functions) => {
-                // SAFETY: the instance lives
-                self.call("fmi2SetupExperiment", || unsafe {
-                    (functions.setup_experiment)(
-                        instance,
-                        0,
-                        0.0,
-                        start_s,
-                        c_int::from(defined),
-                        stop_s,
-                    )
-                })?;
-                // SAFETY: the instance lives
-                self.call("fmi2EnterInitializationMode", || unsafe {
-                    (functions.enter_initialization)(instance)
-                })
-            }
+        })?;
+        match self.functions().enter_initialization {
+            Some(enter) => self.simply(enter),
+            None => Ok(()),
         }
     }
 
@@ -199,16 +200,7 @@ impl Instance<'_> {
     ///
     /// [`ImportError::Refused`].
     pub fn exit_initialization(&mut self) -> Result<(), ImportError> {
-        let (function, exit) = match self.functions() {
-            Functions::Three(functions) => {
-                ("fmi3ExitInitializationMode", functions.exit_initialization)
-            }
-            Functions::Two(functions) => {
-                ("fmi2ExitInitializationMode", functions.exit_initialization)
-            }
-        };
-        // SAFETY: the instance lives
-        self.call(function, || unsafe { exit(self.handle.pointer) })
+        self.simply(self.functions().exit_initialization)
     }
 
     /// Ends the simulation.
@@ -217,12 +209,7 @@ impl Instance<'_> {
     ///
     /// [`ImportError::Refused`].
     pub fn terminate(&mut self) -> Result<(), ImportError> {
-        let (function, terminate) = match self.functions() {
-            Functions::Three(functions) => ("fmi3Terminate", functions.terminate),
-            Functions::Two(functions) => ("fmi2Terminate", functions.terminate),
-        };
-        // SAFETY: the instance lives
-        self.call(function, || unsafe { terminate(self.handle.pointer) })
+        self.simply(self.functions().terminate)
     }
 
     /// Back to the state after instantiation.
@@ -231,12 +218,7 @@ impl Instance<'_> {
     ///
     /// [`ImportError::Refused`].
     pub fn reset(&mut self) -> Result<(), ImportError> {
-        let (function, reset) = match self.functions() {
-            Functions::Three(functions) => ("fmi3Reset", functions.reset),
-            Functions::Two(functions) => ("fmi2Reset", functions.reset),
-        };
-        // SAFETY: the instance lives
-        self.call(function, || unsafe { reset(self.handle.pointer) })
+        self.simply(self.functions().reset)
     }
 
     /// Sets one value for each value reference.
@@ -244,21 +226,16 @@ impl Instance<'_> {
     /// # Errors
     ///
     /// [`ImportError::Count`], [`ImportError::Refused`].
-    pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), ImportError> {
-        let function = match self.functions() {
-            Functions::Three(_) => "fmi3SetFloat64",
-            Functions::Two(_) => "fmi2SetReal",
-        };
-        same_count(function, references, values)?;
+    pub fn set(&mut self, references: &[Reference], values: &[f64]) -> Result<(), ImportError> {
+        let Named { name, function } = self.functions().set;
+        same_count(name, references, values)?;
         let (instance, count) = (self.handle.pointer, references.len());
+        let (references, values) = (references.as_ptr(), values.as_ptr());
         // SAFETY: the instance lives, pointers and counts are those of slices of one length
-        self.call(function, || unsafe {
-            let (references, values) = (references.as_ptr(), values.as_ptr());
-            match self.functions() {
-                Functions::Three(functions) => {
-                    (functions.set)(instance, references, count, values, count)
-                }
-                Functions::Two(functions) => (functions.set)(instance, references, count, values),
+        self.call(name, || unsafe {
+            match function {
+                Either::Three(call) => call(instance, references, count, values, count),
+                Either::Two(call) => call(instance, references, count, values),
             }
         })
     }
@@ -268,21 +245,16 @@ impl Instance<'_> {
     /// # Errors
     ///
     /// [`ImportError::Count`], [`ImportError::Refused`].
-    pub fn get(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), ImportError> {
-        let function = match self.functions() {
-            Functions::Three(_) => "fmi3GetFloat64",
-            Functions::Two(_) => "fmi2GetReal",
-        };
-        same_count(function, references, values)?;
+    pub fn get(&mut self, references: &[Reference], values: &mut [f64]) -> Result<(), ImportError> {
+        let Named { name, function } = self.functions().get;
+        same_count(name, references, values)?;
         let (instance, count) = (self.handle.pointer, references.len());
         let (references, values) = (references.as_ptr(), values.as_mut_ptr());
         // SAFETY: the instance lives, pointers and counts are those of slices of one length
-        self.call(function, || unsafe {
-            match self.functions() {
-                Functions::Three(functions) => {
-                    (functions.get)(instance, references, count, values, count)
-                }
-                Functions::Two(functions) => (functions.get)(instance, references, count, values),
+        self.call(name, || unsafe {
+            match function {
+                Either::Three(call) => call(instance, references, count, values, count),
+                Either::Two(call) => call(instance, references, count, values),
             }
         })
     }
@@ -312,43 +284,34 @@ impl Instance<'_> {
         is_final: bool,
     ) -> Result<Step, ImportError> {
         let instance = self.handle.pointer;
-        match self.functions() {
-            Functions::Three(functions) => {
-                let (mut event, mut terminate, mut early) = (0, 0, 0);
-                let mut reached_s = time_s;
-                // SAFETY: the instance lives, all pointers are to locals
-                self.call("fmi3DoStep", || unsafe {
-                    (functions.do_step)(
-                        instance,
-                        time_s,
-                        interval_s,
-                        is_final,
-                        &raw mut event,
-                        &raw mut terminate,
-                        &raw mut early,
-                        &raw mut reached_s,
-                    )
-                })?;
-                Ok(Step {
-                    reached_s,
-                    event: event != 0,
-                    terminate: terminate != 0,
-                    early_return: early != 0,
-                })
+        let (mut event, mut terminate, mut early) = (0, 0, 0);
+        let mut reached_s = time_s;
+        let Named { name, function } = self.functions().do_step;
+        // SAFETY: the instance lives, all pointers are to locals
+        self.call(name, || unsafe {
+            match function {
+                Either::Three(step) => step(
+                    instance,
+                    time_s,
+                    interval_s,
+                    is_final.into(),
+                    &raw mut event,
+                    &raw mut terminate,
+                    &raw mut early,
+                    &raw mut reached_s,
+                ),
+                Either::Two(step) => {
+                    reached_s = time_s + interval_s;
+                    step(instance, time_s, interval_s, is_final.into())
+                }
             }
-            Functions::Two(functions) => {
-                // SAFETY: the instance lives
-                self.call("fmi2DoStep", || unsafe {
-                    (functions.do_step)(instance, time_s, interval_s, c_int::from(is_final))
-                })?;
-                Ok(Step {
-                    reached_s: time_s + interval_s,
-                    event: false,
-                    terminate: false,
-                    early_return: false,
-                })
-            }
-        }
+        })?;
+        Ok(Step {
+            reached_s,
+            event: event != 0,
+            terminate: terminate != 0,
+            early_return: early != 0,
+        })
     }
 
     /// Change of each unknown when the knowns change by `seed`, at the present point.
@@ -358,48 +321,39 @@ impl Instance<'_> {
     /// [`ImportError::Count`], [`ImportError::Refused`].
     pub fn directional_derivative(
         &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
+        unknowns: &[Reference],
+        knowns: &[Reference],
         seed: &[f64],
         sensitivity: &mut [f64],
     ) -> Result<(), ImportError> {
-        let function = match self.functions() {
-            Functions::Three(_) => "fmi3GetDirectionalDerivative",
-            Functions::Two(_) => "fmi2GetDirectionalDerivative",
-        };
-        same_count(function, knowns, seed)?;
-        same_count(function, unknowns, sensitivity)?;
-        let instance = self.handle.pointer;
-        let sensitivities = sensitivity.as_mut_ptr();
+        let Named { name, function } = self.functions().directional_derivative;
+        same_count(name, knowns, seed)?;
+        same_count(name, unknowns, sensitivity)?;
+        let (i, rows, columns) = (self.handle.pointer, unknowns.len(), knowns.len());
+        let (unknowns, knowns) = (unknowns.as_ptr(), knowns.as_ptr());
+        let (seed, change) = (seed.as_ptr(), sensitivity.as_mut_ptr());
         // SAFETY: the instance lives, pointers and counts are those of slices
-        self.call(function, || unsafe {
-            match self.functions() {
-                Functions::Three(functions) => (functions.directional_derivative)(
-                    instance,
-                    unknowns.as_ptr(),
-                    unknowns.len(),
-                    knowns.as_ptr(),
-                    knowns.len(),
-                    seed.as_ptr(),
-                    seed.len(),
-                    sensitivities,
-                    unknowns.len(),
+        self.call(name, || unsafe {
+            match function {
+                Either::Three(call) => call(
+                    i, unknowns, rows, knowns, columns, seed, columns, change, rows,
                 ),
-                Functions::Two(functions) => (functions.directional_derivative)(
-                    instance,
-                    unknowns.as_ptr(),
-                    unknowns.len(),
-                    knowns.as_ptr(),
-                    knowns.len(),
-                    seed.as_ptr(),
-                    sensitivities,
-                ),
+                Either::Two(call) => call(i, unknowns, rows, knowns, columns, seed, change),
             }
         })
     }
 
     pub(crate) fn functions(&self) -> &Functions {
         &self.handle.library.functions
+    }
+
+    /// Calls a function of the instance alone.
+    fn simply(
+        &self,
+        Named { name, function }: Named<unsafe extern "C" fn(Opaque) -> StatusCode>,
+    ) -> Result<(), ImportError> {
+        // SAFETY: the instance lives
+        self.call(name, || unsafe { function(self.handle.pointer) })
     }
 
     /// Makes a call and turns its status into a result.
@@ -423,7 +377,7 @@ impl Instance<'_> {
 
 fn same_count(
     function: &'static str,
-    references: &[u32],
+    references: &[Reference],
     values: &[f64],
 ) -> Result<(), ImportError> {
     if references.len() == values.len() {

@@ -3,14 +3,14 @@
 //! FMI 2.0 and 3.0 differ in names, argument lists and callbacks, not in what is done; [`Library`] and [`Instance`] are
 //! the same for both. What the FMU logs is kept ([`Instance::messages`]) and is part of every error.
 //!
+//! [`header`] declares the C interfaces themselves, every function of both versions.
+//!
 //! No signature can be checked across the C interface, and a faulty library can do anything to the process that loads it:
 //! load code that you do not trust in a process of its own.
 #![warn(clippy::undocumented_unsafe_blocks)]
 
-mod abi;
 mod error;
-mod fmi2;
-mod fmi3;
+pub mod header;
 mod instance;
 mod library;
 mod message;

@@ -3,9 +3,8 @@
 use std::ffi::CStr;
 use std::path::Path;
 
-use crate::abi::Opaque;
 use crate::error::ImportError;
-use crate::{fmi2, fmi3};
+use crate::header::{Opaque, fmi2, fmi3};
 
 /// Version of the standard that a library is driven by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,16 +15,107 @@ pub enum FmiVersion {
     Three,
 }
 
+/// A function of the library, with its C name.
+#[derive(Clone, Copy)]
+pub(crate) struct Named<F> {
+    pub(crate) name: &'static str,
+    pub(crate) function: F,
+}
+
+/// A function that the versions declare with other arguments.
+#[derive(Clone, Copy)]
+pub(crate) enum Either<F2, F3> {
+    Two(F2),
+    Three(F3),
+}
+
+/// Declares the functions that an importer of Co-Simulation needs, with their names in both versions: those that have one
+/// type, and those that differ.
+macro_rules! functions {
+    (
+        same { $($same:ident: $same_two:ident, $same_three:ident;)* }
+        different { $($other:ident: $other_two:ident, $other_three:ident;)* }
+    ) => {
+        pub(crate) struct Functions {
+            $(pub(crate) $same: Named<fmi3::$same_three>,)*
+            $(pub(crate) $other: Named<Either<fmi2::$other_two, fmi3::$other_three>>,)*
+            /// FMI 2.0 alone: there the time span is told before.
+            pub(crate) enter_initialization: Option<Named<fmi2::fmi2EnterInitializationMode>>,
+        }
+
+        impl Functions {
+            /// Looks up all functions; the first that is missing is the error.
+            ///
+            /// # Safety
+            ///
+            /// The functions of these names have the types that the standard's headers declare.
+            unsafe fn of(library: &libloading::Library, version: FmiVersion) -> Result<Self, Missing> {
+                // SAFETY: the caller's promise
+                unsafe {
+                    Ok(match version {
+                        FmiVersion::Two => Self {
+                            $($same: named::<fmi2::$same_two, _>(library, stringify!($same_two), |same| same)?,)*
+                            $($other: named(library, stringify!($other_two), Either::Two)?,)*
+                            enter_initialization: Some(named(library, "fmi2EnterInitializationMode", |same| same)?),
+                        },
+                        FmiVersion::Three => Self {
+                            $($same: named(library, stringify!($same_three), |same| same)?,)*
+                            $($other: named(library, stringify!($other_three), Either::Three)?,)*
+                            enter_initialization: None,
+                        },
+                    })
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    same {
+        get_version: fmi2GetVersion, fmi3GetVersion;
+        free_instance: fmi2FreeInstance, fmi3FreeInstance;
+        exit_initialization: fmi2ExitInitializationMode, fmi3ExitInitializationMode;
+        terminate: fmi2Terminate, fmi3Terminate;
+        reset: fmi2Reset, fmi3Reset;
+        get_state: fmi2GetFMUstate, fmi3GetFMUState;
+        set_state: fmi2SetFMUstate, fmi3SetFMUState;
+        free_state: fmi2FreeFMUstate, fmi3FreeFMUState;
+        state_size: fmi2SerializedFMUstateSize, fmi3SerializedFMUStateSize;
+        serialize_state: fmi2SerializeFMUstate, fmi3SerializeFMUState;
+        deserialize_state: fmi2DeSerializeFMUstate, fmi3DeserializeFMUState;
+    }
+    different {
+        instantiate: fmi2Instantiate, fmi3InstantiateCoSimulation;
+        set_time_span: fmi2SetupExperiment, fmi3EnterInitializationMode;
+        set: fmi2SetReal, fmi3SetFloat64;
+        get: fmi2GetReal, fmi3GetFloat64;
+        do_step: fmi2DoStep, fmi3DoStep;
+        directional_derivative: fmi2GetDirectionalDerivative, fmi3GetDirectionalDerivative;
+    }
+}
+
+/// A function that is missing, and what the system says.
+type Missing = (&'static str, libloading::Error);
+
+/// # Safety
+///
+/// The function of this name has the type `F`.
+unsafe fn named<F: Copy, G>(
+    library: &libloading::Library,
+    name: &'static str,
+    wrap: impl FnOnce(F) -> G,
+) -> Result<Named<G>, Missing> {
+    // SAFETY: the caller's promise
+    let function = unsafe { library.get::<F>(name) }.map_err(|refused| (name, refused))?;
+    let function = wrap(*function);
+    Ok(Named { name, function })
+}
+
 /// The shared library of an FMU.
 pub struct Library {
     pub(crate) functions: Functions,
     /// Keeps the functions where they are; dropped last.
     _library: libloading::Library,
-}
-
-pub(crate) enum Functions {
-    Two(fmi2::Functions),
-    Three(fmi3::Functions),
 }
 
 impl Library {
@@ -45,20 +135,15 @@ impl Library {
                 source,
             }
         })?;
-        let missing = |(function, source)| ImportError::Missing {
-            path: path.to_owned(),
-            function,
-            source,
-        };
         // SAFETY: the standard gives the types to these names
-        let functions = unsafe {
-            match version {
-                FmiVersion::Two => Functions::Two(fmi2::Functions::of(&library).map_err(missing)?),
-                FmiVersion::Three => {
-                    Functions::Three(fmi3::Functions::of(&library).map_err(missing)?)
+        let functions =
+            unsafe { Functions::of(&library, version) }.map_err(|(function, source)| {
+                ImportError::Missing {
+                    path: path.to_owned(),
+                    function,
+                    source,
                 }
-            }
-        };
+            })?;
         Ok(Self {
             functions,
             _library: library,
@@ -68,9 +153,9 @@ impl Library {
     /// Version of the standard that the library is driven by.
     #[must_use]
     pub fn version(&self) -> FmiVersion {
-        match self.functions {
-            Functions::Two(_) => FmiVersion::Two,
-            Functions::Three(_) => FmiVersion::Three,
+        match self.functions.instantiate.function {
+            Either::Two(_) => FmiVersion::Two,
+            Either::Three(_) => FmiVersion::Three,
         }
     }
 
@@ -79,10 +164,7 @@ impl Library {
     pub fn version_text(&self) -> String {
         // SAFETY: the standard has these return a terminated string that stays
         unsafe {
-            let text = match &self.functions {
-                Functions::Two(functions) => (functions.get_version)(),
-                Functions::Three(functions) => (functions.get_version)(),
-            };
+            let text = (self.functions.get_version.function)();
             if text.is_null() {
                 String::new()
             } else {
@@ -96,11 +178,6 @@ impl Library {
     /// `instance` is one of this library's, and is not used again.
     pub(crate) unsafe fn free_instance(&self, instance: Opaque) {
         // SAFETY: the caller's promise
-        unsafe {
-            match &self.functions {
-                Functions::Two(functions) => (functions.free_instance)(instance),
-                Functions::Three(functions) => (functions.free_instance)(instance),
-            }
-        }
+        unsafe { (self.functions.free_instance.function)(instance) };
     }
 }

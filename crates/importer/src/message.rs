@@ -5,7 +5,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
 
-use crate::abi::{Opaque, StatusCode, Text};
+use crate::header::{self, Opaque, StatusCode, Text};
 
 /// Status of a call or a message: `fmi2Status`, `fmi3Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,12 +29,12 @@ pub enum Status {
 impl Status {
     pub(crate) fn of(code: StatusCode) -> Self {
         match code {
-            0 => Self::Ok,
-            1 => Self::Warning,
-            2 => Self::Discard,
-            3 => Self::Error,
-            4 => Self::Fatal,
-            5 => Self::Pending,
+            header::OK => Self::Ok,
+            header::WARNING => Self::Warning,
+            header::DISCARD => Self::Discard,
+            header::ERROR => Self::Error,
+            header::FATAL => Self::Fatal,
+            header::PENDING => Self::Pending,
             other => Self::Unknown(other),
         }
     }
@@ -140,9 +140,8 @@ pub(crate) unsafe extern "C" fn log_fmi3(
 
 /// The log callback of FMI 2.0; the environment is the [`Log`].
 ///
-/// In C it is variadic, and `format` a format of `printf`. A function with fixed arguments can stand in for a variadic
-/// one where both take their arguments from the same places, as on all platforms with binaries in an FMU but Apple's ARM.
-/// Of the formats, `%s` and `%%` are filled in; others are left as they are.
+/// In C it is variadic, and `format` a format of `printf`: see [`header::fmi2::variadic`]. Of the formats, `%s` and `%%` are
+/// filled in; others are left as they are.
 ///
 /// # Safety
 ///

@@ -1,7 +1,5 @@
 //! The interface of one FMU, read from its model description, and that of both.
 
-use std::{fs, path::Path};
-
 use fmi_schema::{
     fmi3::{Float64Type, Fmi3ModelDescription, TypeDefinition, Variable as Declared},
     traits::FmiModelDescription,
@@ -10,6 +8,8 @@ use fmi_schema::{
 use crate::{
     agreement,
     error::{InterfaceError, Problem, VariableProblem},
+    frame::{Expanded, Filling, Frames},
+    scope::Joints,
     structure, units,
     variable::{Role, Variable},
 };
@@ -53,6 +53,18 @@ impl Interface {
     #[must_use]
     pub fn variable(&self, name: &str) -> Option<&Variable> {
         self.variables.iter().find(|variable| variable.name == name)
+    }
+
+    /// Checks that this agrees with `other` in all that they share.
+    ///
+    /// # Errors
+    ///
+    /// [`InterfaceError::Inconsistent`], naming the file of this one.
+    pub fn check_against(&self, other: &Self) -> Result<(), InterfaceError> {
+        agreement::check(self, other).map_err(|problem| InterfaceError::Inconsistent {
+            file: self.file.clone(),
+            problem: problem.into(),
+        })
     }
 
     fn checked(file: &str, description: Fmi3ModelDescription) -> Result<Self, Problem> {
@@ -108,40 +120,41 @@ pub struct Interfaces {
     pub element: Interface,
     /// Two bodies and the joint between them, `lap.xml`.
     pub lap: Interface,
+    /// Where the variables of both come from.
+    pub(crate) expanded: [Expanded; 2],
+    pub(crate) dof_count: usize,
+    /// Names of the laws that remember the motion, with the kind of joints that has each.
+    pub(crate) memory_laws: Vec<(&'static str, Joints)>,
 }
 
 impl Interfaces {
-    /// Files that [`Interfaces::read`] reads.
-    pub const FILES: [&str; 2] = ["element.xml", "lap.xml"];
-
-    /// Reads both model descriptions from `folder` and checks them.
+    /// The interfaces with the project's own frames, DOFs and laws.
     ///
     /// # Errors
     ///
-    /// [`InterfaceError`] for the first file that cannot be read or is inconsistent, or where the two disagree.
-    pub fn read(folder: &Path) -> Result<Self, InterfaceError> {
-        let [element, lap] = Self::FILES.map(|file| {
-            let path = folder.join(file);
-            let xml = fs::read_to_string(&path).map_err(|source| InterfaceError::Unreadable {
-                path: path.display().to_string(),
-                source,
-            })?;
-            Interface::from_xml(file, &xml)
-        });
-        Self::new(element?, lap?)
+    /// As [`Interfaces::new`].
+    pub fn present() -> Result<Self, InterfaceError> {
+        Self::new(&Frames::PRESENT, &Filling::PRESENT)
     }
 
-    /// Checks that two interfaces agree in all that they share.
+    /// Makes both model descriptions and checks them.
     ///
     /// # Errors
     ///
-    /// [`InterfaceError::Inconsistent`], naming the file of `lap`.
-    pub fn new(element: Interface, lap: Interface) -> Result<Self, InterfaceError> {
-        agreement::check(&lap, &element).map_err(|problem| InterfaceError::Inconsistent {
-            file: lap.file.clone(),
-            problem: problem.into(),
-        })?;
-        Ok(Self { element, lap })
+    /// [`InterfaceError`] for the first that is inconsistent, or where the two disagree.
+    pub fn new(frames: &Frames<'_>, filling: &Filling<'_>) -> Result<Self, InterfaceError> {
+        let expanded = Expanded::new(frames, filling)?;
+        let [element, lap] = &expanded;
+        let element = Interface::from_xml(element.file, &element.xml)?;
+        let lap = Interface::from_xml(lap.file, &lap.xml)?;
+        lap.check_against(&element)?;
+        Ok(Self {
+            element,
+            lap,
+            expanded,
+            dof_count: filling.dofs.len(),
+            memory_laws: Joints::of_memory_laws(filling.laws),
+        })
     }
 
     /// Number of value references: one more than the largest.

@@ -1,24 +1,27 @@
-//! Reads `modelDescription/*.xml`, checks it and turns it into the tables of the FMU library.
+//! Makes the model descriptions of the FMUs from `modelDescription/*.xml`, the table of DOFs and the laws of the joint, checks
+//! them and turns them into the tables of the FMU library.
 //!
-//! The two files are the only place where a variable of the FMUs is declared. Build scripts call [`Interfaces::read`],
-//! which refuses anything that an importer could stumble over, and write [`Interfaces::to_rust`] for the library to include.
+//! A variable is declared once: what belongs to a side or to no DOF in one of the two files, what belongs to a law with the law.
+//! Build scripts call [`Interfaces::present`], which refuses anything that an importer could stumble over, and write
+//! [`Interfaces::to_rust`] for the library to include.
 #![forbid(unsafe_code)]
 
 mod agreement;
 mod combination;
-mod dependence;
 mod emit;
 mod error;
+mod frame;
 mod interface;
-mod rotation;
+mod scope;
 mod structure;
 mod units;
 mod variable;
 
-pub use dependence::{Dependence, dependence};
 pub use error::{
-    AgreementProblem, InterfaceError, Problem, StructureProblem, UnitProblem, VariableProblem,
+    AgreementProblem, FrameProblem, InterfaceError, Problem, StructureProblem, UnitProblem,
+    VariableProblem,
 };
+pub use frame::{At, Expanded, Filling, Frames, LawParameter, law_parameters};
 pub use interface::{ContinuousState, Interface, Interfaces};
-pub use rotation::requires_rotation;
+pub use scope::{Joints, Rows, Scope};
 pub use variable::{Role, Variable};

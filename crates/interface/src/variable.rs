@@ -4,9 +4,7 @@ use fmi_schema::fmi3::{Causality, Float64Type, FmiFloat64, Initial, Variability}
 
 use crate::{
     combination::{effective_initial, is_allowed},
-    dependence::{Dependence, dependence},
     error::VariableProblem,
-    rotation::requires_rotation,
 };
 
 /// What a variable is to the library.
@@ -52,18 +50,6 @@ pub struct Variable {
 }
 
 impl Variable {
-    /// Whether the variable is absent from the FMU of a joint that only translates.
-    #[must_use]
-    pub fn requires_rotation(&self) -> bool {
-        requires_rotation(&self.name)
-    }
-
-    /// Of which joints the variable is: whether their law is constant or follows from the preload.
-    #[must_use]
-    pub fn dependence(&self) -> Dependence {
-        dependence(&self.name)
-    }
-
     /// Checks one `<Float64>` on its own, against its type.
     pub(crate) fn new(
         declared: &FmiFloat64,

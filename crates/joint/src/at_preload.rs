@@ -1,11 +1,11 @@
 //! A joint over the bolt's preload, taken at one preload.
 
-use bolted_joint_dynamics::Beyond;
+use bolted_joint_dynamics::{Beyond, law::Term, with_dofs};
 use thiserror::Error;
 
 use super::{
-    DofSet, FreeEstimate, Intervals, Joint, JointFile, LawError, OverPreload, Problem,
-    StandardDeviation, Uncertainty, UncertaintyAtPreload,
+    FreeEstimate, Intervals, Joint, JointFile, LawError, OverPreload, Problem, StandardDeviation,
+    Uncertainty, UncertaintyAtPreload,
 };
 
 /// Why a joint cannot be taken at a preload.
@@ -137,10 +137,8 @@ impl JointFile {
         let preload_n_m = preload_n_m.unwrap_or(table.nominal);
         let place = Place::of(preload_n_m, table)?;
         let mut file = self.clone();
-        file.joint = match self.joint.dofs {
-            DofSet::Translation => self.joint.constant::<1>(preload_n_m)?,
-            DofSet::TranslationRotation => self.joint.constant::<2>(preload_n_m)?,
-        };
+        file.joint =
+            with_dofs!(self.joint.dofs.size(), D => self.joint.constant::<D>(preload_n_m))?;
         if table.cubic.is_empty() {
             file.joint.cubic = Vec::new();
         }
@@ -185,10 +183,8 @@ impl JointFile {
         if self.joint.over_preload.is_none() {
             return Ok(vec![self.clone()]);
         }
-        let samples: Vec<f64> = match self.joint.dofs {
-            DofSet::Translation => self.joint.samples_n_m::<1>()?,
-            DofSet::TranslationRotation => self.joint.samples_n_m::<2>()?,
-        };
+        let samples: Vec<f64> =
+            with_dofs!(self.joint.dofs.size(), D => self.joint.samples_n_m::<D>())?;
         let taken = samples.into_iter();
         taken
             .map(|preload_n_m| self.at_preload(Some(preload_n_m)))
@@ -208,13 +204,13 @@ impl Joint {
             .law_over_preload::<D>(Beyond::Refused)?
             .law(preload_n_m);
         let rows = |matrix: [[f64; D]; D]| matrix.map(|row| row.to_vec()).to_vec();
+        let linear = &law.linear;
+        let cubic = law
+            .polynomials()
+            .map(|terms| terms.coefficient(Term::CUBIC));
         Ok(Self {
-            dofs: self.dofs,
-            stiffness: rows(law.stiffness),
-            damping: rows(law.damping),
-            cubic: law.cubic.to_vec(),
-            higher: None,
-            over_preload: None,
+            cubic: cubic.to_vec(),
+            ..Self::linear(self.dofs, rows(linear.stiffness), rows(linear.damping))
         })
     }
 }

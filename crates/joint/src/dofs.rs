@@ -1,37 +1,88 @@
 //! Which relative motions of its two sides a joint resists.
 
-use std::borrow::Cow;
 use std::fmt;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize};
+use bolted_joint_dynamics::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, law::UnitRule};
+use serde::{
+    Deserialize, Deserializer, Serialize,
+    de::{EnumAccess, Error as _, VariantAccess as _, Visitor},
+};
 
-/// Degrees of freedom of a joint, in the order of the rows of its matrices.
+use super::units::unit;
+
+/// Degrees of freedom of a joint, in the order of the rows of its matrices: one of [`DOF_SETS`].
 ///
-/// In the file it is the list `["y"]` or `["y", "theta"]`.
+/// In the file it is the list of their names, `["y"]` or `["y", "theta"]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "Vec<String>", into = "Vec<&'static str>")]
-pub enum DofSet {
-    /// Translation y alone.
-    Translation,
-    /// Translation y and rotation θ.
-    TranslationRotation,
-}
+pub struct DofSet(&'static [usize]);
 
 impl DofSet {
+    /// One translation alone.
+    pub const TRANSLATION: Self = Self(DOF_SETS[0]);
+
+    /// A translation and a rotation.
+    pub const TRANSLATION_ROTATION: Self = Self(DOF_SETS[1]);
+
+    /// Every set that a joint can have.
+    pub fn all() -> impl Iterator<Item = Self> {
+        DOF_SETS.iter().map(|rows| Self(rows))
+    }
+
     /// Number of DOFs: the order of the joint's matrices.
     #[must_use]
-    pub fn count(self) -> usize {
-        self.names().len()
+    pub const fn count(self) -> usize {
+        self.0.len()
+    }
+
+    /// That number for [`bolted_joint_dynamics::with_dofs`].
+    #[must_use]
+    pub fn size(self) -> DofCount {
+        // a test of the table's own sees to it that there is a case for each of its sets
+        DofCount::of(self.count()).unwrap_or(DofCount::One)
+    }
+
+    /// The DOFs in the order of the matrices' rows.
+    #[must_use]
+    pub fn rows(self) -> impl ExactSizeIterator<Item = &'static Dof> + Clone {
+        self.0.iter().map(|&row| &DOFS[row])
+    }
+
+    /// The DOF of a row of the matrices; the last one beyond them.
+    #[must_use]
+    pub fn row(self, index: usize) -> &'static Dof {
+        let last = self.count().saturating_sub(1);
+        &DOFS[self.0[index.min(last)]]
+    }
+
+    /// The rows of the table of DOFs that it has.
+    #[must_use]
+    pub fn indices(self) -> &'static [usize] {
+        self.0
     }
 
     /// Names of the DOFs in the order of the matrices' rows.
     #[must_use]
-    pub fn names(self) -> &'static [&'static str] {
-        match self {
-            Self::Translation => &["y"],
-            Self::TranslationRotation => &["y", "theta"],
-        }
+    pub fn names(self) -> Vec<&'static str> {
+        self.rows().map(|dof| dof.name).collect()
+    }
+
+    /// Row and column of each entry of the upper triangle of a matrix, row by row.
+    pub fn entries(self) -> impl Iterator<Item = [usize; 2]> {
+        let count = self.count();
+        (0..count).flat_map(move |i| (i..count).map(move |j| [i, j]))
+    }
+
+    /// Unit of a parameter at this row and column, as people write it.
+    #[must_use]
+    pub fn unit(self, rule: UnitRule, [row, column]: [usize; 2]) -> String {
+        unit(rule, self.row(row).kind, self.row(column).kind)
+    }
+
+    /// Row of the matrices of the DOF with this name.
+    #[must_use]
+    pub fn position(self, name: &str) -> Option<usize> {
+        self.rows().position(|dof| dof.name == name)
     }
 }
 
@@ -44,7 +95,7 @@ impl fmt::Display for DofSet {
 
 impl From<DofSet> for Vec<&'static str> {
     fn from(dofs: DofSet) -> Self {
-        dofs.names().to_vec()
+        dofs.names()
     }
 }
 
@@ -52,23 +103,58 @@ impl TryFrom<Vec<String>> for DofSet {
     type Error = String;
 
     fn try_from(names: Vec<String>) -> Result<Self, String> {
-        [Self::Translation, Self::TranslationRotation]
-            .into_iter()
+        Self::all()
             .find(|dofs| dofs.names() == names)
-            .ok_or_else(|| format!("found {names:?}, expected [\"y\"] or [\"y\", \"theta\"]"))
+            .ok_or_else(|| {
+                let known: Vec<String> = Self::all().map(|dofs| dofs.to_string()).collect();
+                format!("found {names:?}, expected {}", known.join(" or "))
+            })
     }
 }
 
-impl JsonSchema for DofSet {
-    fn schema_name() -> Cow<'static, str> {
-        "DofSet".into()
+/// Names of all DOFs there are.
+const NAMES: [&str; DOF_COUNT] = {
+    let mut names = [""; DOF_COUNT];
+    let mut row = 0;
+    while row < DOF_COUNT {
+        names[row] = DOFS[row].name;
+        row += 1;
+    }
+    names
+};
+
+/// A DOF as files name it; the first one unless another is named.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct DofName(usize);
+
+impl DofName {
+    /// The DOF.
+    #[must_use]
+    pub fn dof(self) -> &'static Dof {
+        &DOFS[self.0]
+    }
+}
+
+impl<'de> Deserialize<'de> for DofName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_enum("DofName", &NAMES, DofNameVisitor)
+    }
+}
+
+struct DofNameVisitor;
+
+impl<'de> Visitor<'de> for DofNameVisitor {
+    type Value = DofName;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("enum DofName")
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "Relative motions that the joint resists: translation y (m), rotation theta (rad). \
-                            They set the order of the matrices.",
-            "enum": [Self::Translation.names(), Self::TranslationRotation.names()]
-        })
+    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<DofName, A::Error> {
+        let (found, rest) = data.variant::<String>()?;
+        rest.unit_variant()?;
+        let row = NAMES.iter().position(|name| *name == found);
+        row.map(DofName)
+            .ok_or_else(|| A::Error::unknown_variant(&found, &NAMES))
     }
 }

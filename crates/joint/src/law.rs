@@ -1,9 +1,12 @@
 //! From the joint file's lists to the fixed-size equations that are integrated.
 
-use bolted_joint_dynamics as dynamics;
+use bolted_joint_dynamics::{
+    self as dynamics, Dof,
+    law::{DOF_PARAMETER_COUNT, Declaration, DofLaws, Parameter, Term, dof_parameters},
+};
 use thiserror::Error;
 
-use super::{Body, DofSet, Joint, JointFile};
+use super::{Body, DofSet, Friction, HigherTerms, Joint, JointFile};
 
 /// Why a joint file does not give the equations asked for.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -40,7 +43,7 @@ pub enum LawError {
     )]
     Shape {
         /// Key of the list.
-        path: &'static str,
+        path: String,
         /// Number of DOFs.
         expected: usize,
     },
@@ -62,53 +65,88 @@ impl Joint {
         if self.over_preload.is_some() {
             return Err(LawError::OverPreload);
         }
-        let cubic = if self.cubic.is_empty() {
-            [0.0; D]
-        } else {
-            list("joint.cubic", &self.cubic)?
-        };
-        Ok(dynamics::JointLaw {
+        let linear = dynamics::Linear {
             stiffness: matrix("joint.stiffness", &self.stiffness)?,
             damping: matrix("joint.damping", &self.damping)?,
-            cubic,
-            higher: self.higher_terms()?,
+        };
+        let mut parameters = [[0.0; DOF_PARAMETER_COUNT]; D];
+        for (place, (law, parameter)) in dof_parameters().enumerate() {
+            for (i, own) in self.on_each::<D>(law, parameter)?.into_iter().enumerate() {
+                parameters[i][place] = own;
+            }
+        }
+        Ok(dynamics::JointLaw {
+            linear,
+            on: parameters.map(DofLaws::new),
         })
     }
-}
 
-impl Joint {
+    /// A parameter of a law on each DOF, zero where it is left out.
+    fn on_each<const D: usize>(
+        &self,
+        law: &Declaration,
+        parameter: &Parameter,
+    ) -> Result<[f64; D], LawError> {
+        match Term::ALL.into_iter().find(|term| term.row() == parameter) {
+            Some(term) if self.term(term).is_empty() => Ok([0.0; D]),
+            Some(term) => list(&term_path(term), self.term(term)),
+            None => Ok(std::array::from_fn(|i| {
+                self.friction_on(self.dofs.row(i), law)
+                    .and_then(|own| own.value(parameter))
+                    .unwrap_or(0.0)
+            })),
+        }
+    }
+
+    /// The coefficients of a term of the polynomial law on each DOF; empty where it is left out, and zero.
+    #[must_use]
+    pub fn term(&self, term: Term) -> &[f64] {
+        match &self.higher {
+            _ if term == Term::CUBIC => &self.cubic,
+            Some(higher) => higher.list(term),
+            None => &[],
+        }
+    }
+
+    /// The law of this kind on a DOF, where `friction` has one.
+    #[must_use]
+    pub fn friction_on(&self, dof: &Dof, law: &Declaration) -> Option<&Friction> {
+        let mut all = self.friction.iter();
+        all.find(|own| own.dof == dof && own.law == law)
+    }
+
+    /// Names of the joint's laws that remember the motion, in the order in which laws are declared.
+    #[must_use]
+    pub fn laws_with_memory(&self) -> Vec<&'static str> {
+        Friction::laws()
+            .filter(|law| !law.memory.is_empty())
+            .filter(|law| self.friction.iter().any(|own| own.law.name == law.name))
+            .map(|law| law.name)
+            .collect()
+    }
+
+    /// Whether there is nothing beside stiffness and damping, each constant.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        let mut terms = Term::ALL.into_iter().flat_map(|term| self.term(term));
+        self.friction.is_empty() && terms.all(|&term| term == 0.0)
+    }
+
     /// Whether a term of higher order is not zero.
     #[must_use]
     pub fn has_terms_of_higher_order(&self) -> bool {
-        self.higher.as_ref().is_some_and(|terms| {
-            let lists = [
-                &terms.quintic,
-                &terms.septic,
-                &terms.damping_quadratic,
-                &terms.damping_quartic,
-            ];
-            lists.into_iter().flatten().any(|&term| term != 0.0)
-        })
+        let mut all = HigherTerms::terms().flat_map(|term| self.term(term));
+        all.any(|&term| term != 0.0)
     }
+}
 
-    /// The terms of higher order, zero where they are left out.
-    fn higher_terms<const D: usize>(&self) -> Result<dynamics::HigherTerms<D>, LawError> {
-        let Some(terms) = &self.higher else {
-            return Ok(dynamics::HigherTerms::NONE);
-        };
-        let or_zero = |path, entries: &[f64]| {
-            if entries.is_empty() {
-                Ok([0.0; D])
-            } else {
-                list(path, entries)
-            }
-        };
-        Ok(dynamics::HigherTerms {
-            quintic: or_zero("joint.higher.quintic", &terms.quintic)?,
-            septic: or_zero("joint.higher.septic", &terms.septic)?,
-            damping_quadratic: or_zero("joint.higher.damping_quadratic", &terms.damping_quadratic)?,
-            damping_quartic: or_zero("joint.higher.damping_quartic", &terms.damping_quartic)?,
-        })
+/// Path of a term of the polynomial law.
+pub(super) fn term_path(term: Term) -> String {
+    let key = term.row().key;
+    if term == Term::CUBIC {
+        format!("joint.{key}")
+    } else {
+        format!("joint.higher.{key}")
     }
 }
 
@@ -126,13 +164,10 @@ impl Joint {
         let entries = (0..table.preload.len())
             .map(|place| {
                 let own = |list: &[Vec<Vec<f64>>]| list.get(place).cloned().unwrap_or_default();
+                let linear = Self::linear(self.dofs, own(&table.stiffness), own(&table.damping));
                 let joint = Self {
-                    dofs: self.dofs,
-                    stiffness: own(&table.stiffness),
-                    damping: own(&table.damping),
                     cubic: table.cubic.get(place).cloned().unwrap_or_default(),
-                    higher: None,
-                    over_preload: None,
+                    ..linear
                 };
                 Ok((table.preload[place], joint.law()?))
             })
@@ -206,7 +241,7 @@ pub fn displacements<const D: usize>(
     all
 }
 
-fn body<const D: usize>(path: &'static str, body: &Body) -> Result<dynamics::Body<D>, LawError> {
+fn body<const D: usize>(path: &str, body: &Body) -> Result<dynamics::Body<D>, LawError> {
     Ok(dynamics::Body {
         inertia: list(path, &body.inertia)?,
         stiffness: list(path, &body.stiffness)?,
@@ -214,19 +249,21 @@ fn body<const D: usize>(path: &'static str, body: &Body) -> Result<dynamics::Bod
     })
 }
 
-fn list<const D: usize>(path: &'static str, entries: &[f64]) -> Result<[f64; D], LawError> {
-    entries
-        .try_into()
-        .map_err(|_| LawError::Shape { path, expected: D })
+fn list<const D: usize>(path: &str, entries: &[f64]) -> Result<[f64; D], LawError> {
+    entries.try_into().map_err(|_| shape(path, D))
 }
 
-fn matrix<const D: usize>(
-    path: &'static str,
-    rows: &[Vec<f64>],
-) -> Result<[[f64; D]; D], LawError> {
+fn shape(path: &str, expected: usize) -> LawError {
+    LawError::Shape {
+        path: path.to_owned(),
+        expected,
+    }
+}
+
+fn matrix<const D: usize>(path: &str, rows: &[Vec<f64>]) -> Result<[[f64; D]; D], LawError> {
     let mut matrix = [[0.0; D]; D];
     if rows.len() != D {
-        return Err(LawError::Shape { path, expected: D });
+        return Err(shape(path, D));
     }
     for (target, row) in matrix.iter_mut().zip(rows) {
         *target = list(path, row)?;

@@ -7,26 +7,33 @@
 mod at_preload;
 mod dofs;
 mod error;
+mod friction;
+mod higher;
 mod law;
 mod nearest;
 mod passivity;
 mod problem;
 mod read;
 mod record;
+mod schema;
+mod units;
 mod validate;
 mod write;
 
 pub use at_preload::PreloadError;
-pub use dofs::DofSet;
+pub use dofs::{DofName, DofSet};
 pub use error::JointFileError;
+pub use friction::Friction;
+pub use higher::HigherTerms;
 pub use law::LawError;
 pub use law::displacements;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::Problem;
 pub use record::{
     BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
-    FreeEstimate, FromModesRecord, FunctionResidual, HigherTerms, InputFile, Intervals, Joint,
-    JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
+    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
+    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
+pub use units::{description, superscript, unit, unit_for_people, with_symbols};
 pub use validate::is_one_line;

@@ -4,7 +4,7 @@ mod amplitude;
 
 use std::fmt;
 
-use bolted_joint_dynamics::is_positive_semidefinite;
+use bolted_joint_dynamics::{DofCount, is_positive_semidefinite, with_dofs};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{Joint, JointFile};
@@ -96,14 +96,14 @@ impl MatrixPassivity {
                 entry(i, j) / (diagonal[i] * diagonal[j]).sqrt()
             })
         });
-        let passive = match order {
-            0 => true,
-            1 => is_positive_semidefinite(&[[entry(0, 0)]]),
-            2 => {
-                is_positive_semidefinite(&[[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
-            }
+        let passive = match DofCount::of(order) {
+            Some(count) => with_dofs!(count, D => {
+                let entries: [[f64; D]; D] =
+                    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+                is_positive_semidefinite(&entries)
+            }),
             // The format has no larger joints.
-            _ => false,
+            None => order == 0,
         };
         Self {
             path,
@@ -164,14 +164,7 @@ mod tests {
 
     fn joint(stiffness: [[f64; 2]; 2], damping: [[f64; 2]; 2]) -> Joint {
         let rows = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.to_vec()).to_vec();
-        Joint {
-            dofs: DofSet::TranslationRotation,
-            stiffness: rows(stiffness),
-            damping: rows(damping),
-            cubic: Vec::new(),
-            higher: None,
-            over_preload: None,
-        }
+        Joint::linear(DofSet::TRANSLATION_ROTATION, rows(stiffness), rows(damping))
     }
 
     /// Eigenvalues of a symmetric 2×2 matrix in closed form, ascending.

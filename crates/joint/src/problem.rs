@@ -29,12 +29,39 @@ pub enum Problem {
         /// DOFs of the joint.
         dofs: DofSet,
     },
-    /// Terms of higher order beside a table over the preload.
+    /// Something beside a table over the preload.
     #[error(
-        "joint.higher: found beside joint.over_preload, expected one of the two: the terms of higher order are not known \
-         over the preload; take one of them out"
+        "{path}: found beside joint.over_preload, expected one of the two: the {what} are not known over the preload; take \
+         one of them out"
     )]
-    HigherOverPreload,
+    BesideTable {
+        /// Path of the key.
+        path: &'static str,
+        /// What stands there.
+        what: &'static str,
+    },
+    /// A law on a DOF that the joint has not.
+    #[error("{path}: found {found:?}, expected one of joint.dofs = {dofs}")]
+    OtherDof {
+        /// Path of the name.
+        path: String,
+        /// Name of the DOF.
+        found: &'static str,
+        /// DOFs of the joint.
+        dofs: DofSet,
+    },
+    /// A law that is already on the DOF.
+    #[error(
+        "{path}: found a second \"{law}\" on \"{dof}\", expected each law once on a degree of freedom; take one of them out"
+    )]
+    LawTwice {
+        /// Path of the law.
+        path: String,
+        /// Name of the law.
+        law: &'static str,
+        /// Name of the DOF.
+        dof: &'static str,
+    },
     /// An amplitude that is not positive.
     #[error("{path}: found {found:?}, expected an amplitude greater than zero")]
     Amplitude {

@@ -210,6 +210,9 @@ fn explain_data(
             path: child(&path, quoted.next().unwrap_or_default()),
         };
     }
+    if message.starts_with("invalid type: sequence, expected struct") {
+        return JointFileError::NotAnObject { origin, path };
+    }
     JointFileError::WrongType {
         origin,
         line,

@@ -1,9 +1,13 @@
 //! The records of the joint file, format "bolted-joint/1", as plain data.
 
-use schemars::{JsonSchema, Schema};
+use bolted_joint_dynamics::DOF_COUNT;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::DofSet;
+use super::{
+    DofSet, Friction, HigherTerms,
+    schema::{entries_above_zero, with_friction},
+};
 
 /// A bolted joint, with what is known about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,55 +60,48 @@ impl Format {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
+#[schemars(transform = with_friction)]
 pub struct Joint {
     /// Relative motions that the joint resists.
     pub dofs: DofSet,
     /// K, symmetric: N/m, N/rad; N·m/m, N·m/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    #[schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT)))]
     pub stiffness: Vec<Vec<f64>>,
     /// C, symmetric: N·s/m, N·s/rad; N·m·s/m, N·m·s/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    #[schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT)))]
     pub damping: Vec<Vec<f64>>,
     /// k3 on each relative DOF, N/m³ and N·m/rad³: positive hardens, negative softens. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[schemars(length(min = 1, max = DOF_COUNT))]
     pub cubic: Vec<f64>,
     /// Terms of higher order on each relative DOF. Left out, there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub higher: Option<HigherTerms>,
+    /// Laws with parameters of their own, at most one of a kind on each relative DOF.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(skip)]
+    pub friction: Vec<Friction>,
     /// Stiffness, damping and cubic stiffness over the bolt's preload, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_preload: Option<OverPreload>,
 }
 
-/// Terms of higher order on each relative DOF r = x_a - x_b: load on side b k5 r^5 + k7 r^7 + (c2 r^2 + c4 r^4) dr/dt. What is
-/// left out is zero.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HigherTerms {
-    /// k5, N/m⁵ and N·m/rad⁵.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
-    pub quintic: Vec<f64>,
-    /// k7, N/m⁷ and N·m/rad⁷.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
-    pub septic: Vec<f64>,
-    /// c2, N·s/m³ and N·m·s/rad³.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
-    pub damping_quadratic: Vec<f64>,
-    /// c4, N·s/m⁵ and N·m·s/rad⁵.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
-    pub damping_quartic: Vec<f64>,
-    /// Largest relative displacement, m and rad, that the joint was observed at and its terms hold up to. Within it the joint
-    /// must take energy; left out, it must at every displacement.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
-    pub amplitude: Vec<f64>,
+impl Joint {
+    /// The joint that has nothing but these matrices.
+    #[must_use]
+    pub fn linear(dofs: DofSet, stiffness: Vec<Vec<f64>>, damping: Vec<Vec<f64>>) -> Self {
+        Self {
+            dofs,
+            stiffness,
+            damping,
+            cubic: Vec::new(),
+            higher: None,
+            friction: Vec::new(),
+            over_preload: None,
+        }
+    }
 }
 
 /// Stiffness, damping and cubic stiffness at several preloads of the bolt.
@@ -118,10 +115,10 @@ pub struct OverPreload {
     #[schemars(range(min = 0))]
     pub nominal: f64,
     /// K at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    #[schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT)))]
     pub stiffness: Vec<Vec<Vec<f64>>>,
     /// C at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    #[schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT)))]
     pub damping: Vec<Vec<Vec<f64>>>,
     /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -143,13 +140,13 @@ pub struct Bodies {
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Mass in kg, moment of inertia in kg·m²; greater than zero.
-    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
+    #[schemars(length(min = 1, max = DOF_COUNT), transform = entries_above_zero)]
     pub inertia: Vec<f64>,
     /// Support stiffness in N/m, N·m/rad; zero for a free body.
-    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    #[schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))]
     pub stiffness: Vec<f64>,
     /// Support damping in N·s/m, N·m·s/rad.
-    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    #[schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))]
     pub damping: Vec<f64>,
 }
 
@@ -274,14 +271,14 @@ pub struct BootstrapRecord {
 pub struct StandardDeviation {
     /// Of K, in its units.
     #[schemars(
-        length(min = 1, max = 2),
-        inner(length(min = 1, max = 2), inner(range(min = 0)))
+        length(min = 1, max = DOF_COUNT),
+        inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
     )]
     pub stiffness: Vec<Vec<f64>>,
     /// Of C, in its units.
     #[schemars(
-        length(min = 1, max = 2),
-        inner(length(min = 1, max = 2), inner(range(min = 0)))
+        length(min = 1, max = DOF_COUNT),
+        inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
     )]
     pub damping: Vec<Vec<f64>>,
 }
@@ -443,14 +440,4 @@ pub struct InputFile {
     /// SHA-256 of its contents, 64 lower-case hexadecimal digits.
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: String,
-}
-
-/// JSON Schema has a word for "greater than zero", the derive macro has none.
-fn entries_above_zero(list: &mut Schema) {
-    if let Some(entries) = list
-        .pointer_mut("/items")
-        .and_then(|items| items.as_object_mut())
-    {
-        entries.insert("exclusiveMinimum".to_owned(), 0.into());
-    }
 }

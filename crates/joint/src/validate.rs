@@ -1,7 +1,9 @@
 //! Checks that the records of a joint file agree with each other: sizes, symmetry, signs.
 
+use bolted_joint_dynamics::law::Range;
+
 use super::{
-    Body, Correlation, DofSet, HigherTerms, Joint, JointFile, OverPreload, Problem,
+    Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, OverPreload, Problem,
     StandardDeviation, UncertaintyOverPreload,
 };
 
@@ -99,22 +101,51 @@ impl Check {
         if let Some(terms) = &joint.higher {
             self.higher(terms);
         }
+        self.friction(&joint.friction);
         if let Some(table) = &joint.over_preload {
             if joint.higher.is_some() {
-                self.problems.push(Problem::HigherOverPreload);
+                self.beside_table("joint.higher", "terms of higher order");
+            }
+            if !joint.friction.is_empty() {
+                self.beside_table("joint.friction", "laws of friction");
             }
             self.over_preload(table);
         }
     }
 
+    fn beside_table(&mut self, path: &'static str, what: &'static str) {
+        self.problems.push(Problem::BesideTable { path, what });
+    }
+
+    fn friction(&mut self, laws: &[Friction]) {
+        for (i, own) in laws.iter().enumerate() {
+            let path = format!("joint.friction[{i}]");
+            let (dof, law) = (own.dof.name, own.law.name);
+            if self.dofs.position(dof).is_none() {
+                self.problems.push(Problem::OtherDof {
+                    path: format!("{path}.dof"),
+                    found: dof,
+                    dofs: self.dofs,
+                });
+            }
+            let is_same = |other: &Friction| other.dof == own.dof && other.law == own.law;
+            if laws[..i].iter().any(is_same) {
+                let path = format!("{path}.law");
+                self.problems.push(Problem::LawTwice { path, law, dof });
+            }
+            for (parameter, &found) in own.law.parameters.iter().zip(&own.parameters) {
+                let path = format!("{path}.{}", parameter.key);
+                match parameter.range {
+                    Range::Any if found.is_finite() => {}
+                    Range::Any => self.problems.push(Problem::NotFinite { path, found }),
+                    Range::NotNegative => self.magnitude(&path, found, "a number"),
+                }
+            }
+        }
+    }
+
     fn higher(&mut self, terms: &HigherTerms) {
-        for (key, entries) in [
-            ("quintic", &terms.quintic),
-            ("septic", &terms.septic),
-            ("damping_quadratic", &terms.damping_quadratic),
-            ("damping_quartic", &terms.damping_quartic),
-            ("amplitude", &terms.amplitude),
-        ] {
+        for (key, entries) in terms.keyed() {
             if !entries.is_empty() {
                 self.list(&format!("joint.higher.{key}"), entries);
             }

@@ -10,11 +10,12 @@ mod parameter;
 mod response;
 mod update;
 
+pub use bolted_joint_dynamics::law::Term;
 pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     BackboneLine, BackboneRun, Estimate, Fit, LapResponse, LapResponseStudy, Model,
-    ModelComparison, Noise, Place, Prediction, Resonance, ResponseUnknown, SineLine, SineRun, Term,
+    ModelComparison, Noise, Place, Prediction, Resonance, ResponseUnknown, SineLine, SineRun,
     TermSet, Use, Values, fit_responses, measured_resonance, predicted_resonance,
 };
 pub use update::{

@@ -4,8 +4,8 @@
 use super::frf_figure::FONTS;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
-use bolted_joint_figures::{Axis, FAINT_TEXT, Look, Manner, PathData, Strip, Svg, VALUE_LABELS};
 use bolted_joint_figures::curve::{self, Sample};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Look, Manner, PathData, Strip, Svg, VALUE_LABELS};
 use num_complex::Complex64;
 
 pub(super) const WIDTH: f64 = 960.0;
@@ -121,7 +121,14 @@ impl Chart<'_> {
                 curve.look.draw(&self.path(curve, strip), &mut svg);
             }
             if strip.value.is_none() {
-                svg.text(0.5 * strip.width, 0.5 * strip.height, NO_DATA_FONT, Manner::Middle, FAINT_TEXT, "no data");
+                svg.text(
+                    0.5 * strip.width,
+                    0.5 * strip.height,
+                    NO_DATA_FONT,
+                    Manner::Middle,
+                    FAINT_TEXT,
+                    "no data",
+                );
             }
             strip.draw_frame(&mut svg);
             strip.draw_value_labels(&shown.label(), &mut svg);

@@ -5,8 +5,8 @@ use num_complex::Complex64;
 use super::frf_figure::FrfPanel;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
-use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, PathData, Strip, Svg, TEXT, text};
 use bolted_joint_figures::curve::{self, Sample};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, PathData, Strip, Svg, TEXT, text};
 use bolted_joint_frf::Resonance;
 
 // Heights of what stands in a column, from the top.
@@ -128,8 +128,22 @@ impl<'a> Column<'a> {
             .map(|percent| format!("median residual {}", percentage(percent)))
             .unwrap_or_default();
         let room = strip.width - text::width(&note, NOTE_FONT);
-        svg.text(strip.left, baseline, PANEL_FONT, Manner::Bold, TEXT, &text::shortened(&self.panel.label, PANEL_FONT, room));
-        svg.text(strip.left + strip.width, baseline, NOTE_FONT, Manner::End, FAINT_TEXT, &note);
+        svg.text(
+            strip.left,
+            baseline,
+            PANEL_FONT,
+            Manner::Bold,
+            TEXT,
+            &text::shortened(&self.panel.label, PANEL_FONT, room),
+        );
+        svg.text(
+            strip.left + strip.width,
+            baseline,
+            NOTE_FONT,
+            Manner::End,
+            FAINT_TEXT,
+            &note,
+        );
     }
 
     fn draw_magnitude(&self, marked: &[Resonance], svg: &mut Svg) {
@@ -140,7 +154,14 @@ impl<'a> Column<'a> {
         Key::Measured.draw(&dots(&samples(self.panel.measured), strip), svg);
         self.draw_lines(|function| line(&[samples(function)], strip), svg);
         if strip.value.is_none() {
-            svg.text(0.5 * strip.width, 0.5 * strip.height, PANEL_FONT, Manner::Middle, FAINT_TEXT, "no data");
+            svg.text(
+                0.5 * strip.width,
+                0.5 * strip.height,
+                PANEL_FONT,
+                Manner::Middle,
+                FAINT_TEXT,
+                "no data",
+            );
         }
         strip.draw_frame(svg);
     }

@@ -4,9 +4,9 @@ use num_complex::Complex64;
 
 use super::frf_column::{self, Column, ColumnAxes};
 use super::legend::{Key, draw_legend};
-use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, Svg, TEXT, VALUE_LABELS};
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::text::wrapped;
+use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, Svg, TEXT, VALUE_LABELS};
 use bolted_joint_frf::resonances;
 
 pub(super) const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
@@ -92,7 +92,14 @@ impl FrfFigure<'_> {
             self.draw_row(panels, columns, head + row_height * length(row), &mut svg);
         }
         if self.panels.is_empty() {
-            svg.text(0.5 * PAGE_WIDTH, head + 0.5 * row_height, SUBTITLE_FONT, Manner::Middle, FAINT_TEXT, "no functions");
+            svg.text(
+                0.5 * PAGE_WIDTH,
+                head + 0.5 * row_height,
+                SUBTITLE_FONT,
+                Manner::Middle,
+                FAINT_TEXT,
+                "no functions",
+            );
         }
         svg.finish()
     }
@@ -105,7 +112,14 @@ impl FrfFigure<'_> {
         }
         for line in subtitle {
             baseline += SUBTITLE_LINE;
-            svg.text(MARGIN, baseline, SUBTITLE_FONT, Manner::Plain, FAINT_TEXT, line);
+            svg.text(
+                MARGIN,
+                baseline,
+                SUBTITLE_FONT,
+                Manner::Plain,
+                FAINT_TEXT,
+                line,
+            );
         }
         draw_legend(&self.keys(), MARGIN, baseline + 24.0, svg);
     }

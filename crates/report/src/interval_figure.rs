@@ -75,7 +75,14 @@ impl IntervalFigure<'_> {
                 frequency: across,
                 value: Some(roomy(ends.map(|end| end / factor))),
             };
-            svg.text(strip.left, strip.top - 8.0, TITLE_FONT, Manner::Bold, TEXT, &panel.name);
+            svg.text(
+                strip.left,
+                strip.top - 8.0,
+                TITLE_FONT,
+                Manner::Bold,
+                TEXT,
+                &panel.name,
+            );
             strip.draw_grid(&mut svg);
             panel.draw(&strip, factor, &mut svg);
             strip.draw_frame(&mut svg);

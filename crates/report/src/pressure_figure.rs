@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use bolted_joint_figures::{Axis, Manner, PathData, Point, Strip, Svg, TEXT, TickLabel, VALUE_LABELS};
+use bolted_joint_figures::{
+    Axis, Manner, PathData, Point, Strip, Svg, TEXT, TickLabel, VALUE_LABELS,
+};
 use bolted_joint_predict::pressure::{Bolt, PressureField, Rectangle};
 
 /// Largest width and height of the plate on the page, pixels.
@@ -283,7 +285,14 @@ fn draw_scale(strip: &Strip, highest: f64, unit: &str, svg: &mut Svg) {
             },
         ]);
         bolted_joint_figures::draw_path(svg, &mark, "#6e7781", 1.0);
-        svg.text(left + BAR + 7.0, y + 0.36 * FONT, FONT, Manner::Plain, TEXT, &label);
+        svg.text(
+            left + BAR + 7.0,
+            y + 0.36 * FONT,
+            FONT,
+            Manner::Plain,
+            TEXT,
+            &label,
+        );
     }
     let (x, y) = (left + BAR + 46.0, top + 0.5 * height);
     svg.element("text")

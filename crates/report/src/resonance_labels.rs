@@ -35,7 +35,14 @@ pub(super) fn draw_resonance_labels(
             return false;
         }
         taken.push((start, end));
-        svg.text(strip.left + middle, strip.top - 6.0, FONT, Manner::Middle, REGENERATED_COLOUR, &label);
+        svg.text(
+            strip.left + middle,
+            strip.top - 6.0,
+            FONT,
+            Manner::Middle,
+            REGENERATED_COLOUR,
+            &label,
+        );
         true
     });
     found

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::{Eigenvalue, Lap, LapIntegrator, LapState, substeps};
+use bolted_joint_dynamics::{Eigenvalue, Lap, LapMoment, LapState, LapStepper, substeps};
 use num_complex::Complex64;
 
 use bolted_joint_harmonic::{Derivative, HarmonicLoads, Observed, Side};
@@ -86,7 +86,7 @@ pub(super) fn history<const D: usize>(
     times: Times,
     motions: &[Observed],
 ) -> Result<Vec<Vec<f64>>, Ended> {
-    let integrator = LapIntegrator::new(lap);
+    let stepper = LapStepper::new(lap);
     let mut state = LapState::REST;
     for start in start {
         let motion = match start.side {
@@ -134,21 +134,22 @@ pub(super) fn history<const D: usize>(
         }
         row
     };
-    let mut rows = vec![row(0.0, &state)];
+    let mut moment = LapMoment::from(state);
+    let mut rows = vec![row(0.0, &moment.state)];
     for n in 0..count as u64 {
         let begin = n as f64 * times.interval_s;
         let mut last = load_at(begin);
         for part in 0..parts.get() {
             let at = begin + f64::from(part) * step;
             let loads = [last, load_at(at + 0.5 * step), load_at(at + step)];
-            state = integrator.step_with_loads(&state, &loads, step);
+            moment = stepper.step(&moment, &loads, step);
             last = loads[2];
         }
         let time = (n + 1) as f64 * times.interval_s;
-        if !is_finite(&state) {
+        if !is_finite(&moment.state) {
             return Err(Ended::Escaped(time));
         }
-        rows.push(row(time, &state));
+        rows.push(row(time, &moment.state));
     }
     Ok(rows)
 }
@@ -169,13 +170,13 @@ impl SteppedSine<'_> {
     /// Rows of frequency and, of each motion, amplitude and phase of the fundamental of the last period at that frequency. The
     /// motion goes on from one frequency to the next.
     pub(super) fn rows<const D: usize>(&self, lap: &Lap<D>) -> Result<Vec<Vec<f64>>, Ended> {
-        let integrator = LapIntegrator::new(lap);
+        let stepper = LapStepper::new(lap);
         let loads = unit_load::<D>(self.place).scaled(self.level);
         let slowest_s = match self.settle {
             Some(_) => 0.0,
             None => SETTLED.ln().abs() / slowest_decay(lap).ok_or(Ended::Undamped)?,
         };
-        let mut state = LapState::REST;
+        let mut moment = LapMoment::from(LapState::REST);
         let (mut time, mut rows) = (0.0, Vec::with_capacity(self.lines));
         for frequency_hz in frequencies(self.span, self.lines) {
             let period = 1.0 / frequency_hz;
@@ -196,14 +197,14 @@ impl SteppedSine<'_> {
                     if is_last {
                         let turn = Complex64::cis(-TAU * n as f64 / steps as f64);
                         for (sum, &observed) in sums.iter_mut().zip(self.motions) {
-                            *sum += seen(&state, observed)[0] * turn;
+                            *sum += seen(&moment.state, observed)[0] * turn;
                         }
                     }
                     let loads = [all[2 * n], all[2 * n + 1], all[2 * n + 2]];
-                    state = integrator.step_with_loads(&state, &loads, period / steps as f64);
+                    moment = stepper.step(&moment, &loads, period / steps as f64);
                 }
                 time += period;
-                if !is_finite(&state) {
+                if !is_finite(&moment.state) {
                     return Err(Ended::Escaped(time));
                 }
             }

@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::{HigherTerms, JointLaw, Lap};
+use bolted_joint_dynamics::{DofKind, JointLaw, Lap, Linear, law::Parameter};
 
 use bolted_joint_harmonic::{
     CurveOptions, CurvePoint, Derivative, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics,
     Observed, Side, Target,
 };
+use bolted_joint_joint::DofSet;
 
 use super::study::{LoadPlace, Span};
 use super::table::{Column, Role};
@@ -26,8 +27,8 @@ pub(super) fn unit_load<const D: usize>(place: LoadPlace) -> HarmonicLoads<D> {
     loads
 }
 
-pub(super) fn name(observed: Observed) -> String {
-    let dof = ["y", "theta"].get(observed.dof()).copied().unwrap_or("?");
+pub(super) fn name(dofs: DofSet, observed: Observed) -> String {
+    let dof = dofs.row(observed.dof()).name;
     match observed {
         Observed::Relative(_) => format!("relative.{dof}"),
         Observed::Body(Side::A, _) => format!("a.{dof}"),
@@ -35,17 +36,21 @@ pub(super) fn name(observed: Observed) -> String {
     }
 }
 
-pub(super) fn unit(observed: Observed, quantity: Derivative) -> &'static str {
-    let units = match quantity {
-        Derivative::Displacement => ["m", "rad"],
-        Derivative::Velocity => ["m/s", "rad/s"],
-        Derivative::Acceleration => ["m/s²", "rad/s²"],
-    };
-    units[observed.dof().min(1)]
+pub(super) fn unit(dofs: DofSet, observed: Observed, quantity: Derivative) -> &'static str {
+    match (dofs.row(observed.dof()).kind, quantity) {
+        (kind, Derivative::Displacement) => kind.displacement_unit(),
+        (DofKind::Translation, Derivative::Velocity) => "m/s",
+        (DofKind::Translation, Derivative::Acceleration) => "m/s²",
+        (DofKind::Rotation, Derivative::Velocity) => "rad/s",
+        (DofKind::Rotation, Derivative::Acceleration) => "rad/s²",
+    }
 }
 
-pub(super) fn load_unit(place: LoadPlace) -> &'static str {
-    ["N", "N·m"][place.dof.min(1)]
+pub(super) fn load_unit(dofs: DofSet, place: LoadPlace) -> &'static str {
+    match dofs.row(place.dof).kind {
+        DofKind::Translation => "N",
+        DofKind::Rotation => "N·m",
+    }
 }
 
 pub(super) fn column(name: impl Into<String>, unit: &'static str, role: Role) -> Column {
@@ -58,6 +63,7 @@ pub(super) fn column(name: impl Into<String>, unit: &'static str, role: Role) ->
 
 /// Columns of a curve over frequency or of one over amplitude.
 pub(super) fn curve_columns(
+    dofs: DofSet,
     motions: &[Observed],
     quantity: Derivative,
     is_over_frequency: bool,
@@ -69,7 +75,7 @@ pub(super) fn curve_columns(
     };
     let mut columns = vec![column("frequency", "Hz", frequency)];
     for (n, &observed) in motions.iter().enumerate() {
-        let (name, unit) = (name(observed), unit(observed, quantity));
+        let (name, unit) = (name(dofs, observed), unit(dofs, observed, quantity));
         let role = match (is_over_frequency, n) {
             (true, _) => Role::Up,
             (false, 0) => Role::Across,
@@ -80,7 +86,7 @@ pub(super) fn curve_columns(
         columns.push(column(format!("{name} third harmonic"), unit, Role::Aside));
         columns.push(column(
             format!("{name} peak displacement"),
-            self::unit(observed, Derivative::Displacement),
+            self::unit(dofs, observed, Derivative::Displacement),
             Role::Aside,
         ));
     }
@@ -119,11 +125,7 @@ fn flag(is_so: bool) -> f64 {
 /// The lap without what is not linear.
 pub(super) fn linear_part<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     Lap {
-        joint: JointLaw {
-            cubic: [0.0; D],
-            higher: HigherTerms::NONE,
-            ..lap.joint
-        },
+        joint: lap.joint.linear.into(),
         ..*lap
     }
 }
@@ -256,12 +258,20 @@ impl Curve<'_> {
     }
 }
 
+fn is_spring(parameter: &Parameter) -> bool {
+    parameter.acts_on.stored_energy
+}
+
 /// The lap without dampers.
 fn undamped<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     let mut lap = *lap;
-    lap.joint.damping = [[0.0; D]; D];
-    lap.joint.higher.damping_quadratic = [0.0; D];
-    lap.joint.higher.damping_quartic = [0.0; D];
+    lap.joint = JointLaw {
+        linear: Linear {
+            damping: [[0.0; D]; D],
+            ..lap.joint.linear
+        },
+        on: lap.joint.on.map(|laws| laws.with_only(is_spring)),
+    };
     lap.a.damping = [0.0; D];
     lap.b.damping = [0.0; D];
     lap

@@ -1,6 +1,6 @@
 //! From a study to its table: every lap at every level.
 
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Lap, with_dofs};
 
 use bolted_joint_harmonic::{Derivative, HarmonicError, Observed, Target};
 use bolted_joint_joint::DofSet;
@@ -40,10 +40,11 @@ impl RespondStudy {
     /// # Errors
     /// [`RespondError`] that names lap and level.
     pub fn run(&self) -> Result<ResponseTable, RespondError> {
-        match self.laps[0].file.joint.dofs {
-            DofSet::Translation => self.run_with::<1>(),
-            DofSet::TranslationRotation => self.run_with::<2>(),
-        }
+        with_dofs!(self.dofs().size(), D => self.run_with::<D>())
+    }
+
+    fn dofs(&self) -> DofSet {
+        self.laps[0].file.joint.dofs
     }
 
     fn run_with<const D: usize>(&self) -> Result<ResponseTable, RespondError> {
@@ -99,7 +100,14 @@ impl RespondStudy {
     }
 
     fn columns(&self, motions: &[Observed]) -> (Vec<Column>, &'static str) {
-        let curve = |is_over_frequency| curve_columns(motions, self.quantity, is_over_frequency);
+        let dofs = self.dofs();
+        let (name, load_unit) = (
+            |observed| name(dofs, observed),
+            |place| load_unit(dofs, place),
+        );
+        let unit = |observed, quantity| unit(dofs, observed, quantity);
+        let curve =
+            |is_over_frequency| curve_columns(dofs, motions, self.quantity, is_over_frequency);
         let with = |mut columns: Vec<Column>, more: Vec<Column>| {
             columns.extend(more);
             columns

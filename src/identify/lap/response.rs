@@ -97,7 +97,7 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
         } else {
             cells.extend(["not identified", "", ""].map(str::to_owned));
         }
-        cells.push(estimate.unknown.unit().to_owned());
+        cells.push(estimate.unknown.unit().into_owned());
         table.row(cells);
     }
     text += &table.render();

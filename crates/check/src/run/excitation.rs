@@ -1,20 +1,37 @@
 //! What the run does to the FMU: every DOF is moved or loaded, far enough for a cubic term to show, not so far that a
 //! softening joint escapes.
 
-use bolted_joint_dynamics::{JointLaw, Lap};
+use bolted_joint_dynamics::{DofKind, with_dofs};
 
 use super::balance::Integral;
 use super::names::References;
 use super::script::Action;
 use bolted_joint_export::Interface;
-use bolted_joint_joint::{DofSet, JointFile};
+use bolted_joint_joint::JointFile;
 
 /// Spans of the quadrature in a run.
 const SPANS: usize = 200;
-/// Displacement (m) and rotation (rad) of a linear joint: usual magnitudes, the scale does not matter.
-const LINEAR_AMPLITUDE: [f64; 2] = [1e-5, 1e-4];
-/// Largest displacement (m) and rotation (rad) of a cubic joint.
-const LARGEST_AMPLITUDE: [f64; 2] = [1e-3, 1e-2];
+/// Displacement (m) or rotation (rad) of a linear joint: usual magnitudes, the scale does not matter.
+fn linear_amplitude(kind: DofKind) -> f64 {
+    match kind {
+        DofKind::Translation => 1e-5,
+        DofKind::Rotation => 1e-4,
+    }
+}
+/// Largest displacement (m) or rotation (rad) of a cubic joint.
+fn largest_amplitude(kind: DofKind) -> f64 {
+    match kind {
+        DofKind::Translation => 1e-3,
+        DofKind::Rotation => 1e-2,
+    }
+}
+/// What a joint without stiffness is loaded by, because it is usual: N, N·m.
+fn usual_load(kind: DofKind) -> f64 {
+    match kind {
+        DofKind::Translation => 1.0,
+        DofKind::Rotation => 1e-2,
+    }
+}
 /// Amplitude of a cubic joint by √(k/|k3|), where the cubic load would be as large as the linear one.
 const CUBIC_AMPLITUDE: f64 = 0.02;
 /// Amplitude of a joint with terms of higher order, by that at which the first of them is as large as the linear one, and by
@@ -52,11 +69,10 @@ impl Excitation {
             .enumerate()
             .map(|(i, amplitude)| {
                 let stiffness = diagonal(&joint.stiffness, i).abs();
-                // a joint without stiffness is loaded by what is usual: N, N·m
                 if stiffness > 0.0 {
                     stiffness * amplitude
                 } else {
-                    [1.0, 1e-2][i.min(1)]
+                    usual_load(joint.dofs.row(i).kind)
                 }
             })
             .collect();
@@ -189,28 +205,30 @@ pub(super) fn moved(references: &References) -> Vec<u32> {
 
 /// How far each DOF is moved: m, rad.
 fn amplitude(file: &JointFile) -> Vec<f64> {
-    let escape = match file.joint.dofs {
-        DofSet::Translation => escape_amplitude(&file.lap::<1>().ok()),
-        DofSet::TranslationRotation => escape_amplitude(&file.lap::<2>().ok()),
-    };
+    let dofs = file.joint.dofs;
+    let (escape, nonlinear) = with_dofs!(dofs.size(), D => {
+        (
+            file.lap::<D>().map(|lap| lap.escape_amplitude().to_vec()),
+            file.joint.law::<D>().map(|law| law.nonlinear_amplitude().to_vec()),
+        )
+    });
+    let escape = escape.unwrap_or_default();
+    let nonlinear = nonlinear.unwrap_or_default();
     let part = if file.joint.has_terms_of_higher_order() {
         HIGHER_AMPLITUDE
     } else {
         CUBIC_AMPLITUDE
     };
-    let nonlinear = match file.joint.dofs {
-        DofSet::Translation => nonlinear_amplitude(&file.joint.law::<1>().ok()),
-        DofSet::TranslationRotation => nonlinear_amplitude(&file.joint.law::<2>().ok()),
-    };
-    (0..file.joint.dofs.count())
-        .map(|i| {
+    dofs.rows()
+        .enumerate()
+        .map(|(i, dof)| {
             let k = file.joint.stiffness.get(i).and_then(|row| row.get(i));
             let nonlinear = nonlinear.get(i).copied().unwrap_or(f64::INFINITY);
             let by_terms = match k {
                 Some(&k) if k > 0.0 && nonlinear > 0.0 && nonlinear.is_finite() => {
-                    (part * nonlinear).min(LARGEST_AMPLITUDE[i.min(1)])
+                    (part * nonlinear).min(largest_amplitude(dof.kind))
                 }
-                _ => LINEAR_AMPLITUDE[i.min(1)],
+                _ => linear_amplitude(dof.kind),
             };
             let escape = escape.get(i).copied().flatten();
             escape.map_or(by_terms, |escape| by_terms.min(part * escape))
@@ -218,22 +236,11 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
         .collect()
 }
 
-fn nonlinear_amplitude<const D: usize>(law: &Option<JointLaw<D>>) -> Vec<f64> {
-    law.as_ref()
-        .map_or_else(Vec::new, |law| law.nonlinear_amplitude().to_vec())
-}
-
-fn escape_amplitude<const D: usize>(lap: &Option<Lap<D>>) -> Vec<Option<f64>> {
-    lap.as_ref()
-        .map_or_else(Vec::new, |lap| lap.escape_amplitude().to_vec())
-}
-
 /// A step that follows the lap's fastest mode and is a single Runge–Kutta step.
 fn lap_step_s(file: &JointFile, step_size_max_s: Option<f64>) -> f64 {
-    let accurate_s = match file.joint.dofs {
-        DofSet::Translation => file.lap::<1>().ok().and_then(|lap| accurate_step_s(&lap)),
-        DofSet::TranslationRotation => file.lap::<2>().ok().and_then(|lap| accurate_step_s(&lap)),
-    };
+    let accurate_s = with_dofs!(file.joint.dofs.size(), D => {
+        file.lap::<D>().ok().and_then(|lap| lap.spectrum()?.accurate_step_s())
+    });
     let longest = step_size_max_s.unwrap_or(f64::INFINITY);
     let step_s = accurate_s.unwrap_or(f64::INFINITY).min(longest);
     if step_s.is_finite() && step_s > 0.0 {
@@ -241,8 +248,4 @@ fn lap_step_s(file: &JointFile, step_size_max_s: Option<f64>) -> f64 {
     } else {
         UNDAMPED_PERIOD_S / SPANS as f64
     }
-}
-
-fn accurate_step_s<const D: usize>(lap: &Lap<D>) -> Option<f64> {
-    lap.spectrum()?.accurate_step_s()
 }

@@ -1,5 +1,7 @@
 //! What the values of a run say about the FMU: energy balance, load law, derivatives.
 
+use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, with_dofs};
+
 use super::balance::{BalanceReport, Integral};
 use super::excitation::Excitation;
 use super::names::{References, Sample};
@@ -90,6 +92,18 @@ pub(super) fn load_finding(
     interface: Interface,
     samples: &[Sample<'_>],
 ) -> Option<String> {
+    with_dofs!(joint.dofs.size(), D => {
+        load_finding_of::<D>(joint, interface, samples)
+    })
+}
+
+fn load_finding_of<const D: usize>(
+    joint: &Joint,
+    interface: Interface,
+    samples: &[Sample<'_>],
+) -> Option<String> {
+    let expected = Expected::<D>::of(joint)?;
+    let mut memory = JointMemory::REST;
     for (index, sample) in samples.iter().enumerate() {
         let all = [
             sample.displacements,
@@ -103,15 +117,18 @@ pub(super) fn load_finding(
                 "run: found an output that is not finite at communication point {index}"
             ));
         }
-        for (i, (expected, size)) in expected_loads(joint, sample).into_iter().enumerate() {
-            let name = ["F", "M"][i.min(1)];
-            let dofs = sample.joint.len();
+        let relative = relative(sample.displacements, sample.velocities);
+        let (loads, sizes) = expected.loads(&memory, &relative);
+        // a step ends at each communication point
+        expected.law.commit(&mut memory, &relative.displacement);
+        for (i, dof) in joint.dofs.rows().enumerate() {
+            let (name, expected) = (dof.load, loads[i]);
             let mut found = vec![("joint", sample.joint[i])];
             if interface == Interface::Element {
-                found.extend([("b", sample.loads[dofs + i]), ("-a", -sample.loads[i])]);
+                found.extend([("b", sample.loads[D + i]), ("-a", -sample.loads[i])]);
             }
             for (side, found) in found {
-                if (found - expected).abs() > SAME * size {
+                if (found - expected).abs() > SAME * sizes[i] {
                     return Some(format!(
                         "run: found {side}.{name} = {found:?} at communication point {index}, expected {expected:?} from \
                          resources/joint.json at that motion"
@@ -123,47 +140,60 @@ pub(super) fn load_finding(
     None
 }
 
-/// Load on b by the joint file, and the sum of the magnitudes of its terms.
-fn expected_loads(joint: &Joint, sample: &Sample<'_>) -> Vec<(f64, f64)> {
-    let dofs = sample.joint.len();
-    let relative =
-        |values: &[f64]| -> Vec<f64> { (0..dofs).map(|i| values[i] - values[dofs + i]).collect() };
-    let (r, v) = (relative(sample.displacements), relative(sample.velocities));
-    (0..dofs)
-        .map(|i| {
-            // F = K r + C ṙ + k3 r³ + k5 r⁵ + k7 r⁷ + (c2 r² + c4 r⁴) ṙ
-            let [k3, k5, k7, c2, c4] = nonlinear_terms(joint, i);
-            let (x, rate) = (r[i], v[i]);
-            let terms = [
-                k3 * x.powi(3),
-                k5 * x.powi(5),
-                k7 * x.powi(7),
-                c2 * x.powi(2) * rate,
-                c4 * x.powi(4) * rate,
-            ];
-            let linear =
-                (0..dofs).flat_map(|j| [joint.stiffness[i][j] * r[j], joint.damping[i][j] * v[j]]);
-            terms
-                .into_iter()
-                .chain(linear)
-                .fold((0.0, 0.0), |(sum, size): (f64, f64), term| {
-                    (sum + term, size + term.abs())
-                })
-        })
-        .collect()
+/// What the joint file's law says of a run.
+struct Expected<const D: usize> {
+    law: JointLaw<D>,
+    /// The law with all of its coefficients positive: what it gives at a motion that is so, too, is the sum of the magnitudes
+    /// of the law's terms.
+    magnitude: JointLaw<D>,
 }
 
-/// k3, k5, k7, c2 and c4 of a DOF.
-fn nonlinear_terms(joint: &Joint, i: usize) -> [f64; 5] {
-    let of = |list: &[f64]| list.get(i).copied().unwrap_or(0.0);
-    let higher = joint.higher.clone().unwrap_or_default();
-    [
-        of(&joint.cubic),
-        of(&higher.quintic),
-        of(&higher.septic),
-        of(&higher.damping_quadratic),
-        of(&higher.damping_quartic),
-    ]
+impl<const D: usize> Expected<D> {
+    /// `None` where the joint file gives no law, which the inspection tells of.
+    fn of(joint: &Joint) -> Option<Self> {
+        let law = joint.law().ok()?;
+        let magnitude = JointLaw::each([&law], |[coefficient]| coefficient.abs());
+        Some(Self { law, magnitude })
+    }
+
+    /// Load on b, and the sum of the magnitudes of its terms.
+    fn loads(&self, memory: &JointMemory<D>, relative: &Motion<D>) -> ([f64; D], [f64; D]) {
+        (
+            self.law.load_on_b_after(memory, relative),
+            self.magnitude.load_on_b(&magnitude(relative)),
+        )
+    }
+
+    /// Change of the load on b of a joint that has not moved yet along a change of the relative motion, and the sum of the
+    /// magnitudes of its terms.
+    fn changes(&self, relative: &Motion<D>, seed: &Motion<D>) -> ([f64; D], [f64; D]) {
+        let change = |law: &JointLaw<D>, relative: &Motion<D>, seed: &Motion<D>| {
+            let loads = law
+                .with_change(&JointLaw::NONE)
+                .load_on_b(&relative.with_change(seed));
+            loads.map(|load| load.change[0])
+        };
+        (
+            change(&self.law, relative, seed),
+            change(&self.magnitude, &magnitude(relative), &magnitude(seed)),
+        )
+    }
+}
+
+/// x_a − x_b of lists that hold the DOFs of a, then those of b.
+fn relative<const D: usize>(displacements: &[f64], velocities: &[f64]) -> Motion<D> {
+    let apart = |list: &[f64]| std::array::from_fn(|i| list[i] - list[D + i]);
+    Motion {
+        displacement: apart(displacements),
+        velocity: apart(velocities),
+    }
+}
+
+fn magnitude<const D: usize>(motion: &Motion<D>) -> Motion<D> {
+    Motion {
+        displacement: motion.displacement.map(f64::abs),
+        velocity: motion.velocity.map(f64::abs),
+    }
 }
 
 /// Where the directional derivative of the joint's load is not that of the joint file's law.
@@ -173,41 +203,21 @@ pub(super) fn derivative_finding(
     seed: &[f64],
     found: &[f64],
 ) -> Option<String> {
-    let dofs = sample.joint.len();
-    let relative = |i: usize| seed[i] - seed[dofs + i];
-    let relative_rate = |i: usize| seed[2 * dofs + i] - seed[3 * dofs + i];
-    for (i, found) in found.iter().enumerate() {
-        let r = sample.displacements[i] - sample.displacements[dofs + i];
-        let v = sample.velocities[i] - sample.velocities[dofs + i];
-        // δF = K δr + C δṙ + (3 k3 r² + 5 k5 r⁴ + 7 k7 r⁶ + (2 c2 r + 4 c4 r³) ṙ) δr + (c2 r² + c4 r⁴) δṙ
-        let [k3, k5, k7, c2, c4] = nonlinear_terms(joint, i);
-        let nonlinear = [
-            3.0 * k3 * r.powi(2) * relative(i),
-            5.0 * k5 * r.powi(4) * relative(i),
-            7.0 * k7 * r.powi(6) * relative(i),
-            2.0 * c2 * r * v * relative(i),
-            4.0 * c4 * r.powi(3) * v * relative(i),
-            c2 * r.powi(2) * relative_rate(i),
-            c4 * r.powi(4) * relative_rate(i),
-        ];
-        let (mut expected, mut size) = (0.0, 0.0);
-        for term in nonlinear {
-            expected += term;
-            size += term.abs();
-        }
-        for j in 0..dofs {
-            let terms = [
-                joint.stiffness[i][j] * relative(j),
-                joint.damping[i][j] * relative_rate(j),
-            ];
-            expected += terms[0] + terms[1];
-            size += terms[0].abs() + terms[1].abs();
-        }
-        if (found - expected).abs() > SAME * size || !found.is_finite() {
+    let (expected, sizes) = with_dofs!(joint.dofs.size(), D => {
+        let (of_displacements, of_velocities) = seed.split_at_checked(2 * D)?;
+        let (expected, sizes) = Expected::<D>::of(joint)?.changes(
+            &relative(sample.displacements, sample.velocities),
+            &relative(of_displacements, of_velocities),
+        );
+        (expected.to_vec(), sizes.to_vec())
+    });
+    for (i, (found, dof)) in found.iter().zip(joint.dofs.rows()).enumerate() {
+        let expected = expected[i];
+        if (found - expected).abs() > SAME * sizes[i] || !found.is_finite() {
             return Some(format!(
-                "run: found the directional derivative of {} to be {found:?}, expected {expected:?} from \
+                "run: found the directional derivative of joint.{} to be {found:?}, expected {expected:?} from \
                  resources/joint.json",
-                ["joint.F", "joint.M"][i.min(1)]
+                dof.load
             ));
         }
     }

@@ -99,7 +99,7 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
     };
     let joint = &constant.joint;
     let Some((described, references)) = inspection.described.as_ref().and_then(|described| {
-        let references = References::of(described, joint.dofs.count())?;
+        let references = References::of(described, joint.dofs)?;
         Some((described, references))
     }) else {
         return Ok(RunReport::without_run(RunVerdict::NoVariables));

@@ -1,5 +1,8 @@
 //! Names and value references of the variables that a run touches.
 
+use bolted_joint_dynamics::Dof;
+use bolted_joint_joint::DofSet;
+
 use crate::described::Described;
 
 /// Value references, in the order: DOFs of side a, then of side b.
@@ -17,20 +20,20 @@ pub(super) struct References {
 
 impl References {
     /// `None` where a variable is missing, which the inspection tells of.
-    pub(super) fn of(described: &Described, dof_count: usize) -> Option<Self> {
+    pub(super) fn of(described: &Described, dofs: DofSet) -> Option<Self> {
         let one = |name: &str| Some(described.variable(name)?.reference);
-        let each = |prefixes: &[&str], names: [&str; 2]| -> Option<Vec<u32>> {
+        let each = |prefixes: &[&str], name: fn(&Dof) -> &str| -> Option<Vec<u32>> {
             prefixes
                 .iter()
-                .flat_map(|prefix| names.iter().take(dof_count).map(move |name| (prefix, name)))
+                .flat_map(|prefix| dofs.rows().map(move |dof| (prefix, name(dof))))
                 .map(|(prefix, name)| one(&format!("{prefix}.{name}")))
                 .collect()
         };
         Some(Self {
-            displacements: each(&["a", "b"], ["y", "theta"])?,
-            velocities: each(&["a", "b"], ["v", "omega"])?,
-            loads: each(&["a", "b"], ["F", "M"])?,
-            joint: each(&["joint"], ["F", "M"])?,
+            displacements: each(&["a", "b"], |dof| dof.name)?,
+            velocities: each(&["a", "b"], |dof| dof.rate)?,
+            loads: each(&["a", "b"], |dof| dof.load)?,
+            joint: each(&["joint"], |dof| dof.load)?,
             energy: one("energy.stored")?,
             power: one("power.dissipated")?,
         })

@@ -1,7 +1,10 @@
 //! The static balance of one DOF while the other follows, and where it ends first.
 
 use super::coupling;
-use crate::joint::JointLaw;
+use crate::{
+    law::{JointLaw, SPRING_COUNT},
+    power_series::value,
+};
 
 /// Steps of the search after which it gives up: the spring then all but touches zero load, which counts as escape.
 const STEPS_MAX: u32 = 200_000;
@@ -15,19 +18,19 @@ const FIRST_STEP: f64 = 1e-30;
 /// Length by which the search knows its place at rest, m² or rad².
 const SHORTEST_STEP: f64 = 1e-60;
 
-/// Load k r + k3 r³ + k5 r⁵ + k7 r⁷ = r s(r²) of one DOF on itself, by the coefficients of the secant stiffness s.
+/// Coefficients of the secant stiffness: the linear one and those of the polynomial.
+const TERMS: usize = SPRING_COUNT + 1;
+
+/// Load k r + k3 r³ + k5 r⁵ + … = r s(r²) of one DOF on itself, by the coefficients of the secant stiffness s.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spring([f64; 4]);
+pub(super) struct Spring([f64; TERMS]);
 
 impl Spring {
     /// Joint and supports together.
     pub(super) fn of<const D: usize>(law: &JointLaw<D>, supports: &[f64; D], i: usize) -> Self {
-        Self([
-            law.stiffness[i][i] + supports[i],
-            law.cubic[i],
-            law.higher.quintic[i],
-            law.higher.septic[i],
-        ])
+        let mut terms = [law.linear.stiffness[i][i] + supports[i]; TERMS];
+        terms[1..].copy_from_slice(&law.on[i].polynomial().springs);
+        Self(terms)
     }
 
     /// Whether some term takes stiffness away with amplitude.
@@ -37,36 +40,44 @@ impl Spring {
 
     /// Whether there is nothing beyond the linear and the cubic term.
     fn is_cubic(&self) -> bool {
-        self.0[2..] == [0.0; 2]
+        self.0[2..].iter().all(|&k| k == 0.0)
+    }
+
+    /// Whether there is nothing beyond the linear term.
+    fn is_linear(&self) -> bool {
+        self.0[1] == 0.0 && self.is_cubic()
     }
 
     /// s(u)
     fn secant(&self, u: f64) -> f64 {
-        let [k, k3, k5, k7] = self.0;
-        k + u * (k3 + u * (k5 + u * k7))
+        value(&self.0, u)
+    }
+
+    /// Coefficients of ds/du.
+    fn slopes(terms: &[f64; TERMS]) -> [f64; TERMS] {
+        std::array::from_fn(|j| terms.get(j + 1).map_or(0.0, |k| (j + 1) as f64 * k))
     }
 
     /// ds/du
     fn slope(&self, u: f64) -> f64 {
-        let [_, k3, k5, k7] = self.0;
-        k3 + u * (2.0 * k5 + u * 3.0 * k7)
+        value(&Self::slopes(&self.0), u)
     }
 
     /// The tangent stiffness d(r s(r²))/dr as a polynomial of u = r².
     fn tangent(&self) -> Self {
-        let [k, k3, k5, k7] = self.0;
-        Self([k, 3.0 * k3, 5.0 * k5, 7.0 * k7])
+        Self(std::array::from_fn(|j| (2 * j + 1) as f64 * self.0[j]))
     }
 
     /// A lower bound of s over u from `low` ≥ 0 to `high`, which is off by the square of their distance.
     fn least(&self, low: f64, high: f64) -> f64 {
-        // s(low + d) = s + s' d + (k5 + 3 k7 low) d² + k7 d³: what rises is least at d = 0, what falls at the upper end
-        let [_, _, k5, k7] = self.0;
+        // s(low + d) = s + s' d + s''/2! d² + …: what rises is least at d = 0, what falls at the upper end
         let distance = high - low;
-        let terms = [self.slope(low), k5 + 3.0 * k7 * low, k7];
         let (mut least, mut power) = (self.secant(low), 1.0);
-        for term in terms {
+        let mut terms = self.0;
+        for order in 1..TERMS {
+            terms = Self::slopes(&terms).map(|k| k / order as f64);
             power *= distance;
+            let term = value(&terms, low);
             if term < 0.0 {
                 least += term * power;
             }
@@ -150,11 +161,10 @@ impl Balance {
         let condensed = match &self.other {
             None => self.own.0[0],
             Some(Other {
-                spring: Spring([k, k3, k5, k7]),
-                coupling,
-                ..
+                spring, coupling, ..
             }) => {
-                if [*k3, *k5, *k7] != [0.0; 3] || *k <= 0.0 {
+                let k = spring.0[0];
+                if !spring.is_linear() || k <= 0.0 {
                     return None;
                 }
                 self.own.0[0] - coupling * coupling / k

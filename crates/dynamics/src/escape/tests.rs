@@ -1,7 +1,7 @@
 //! The amplitude against closed forms, and against a walk along the balance.
 
 use crate::lap::{Body, Lap};
-use crate::{higher::HigherTerms, joint::JointLaw};
+use crate::law::{JointLaw, Linear, Polynomial};
 
 #[test]
 fn the_symmetric_lap_escapes_where_the_theory_says() {
@@ -12,12 +12,11 @@ fn the_symmetric_lap_escapes_where_the_theory_says() {
         damping: [1.39],
     };
     let lap = Lap {
-        joint: JointLaw {
+        joint: Linear {
             stiffness: [[k12]],
             damping: [[0.54]],
-            cubic: [cubic],
-            higher: HigherTerms::NONE,
-        },
+        }
+        .beside([cubic].map(Polynomial::cubic)),
         a: body,
         b: body,
     };
@@ -33,12 +32,11 @@ fn a_hardening_joint_never_escapes() {
         stiffness: [0.0],
         damping: [0.0],
     };
-    let joint = JointLaw {
+    let joint = Linear {
         stiffness: [[1e6]],
         damping: [[0.0]],
-        cubic: [1e9],
-        higher: HigherTerms::NONE,
-    };
+    }
+    .beside([1e9].map(Polynomial::cubic));
     let lap = Lap {
         joint,
         a: body,
@@ -54,12 +52,11 @@ fn with_rotation(cubic: [f64; 2]) -> Lap<2> {
         stiffness: [0.0; 2],
         damping: [0.0; 2],
     };
-    let joint = JointLaw {
+    let joint = Linear {
         stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
         damping: [[0.0; 2]; 2],
-        cubic,
-        higher: HigherTerms::NONE,
-    };
+    }
+    .beside(cubic.map(Polynomial::cubic));
     Lap {
         joint,
         a: body,
@@ -69,24 +66,14 @@ fn with_rotation(cubic: [f64; 2]) -> Lap<2> {
 
 /// The largest held displacement of DOF `i` and how finely it is known, by walking along the other DOF's balance.
 fn walked(lap: &Lap<2>, i: usize) -> (f64, f64) {
-    let (k, j) = (&lap.joint.stiffness, 1 - i);
+    let (k, j) = (&lap.joint.linear.stiffness, 1 - i);
     let load = |of: usize, x: f64| {
-        let HigherTerms {
-            quintic, septic, ..
-        } = &lap.joint.higher;
-        k[of][of] * x
-            + lap.joint.cubic[of] * x.powi(3)
-            + quintic[of] * x.powi(5)
-            + septic[of] * x.powi(7)
+        let [k3, k5, k7] = lap.joint.on[of].polynomial().springs;
+        k[of][of] * x + k3 * x.powi(3) + k5 * x.powi(5) + k7 * x.powi(7)
     };
     let tangent = |of: usize, x: f64| {
-        let HigherTerms {
-            quintic, septic, ..
-        } = &lap.joint.higher;
-        k[of][of]
-            + 3.0 * lap.joint.cubic[of] * x.powi(2)
-            + 5.0 * quintic[of] * x.powi(4)
-            + 7.0 * septic[of] * x.powi(6)
+        let [k3, k5, k7] = lap.joint.on[of].polynomial().springs;
+        k[of][of] + 3.0 * k3 * x.powi(2) + 5.0 * k5 * x.powi(4) + 7.0 * k7 * x.powi(6)
     };
     let (mut r, mut s): (f64, f64) = (0.0, 0.0);
     let step = 1e-5 * lap.escape_amplitude()[i].unwrap();
@@ -134,7 +121,7 @@ fn with_rotation_the_other_degree_of_freedom_follows_its_own_cubic_too() {
 #[test]
 fn what_is_not_held_at_rest_escapes_at_once() {
     let mut lap = with_rotation([-1e11, -1e9]);
-    lap.joint.stiffness[1][1] = 50.0; // k_yy k_θθ < k_yθ²
+    lap.joint.linear.stiffness[1][1] = 50.0; // k_yy k_θθ < k_yθ²
     assert_eq!(lap.escape_amplitude(), [Some(0.0); 2]);
 }
 
@@ -149,16 +136,18 @@ fn with_roots(roots: [f64; 3]) -> Lap<1> {
         damping: [0.0],
     };
     Lap {
-        joint: JointLaw {
+        joint: Linear {
             stiffness: [[k]],
             damping: [[0.0]],
-            cubic: [-linear * (a + b + c)],
-            higher: HigherTerms {
-                quintic: [linear * (a * b + b * c + c * a)],
-                septic: [-linear * a * b * c],
-                ..HigherTerms::NONE
-            },
-        },
+        }
+        .beside([Polynomial::with(
+            &[
+                -linear * (a + b + c),
+                linear * (a * b + b * c + c * a),
+                -linear * a * b * c,
+            ],
+            &[],
+        )]),
         a: body(supports[0]),
         b: body(supports[1]),
     }
@@ -191,30 +180,32 @@ fn the_first_of_several_unstable_equilibria_counts() {
 fn a_fifth_order_term_that_stiffens_in_time_prevents_the_escape() {
     // k + k3 u + k5 u² > 0 everywhere for k5 > k3²/(4 k)
     let mut lap = with_roots([f64::INFINITY, 1e-6, 1e-6]);
-    let critical = lap.joint.higher.quintic[0];
-    lap.joint.higher.quintic[0] = 1.000_001 * critical;
-    assert_eq!(lap.escape_amplitude(), [None]);
-    lap.joint.higher.quintic[0] = 0.999_999 * critical;
-    let [escape] = lap.escape_amplitude();
+    let critical = lap.joint.on[0].polynomial();
+    let mut with_quintic = |part: f64| {
+        let mut terms = critical;
+        terms.springs[1] *= part;
+        lap.joint.on = [terms.into()];
+        lap.escape_amplitude()
+    };
+    assert_eq!(with_quintic(1.000_001), [None]);
+    let [escape] = with_quintic(0.999_999);
     // u = u₀ (1 − √(1 − q))/q with q = 1 − 10⁻⁶
     let q: f64 = 0.999_999;
     let expected = (1e-6 * (1.0 - (1.0 - q).sqrt()) / q).sqrt();
     assert!((escape.unwrap() / expected - 1.0).abs() < 1e-10);
     // and every law without a term that softens is held
-    lap.joint.cubic = [0.0];
+    let mut terms = critical;
+    terms.springs[0] = 0.0;
+    lap.joint.on = [terms.into()];
     assert_eq!(lap.escape_amplitude(), [None]);
 }
 
 #[test]
 fn the_joint_alone_escapes_where_the_lap_without_supports_does() {
-    let terms = HigherTerms {
-        quintic: [2e17, -1e12],
-        septic: [-1e23, 3e14],
-        ..HigherTerms::NONE
-    };
     let mut lap = with_rotation([-1e11, -3e8]);
     assert_eq!(lap.joint.escape_amplitude(), lap.escape_amplitude());
-    lap.joint.higher = terms;
+    let springs = [[-1e11, -3e8], [2e17, -1e12], [-1e23, 3e14]];
+    lap.joint = lap.joint.linear.beside(Polynomial::on_each(&springs, &[]));
     assert_eq!(lap.joint.escape_amplitude(), lap.escape_amplitude());
 }
 
@@ -228,8 +219,8 @@ fn with_rotation_all_terms_of_the_other_degree_of_freedom_count() {
         ([-1e11, -3e8], [5e15, 1e13], [-3e20, 0.0]),
     ] {
         let mut lap = with_rotation(cubic);
-        lap.joint.higher.quintic = quintic;
-        lap.joint.higher.septic = septic;
+        let terms = Polynomial::on_each(&[cubic, quintic, septic], &[]);
+        lap.joint = lap.joint.linear.beside(terms);
         let escape = lap.escape_amplitude();
         for i in 0..2 {
             let softens = cubic[i] < 0.0 || quintic[i] < 0.0 || septic[i] < 0.0;
@@ -253,22 +244,12 @@ fn the_change_of_the_amplitude_is_its_difference_quotient() {
     let plus = |lap: &Lap<2>, change: &Lap<2>, factor: f64| {
         let sum = |of: f64, by: f64| of + factor * by;
         let list = |of: &[f64; 2], by: &[f64; 2]| std::array::from_fn(|i| sum(of[i], by[i]));
-        let law = (&lap.joint, &change.joint);
         let body = |of: &Body<2>, by: &Body<2>| Body {
             stiffness: list(&of.stiffness, &by.stiffness),
             ..*of
         };
         Lap {
-            joint: JointLaw {
-                stiffness: std::array::from_fn(|i| list(&law.0.stiffness[i], &law.1.stiffness[i])),
-                damping: law.0.damping,
-                cubic: list(&law.0.cubic, &law.1.cubic),
-                higher: HigherTerms {
-                    quintic: list(&law.0.higher.quintic, &law.1.higher.quintic),
-                    septic: list(&law.0.higher.septic, &law.1.higher.septic),
-                    ..HigherTerms::NONE
-                },
-            },
+            joint: JointLaw::each([&lap.joint, &change.joint], |[of, by]| sum(of, by)),
             a: body(&lap.a, &change.a),
             b: body(&lap.b, &change.b),
         }
@@ -282,16 +263,22 @@ fn the_change_of_the_amplitude_is_its_difference_quotient() {
         ([-1e11, -3e8], [5e15, 1e13], [-3e20, 0.0]),
     ] {
         let mut lap = with_rotation(cubic);
-        lap.joint.higher.quintic = quintic;
-        lap.joint.higher.septic = septic;
+        let terms = Polynomial::on_each(&[cubic, quintic, septic], &[]);
+        lap.joint = lap.joint.linear.beside(terms);
         lap.a.stiffness = [2e5, 300.0];
         lap.b.stiffness = [1e5, 100.0];
         // something of every parameter, by its magnitude
         let mut change = lap;
-        change.joint.stiffness = [[3e5, -2e3], [-2e3, 500.0]];
-        change.joint.cubic = [-0.3 * cubic[0], 0.7 * cubic[1]];
-        change.joint.higher.quintic = [0.4 * quintic[0], -0.6 * quintic[1]];
-        change.joint.higher.septic = [0.2 * septic[0], 0.5 * septic[1]];
+        let springs = [
+            [-0.3 * cubic[0], 0.7 * cubic[1]],
+            [0.4 * quintic[0], -0.6 * quintic[1]],
+            [0.2 * septic[0], 0.5 * septic[1]],
+        ];
+        change.joint = Linear {
+            stiffness: [[3e5, -2e3], [-2e3, 500.0]],
+            damping: [[0.0; 2]; 2],
+        }
+        .beside(Polynomial::on_each(&springs, &[]));
         change.a.stiffness = [1e5, -50.0];
         change.b.stiffness = [-3e4, 80.0];
         let step = 1e-5;

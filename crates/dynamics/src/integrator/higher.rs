@@ -6,33 +6,27 @@ use std::{array::from_fn, num::NonZeroU32};
 use super::{LapIntegrator, join, moved, split};
 use crate::{
     lap::{Lap, LapLoads, LapState},
+    law::{DAMPER_COUNT, SPRING_COUNT},
     pair::Pair,
 };
 
 /// The joint's terms of higher order over the inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Higher<const D: usize> {
-    /// k5/m
-    quintic: [Pair; D],
-    /// k7/m
-    septic: [Pair; D],
-    /// c2/m
-    damping_quadratic: [Pair; D],
-    /// c4/m
-    damping_quartic: [Pair; D],
+    /// k5/m, k7/m, …
+    springs: [[Pair; SPRING_COUNT - 1]; D],
+    /// c2/m, c4/m, …
+    dampers: [[Pair; DAMPER_COUNT]; D],
 }
 
 impl<const D: usize> Higher<D> {
     pub(super) fn new(lap: &Lap<D>) -> Self {
-        let of_bodies = |list: &[f64; D]| {
-            from_fn(|i| Pair::new(list[i] / lap.a.inertia[i], list[i] / lap.b.inertia[i]))
-        };
-        let terms = &lap.joint.higher;
+        let polynomials = lap.joint.polynomials();
+        let of_bodies =
+            |i: usize, term: f64| Pair::new(term / lap.a.inertia[i], term / lap.b.inertia[i]);
         Self {
-            quintic: of_bodies(&terms.quintic),
-            septic: of_bodies(&terms.septic),
-            damping_quadratic: of_bodies(&terms.damping_quadratic),
-            damping_quartic: of_bodies(&terms.damping_quartic),
+            springs: from_fn(|i| from_fn(|j| of_bodies(i, polynomials[i].springs[j + 1]))),
+            dampers: from_fn(|i| polynomials[i].dampers.map(|term| of_bodies(i, term))),
         }
     }
 
@@ -43,11 +37,21 @@ impl<const D: usize> Higher<D> {
         from_fn(|i| {
             let (r, velocity) = (x[i].relative(), v[i].relative());
             let squared = r * r;
-            let spring = (self.quintic[i] + self.septic[i] * squared) * (squared * squared) * r;
-            let damper = (self.damping_quadratic[i] + self.damping_quartic[i] * squared) * squared;
+            let spring = sum(&self.springs[i], squared) * (squared * squared) * r;
+            let damper = sum(&self.dampers[i], squared) * squared;
             acceleration[i] - spring - damper * velocity
         })
     }
+}
+
+/// Σ cⱼ uʲ
+#[inline]
+fn sum<const N: usize>(coefficients: &[Pair; N], u: Pair) -> Pair {
+    let mut sum = coefficients[N - 1];
+    for j in (0..N - 1).rev() {
+        sum = coefficients[j] + sum * u;
+    }
+    sum
 }
 
 impl<const D: usize> LapIntegrator<D> {

@@ -1,7 +1,7 @@
 //! The integrator against closed forms and the textbook.
 
 use super::*;
-use crate::{higher::HigherTerms, joint::JointLaw};
+use crate::law::{JointMemory, Linear, Polynomial};
 
 fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
     let body = Body {
@@ -9,12 +9,11 @@ fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
         stiffness: [support_stiffness],
         damping: [support_damping],
     };
-    let joint = JointLaw {
+    let joint = Linear {
         stiffness: [[0.0]],
         damping: [[0.0]],
-        cubic: [0.0],
-        higher: HigherTerms::NONE,
-    };
+    }
+    .beside([0.0].map(Polynomial::cubic));
     Lap {
         joint,
         a: body,
@@ -119,12 +118,11 @@ fn the_response_to_a_harmonic_load_converges_with_fourth_order() {
 #[test]
 fn equal_loads_at_all_stages_are_held_loads() {
     let mut lap = decoupled(2e4, 3.0);
-    lap.joint = JointLaw {
+    lap.joint = Linear {
         stiffness: [[7e3]],
         damping: [[0.3]],
-        cubic: [1e9],
-        higher: HigherTerms::NONE,
-    };
+    }
+    .beside([1e9].map(Polynomial::cubic));
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
         a: [12.0],
@@ -140,21 +138,19 @@ fn equal_loads_at_all_stages_are_held_loads() {
 fn textbook_rate(lap: &Lap<2>, x: &[f64; 8], loads: &LapLoads<2>) -> [f64; 8] {
     let r: [f64; 2] = from_fn(|i| x[i] - x[2 + i]);
     let s: [f64; 2] = from_fn(|i| x[4 + i] - x[6 + i]);
-    let (stiffness, damping, cubic) = (&lap.joint.stiffness, &lap.joint.damping, &lap.joint.cubic);
-    let HigherTerms {
-        quintic,
-        septic,
-        damping_quadratic,
-        damping_quartic,
-    } = &lap.joint.higher;
+    let Linear { stiffness, damping } = &lap.joint.linear;
     let mut rate = [0.0; 8];
     rate[..4].copy_from_slice(&x[4..]);
     for i in 0..2 {
-        let mut joint = cubic[i] * r[i].powi(3)
-            + quintic[i] * r[i].powi(5)
-            + septic[i] * r[i].powi(7)
-            + damping_quadratic[i] * r[i].powi(2) * s[i]
-            + damping_quartic[i] * r[i].powi(4) * s[i];
+        let Polynomial {
+            springs: [k3, k5, k7],
+            dampers: [c2, c4],
+        } = lap.joint.on[i].polynomial();
+        let mut joint = k3 * r[i].powi(3)
+            + k5 * r[i].powi(5)
+            + k7 * r[i].powi(7)
+            + c2 * r[i].powi(2) * s[i]
+            + c4 * r[i].powi(4) * s[i];
         for j in 0..2 {
             joint += stiffness[i][j] * r[j] + damping[i][j] * s[j];
         }
@@ -170,44 +166,40 @@ fn textbook_rate(lap: &Lap<2>, x: &[f64; 8], loads: &LapLoads<2>) -> [f64; 8] {
 
 #[test]
 fn a_step_is_the_textbook_s_four_stages() {
-    follows_the_textbook(HigherTerms::NONE);
+    follows_the_textbook([[0.0; 2]; 4]);
 }
 
 #[test]
 fn terms_of_higher_order_are_part_of_every_stage() {
     // at r = 1 mm, 0.1 rad each is some per cent of the linear stiffness or damping
-    let terms = HigherTerms {
-        quintic: [1e17, -8e5],
-        septic: [-3e22, 3e7],
-        damping_quadratic: [4e7, 0.5],
-        damping_quartic: [-6e12, 9.0],
-    };
+    let terms = [[1e17, -8e5], [-3e22, 3e7], [4e7, 0.5], [-6e12, 9.0]];
     follows_the_textbook(terms);
-    let one = |change: fn(&mut HigherTerms<2>)| {
-        let mut alone = HigherTerms::NONE;
-        change(&mut alone);
-        follows_the_textbook(alone);
-    };
-    one(|terms| terms.quintic = [1e17, 0.0]);
-    one(|terms| terms.septic = [0.0, 3e7]);
-    one(|terms| terms.damping_quadratic = [4e7, 0.0]);
-    one(|terms| terms.damping_quartic = [0.0, 9.0]);
+    for (index, alone) in [[1e17, 0.0], [0.0, 3e7], [4e7, 0.0], [0.0, 9.0]]
+        .into_iter()
+        .enumerate()
+    {
+        let mut terms = [[0.0; 2]; 4];
+        terms[index] = alone;
+        follows_the_textbook(terms);
+    }
 }
 
-/// Two hundred steps with these terms of higher order.
-fn follows_the_textbook(higher: HigherTerms<2>) {
+/// Two hundred steps with these terms of higher order: k5, k7, c2, c4.
+fn follows_the_textbook([quintic, septic, quadratic, quartic]: [[f64; 2]; 4]) {
     let body = |scale: f64| Body {
         inertia: [1.41 * scale, 1e-3 / scale],
         stiffness: [8.24e5, 1e3 * scale],
         damping: [200.0 * scale, 0.05],
     };
     let lap = Lap {
-        joint: JointLaw {
+        joint: Linear {
             stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
             damping: [[108.3, -0.83], [-0.83, 0.083]],
-            cubic: [5e12, 1e6],
-            higher,
-        },
+        }
+        .beside(Polynomial::on_each(
+            &[[5e12, 1e6], quintic, septic],
+            &[quadratic, quartic],
+        )),
         a: body(1.0),
         b: body(2.5),
     };
@@ -247,28 +239,22 @@ fn follows_the_textbook(higher: HigherTerms<2>) {
         }
     }
     // the cubic springs had a share in it
-    assert!(lap.joint.cubic[0] * (x[0] - x[2]).powi(2) > 0.01 * lap.joint.stiffness[0][0]);
+    assert!(5e12 * (x[0] - x[2]).powi(2) > 0.01 * lap.joint.linear.stiffness[0][0]);
 }
 
 #[test]
 fn many_steps_at_once_are_as_many_single_steps() {
-    agree_with_single_steps(HigherTerms::NONE);
-    agree_with_single_steps(HigherTerms {
-        quintic: [-3e12],
-        septic: [2e18],
-        damping_quadratic: [1e4],
-        damping_quartic: [-1e8],
-    });
+    agree_with_single_steps(Polynomial::cubic(1e9));
+    agree_with_single_steps(Polynomial::with(&[1e9, -3e12, 2e18], &[1e4, -1e8]));
 }
 
-fn agree_with_single_steps(higher: HigherTerms<1>) {
+fn agree_with_single_steps(terms: Polynomial) {
     let mut lap = decoupled(2e4, 3.0);
-    lap.joint = JointLaw {
+    lap.joint = Linear {
         stiffness: [[7e3]],
         damping: [[0.3]],
-        cubic: [1e9],
-        higher,
-    };
+    }
+    .beside([terms]);
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
         a: [12.0],
@@ -292,36 +278,30 @@ fn agree_with_single_steps(higher: HigherTerms<1>) {
 #[test]
 fn what_the_dampers_take_is_missing_from_the_energy() {
     let mut lap = decoupled(2e4, 0.0);
-    lap.joint = JointLaw {
+    lap.joint = Linear {
         stiffness: [[7e3]],
         damping: [[0.3]],
-        cubic: [-1e8],
-        higher: HigherTerms {
-            quintic: [4e12],
-            septic: [2e17],
-            damping_quadratic: [2e5],
-            damping_quartic: [1e10],
-        },
-    };
+    }
+    .beside([Polynomial::with(&[-1e8, 4e12, 2e17], &[2e5, 1e10])]);
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads { a: [0.0], b: [0.0] };
     let mut state = LapState::REST;
     state.a.displacement[0] = 5e-3;
-    let start_j = lap.stored_energy(&state);
+    let start_j = lap.stored_energy(&JointMemory::REST, &state);
     let step_s = 1e-5;
     let mut lost_j = 0.0;
     for _ in 0..20_000 {
         // Boole's rule over one step, from five states
         let mut power = [0.0; 5];
-        power[0] = lap.dissipated_power(&state);
+        power[0] = lap.dissipated_power(&JointMemory::REST, &state);
         for watt in &mut power[1..] {
             state = integrator.advance(&state, &loads, step_s / 4.0, NonZeroU32::MIN);
-            *watt = lap.dissipated_power(&state);
+            *watt = lap.dissipated_power(&JointMemory::REST, &state);
         }
         let weighted = 7.0 * (power[0] + power[4]) + 32.0 * (power[1] + power[3]) + 12.0 * power[2];
         lost_j += step_s * weighted / 90.0;
     }
-    let end_j = lap.stored_energy(&state);
+    let end_j = lap.stored_energy(&JointMemory::REST, &state);
     assert!(lost_j > 0.1 * start_j, "{lost_j} of {start_j}");
     let balance = (start_j - end_j - lost_j) / start_j;
     assert!(balance.abs() < 1e-11, "{balance:e}");

@@ -1,7 +1,9 @@
 //! What the joint does, drawn: receptances of a lap, dynamic stiffness of an element, load over displacement of what is
 //! not linear.
 
-use bolted_joint_dynamics::{JointLaw, Lap, Motion};
+use bolted_joint_dynamics::{
+    Dof, DofKind, JointLaw, Lap, Motion, Polynomial, law::Term, with_dofs,
+};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -9,7 +11,6 @@ use super::super::Interface;
 use super::Page;
 use bolted_joint_figures::html::number;
 use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
-use bolted_joint_joint::DofSet;
 
 /// Frequencies of a curve, spread evenly over the logarithmic axis, without those about the resonances.
 const SAMPLES: usize = 300;
@@ -26,29 +27,10 @@ const PART_OF_NONLINEAR: f64 = 0.7;
 /// Points of a load-displacement curve.
 const LOAD_POINTS: i32 = 120;
 
-/// Symbols, units and loads of the DOFs.
-const DOFS: [Dof; 2] = [
-    Dof {
-        motion: "y",
-        motion_unit: ("mm", 1e3),
-        load: "F",
-        longest: 1e-2,
-        receptance: "receptance, m/N",
-        stiffness: "N/m",
-    },
-    Dof {
-        motion: "θ",
-        motion_unit: ("mrad", 1e3),
-        load: "M",
-        longest: 1.0,
-        receptance: "receptance, rad/(N·m)",
-        stiffness: "N·m/rad",
-    },
-];
-
-struct Dof {
-    motion: &'static str,
+/// Axes of the figures for one kind of DOF.
+struct Axes {
     motion_unit: (&'static str, f64),
+    motion: &'static str,
     load: &'static str,
     /// Relative motion (m, rad) beyond which no bolted joint goes.
     longest: f64,
@@ -56,11 +38,31 @@ struct Dof {
     stiffness: &'static str,
 }
 
+impl Axes {
+    const fn of(kind: DofKind) -> Self {
+        match kind {
+            DofKind::Translation => Self {
+                motion_unit: ("mm", 1e3),
+                motion: "relative displacement, mm",
+                load: "force, N",
+                longest: 1e-2,
+                receptance: "receptance, m/N",
+                stiffness: "N/m",
+            },
+            DofKind::Rotation => Self {
+                motion_unit: ("mrad", 1e3),
+                motion: "relative rotation, mrad",
+                load: "moment, N·m",
+                longest: 1.0,
+                receptance: "receptance, rad/(N·m)",
+                stiffness: "N·m/rad",
+            },
+        }
+    }
+}
+
 pub(super) fn section(page: &Page<'_>) -> String {
-    let figures = match page.file.joint.dofs {
-        DofSet::Translation => sized::<1>(page),
-        DofSet::TranslationRotation => sized::<2>(page),
-    };
+    let figures = with_dofs!(page.file.joint.dofs.size(), D => sized::<D>(page));
     let figures: String = figures
         .into_iter()
         .filter_map(|(figure, caption)| {
@@ -91,7 +93,8 @@ fn sized<const D: usize>(page: &Page<'_>) -> Vec<(LineFigure<'static>, String)> 
             .unwrap_or_default(),
         Interface::Element => dynamic_stiffness(&law, page),
     };
-    figures.extend((0..D).filter_map(|i| load_curve(&law, i)));
+    let dofs = page.file.joint.dofs.rows().enumerate();
+    figures.extend(dofs.filter_map(|(i, dof)| load_curve(&law, i, dof)));
     figures
 }
 
@@ -119,10 +122,14 @@ fn receptances<const D: usize>(
         .into_iter()
         .map(|frequency| (frequency, impedance(lap, frequency).try_inverse()))
         .collect();
-    (0..D)
-        .map(|i| {
+    page.file
+        .joint
+        .dofs
+        .rows()
+        .enumerate()
+        .map(|(i, dof)| {
             let line = |side: &str, row: usize| Line {
-                name: format!("{} of body {side}", DOFS[i].motion),
+                name: format!("{} of body {side}", dof.symbol),
                 shape: Shape::Curve,
                 points: solved
                     .iter()
@@ -135,13 +142,13 @@ fn receptances<const D: usize>(
             let figure = LineFigure {
                 title: "Receptances of both bodies over frequency",
                 across: ("frequency, Hz", Scale::Logarithmic),
-                up: (DOFS[i].receptance, Scale::Logarithmic),
+                up: (Axes::of(dof.kind).receptance, Scale::Logarithmic),
                 lines: vec![line("a", i), line("b", D + i)],
             };
             let caption = format!(
                 "Magnitude of the receptances <i>{motion}</i>/<i>{load}</i><sub>a</sub> of both bodies, about rest.",
-                motion = DOFS[i].motion,
-                load = DOFS[i].load,
+                motion = dof.symbol,
+                load = dof.load,
             );
             (figure, caption)
         })
@@ -154,7 +161,8 @@ fn impedance<const D: usize>(lap: &Lap<D>, frequency_hz: f64) -> DMatrix<Complex
     let mut impedance = DMatrix::zeros(2 * D, 2 * D);
     for i in 0..D {
         for j in 0..D {
-            let joint = Complex64::new(lap.joint.stiffness[i][j], omega * lap.joint.damping[i][j]);
+            let linear = &lap.joint.linear;
+            let joint = Complex64::new(linear.stiffness[i][j], omega * linear.damping[i][j]);
             impedance[(i, j)] += joint;
             impedance[(D + i, D + j)] += joint;
             impedance[(i, D + j)] -= joint;
@@ -179,9 +187,13 @@ fn dynamic_stiffness<const D: usize>(
         .as_ref()
         .map_or(BAND_OF_ELEMENT_HZ, |validity| validity.frequency_hz);
     let frequencies = spread(band[0].max(1e-3 * band[1]), band[1]);
-    (0..D)
-        .map(|i| {
-            let (stiffness, damping) = (law.stiffness[i][i], law.damping[i][i]);
+    page.file
+        .joint
+        .dofs
+        .rows()
+        .enumerate()
+        .map(|(i, dof)| {
+            let (stiffness, damping) = (law.linear.stiffness[i][i], law.linear.damping[i][i]);
             let line = |name: &str, value: &dyn Fn(f64) -> f64| Line {
                 name: name.to_owned(),
                 shape: Shape::Curve,
@@ -193,7 +205,7 @@ fn dynamic_stiffness<const D: usize>(
             let figure = LineFigure {
                 title: "Dynamic stiffness of the joint over frequency",
                 across: ("frequency, Hz", Scale::Logarithmic),
-                up: (DOFS[i].stiffness, Scale::Logarithmic),
+                up: (Axes::of(dof.kind).stiffness, Scale::Logarithmic),
                 lines: vec![
                     line("|K + jωC|", &|omega| stiffness.hypot(omega * damping)),
                     line("K", &|_| stiffness.abs()),
@@ -203,7 +215,7 @@ fn dynamic_stiffness<const D: usize>(
             let caption = format!(
                 "Dynamic stiffness of the joint against the relative motion <i>{motion}</i> alone, and its elastic and viscous \
                  parts; their ratio, the loss factor, is {loss} at {from} Hz and {at_end} at {to} Hz.",
-                motion = DOFS[i].motion,
+                motion = dof.symbol,
                 loss = loss_factor(stiffness, damping, band[0]),
                 from = number(band[0]),
                 at_end = loss_factor(stiffness, damping, band[1]),
@@ -229,20 +241,22 @@ fn loss_factor(stiffness: f64, damping: f64, frequency_hz: f64) -> String {
 fn load_curve<const D: usize>(
     law: &JointLaw<D>,
     i: usize,
+    dof: &Dof,
 ) -> Option<(LineFigure<'static>, String)> {
-    let stiffness = law.stiffness[i][i];
+    let stiffness = law.linear.stiffness[i][i];
     // only the springs: damping has no part in a static load
     let mut springs = *law;
-    springs.higher.damping_quadratic = [0.0; D];
-    springs.higher.damping_quartic = [0.0; D];
+    springs.on = law
+        .on
+        .map(|laws| laws.with_only(|parameter| parameter.acts_on.stored_energy));
     // |kₙ| xⁿ = K x at x = (K/|kₙ|)^(1/(n−1))
     let equal = springs.nonlinear_amplitude()[i];
     let reach = PART_OF_NONLINEAR * equal;
-    let dof = &DOFS[i];
-    if !(reach > 0.0 && reach <= dof.longest) {
+    let axes = Axes::of(dof.kind);
+    if !(reach > 0.0 && reach <= axes.longest) {
         return None;
     }
-    let (unit, per_si) = dof.motion_unit;
+    let (unit, per_si) = axes.motion_unit;
     let line = |name: &str, load: &dyn Fn(f64) -> f64| Line {
         name: name.to_owned(),
         shape: Shape::Curve,
@@ -253,16 +267,13 @@ fn load_curve<const D: usize>(
             })
             .collect(),
     };
-    let (across, up) = match i {
-        0 => ("relative displacement, mm", "force, N"),
-        _ => ("relative rotation, mrad", "moment, N·m"),
-    };
     let load = |x: f64| {
         let mut relative = Motion::REST;
         relative.displacement[i] = x;
         springs.load_on_b(&relative)[i]
     };
-    let is_cubic = springs.higher.quintic[i] == 0.0 && springs.higher.septic[i] == 0.0;
+    let cubic = Polynomial::cubic(springs.on[i].polynomial().coefficient(Term::CUBIC));
+    let is_cubic = springs.on[i] == cubic.into();
     let name = if is_cubic {
         "with cubic term"
     } else {
@@ -270,11 +281,11 @@ fn load_curve<const D: usize>(
     };
     let figure = LineFigure {
         title: "Static load of the joint over its relative displacement",
-        across: (across, Scale::Linear),
-        up: (up, Scale::Linear),
+        across: (axes.motion, Scale::Linear),
+        up: (axes.load, Scale::Linear),
         lines: vec![line(name, &load), line("linear part", &|x| stiffness * x)],
     };
-    let motion = dof.motion;
+    let motion = dof.symbol;
     let part = if is_cubic {
         format!(
             "The cubic part is 1 % of the linear one at {small} {unit}, 10 % at {large} {unit}.",
@@ -307,7 +318,7 @@ fn spread(from: f64, to: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bolted_joint_dynamics::{Body, HigherTerms};
+    use bolted_joint_dynamics::{Body, Linear};
 
     #[test]
     fn the_impedance_is_that_of_two_oscillators() {
@@ -318,12 +329,11 @@ mod tests {
             damping: [1.39],
         };
         let lap = Lap {
-            joint: JointLaw {
+            joint: Linear {
                 stiffness: [[4.56e6]],
                 damping: [[0.54]],
-                cubic: [0.0],
-                higher: HigherTerms::NONE,
-            },
+            }
+            .into(),
             a: body,
             b: body,
         };

@@ -2,21 +2,41 @@
 
 use super::super::{Interface, assets};
 use super::Page;
+use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::DofSet;
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let dofs = page.file.joint.dofs;
-    let motion = match dofs {
-        DofSet::Translation => "<i>x</i> = <i>y</i>: the joint resists one translation",
-        DofSet::TranslationRotation => {
-            "<i>x</i> = [<i>y</i>, <i>θ</i>]<sup>T</sup>: the joint resists a translation and a rotation, and couples them"
-        }
-    };
+    let motion = motion(dofs);
     format!(
         "<h2>Model</h2>\n<figure>\n{}<figcaption>The arrows point the way that counts as positive, for loads as for \
          motions.</figcaption>\n</figure>\n<p>{motion}. All quantities are in SI units.</p>\n{}",
         assets::inline_diagram(page.interface, dofs),
         equations(page.interface),
+    )
+}
+
+/// The motions that the joint resists.
+fn motion(dofs: DofSet) -> String {
+    let symbols: Vec<String> = dofs
+        .rows()
+        .map(|dof| format!("<i>{}</i>", dof.symbol))
+        .collect();
+    if let [symbol] = symbols.as_slice() {
+        let motion = dofs.row(0).kind.motion();
+        return format!("<i>x</i> = {symbol}: the joint resists one {motion}");
+    }
+    let of = |kind: DofKind| match dofs.rows().filter(|dof| dof.kind == kind).count() {
+        0 => None,
+        1 => Some(format!("a {}", kind.motion())),
+        count => Some(format!("{count} {}s", kind.motion())),
+    };
+    let motions = [DofKind::Translation, DofKind::Rotation].into_iter();
+    let motions: Vec<String> = motions.filter_map(of).collect();
+    format!(
+        "<i>x</i> = [{}]<sup>T</sup>: the joint resists {}, and couples them",
+        symbols.join(", "),
+        motions.join(" and ")
     )
 }
 

@@ -2,27 +2,25 @@
 
 use super::super::Interface;
 use super::Page;
+use bolted_joint_dynamics::law::{DAMPING, STIFFNESS};
 use bolted_joint_figures::html::{number, number_cell, table};
-
-/// Entries of the symmetric matrices: name, row, column.
-const ENTRIES: [(&str, usize, usize); 3] = [("yy", 0, 0), ("yθ", 0, 1), ("θθ", 1, 1)];
 
 /// Nothing for a constant joint.
 pub(super) fn section(page: &Page<'_>) -> String {
     let Some(over_preload) = page.over_preload else {
         return String::new();
     };
-    let dofs = page.file.joint.dofs.count();
-    let entries = || ENTRIES.iter().filter(move |(_, _, column)| *column < dofs);
+    let dofs = page.file.joint.dofs;
     let mut headings = vec!["Preload, N·m".to_owned()];
-    for symbol in ["k", "c"] {
-        headings.extend(entries().map(|(name, ..)| format!("<i>{symbol}</i><sub>{name}</sub>")));
+    for parameter in [STIFFNESS, DAMPING] {
+        headings.extend(dofs.entries().map(|[i, j]| {
+            let (row, column) = (dofs.row(i).symbol, dofs.row(j).symbol);
+            format!("<i>{}</i><sub>{row}{column}</sub>", parameter.symbol)
+        }));
     }
-    let motions = ["y", "θ"];
     headings.extend(
-        motions[..dofs]
-            .iter()
-            .map(|motion| format!("<i>k</i><sub>3,{motion}</sub>")),
+        dofs.rows()
+            .map(|dof| format!("<i>k</i><sub>3,{}</sub>", dof.symbol)),
     );
     let rows: Vec<String> = over_preload
         .preload
@@ -31,14 +29,14 @@ pub(super) fn section(page: &Page<'_>) -> String {
         .map(|(place, preload)| {
             let mut cells = number_cell(&number(*preload));
             for matrices in [&over_preload.stiffness, &over_preload.damping] {
-                for (_, row, column) in entries() {
+                for [row, column] in dofs.entries() {
                     let entry = matrices
                         .get(place)
-                        .and_then(|matrix| matrix.get(*row)?.get(*column));
+                        .and_then(|matrix| matrix.get(row)?.get(column));
                     cells += &number_cell(&entry.copied().map(number).unwrap_or_default());
                 }
             }
-            for dof in 0..dofs {
+            for dof in 0..dofs.count() {
                 let cubic = over_preload.cubic.get(place).and_then(|list| list.get(dof));
                 cells += &number_cell(&number(cubic.copied().unwrap_or_default()));
             }

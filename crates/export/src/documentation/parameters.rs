@@ -2,16 +2,14 @@
 
 use super::super::Interface;
 use super::Page;
+use bolted_joint_dynamics::{
+    DofKind,
+    law::{DAMPING, Parameter, STIFFNESS, Term},
+};
 use bolted_joint_figures::html::{cell, escaped, number, number_cell, spread, table};
-use bolted_joint_joint::{Body, DofSet, Joint};
-
-/// Symbols and load symbols of the DOFs, in the order of the matrices' rows.
-const MOTIONS: [&str; 2] = ["y", "θ"];
-const LOADS: [&str; 2] = ["F", "M"];
-
-const STIFFNESS_UNITS: [[&str; 2]; 2] = [["N/m", "N/rad"], ["N·m/m", "N·m/rad"]];
-const DAMPING_UNITS: [[&str; 2]; 2] = [["N·s/m", "N·s/rad"], ["N·m·s/m", "N·m·s/rad"]];
-const CUBIC_UNITS: [&str; 2] = ["N/m³", "N·m/rad³"];
+use bolted_joint_joint::{
+    Body, DofSet, HigherTerms, Joint, description, superscript, unit, unit_for_people,
+};
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let joint = &page.file.joint;
@@ -24,13 +22,15 @@ pub(super) fn section(page: &Page<'_>) -> String {
         "",
         &joint.stiffness,
         deviation.map(|deviation| deviation.stiffness.as_slice()),
-        &STIFFNESS_UNITS,
+        STIFFNESS,
+        joint.dofs,
     );
     let damping = matrix(
         "̇",
         &joint.damping,
         deviation.map(|deviation| deviation.damping.as_slice()),
-        &DAMPING_UNITS,
+        DAMPING,
+        joint.dofs,
     );
     let basis = match &page.file.uncertainty {
         Some(uncertainty) => format!(
@@ -48,9 +48,10 @@ pub(super) fn section(page: &Page<'_>) -> String {
     };
     format!(
         "<h2>Values of the joint{at}</h2>\n<h3>Stiffness <i>K</i></h3>\n{stiffness}<h3>Damping <i>C</i></h3>\n{damping}\
-         {basis}{}{}{bodies}<p>{role}; the values here are those it starts with.</p>\n",
+         {basis}{}{}{}{bodies}<p>{role}; the values here are those it starts with.</p>\n",
         cubic(joint),
         higher(joint),
+        friction(joint),
         at = page
             .over_preload
             .map(|table| format!(" at {} N·m", number(table.nominal)))
@@ -68,7 +69,8 @@ fn matrix(
     dot: &str,
     entries: &[Vec<f64>],
     deviation: Option<&[Vec<f64>]>,
-    units: &[[&str; 2]; 2],
+    parameter: &Parameter,
+    dofs: DofSet,
 ) -> String {
     let rows: Vec<String> = entries
         .iter()
@@ -82,16 +84,17 @@ fn matrix(
                         .and_then(|deviation| deviation.get(i)?.get(j))
                         .map(|deviation| format!(" ± {}", spread(*deviation)))
                         .unwrap_or_default();
-                    number_cell(&format!("{}{spread} {}", number(*value), units[i][j]))
+                    let unit = dofs.unit(parameter.unit, [i, j]);
+                    number_cell(&format!("{}{spread} {unit}", number(*value)))
                 })
                 .collect();
-            format!("<th><i>{}</i></th>{cells}", LOADS[i])
+            format!("<th><i>{}</i></th>{cells}", dofs.row(i).load)
         })
         .collect();
-    let headings: Vec<String> = MOTIONS
-        .iter()
+    let headings: Vec<String> = dofs
+        .rows()
         .take(entries.len())
-        .map(|motion| format!("per <i>{motion}{dot}</i>"))
+        .map(|dof| format!("per <i>{}{dot}</i>", dof.symbol))
         .collect();
     let mut all: Vec<&str> = vec![""];
     all.extend(headings.iter().map(String::as_str));
@@ -118,8 +121,8 @@ fn cubic(joint: &Joint) -> String {
             };
             format!(
                 "<th><i>{}</i></th>{}{}",
-                LOADS[i],
-                number_cell(&format!("{} {}", number(entry), CUBIC_UNITS[i])),
+                joint.dofs.row(i).load,
+                number_cell(&value_on(joint, Term::CUBIC, i, entry)),
                 cell(effect)
             )
         })
@@ -139,39 +142,25 @@ fn higher(joint: &Joint) -> String {
     else {
         return String::new();
     };
-    // symbol, what it multiplies, and units of the DOFs
-    let kinds = [
-        (&terms.quintic, ("k", 5), "<i>r</i>⁵", ["N/m⁵", "N·m/rad⁵"]),
-        (&terms.septic, ("k", 7), "<i>r</i>⁷", ["N/m⁷", "N·m/rad⁷"]),
-        (
-            &terms.damping_quadratic,
-            ("c", 2),
-            "<i>r</i>² d<i>r</i>/d<i>t</i>",
-            ["N·s/m³", "N·m·s/rad³"],
-        ),
-        (
-            &terms.damping_quartic,
-            ("c", 4),
-            "<i>r</i>⁴ d<i>r</i>/d<i>t</i>",
-            ["N·s/m⁵", "N·m·s/rad⁵"],
-        ),
-    ];
     let mut rows = Vec::new();
-    for (list, (letter, order), factor, units) in kinds {
-        for (i, &term) in list.iter().enumerate().filter(|(_, term)| **term != 0.0) {
+    for term in HigherTerms::terms() {
+        let list = joint.term(term).iter().enumerate();
+        for (i, &value) in list.filter(|(_, value)| **value != 0.0) {
             rows.push(format!(
-                "<th><i>{letter}</i><sub>{order}</sub> of <i>{}</i></th>{}{}",
-                LOADS[i.min(1)],
-                number_cell(&format!("{} {}", number(term), units[i.min(1)])),
-                cell(&format!("times {factor}"))
+                "<th>{} of <i>{}</i></th>{}{}",
+                symbol(term.row()),
+                joint.dofs.row(i).load,
+                number_cell(&value_on(joint, term, i, value)),
+                cell(&format!("times {}", factor(term)))
             ));
         }
     }
     let range = terms
         .amplitude
         .iter()
-        .zip(MOTIONS.iter().zip(["m", "rad"]))
-        .map(|(amplitude, (motion, unit))| {
+        .zip(joint.dofs.rows())
+        .map(|(amplitude, dof)| {
+            let (motion, unit) = (dof.symbol, dof.kind.displacement_unit());
             format!("<i>{motion}</i> up to {} {unit}", number(*amplitude))
         })
         .collect::<Vec<_>>();
@@ -189,35 +178,88 @@ fn higher(joint: &Joint) -> String {
     )
 }
 
-fn bodies_table(a: &Body, b: &Body, dofs: DofSet) -> String {
-    type List = fn(&Body) -> &[f64];
-    let rows: [(&str, &str, List, usize); 6] = [
-        ("Mass", "kg", |body| &body.inertia, 0),
-        ("Support stiffness", "N/m", |body| &body.stiffness, 0),
-        ("Support damping", "N·s/m", |body| &body.damping, 0),
-        ("Moment of inertia", "kg·m²", |body| &body.inertia, 1),
-        (
-            "Support stiffness in rotation",
-            "N·m/rad",
-            |body| &body.stiffness,
-            1,
-        ),
-        (
-            "Support damping in rotation",
-            "N·m·s/rad",
-            |body| &body.damping,
-            1,
-        ),
-    ];
-    let rows: Vec<String> = rows
+/// A coefficient of a term on the DOF of row `i`, with its unit.
+fn value_on(joint: &Joint, term: Term, i: usize, value: f64) -> String {
+    let unit = joint.dofs.unit(term.row().unit, [i, i]);
+    format!("{} {unit}", number(value))
+}
+
+/// A parameter's symbol, its number below the letter.
+fn symbol(parameter: &Parameter) -> String {
+    let (letter, order) = parameter.symbol.split_at(1);
+    format!("<i>{letter}</i><sub>{order}</sub>")
+}
+
+/// What a term's coefficient is multiplied by.
+fn factor(term: Term) -> String {
+    let [power, of_rate] = term.powers();
+    let power = superscript(power.unsigned_abs() as u8);
+    match of_rate {
+        0 => format!("<i>r</i>{power}"),
+        _ => format!("<i>r</i>{power} d<i>r</i>/d<i>t</i>"),
+    }
+}
+
+/// The laws with parameters of their own, a row for each parameter.
+fn friction(joint: &Joint) -> String {
+    if joint.friction.is_empty() {
+        return String::new();
+    }
+    let rows: Vec<String> = joint
+        .friction
         .iter()
-        .filter(|(.., dof)| *dof < dofs.count())
-        .map(|(name, unit, list, dof)| {
-            let value = |body| {
-                let value = list(body).get(*dof).copied().map(number);
-                number_cell(&value.unwrap_or_default())
+        .flat_map(|own| {
+            let kind = own.dof.kind;
+            let parameters = own.law.parameters.iter().zip(&own.parameters);
+            parameters.map(move |(parameter, &value)| {
+                let unit = unit(parameter.unit, kind, kind);
+                format!(
+                    "<th><i>{}</i></th>{}{}{}",
+                    own.dof.load,
+                    cell(own.law.name),
+                    number_cell(&format!("{} {unit}", number(value))),
+                    cell(&description(parameter, kind))
+                )
+            })
+        })
+        .collect();
+    format!("<h3>Friction</h3>\n{}", table(&["", "", "", ""], &rows))
+}
+
+fn bodies_table(a: &Body, b: &Body, dofs: DofSet) -> String {
+    let rows: Vec<String> = dofs
+        .rows()
+        .enumerate()
+        .flat_map(|(i, dof)| {
+            let kind = dof.kind;
+            let (inertia, of_rotation) = match kind {
+                DofKind::Translation => ("Mass", ""),
+                DofKind::Rotation => ("Moment of inertia", " in rotation"),
             };
-            [cell(name), value(a), value(b), cell(unit)].concat()
+            let row = |name: String, unit: String, list: fn(&Body) -> &[f64]| {
+                let value = |body| {
+                    let value = list(body).get(i).copied().map(number);
+                    number_cell(&value.unwrap_or_default())
+                };
+                [cell(&name), value(a), value(b), cell(&unit)].concat()
+            };
+            [
+                row(
+                    inertia.to_owned(),
+                    unit_for_people(kind.inertia_unit()),
+                    |body| &body.inertia,
+                ),
+                row(
+                    format!("Support stiffness{of_rotation}"),
+                    unit(STIFFNESS.unit, kind, kind),
+                    |body| &body.stiffness,
+                ),
+                row(
+                    format!("Support damping{of_rotation}"),
+                    unit(DAMPING.unit, kind, kind),
+                    |body| &body.damping,
+                ),
+            ]
         })
         .collect();
     table(&["", "a", "b", "Unit"], &rows)

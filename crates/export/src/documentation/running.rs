@@ -5,7 +5,7 @@ use crate::FmiVersion;
 use crate::fmu::LapFacts;
 use crate::step::StepChoice;
 use bolted_joint_figures::html::{escaped, number, number_cell, quantity, table};
-use bolted_joint_joint::MatrixPassivity;
+use bolted_joint_joint::{DofSet, MatrixPassivity};
 
 pub(super) fn section(page: &Page<'_>) -> String {
     let steps = match page.lap {
@@ -15,7 +15,8 @@ pub(super) fn section(page: &Page<'_>) -> String {
                  loads are exchanged at communication points only.</p>\n"
             .to_owned(),
     };
-    let escape = page.lap.map(escape).unwrap_or_default();
+    let dofs = page.file.joint.dofs;
+    let escape = page.lap.map(|lap| escape(lap, dofs)).unwrap_or_default();
     format!(
         "<h2>Running it</h2>\n{steps}<h3>Passivity</h3>\n{}<h3>Range of validity</h3>\n{}{escape}{}",
         passivity(page),
@@ -136,12 +137,13 @@ fn validity(page: &Page<'_>) -> String {
     }
 }
 
-fn escape(lap: &LapFacts) -> String {
+fn escape(lap: &LapFacts, dofs: DofSet) -> String {
     let limits: Vec<String> = lap
         .escape_amplitude
         .iter()
-        .zip([("y", "m"), ("θ", "rad")])
-        .filter_map(|(amplitude, (motion, unit))| {
+        .zip(dofs.rows())
+        .filter_map(|(amplitude, dof)| {
+            let (motion, unit) = (dof.symbol, dof.kind.displacement_unit());
             amplitude.map(|amplitude| {
                 format!(
                     "|<i>{motion}</i><sub>a</sub> − <i>{motion}</i><sub>b</sub>| = {}",

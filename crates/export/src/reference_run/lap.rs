@@ -3,13 +3,17 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, Lap, LapConditions, LapIntegrator, LapLoads, LapState, PassedEnergy,
-    substeps,
+    CountedState, JointLaw, Lap, LapConditions, LapIntegrator, LapLoads, substeps,
 };
+
+use bolted_joint_joint::DofSet;
 
 use super::super::fmu::LapFacts;
 use super::super::step::rounded_down;
-use super::{Laws, Names, ReferenceRun, entry, stimulus, table};
+use super::{
+    DISPLACEMENT, LOAD, Laws, Names, RATE, ReferenceRun, entry, remembered, stimulus, table,
+};
+use crate::ExportError;
 
 const COMMUNICATION_STEPS: usize = 200;
 /// Communication steps at each level of load.
@@ -44,20 +48,26 @@ pub(super) fn run<const D: usize>(
     laws: &Laws<D>,
     facts: &LapFacts,
     names: Names,
-) -> Option<ReferenceRun> {
-    let plan = Plan::new(facts)?;
-    let system = System { lap, laws };
-    let levels = plan.levels(&system)?;
-    let of_fmu = plan.states(&system, &levels, NonZeroU32::MIN)?;
-    let states = plan.states(&system, &levels, REFINEMENT)?;
+) -> Result<Option<ReferenceRun>, ExportError> {
+    let dofs = names.dofs;
+    let system = System { lap, laws, dofs };
+    let Some(Course {
+        plan,
+        levels,
+        of_fmu,
+        states,
+    }) = Course::new(&system, facts)
+    else {
+        return Ok(None);
+    };
 
     let time = |step: usize| step as f64 * plan.step_s;
     let inputs = levels.iter().enumerate().flat_map(|(level, loads)| {
         // Constant from one level's beginning to the next.
         [level, level + 1].map(move |edge| {
             (time(STEPS_A_LEVEL * edge), move |name: &str| match name {
-                "preload" => laws.preload_n_m(level),
-                _ => input(loads, name),
+                "preload" => Some(laws.preload_n_m(level)),
+                _ => input(loads, dofs, name),
             })
         })
     });
@@ -71,12 +81,12 @@ pub(super) fn run<const D: usize>(
                 let level = step.saturating_sub(1) / STEPS_A_LEVEL;
                 let conditions = system.conditions(level, &levels[level]);
                 (time(step), move |name: &str| {
-                    output(&conditions, &counted, name)
+                    output(&conditions, &counted, dofs, name)
                 })
             });
         table(names.outputs.clone(), rows)
     };
-    let (found, reference) = (outputs(of_fmu), outputs(states));
+    let (found, reference) = (outputs(of_fmu)?, outputs(states)?);
     let deviation = (0..names.outputs.len())
         .map(|column| {
             let both = || found.rows.iter().zip(&reference.rows);
@@ -88,13 +98,37 @@ pub(super) fn run<const D: usize>(
             }
         })
         .fold(0.0, f64::max);
-    Some(ReferenceRun {
+    Ok(Some(ReferenceRun {
         step_s: plan.step_s,
         steps: COMMUNICATION_STEPS,
-        inputs: table(names.inputs.clone(), inputs),
+        inputs: table(names.inputs.clone(), inputs)?,
         outputs: reference,
         tolerance: rounded_up((MARGIN * deviation).max(ROUNDING)),
-    })
+    }))
+}
+
+/// What goes on in the run.
+struct Course<const D: usize> {
+    plan: Plan,
+    levels: Vec<LapLoads<D>>,
+    /// States at the communication points, by the FMU's steps.
+    of_fmu: Vec<CountedState<D>>,
+    /// The same, by far smaller ones.
+    states: Vec<CountedState<D>>,
+}
+
+impl<const D: usize> Course<D> {
+    /// `None` if there is nothing that stays finite.
+    fn new(system: &System<'_, D>, facts: &LapFacts) -> Option<Self> {
+        let plan = Plan::new(facts)?;
+        let levels = plan.levels(system)?;
+        Some(Self {
+            of_fmu: plan.states(system, &levels, NonZeroU32::MIN)?,
+            states: plan.states(system, &levels, REFINEMENT)?,
+            plan,
+            levels,
+        })
+    }
 }
 
 impl<const D: usize> Laws<D> {
@@ -109,6 +143,7 @@ impl<const D: usize> Laws<D> {
 struct System<'a, const D: usize> {
     lap: &'a Lap<D>,
     laws: &'a Laws<D>,
+    dofs: DofSet,
 }
 
 impl<const D: usize> System<'_, D> {
@@ -131,10 +166,7 @@ impl<const D: usize> System<'_, D> {
         step_s: f64,
         substeps: NonZeroU32,
     ) -> Vec<CountedState<D>> {
-        let mut counted = CountedState {
-            state: LapState::REST,
-            passed: PassedEnergy::default(),
-        };
+        let mut counted = CountedState::REST;
         let mut states = vec![counted];
         let plain = LapIntegrator::new(self.lap);
         for (level, loads) in levels.iter().enumerate() {
@@ -148,10 +180,10 @@ impl<const D: usize> System<'_, D> {
             }
             for _ in 0..STEPS_A_LEVEL {
                 match self.laws {
-                    Laws::Constant(_) => {
+                    Laws::Constant(law) if !law.has_memory() => {
                         counted.state = plain.advance(&counted.state, loads, step_s, substeps);
                     }
-                    Laws::Table { .. } => {
+                    Laws::Constant(_) | Laws::Table { .. } => {
                         let length_s = step_s / f64::from(substeps.get());
                         for _ in 0..substeps.get() {
                             counted = LapConditions::step([&conditions; 3], &counted, length_s);
@@ -187,9 +219,9 @@ impl Plan {
     /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
     fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
         let joint = &system.lap.joint;
-        let wanted = stimulus::relative_motion(joint);
+        let wanted = stimulus::relative_motion(joint, system.dofs);
         let mut amplitude: [f64; D] = std::array::from_fn(|i| {
-            let load = FIRST_PART * joint.stiffness[i][i] * wanted[i];
+            let load = FIRST_PART * joint.linear.stiffness[i][i] * wanted[i];
             if load > 0.0 { load } else { wanted[i] }
         });
         for _ in 0..SCALINGS {
@@ -257,41 +289,45 @@ fn opening<const D: usize>(states: &[CountedState<D>], wanted: &[f64; D]) -> f64
         .fold(0.0, f64::max)
 }
 
-fn input<const D: usize>(loads: &LapLoads<D>, name: &str) -> f64 {
+fn input<const D: usize>(loads: &LapLoads<D>, dofs: DofSet, name: &str) -> Option<f64> {
     [("a", &loads.a), ("b", &loads.b)]
-        .iter()
-        .find_map(|(side, load)| entry(name, side, [("F", "M", load), ("F", "M", load)]))
-        .unwrap_or_default()
+        .into_iter()
+        .find_map(|(side, load)| entry(name, side, dofs, &[(LOAD, load)]))
 }
 
 fn output<const D: usize>(
     conditions: &LapConditions<D>,
     counted: &CountedState<D>,
+    dofs: DofSet,
     name: &str,
-) -> f64 {
+) -> Option<f64> {
     let LapConditions { lap, .. } = conditions;
-    let CountedState { state, passed } = counted;
-    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
+    let CountedState {
+        state,
+        memory,
+        passed,
+    } = counted;
+    let on_b = lap.joint.load_on_b_after(memory, &state.relative());
     match name {
-        "energy.stored" => lap.stored_energy(state),
-        "energy.supplied" => passed.supplied,
-        "energy.dissipated" => passed.dissipated,
-        "energy.preload" => passed.preload,
-        "power.dissipated" => lap.dissipated_power(state),
-        "power.supplied" => conditions.powers(state).supplied,
+        "energy.stored" => Some(lap.stored_energy(memory, state)),
+        "energy.supplied" => Some(passed.supplied),
+        "energy.dissipated" => Some(passed.dissipated),
+        "energy.preload" => Some(passed.preload),
+        "power.dissipated" => Some(lap.dissipated_power(memory, state)),
+        "power.supplied" => Some(conditions.powers(state).supplied),
         // the preload is held
-        "power.preload" => 0.0,
+        "power.preload" => Some(0.0),
         _ => [("a", &state.a), ("b", &state.b)]
-            .iter()
+            .into_iter()
             .find_map(|(side, motion)| {
-                let quantities = [
-                    ("y", "theta", &motion.displacement),
-                    ("v", "omega", &motion.velocity),
+                let quantities: [(_, &[f64]); 2] = [
+                    (DISPLACEMENT, &motion.displacement),
+                    (RATE, &motion.velocity),
                 ];
-                entry(name, side, quantities)
+                entry(name, side, dofs, &quantities)
             })
-            .or_else(|| entry(name, "joint", [("F", "M", &on_b), ("F", "M", &on_b)]))
-            .unwrap_or_default(),
+            .or_else(|| entry(name, "joint", dofs, &[(LOAD, &on_b)]))
+            .or_else(|| remembered(name, dofs, memory)),
     }
 }
 

@@ -8,7 +8,9 @@ mod files;
 mod lap;
 mod stimulus;
 
-use bolted_joint_dynamics::{Beyond, JointLaw, JointOverPreload};
+use bolted_joint_dynamics::{
+    Beyond, Dof, JointLaw, JointMemory, JointOverPreload, law::DECLARATIONS, with_dofs,
+};
 use bolted_joint_interface::{Interface as Declared, Role};
 
 use super::archive::File;
@@ -48,31 +50,18 @@ impl ReferenceRun {
         facts: Option<&LapFacts>,
         step_of_element_s: Option<f64>,
     ) -> Result<Option<Self>, ExportError> {
-        let names = Names::of(declared);
-        Ok(match (interface, file.joint.dofs, facts) {
-            (Interface::Lap, DofSet::Translation, Some(facts)) => lap::run(
-                &file.lap::<1>()?,
-                &Laws::of(file, over_preload)?,
-                facts,
-                names,
-            ),
-            (Interface::Lap, DofSet::TranslationRotation, Some(facts)) => lap::run(
-                &file.lap::<2>()?,
-                &Laws::of(file, over_preload)?,
-                facts,
-                names,
-            ),
-            (Interface::Lap, _, None) => None,
-            (Interface::Element, DofSet::Translation, _) => Some(element::run(
-                &Laws::<1>::of(file, over_preload)?,
-                step_of_element_s,
-                names,
-            )),
-            (Interface::Element, DofSet::TranslationRotation, _) => Some(element::run(
-                &Laws::<2>::of(file, over_preload)?,
-                step_of_element_s,
-                names,
-            )),
+        let names = Names::of(declared, file.joint.dofs);
+        with_dofs!(file.joint.dofs.size(), D => {
+            let laws = Laws::<D>::of(file, over_preload)?;
+            match (interface, facts) {
+                (Interface::Lap, Some(facts)) => {
+                    lap::run(&file.lap::<D>()?, &laws, facts, names)
+                }
+                (Interface::Lap, None) => Ok(None),
+                (Interface::Element, _) => {
+                    element::run(&laws, step_of_element_s, names).map(Some)
+                }
+            }
         })
     }
 
@@ -146,10 +135,12 @@ impl<const D: usize> Laws<D> {
 struct Names {
     inputs: Vec<String>,
     outputs: Vec<String>,
+    /// The joint's DOFs.
+    dofs: DofSet,
 }
 
 impl Names {
-    fn of(declared: &Declared) -> Self {
+    fn of(declared: &Declared, dofs: DofSet) -> Self {
         let with = |roles: &[Role]| {
             let variables = declared.variables.iter();
             variables
@@ -160,31 +151,56 @@ impl Names {
         Self {
             inputs: with(&[Role::Input]),
             outputs: with(&[Role::State, Role::Output]),
+            dofs,
         }
     }
 }
 
 /// A table whose rows have one entry for each name.
-fn table(names: Vec<String>, rows: impl Iterator<Item = (f64, impl Fn(&str) -> f64)>) -> Table {
+///
+/// # Errors
+///
+/// [`ExportError::NotComputed`] for the first name that has no value.
+fn table(
+    names: Vec<String>,
+    rows: impl Iterator<Item = (f64, impl Fn(&str) -> Option<f64>)>,
+) -> Result<Table, ExportError> {
     let rows = rows
-        .map(|(time_s, value)| (time_s, names.iter().map(|name| value(name)).collect()))
-        .collect();
-    Table { names, rows }
+        .map(|(time_s, value)| {
+            let entry = |name: &String| {
+                value(name).ok_or_else(|| ExportError::NotComputed {
+                    variable: name.clone(),
+                })
+            };
+            Ok((time_s, names.iter().map(entry).collect::<Result<_, _>>()?))
+        })
+        .collect::<Result<_, ExportError>>()?;
+    Ok(Table { names, rows })
 }
 
-/// The entry that `name` stands for, such as `a.theta`, of quantities by DOF; zero for what is none of them.
-fn entry<const D: usize>(
-    name: &str,
-    side: &str,
-    quantities: [(&str, &str, &[f64; D]); 2],
-) -> Option<f64> {
+/// Name of a quantity of a DOF.
+type NameOf = fn(&Dof) -> &'static str;
+
+const DISPLACEMENT: NameOf = |dof| dof.name;
+const RATE: NameOf = |dof| dof.rate;
+const LOAD: NameOf = |dof| dof.load;
+
+/// What the joint remembers under `name`, or `None` if it is nothing of that.
+fn remembered<const D: usize>(name: &str, dofs: DofSet, memory: &JointMemory<D>) -> Option<f64> {
+    let symbols = DECLARATIONS.iter().flat_map(|law| law.memory);
+    dofs.rows().zip(&memory.on).find_map(|(dof, own)| {
+        let place = symbols
+            .clone()
+            .position(|number| name == format!("joint.{}_{}", number.symbol, dof.name))?;
+        own.numbers().get(place).copied()
+    })
+}
+
+/// The entry that `name` stands for, such as `a.theta`, of quantities by DOF, or `None` if it is none of them.
+fn entry(name: &str, side: &str, dofs: DofSet, quantities: &[(NameOf, &[f64])]) -> Option<f64> {
     let quantity = name.strip_prefix(side)?.strip_prefix('.')?;
-    quantities
-        .iter()
-        .find_map(|(translational, rotational, values)| {
-            let dof = [translational, rotational]
-                .iter()
-                .position(|candidate| **candidate == quantity)?;
-            values.get(dof).copied()
-        })
+    quantities.iter().find_map(|(name_of, values)| {
+        let place = dofs.rows().position(|dof| name_of(dof) == quantity)?;
+        values.get(place).copied()
+    })
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::JointLaw;
+use bolted_joint_dynamics::{DofKind, JointLaw};
+use bolted_joint_joint::DofSet;
 
 /// Two tones sampled at the levels: frequency in cycles a level, share of the amplitude.
 ///
@@ -14,8 +15,16 @@ const TONES: [[(f64, f64); 2]; 4] = [
     [(0.210, 0.6), (0.290, 0.4)],
 ];
 
-/// Largest relative motion of a linear joint, m and rad: that of small vibration.
-const SMALL_MOTION: [f64; 2] = [1e-4, 1e-3];
+/// What the tones of each further two DOFs lie above those before them, cycles a level.
+const FURTHER_TONES: f64 = 0.004;
+
+/// Largest relative motion of a linear joint, m or rad: that of small vibration.
+fn small_motion(kind: DofKind) -> f64 {
+    match kind {
+        DofKind::Translation => 1e-4,
+        DofKind::Rotation => 1e-3,
+    }
+}
 
 /// How much further a nonlinear joint is opened where its nonlinear load would not show otherwise.
 const FURTHER: f64 = 10.0;
@@ -24,14 +33,19 @@ const FURTHER: f64 = 10.0;
 /// cubic load is its square of the linear one.
 const PART_OF_NONLINEAR: f64 = 0.3;
 
+/// Times that amplitude which a joint with memory is moved by: far enough that its sliders slip and stick again.
+const TIMES_OF_MEMORY: f64 = 3.0;
+
 /// Significant digits of a level.
 const DIGITS: usize = 6;
 
 /// Values of both sides, a then b, y before theta, from −1 to 1, and their derivatives by the level's number.
 pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
-    let tones = TONES[(2 * usize::from(on_b) + dof) % TONES.len()];
+    let tones = TONES[2 * usize::from(on_b) + dof % 2];
+    let above = FURTHER_TONES * (dof / 2) as f64;
     let mut value = (0.0, 0.0);
     for (frequency, share) in tones {
+        let frequency = frequency + above;
         let (sin, cos) = (TAU * frequency * level).sin_cos();
         value.0 += share * sin;
         value.1 += share * TAU * frequency * cos;
@@ -40,14 +54,20 @@ pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
 }
 
 /// Largest relative motion of each DOF in the run, m and rad.
-pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>) -> [f64; D] {
+pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>, dofs: DofSet) -> [f64; D] {
+    let part = if law.has_memory() {
+        TIMES_OF_MEMORY
+    } else {
+        PART_OF_NONLINEAR
+    };
     std::array::from_fn(|i| {
+        let small_motion = small_motion(dofs.row(i).kind);
         // |k3| x³ = p² K x at x = p √(K/|k3|), and likewise for the terms of higher order
-        let nonlinear = PART_OF_NONLINEAR * law.nonlinear_amplitude()[i];
-        if law.stiffness[i][i] > 0.0 && nonlinear.is_finite() && nonlinear > 0.0 {
-            nonlinear.min(FURTHER * SMALL_MOTION[i])
+        let nonlinear = part * law.nonlinear_amplitude()[i];
+        if law.linear.stiffness[i][i] > 0.0 && nonlinear.is_finite() && nonlinear > 0.0 {
+            nonlinear.min(FURTHER * small_motion)
         } else {
-            SMALL_MOTION[i]
+            small_motion
         }
     })
 }

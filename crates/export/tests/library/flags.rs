@@ -35,7 +35,10 @@ fn the_profile_of_the_other_platforms_is_what_the_embedded_library_is_compiled_w
         assert_eq!(profile.remove(key), Some(value), "{key}");
         assert!(script.contains(flag), "build.rs does not pass {flag}");
     }
-    assert!(profile.is_empty(), "without a flag in build.rs: {profile}");
+    assert!(
+        profile.is_empty(),
+        "without a flag in build.rs: {profile:?}"
+    );
     let flags = script.matches("\"-C").count();
     // besides: metadata and bitcode, which leave no trace in the file, and what platforms need
     let others = [

@@ -42,19 +42,59 @@ pub(crate) unsafe fn array_mut<'a, T>(
     Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), length) })
 }
 
+/// A single value of the importer's to write to. It is no reference: two results may go to the same place.
+#[derive(Clone, Copy)]
+pub(crate) struct Output<T>(*mut T);
+
+impl<T> Output<T> {
+    #[inline]
+    pub(crate) fn write(self, value: T) {
+        // SAFETY: not null and aligned; the rest is the promise of whoever asked for it with `output`
+        unsafe { self.0.write(value) };
+    }
+}
+
 /// The single value to write to.
 ///
 /// # Safety
 ///
-/// As for [`array_mut`].
+/// If `pointer` is not null it points to writable memory for one value, for as long as the output is used.
 #[inline]
-pub(crate) unsafe fn output<'a, T>(
+pub(crate) unsafe fn output<T>(
     pointer: *mut T,
     argument: &'static str,
-) -> Result<&'a mut MaybeUninit<T>, Refusal> {
+) -> Result<Output<T>, Refusal> {
+    check(pointer, 1, argument)?;
+    Ok(Output(pointer))
+}
+
+/// The single values to write to, all or none.
+///
+/// # Safety
+///
+/// As for [`output`].
+#[inline]
+pub(crate) unsafe fn outputs<T, const N: usize>(
+    pointers: [(*mut T, &'static str); N],
+) -> Result<[Output<T>; N], Refusal> {
+    for (pointer, argument) in pointers {
+        check(pointer, 1, argument)?;
+    }
+    Ok(pointers.map(|(pointer, _)| Output(pointer)))
+}
+
+/// The single value that is read and written to.
+///
+/// # Safety
+///
+/// If `pointer` is not null it points to a value that nobody else uses meanwhile.
+pub(crate) unsafe fn variable<'a, T>(
+    pointer: *mut T,
+    argument: &'static str,
+) -> Result<&'a mut T, Refusal> {
     check(pointer, 1, argument)?;
     // SAFETY: not null and aligned; the rest is the caller's promise
-    Ok(unsafe { &mut *pointer.cast() })
+    Ok(unsafe { &mut *pointer })
 }
 
 /// A string, or `None` for a null pointer.

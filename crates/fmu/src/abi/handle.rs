@@ -1,13 +1,34 @@
 //! What an instance and an FMU state of the importer point to.
 
+use std::ffi::c_void;
+
 use crate::{
-    abi::{Abi, Opaque},
-    fmi3::IntermediateUpdate,
-    fmu_state::Snapshot,
-    instance::Instance,
-    logging::Logger,
-    models::MODEL_SIZE_MAX,
+    abi::Opaque, fmu_state::Snapshot, instance::Instance, logging::Logger, models::MODEL_SIZE_MAX,
+    version::Abi,
 };
+
+/// `fmi3Boolean`: a C `bool`, taken as a byte so that no value of it is undefined behaviour.
+pub(crate) type Fmi3Boolean = u8;
+
+/// `fmi3IntermediateUpdateCallback`.
+pub(crate) type IntermediateUpdateCallback = unsafe extern "C" fn(
+    environment: *mut c_void,
+    intermediate_update_time: f64,
+    intermediate_variable_set_requested: Fmi3Boolean,
+    intermediate_variable_get_allowed: Fmi3Boolean,
+    intermediate_step_finished: Fmi3Boolean,
+    can_return_early: Fmi3Boolean,
+    early_return_requested: *mut Fmi3Boolean,
+    early_return_time: *mut f64,
+);
+
+/// How the importer takes part in communication steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IntermediateUpdate {
+    pub(crate) callback: IntermediateUpdateCallback,
+    pub(crate) environment: *mut c_void,
+    pub(crate) early_return_allowed: bool,
+}
 
 /// Marks a living FMU state: "bjstat" and a version.
 const STATE: u64 = 0x626a_7374_6174_0003;

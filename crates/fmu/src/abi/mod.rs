@@ -1,4 +1,4 @@
-//! What the C functions of all FMI versions share: handles, checked arguments, and the way from a refusal to a status.
+//! What all C functions share: handles, checked arguments, and the way from a refusal to a status.
 //!
 //! Every C function takes its arguments apart with [`arguments`], lets [`call`] run the body against the instance, and
 //! turns the outcome into a status. The importer's callbacks are called only when no reference to the instance is
@@ -6,8 +6,6 @@
 
 pub(crate) mod arguments;
 pub(crate) mod handle;
-pub(crate) mod instantiation;
-pub(crate) mod saved_states;
 pub(crate) mod shortcut;
 
 use std::{
@@ -21,6 +19,7 @@ use crate::{
     interface::InterfaceType,
     logging::Status,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
 
 /// Pointers to what the other side keeps to itself: instances, FMU states, the importer's environments.
@@ -30,64 +29,6 @@ pub(crate) type ValueReference = u32;
 /// `fmi2String`, `fmi3String`.
 pub(crate) type Text = *const c_char;
 
-/// Which functions an instance was made by, and is used through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Abi {
-    /// FMI 2.0.
-    Fmi2,
-    /// FMI 3.0.
-    Fmi3,
-}
-
-impl Abi {
-    /// Name for messages.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "FMI 2.0",
-            Self::Fmi3 => "FMI 3.0",
-        }
-    }
-
-    /// The importer's name of the type that all variables have.
-    pub(crate) const fn real(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "Real",
-            Self::Fmi3 => "Float64",
-        }
-    }
-
-    /// Argument that holds the token.
-    pub(crate) const fn token_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "fmuGUID",
-            Self::Fmi3 => "instantiationToken",
-        }
-    }
-
-    /// Argument that tells where the resources are.
-    pub(crate) const fn resource_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "fmuResourceLocation",
-            Self::Fmi3 => "resourcePath",
-        }
-    }
-
-    /// Argument that counts continuous states.
-    pub(crate) const fn state_count_argument(self) -> &'static str {
-        match self {
-            Self::Fmi2 => "nx",
-            Self::Fmi3 => "nContinuousStates",
-        }
-    }
-
-    const fn other(self) -> Self {
-        match self {
-            Self::Fmi2 => Self::Fmi3,
-            Self::Fmi3 => Self::Fmi2,
-        }
-    }
-}
-
 /// A C function that works on an instance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Function {
@@ -95,9 +36,68 @@ pub(crate) struct Function {
     pub(crate) abi: Abi,
     /// Its name.
     pub(crate) name: &'static str,
-    /// Whether in Model Exchange it answers numbers that are not finite with a status that asks the importer's solver
-    /// for a shorter step (FMI 2.0, 2.1.3).
-    pub(crate) discards: bool,
+    /// On what instances, and when.
+    way: Way,
+}
+
+/// On what instances a function works, and when.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
+    /// The interface type that the function belongs to, if it does not belong to both.
+    only: Option<InterfaceType>,
+    /// Whether it is allowed within a communication step, too.
+    inside: bool,
+    /// Whether it evaluates the model, or sets what it is evaluated at. FMI 2.0, 2.1.3: in Model Exchange numbers that are
+    /// out of bounds are then answered with `fmi2Discard`, after which the importer's solver tries a shorter step.
+    evaluates: bool,
+}
+
+impl Way {
+    /// On all instances, between communication steps.
+    pub(crate) const PLAIN: Self = Self {
+        only: None,
+        inside: false,
+        evaluates: false,
+    };
+    /// Within a communication step, too.
+    pub(crate) const INSIDE: Self = Self {
+        inside: true,
+        ..Self::PLAIN
+    };
+    /// Reading and setting variables.
+    pub(crate) const VALUES: Self = Self {
+        evaluates: true,
+        ..Self::INSIDE
+    };
+    /// Model Exchange alone.
+    pub(crate) const EXCHANGE: Self = Self {
+        only: Some(InterfaceType::ModelExchange),
+        evaluates: true,
+        ..Self::PLAIN
+    };
+    /// Co-Simulation alone.
+    pub(crate) const STEPPING: Self = Self {
+        only: Some(InterfaceType::CoSimulation),
+        ..Self::PLAIN
+    };
+}
+
+impl Function {
+    /// The function of this name, which begins with `fmi2` or `fmi3`.
+    pub(crate) const fn new(name: &'static str, way: Way) -> Self {
+        let abi = match name.as_bytes() {
+            [_, _, _, b'2', ..] => Abi::Fmi2,
+            _ => Abi::Fmi3,
+        };
+        Self { abi, name, way }
+    }
+
+    /// Whether it answers numbers that are out of bounds with a wish for a shorter step.
+    fn discards(self, instance: &Instance) -> bool {
+        self.way.evaluates
+            && self.abi == Abi::Fmi2
+            && instance.interface_type() == InterfaceType::ModelExchange
+    }
 }
 
 /// What a function did, where that is worth a message.
@@ -110,7 +110,21 @@ pub(crate) enum Done {
     Warning(Warning),
 }
 
+impl From<()> for Done {
+    #[inline]
+    fn from((): ()) -> Self {
+        Self::Silently
+    }
+}
+
+impl From<Event> for Done {
+    fn from(event: Event) -> Self {
+        Self::Event(event)
+    }
+}
+
 impl From<Option<Warning>> for Done {
+    #[inline]
     fn from(warning: Option<Warning>) -> Self {
         warning.map_or(Self::Silently, Self::Warning)
     }
@@ -145,48 +159,40 @@ impl fmt::Display for Event {
 ///
 /// `handle` is null or was returned by an instantiating function and not freed since, and no other thread uses it.
 #[inline]
-pub(crate) unsafe fn call(
+pub(crate) unsafe fn call<D: Into<Done>>(
     function: Function,
     handle: Opaque,
-    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
+    body: impl FnOnce(&mut Instance) -> Result<D, Refusal>,
 ) -> Status {
+    let Way { only, inside, .. } = function.way;
     // SAFETY: the caller's promise
-    match unsafe { handle::from_c(function.abi, handle) } {
-        Some(handle) => run(function, handle, body),
+    let found = unsafe {
+        if inside {
+            handle::from_c_inside(function.abi, handle)
+        } else {
+            handle::from_c(function.abi, handle)
+        }
+    };
+    let Some(found) = found else {
         // SAFETY: the caller's promise
-        None => unsafe { refuse_handle(function, handle) },
+        return unsafe { refuse_handle(function, handle) };
+    };
+    let outcome = guarded(|| {
+        if let Some(only) = only {
+            found.instance.require_type(only)?;
+        }
+        body(&mut found.instance)
+    });
+    match outcome.map(Into::into) {
+        Ok(Done::Silently) => Status::Ok,
+        outcome => conclude(function, found, outcome),
     }
 }
 
-/// Like [`call`], for functions that are allowed within a communication step, too.
-///
-/// # Safety
-///
-/// As for [`call`].
+/// Runs `body`; no panic leaves.
 #[inline]
-pub(crate) unsafe fn call_inside(
-    function: Function,
-    handle: Opaque,
-    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
-) -> Status {
-    // SAFETY: the caller's promise
-    match unsafe { handle::from_c_inside(function.abi, handle) } {
-        Some(handle) => run(function, handle, body),
-        // SAFETY: the caller's promise
-        None => unsafe { refuse_handle(function, handle) },
-    }
-}
-
-#[inline]
-fn run(
-    function: Function,
-    handle: &mut handle::Handle,
-    body: impl FnOnce(&mut Instance) -> Result<Done, Refusal>,
-) -> Status {
-    match catch_unwind(AssertUnwindSafe(|| body(&mut handle.instance))) {
-        Ok(Ok(Done::Silently)) => Status::Ok,
-        outcome => conclude(function, handle, outcome.unwrap_or(Err(Refusal::Internal))),
-    }
+pub(crate) fn guarded<T>(body: impl FnOnce() -> Result<T, Refusal>) -> Result<T, Refusal> {
+    catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|_| Err(Refusal::Internal))
 }
 
 /// Says of an instance why this function does not work on it: it is one of another FMI version, or within a
@@ -228,8 +234,7 @@ pub(crate) fn conclude(
     if outcome.as_ref().is_err_and(Refusal::ends_the_simulation) {
         handle.instance.fail();
     }
-    let solver_at_work =
-        function.discards && handle.instance.interface_type() == InterfaceType::ModelExchange;
+    let solver_at_work = function.discards(&handle.instance);
     // a copy: the callback may use the instance
     let logger = handle.logger.clone();
     match outcome {

@@ -11,10 +11,11 @@ use std::{
 
 use crate::{
     abi::{
-        Abi, Opaque, ValueReference,
+        Opaque, ValueReference,
         handle::{self, Handle},
     },
     interface::REFERENCE_COUNT,
+    version::Abi,
 };
 
 /// Runs `body` on the instance behind `instance`, and tells whether it has done all that was asked.

@@ -2,10 +2,10 @@
 
 use super::Instance;
 use crate::{
-    abi::Abi,
     interface::InterfaceType,
     mode::Mode,
     refusal::{Active, Refusal, Warning},
+    version::Abi,
 };
 
 impl Instance {

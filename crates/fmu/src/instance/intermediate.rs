@@ -16,29 +16,24 @@ use crate::{
 /// What the importer may do with variables within a communication step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Access {
-    /// Variables that the importer has said it would use: one bit for each value reference.
-    required: u64,
+    /// Variables that the importer has said it would use, by value reference.
+    required: [bool; REFERENCE_COUNT],
     /// The importer may read now.
     get: bool,
     /// The importer may set inputs now.
     set: bool,
 }
 
-const _: () = assert!(
-    REFERENCE_COUNT <= u64::BITS as usize,
-    "a variable has no bit"
-);
-
 impl Access {
     /// Nothing required, nothing allowed.
     pub(super) const NONE: Self = Self {
-        required: 0,
+        required: [false; REFERENCE_COUNT],
         get: false,
         set: false,
     };
 
     fn requires(&self, index: usize) -> bool {
-        self.required & 1_u64.unbounded_shl(index as u32) != 0
+        self.required.get(index) == Some(&true)
     }
 }
 
@@ -98,7 +93,9 @@ impl Instance {
         for &reference in references {
             let (index, _) = self.known(reference)?;
             self.check_offered(index)?;
-            self.access.required |= 1_u64.unbounded_shl(index as u32);
+            if let Some(required) = self.access.required.get_mut(index) {
+                *required = true;
+            }
         }
         Ok(())
     }
@@ -300,7 +297,8 @@ impl Instance {
                 return Some(NotIntermediate::NoGet);
             }
             // Importers that have named no variable read what is offered, as the FMI project's own example does.
-            let readable = self.access.required == 0 || self.access.requires(index);
+            let names_none = !self.access.required.contains(&true);
+            let readable = names_none || self.access.requires(index);
             (!readable).then_some(NotIntermediate::NotRequired)
         })
     }

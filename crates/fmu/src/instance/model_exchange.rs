@@ -4,10 +4,10 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    abi::Abi,
-    interface::{ContinuousState, InterfaceType, reference::TIME},
+    interface::{ContinuousState, reference::TIME},
     mode::Mode,
     refusal::{Refusal, Warning},
+    version::Abi,
 };
 
 /// Modes in which the states and what follows from them can be read.
@@ -87,12 +87,28 @@ impl Instance {
         self.fill(nominals, |state| Ok(state.nominal))
     }
 
+    /// Reads no event indicator: there are none; in FMI 2.0 only where states can be read.
+    pub(crate) fn event_indicators(&self, count: usize) -> Result<(), Refusal> {
+        if self.identity.abi == Abi::Fmi2 {
+            self.require(READABLE)?;
+        }
+        match count {
+            0 => Ok(()),
+            found => Err(Refusal::IndicatorCount {
+                argument: self.words().indicator_count,
+                found,
+            }),
+        }
+    }
+
     /// Checks what a step of the importer's solver has led to.
     pub(crate) fn complete_integrator_step(&mut self) -> Result<Option<Warning>, Refusal> {
         self.require(&[Mode::ContinuousTime])?;
         // a restored state may have brought other parameters
         let active = self.use_parameters()?;
         let reached = self.model.check_states(&self.values)?;
+        self.model.commit(&mut self.values);
+        self.outputs_stale = true;
         Ok(Warning::of(active, reached))
     }
 
@@ -101,18 +117,13 @@ impl Instance {
         self.identity.variables.continuous_states().count()
     }
 
-    /// Refuses functions of Model Exchange on an instance for Co-Simulation.
-    pub(crate) fn require_model_exchange(&self) -> Result<(), Refusal> {
-        self.require_type(InterfaceType::ModelExchange)
-    }
-
     fn check_count(&self, found: usize) -> Result<(), Refusal> {
         let expected = self.state_count();
         if found == expected {
             Ok(())
         } else {
             Err(Refusal::StateCount {
-                argument: self.identity.abi.state_count_argument(),
+                argument: self.words().state_count,
                 found,
                 expected,
             })

@@ -6,20 +6,20 @@ use super::{
     Instance,
     variables::{CALCULATED, CALCULATED_PARAMETERS},
 };
-use crate::{fmu_state::Snapshot, interface::memory, refusal::Refusal};
+use crate::{
+    fmu_state::{Snapshot, StateError},
+    interface::{Roles, is_committed},
+    refusal::Refusal,
+};
 
 impl Instance {
     /// Everything that this instance has to remember.
     pub(crate) fn snapshot(&self) -> Snapshot {
-        // what is calculated is no part of the state: it follows from the rest, and may not even be finite
+        // what is calculated is no part of the state: it follows from the rest, and may not even be finite; all that
+        // stands beside the variables is remembered
         let values = std::array::from_fn(|index| {
-            let is_calculated = match self.roles.get(index) {
-                Some(&roles) => {
-                    roles.intersects(CALCULATED) || roles.intersects(CALCULATED_PARAMETERS)
-                }
-                None => index == memory::PRELOAD_RATE,
-            };
-            if is_calculated {
+            let roles = self.roles.get(index).copied().unwrap_or(Roles::NONE);
+            if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) && !is_committed(index) {
                 0.0
             } else {
                 self.values[index]
@@ -37,12 +37,7 @@ impl Instance {
 
     /// Goes on from a snapshot of this or another instance of the same FMU.
     pub(crate) fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
-        if *snapshot.identity != *self.identity {
-            return Err(Refusal::OtherFmu {
-                found: snapshot.identity.to_string(),
-                expected: self.identity.to_string(),
-            });
-        }
+        StateError::unless_same(&snapshot.identity, &self.identity)?;
         self.mode = snapshot.mode;
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
@@ -55,6 +50,6 @@ impl Instance {
 
     /// The snapshot that these bytes were written from.
     pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<Snapshot, Refusal> {
-        Snapshot::deserialize(bytes, &self.identity)
+        Ok(Snapshot::deserialize(bytes, &self.identity)?)
     }
 }

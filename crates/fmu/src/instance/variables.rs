@@ -7,6 +7,7 @@ use crate::{
     interface::{Role, Roles, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
+    version::Abi,
 };
 
 /// Roles whose values are calculated only when somebody asks.
@@ -23,6 +24,15 @@ const INPUTS: Roles = Roles::of(&[Role::Input]);
 
 /// Parameters, after a change of which the model has to be prepared again.
 const PARAMETERS: Roles = Roles::of(&[Role::Parameter]);
+
+/// Modes in which an importer of FMI 2.0 can read variables.
+const READABLE: &[Mode] = &[
+    Mode::Initialization,
+    Mode::Step,
+    Mode::Event,
+    Mode::ContinuousTime,
+    Mode::Terminated,
+];
 
 impl Instance {
     /// Reads the variables with these value references; `values` has the same length.
@@ -48,6 +58,14 @@ impl Instance {
             value.write(self.values[index]);
         }
         Ok(())
+    }
+
+    /// Refuses to read variables before initialisation, as FMI 2.0 has it.
+    pub(crate) fn require_readable(&self) -> Result<(), Refusal> {
+        match self.identity.abi {
+            Abi::Fmi2 => self.require(READABLE),
+            Abi::Fmi3 => Ok(()),
+        }
     }
 
     /// Reads variables between communication steps, if none has to be calculated; tells whether all were such.
@@ -139,7 +157,7 @@ impl Instance {
                 let (index, _) = self.known(reference)?;
                 Err(Refusal::NotOfType {
                     name: self.name(index),
-                    own: self.identity.abi.real(),
+                    own: self.words().real,
                     asked,
                 })
             }
@@ -165,6 +183,8 @@ impl Instance {
             }
             self.values[memory::PRELOAD_RATE] = self.preload_rate();
             self.model.calculate_outputs(&mut self.values);
+            // it follows from the inputs' course, and is nothing to remember
+            self.values[memory::PRELOAD_RATE] = 0.0;
             self.outputs_stale = false;
         }
     }

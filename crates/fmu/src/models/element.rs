@@ -2,14 +2,16 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{JointLaw, Motion};
+use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, Number};
 
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, reference as vr},
+    interface::{
+        ElementCalculatedParameters, ElementOutputs, InterfaceType, Values, reference as vr,
+    },
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{A, B, is_active, joint_law, joint_memory},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -94,13 +96,19 @@ impl<const D: usize> Model for Element<D> {
     }
 
     fn calculate_parameters(&self, values: &mut Values) {
-        let amplitude = finite(joint_law::<D>(values).escape_amplitude());
-        set_escape_amplitude(values, &amplitude);
+        let joint_escape_amplitude = finite(joint_law::<D>(values).escape_amplitude());
+        ElementCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
         let [law, law_change] = [values, &*change].map(joint_law::<D>);
-        set_escape_amplitude(change, &law.escape_amplitude_tangent(&law_change));
+        ElementCalculatedParameters {
+            joint_escape_amplitude: law.escape_amplitude_tangent(&law_change),
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -139,14 +147,8 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the law and the motions.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
-    let relative = relative::<D>(values);
-    let on_b = law.load_on_b(&relative);
-    // 0 − F is −F but for F = 0, which stays without a sign
-    A.set_load(values, &on_b.map(|load| 0.0 - load));
-    B.set_load(values, &on_b);
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = law.stored_energy(&relative.displacement);
-    values[vr::POWER_DISSIPATED] = law.dissipated_power(&relative);
+    let memory = joint_memory(values);
+    outputs(law, &memory, &relative(values), |output| output).write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
@@ -155,18 +157,31 @@ pub(super) fn differentiate<const D: usize>(
     values: &Values,
     change: &mut Values,
 ) {
-    let [relative, relative_change] = [values, &*change].map(relative::<D>);
-    let on_b = law.load_on_b_tangent(law_change, &relative, &relative_change);
-    A.set_load(change, &on_b.map(|load| -load));
-    B.set_load(change, &on_b);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = law.stored_energy_tangent(
-        law_change,
-        &relative.displacement,
-        &relative_change.displacement,
-    );
-    change[vr::POWER_DISSIPATED] =
-        law.dissipated_power_tangent(law_change, &relative, &relative_change);
+    let law = law.with_change(law_change);
+    let relative = relative(values).with_change(&relative(change));
+    outputs(&law, &joint_memory(values), &relative, |output| {
+        output.change[0]
+    })
+    .write(change);
+}
+
+/// What is calculated, or what `of` makes of it.
+#[inline]
+fn outputs<const D: usize, N: Number>(
+    law: &JointLaw<D, N>,
+    memory: &JointMemory<D>,
+    relative: &Motion<D, N>,
+    of: impl Fn(N) -> f64,
+) -> ElementOutputs<D> {
+    let on_b = law.load_on_b_after(memory, relative).map(&of);
+    ElementOutputs {
+        // 0 − F is −F but for F = 0, which stays without a sign
+        a_load: on_b.map(|load| 0.0 - load),
+        b_load: on_b,
+        joint_load: on_b,
+        energy_stored: of(law.stored_energy_after(memory, &relative.displacement)),
+        power_dissipated: of(law.dissipated_power_after(memory, relative)),
+    }
 }
 
 /// Motion of side a as seen from side b.

@@ -4,18 +4,16 @@ pub(super) mod faults;
 pub(super) mod loads;
 pub(super) mod prepared;
 
-pub(crate) use prepared::SUBSTEPS_MAX;
-
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{Lap, LapLoads, LapState, Motion};
+use bolted_joint_dynamics::{JointMemory, Lap, LapLoads, LapState, Motion, Number};
 
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, reference as vr},
+    interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
     models::{
         CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, set_escape_amplitude, set_joint_load},
+        sides::{A, B, is_active, joint_law, joint_memory},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -53,14 +51,10 @@ impl<const D: usize> Model for LapModel<D> {
             self.watch.quiet(),
         ));
         let [joint_stiffness, joint_damping] = is_active(&lap.joint);
-        let supports = [&lap.a, &lap.b]
-            .iter()
-            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
-            .any(|&coefficient| coefficient < 0.0);
         Ok(Active {
             joint_stiffness,
             joint_damping,
-            supports,
+            supports: lap.has_active_support(),
         }
         .warning())
     }
@@ -131,13 +125,19 @@ impl<const D: usize> Model for LapModel<D> {
     }
 
     fn calculate_parameters(&self, values: &mut Values) {
-        let amplitude = finite(lap::<D>(values).escape_amplitude());
-        set_escape_amplitude(values, &amplitude);
+        let joint_escape_amplitude = finite(lap::<D>(values).escape_amplitude());
+        LapCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
         let [lap, lap_change] = [values, &*change].map(lap::<D>);
-        set_escape_amplitude(change, &lap.escape_amplitude_tangent(&lap_change));
+        LapCalculatedParameters {
+            joint_escape_amplitude: lap.escape_amplitude_tangent(&lap_change),
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -179,13 +179,8 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the bodies, the joint and their state.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
-    let on_b = lap.joint.load_on_b(&state.a.relative_to(&state.b));
-    set_joint_load(values, &on_b);
-    values[vr::ENERGY_STORED] = lap.stored_energy(state);
-    values[vr::POWER_DISSIPATED] = lap.dissipated_power(state);
-    let [of_a, of_b] = lap.accelerations(state, &loads(values));
-    A.set_acceleration(values, &of_a);
-    B.set_acceleration(values, &of_b);
+    let memory = joint_memory(values);
+    outputs(lap, &memory, (state, &loads(values)), |output| output).write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
@@ -194,22 +189,36 @@ pub(super) fn differentiate<const D: usize>(
     values: &Values,
     change: &mut Values,
 ) {
-    let [state, state_change] = [values, &*change].map(state::<D>);
-    let [relative, relative_change] =
-        [&state, &state_change].map(|state| state.a.relative_to(&state.b));
-    let on_b = lap
-        .joint
-        .load_on_b_tangent(&lap_change.joint, &relative, &relative_change);
-    set_joint_load(change, &on_b);
-    change[vr::ENERGY_STORED] = lap.stored_energy_tangent(lap_change, &state, &state_change);
-    change[vr::POWER_DISSIPATED] = lap.dissipated_power_tangent(lap_change, &state, &state_change);
-    let [of_a, of_b] = lap.accelerations_tangent(
-        lap_change,
-        [&state, &state_change],
-        [&loads(values), &loads(change)],
-    );
-    A.set_acceleration(change, &of_a);
-    B.set_acceleration(change, &of_b);
+    let lap = lap.with_change(lap_change);
+    let state = state(values).with_change(&state(change));
+    let loads = loads(values).with_change(&loads(change));
+    outputs(&lap, &joint_memory(values), (&state, &loads), |output| {
+        output.change[0]
+    })
+    .write(change);
+}
+
+/// What is calculated, or what `of` makes of it.
+#[inline]
+fn outputs<const D: usize, N: Number>(
+    lap: &Lap<D, N>,
+    memory: &JointMemory<D>,
+    (state, loads): (&LapState<D, N>, &LapLoads<D, N>),
+    of: impl Fn(N) -> f64,
+) -> LapOutputs<D> {
+    let [a_acceleration, b_acceleration] = lap
+        .accelerations(memory, state, loads)
+        .map(|accelerations| accelerations.map(&of));
+    LapOutputs {
+        joint_load: lap
+            .joint
+            .load_on_b_after(memory, &state.relative())
+            .map(&of),
+        energy_stored: of(lap.stored_energy(memory, state)),
+        power_dissipated: of(lap.dissipated_power(memory, state)),
+        a_acceleration,
+        b_acceleration,
+    }
 }
 
 /// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.
@@ -233,7 +242,7 @@ fn take_single_step<const D: usize>(
     holds
 }
 
-fn lap<const D: usize>(values: &Values) -> Lap<D> {
+pub(super) fn lap<const D: usize>(values: &Values) -> Lap<D> {
     Lap {
         joint: joint_law(values),
         a: A.body(values),

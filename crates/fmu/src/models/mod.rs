@@ -3,18 +3,18 @@
 mod element;
 mod lap;
 mod loosening;
+mod remembering;
 mod sides;
 mod watch;
 
-pub(crate) use lap::SUBSTEPS_MAX;
-
 use loosening::{LooseningElement, LooseningLap};
+use remembering::{RememberingElement, RememberingLap};
 
 use std::num::NonZeroU32;
 
 use crate::{
     input_course::InputCourse,
-    interface::{Dofs, InterfaceType, Kind, Values, Variables},
+    interface::{Dependence, Dofs, InterfaceType, Kind, Values, Variables},
     preload_table::PreloadTable,
     refusal::{Active, Reached, Refusal},
 };
@@ -74,6 +74,9 @@ pub(crate) trait Model: Send {
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
 
+    /// Moves what the joint remembers on to the present point, where the importer has completed a step of its own.
+    fn commit(&self, _: &mut Values) {}
+
     /// Writes the derivatives of inputs and states with respect to time to `rates`, at the point `values`, of which the
     /// outputs are up to date.
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values);
@@ -106,6 +109,14 @@ pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dy
         (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(table)),
         (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
         (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
+        (kind, None) if matches!(variables.dependence, Dependence::Memory(_)) => {
+            match (kind, variables.dofs) {
+                (Kind::Element, Dofs::One) => Box::new(RememberingElement::<1>::default()),
+                (Kind::Element, Dofs::Two) => Box::new(RememberingElement::<2>::default()),
+                (Kind::Lap, Dofs::One) => Box::new(RememberingLap::<1>::default()),
+                (Kind::Lap, Dofs::Two) => Box::new(RememberingLap::<2>::default()),
+            }
+        }
         (kind, None) => match (kind, variables.dofs) {
             (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
             (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),

@@ -1,40 +1,45 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
-use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Motion, is_positive_semidefinite};
+use bolted_joint_dynamics::{
+    Body, DOF_COUNT, DofLaws, DofMemory, JointLaw, JointMemory, Linear, Motion,
+    is_positive_semidefinite,
+};
 
-use crate::interface::{Dependence, Dofs, Kind, Values, Variable, Variables, reference as vr};
+use crate::interface::{
+    Dependence, Dofs, Kind, Values, Variable, Variables, gather, reference as vr, scatter,
+};
 
-/// Value references of one side, translation first, then rotation.
+/// Value references of one side, by DOFs.
 pub(super) struct Side {
-    pub(super) displacement: [usize; 2],
-    velocity: [usize; 2],
-    load: [usize; 2],
-    acceleration: [usize; 2],
-    pub(super) inertia: [usize; 2],
-    stiffness: [usize; 2],
-    damping: [usize; 2],
+    pub(super) displacement: [usize; DOF_COUNT],
+    velocity: [usize; DOF_COUNT],
+    load: [usize; DOF_COUNT],
+    acceleration: [usize; DOF_COUNT],
+    pub(super) inertia: [usize; DOF_COUNT],
+    stiffness: [usize; DOF_COUNT],
+    damping: [usize; DOF_COUNT],
 }
 
 /// Side a.
 pub(super) const A: Side = Side {
-    displacement: [vr::A_Y, vr::A_THETA],
-    velocity: [vr::A_V, vr::A_OMEGA],
-    load: [vr::A_FORCE, vr::A_MOMENT],
-    acceleration: [vr::A_ACCELERATION, vr::A_ALPHA],
-    inertia: [vr::A_MASS, vr::A_MOMENT_OF_INERTIA],
-    stiffness: [vr::A_K_Y, vr::A_K_THETA],
-    damping: [vr::A_C_Y, vr::A_C_THETA],
+    displacement: vr::A_DISPLACEMENT,
+    velocity: vr::A_RATE,
+    load: vr::A_LOAD,
+    acceleration: vr::A_ACCELERATION,
+    inertia: vr::A_INERTIA,
+    stiffness: vr::A_K,
+    damping: vr::A_C,
 };
 
 /// Side b.
 pub(super) const B: Side = Side {
-    displacement: [vr::B_Y, vr::B_THETA],
-    velocity: [vr::B_V, vr::B_OMEGA],
-    load: [vr::B_FORCE, vr::B_MOMENT],
-    acceleration: [vr::B_ACCELERATION, vr::B_ALPHA],
-    inertia: [vr::B_MASS, vr::B_MOMENT_OF_INERTIA],
-    stiffness: [vr::B_K_Y, vr::B_K_THETA],
-    damping: [vr::B_C_Y, vr::B_C_THETA],
+    displacement: vr::B_DISPLACEMENT,
+    velocity: vr::B_RATE,
+    load: vr::B_LOAD,
+    acceleration: vr::B_ACCELERATION,
+    inertia: vr::B_INERTIA,
+    stiffness: vr::B_K,
+    damping: vr::B_C,
 };
 
 impl Side {
@@ -77,14 +82,6 @@ impl Side {
         gather(values, &self.acceleration)
     }
 
-    pub(super) fn set_acceleration<const D: usize>(
-        &self,
-        values: &mut Values,
-        acceleration: &[f64; D],
-    ) {
-        scatter(values, &self.acceleration, acceleration);
-    }
-
     pub(super) fn body<const D: usize>(&self, values: &Values) -> Body<D> {
         Body {
             inertia: gather(values, &self.inertia),
@@ -97,50 +94,39 @@ impl Side {
 /// Law of the joint.
 #[inline]
 pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
-    const STIFFNESS: [[usize; 2]; 2] = [
-        [vr::JOINT_K_YY, vr::JOINT_K_YTHETA],
-        [vr::JOINT_K_YTHETA, vr::JOINT_K_THETATHETA],
-    ];
-    const DAMPING: [[usize; 2]; 2] = [
-        [vr::JOINT_C_YY, vr::JOINT_C_YTHETA],
-        [vr::JOINT_C_YTHETA, vr::JOINT_C_THETATHETA],
-    ];
-    const CUBIC: [usize; 2] = [vr::JOINT_K3_Y, vr::JOINT_K3_THETA];
-    const QUINTIC: [usize; 2] = [vr::JOINT_K5_Y, vr::JOINT_K5_THETA];
-    const SEPTIC: [usize; 2] = [vr::JOINT_K7_Y, vr::JOINT_K7_THETA];
-    const DAMPING_QUADRATIC: [usize; 2] = [vr::JOINT_C2_Y, vr::JOINT_C2_THETA];
-    const DAMPING_QUARTIC: [usize; 2] = [vr::JOINT_C4_Y, vr::JOINT_C4_THETA];
     JointLaw {
-        stiffness: std::array::from_fn(|row| gather(values, &STIFFNESS[row])),
-        damping: std::array::from_fn(|row| gather(values, &DAMPING[row])),
-        cubic: gather(values, &CUBIC),
-        higher: HigherTerms {
-            quintic: gather(values, &QUINTIC),
-            septic: gather(values, &SEPTIC),
-            damping_quadratic: gather(values, &DAMPING_QUADRATIC),
-            damping_quartic: gather(values, &DAMPING_QUARTIC),
+        linear: Linear {
+            stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
+            damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
         },
+        on: std::array::from_fn(|dof| {
+            DofLaws::new(vr::LAW_PARAMETERS[dof].map(|reference| values[reference]))
+        }),
     }
 }
 
-/// Writes the calculated parameters `joint.escape_amplitude_y` and `joint.escape_amplitude_theta`.
-pub(super) fn set_escape_amplitude<const D: usize>(values: &mut Values, amplitude: &[f64; D]) {
-    const ESCAPE: [usize; 2] = [
-        vr::JOINT_ESCAPE_AMPLITUDE_Y,
-        vr::JOINT_ESCAPE_AMPLITUDE_THETA,
-    ];
-    scatter(values, &ESCAPE, amplitude);
+/// What the joint remembers.
+#[inline]
+pub(super) fn joint_memory<const D: usize>(values: &Values) -> JointMemory<D> {
+    JointMemory {
+        on: std::array::from_fn(|dof| {
+            DofMemory::new(vr::LAW_MEMORY[dof].map(|reference| values[reference]))
+        }),
+    }
+}
+
+/// Writes what the joint remembers.
+pub(super) fn set_joint_memory<const D: usize>(values: &mut Values, memory: &JointMemory<D>) {
+    for (references, own) in vr::LAW_MEMORY.iter().zip(&memory.on) {
+        for (&reference, &number) in references.iter().zip(own.numbers()) {
+            values[reference] = number;
+        }
+    }
 }
 
 /// Whether the joint's stiffness and damping can feed energy.
 pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
-    [&law.stiffness, &law.damping].map(|matrix| !is_positive_semidefinite(matrix))
-}
-
-/// Writes the load on side b to the outputs `joint.F` and `joint.M`.
-#[inline]
-pub(super) fn set_joint_load<const D: usize>(values: &mut Values, load_on_b: &[f64; D]) {
-    scatter(values, &[vr::JOINT_FORCE, vr::JOINT_MOMENT], load_on_b);
+    [&law.linear.stiffness, &law.linear.damping].map(|matrix| !is_positive_semidefinite(matrix))
 }
 
 /// Name of a variable that both FMUs have.
@@ -161,16 +147,4 @@ fn variable(reference: usize) -> Option<&'static Variable> {
         dependence: Dependence::Constant,
     }
     .get(reference)
-}
-
-#[inline]
-fn gather<const D: usize>(values: &Values, references: &[usize; 2]) -> [f64; D] {
-    std::array::from_fn(|dof| values[references[dof]])
-}
-
-#[inline]
-fn scatter<const D: usize>(values: &mut Values, references: &[usize; 2], from: &[f64; D]) {
-    for dof in 0..D {
-        values[references[dof]] = from[dof];
-    }
 }

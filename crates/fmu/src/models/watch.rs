@@ -64,10 +64,6 @@ impl<const D: usize> Watch<D> {
     /// What there is to tell of this relative displacement at `time_s` (s).
     #[cold]
     pub(super) fn look(&mut self, relative: &[f64; D], time_s: f64) -> Option<Reached> {
-        const ESCAPE: [usize; 2] = [
-            vr::JOINT_ESCAPE_AMPLITUDE_Y,
-            vr::JOINT_ESCAPE_AMPLITUDE_THETA,
-        ];
         let reached = |dof: usize, limit: Limit, amplitude: f64| Reached {
             limit,
             a: name(A.displacement[dof]),
@@ -82,7 +78,7 @@ impl<const D: usize> Watch<D> {
             && let Some(dof) = past(&self.escape.map(|amplitude| NEAR * amplitude))
         {
             self.escape_told = true;
-            let parameter = name(ESCAPE[dof]);
+            let parameter = name(vr::JOINT_ESCAPE_AMPLITUDE[dof]);
             return Some(reached(dof, Limit::Escape { parameter }, self.escape[dof]));
         }
         if !self.active_told

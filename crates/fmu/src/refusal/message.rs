@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{NotIntermediate, Refusal};
-use crate::{interface::Role, mode::Mode, models::SUBSTEPS_MAX};
+use crate::{interface::Role, mode::Mode};
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -22,8 +22,8 @@ impl fmt::Display for Refusal {
             Self::OtherAbi { found, expected } => write!(
                 f,
                 "belongs to {}, but the instance was made by the functions of {}; use only one of them",
-                expected.name(),
-                found.name()
+                expected.words().version,
+                found.words().version
             ),
             Self::InsideStep => f.write_str(
                 "is not allowed in state Intermediate Update Mode, only when the communication step has ended",
@@ -176,10 +176,10 @@ impl fmt::Display for Refusal {
                 f,
                 "the step would end at t = {end_s} s, after stopTime = {stop_s} s"
             ),
-            Self::TooManySubsteps { interval_s, step_size_max_s } => write!(
+            Self::TooManySubsteps { interval_s, step_size_max_s, most } => write!(
                 f,
                 "a communication step of {interval_s} s with step_size_max = {step_size_max_s} s takes more than \
-                 {SUBSTEPS_MAX} Runge-Kutta steps; shorten the one or raise the other"
+                 {most} Runge-Kutta steps; shorten the one or raise the other"
             ),
             Self::Inertia { name, unit, found } => write!(
                 f,
@@ -212,11 +212,7 @@ impl fmt::Display for Refusal {
                 "log category \"{found}\" does not exist; take it from <LogCategories> in modelDescription.xml"
             ),
             Self::ForeignState => f.write_str("argument FMUState was not made by this library, or is already freed"),
-            Self::OtherFmu { found, expected } => write!(
-                f,
-                "the FMU state is that of \"{found}\", but this is \"{expected}\"; states fit only the FMU that they come from"
-            ),
-            Self::Damaged(damage) => write!(f, "the serialised FMU state cannot be used: {damage}"),
+            Self::State(error) => error.fmt(f),
             Self::Token { argument, found, expected } => write!(
                 f,
                 "{argument} is \"{found}\", but the FMU's resources have \"{expected}\"; \
@@ -237,7 +233,6 @@ impl fmt::Display for Refusal {
             ),
             Self::NotProvided { reason } => write!(f, "is not provided by this FMU: {reason}"),
             Self::Resource(error) => error.fmt(f),
-            Self::StartFile(error) => error.fmt(f),
             Self::Internal => f.write_str("failed by a defect in the FMU's library; please report it"),
         }
     }

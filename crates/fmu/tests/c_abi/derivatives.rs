@@ -3,12 +3,13 @@
 use crate::{
     c,
     importer::{Instance, Kind, vr},
+    raw::{Raw, status_of},
 };
 
 #[test]
 fn an_element_with_one_dof_has_the_derivatives_of_its_law() {
     // F_b = k r + c ṙ + k3 r³, U = k r²/2 + k3 r⁴/4, P = c ṙ² with k = 4e6, c = 8, k3 = 5e12
-    let mut instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
+    let instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
     let (y_a, y_b, v_a, v_b) = (3e-4, 1e-4, 0.2, 0.05);
     let motion = [vr::A_Y, vr::B_Y, vr::A_V, vr::B_V];
     assert_eq!(instance.set(&motion, &[y_a, y_b, v_a, v_b]), c::OK);
@@ -60,7 +61,7 @@ fn the_adjoint_is_the_transpose() {
                 .collect::<Vec<_>>(),
         ),
     ] {
-        let mut instance = Instance::new(kind, 2, &[("joint.k3_y", 5e12), ("joint.k3_theta", 1e6)]);
+        let instance = Instance::new(kind, 2, &[("joint.k3_y", 5e12), ("joint.k3_theta", 1e6)]);
         let motion: Vec<u32> = (vr::A_Y..=vr::B_OMEGA).collect();
         let values = [2e-4, 1e-3, 0.1, -2.0, -1e-4, 3e-3, 0.3, 1.0];
         assert_eq!(instance.set(&motion, &values), c::OK);
@@ -99,7 +100,7 @@ fn the_adjoint_is_the_transpose() {
 
 #[test]
 fn a_state_is_its_own_known_between_steps() {
-    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    let instance = Instance::stepping(Kind::Lap, 1, &[]);
     let states = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
     for (index, known) in states.into_iter().enumerate() {
         let mut expected = vec![0.0; 4];
@@ -119,13 +120,13 @@ fn a_state_is_its_own_known_between_steps() {
 #[test]
 fn parameters_count_as_they_are_set() {
     // also before the next step takes them into use, as for outputs
-    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    let instance = Instance::stepping(Kind::Lap, 1, &[]);
     assert_eq!(instance.set(&[vr::K_YY], &[3e6]), c::OK);
     assert_eq!(
         instance.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0]),
         Ok(vec![3e6])
     );
-    assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    assert_eq!(instance.step(0.0, 1e-3), c::OK);
     assert_eq!(
         instance.directional(&[vr::JOINT_F], &[vr::B_Y], &[1.0]),
         Ok(vec![-3e6])
@@ -135,22 +136,21 @@ fn parameters_count_as_they_are_set() {
 #[test]
 fn the_mode_decides_what_is_unknown() {
     let mut instance = Instance::new(Kind::Lap, 2, &[]);
-    let status = |result: Result<Vec<f64>, i32>| result.err().unwrap_or(c::OK);
-    for call in [Instance::directional, Instance::adjoint] {
-        let message = instance.refused(|i| status(call(i, &[vr::JOINT_F], &[vr::A_Y], &[1.0])));
+    for call in [Raw::directional, Raw::adjoint] {
+        let message = instance.refused(|i| status_of(call(i, &[vr::JOINT_F], &[vr::A_Y], &[1.0])));
         assert!(
             message.contains("is not allowed in state Instantiated"),
             "{message}"
         );
     }
     assert_eq!(instance.enter_initialization(0.0, None), c::OK);
-    for call in [Instance::directional, Instance::adjoint] {
+    for call in [Raw::directional, Raw::adjoint] {
         assert_eq!(
-            call(&mut instance, &[vr::JOINT_F], &[vr::A_Y], &[1.0]),
+            call(instance.raw, &[vr::JOINT_F], &[vr::A_Y], &[1.0]),
             Ok(vec![4e6])
         );
         // a state is given in Initialization Mode
-        let message = instance.refused(|i| status(call(i, &[vr::A_Y], &[vr::A_Y], &[1.0])));
+        let message = instance.refused(|i| status_of(call(i, &[vr::A_Y], &[vr::A_Y], &[1.0])));
         assert!(
             message.contains("variable a.y is a state and no unknown in state Initialization Mode"),
             "{message}"
@@ -167,8 +167,7 @@ fn the_mode_decides_what_is_unknown() {
 #[test]
 fn wrong_arguments_are_refused() {
     let mut instance = Instance::stepping(Kind::Lap, 2, &[("joint.k3_y", 5e12)]);
-    let status = |result: Result<Vec<f64>, i32>| result.err().unwrap_or(c::OK);
-    for call in [Instance::directional, Instance::adjoint] {
+    for call in [Raw::directional, Raw::adjoint] {
         for (unknown, known, seed, expected) in [
             (vr::NONE, vr::A_Y, 1.0, "value reference 52 does not exist"),
             (
@@ -214,62 +213,18 @@ fn wrong_arguments_are_refused() {
                 "overflows at t = 0 s with this seed",
             ),
         ] {
-            let message = instance.refused(|i| status(call(i, &[unknown], &[known], &[seed])));
+            let message = instance.refused(|i| status_of(call(i, &[unknown], &[known], &[seed])));
             assert!(message.contains(expected), "{message}");
         }
     }
-    let message = instance.refused(|i| status(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[])));
+    let message = instance.refused(|i| status_of(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[])));
     assert!(
         message.contains("argument nSeed is 0, expected 1"),
         "{message}"
     );
-    let message = instance.refused(|i| status(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0; 2])));
+    let message = instance.refused(|i| status_of(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0; 2])));
     assert!(
         message.contains("argument nSeed is 2, expected 1"),
         "{message}"
     );
-    let (unknowns, knowns) = ([vr::JOINT_F], [vr::A_Y, vr::A_V]);
-    let mut result = [0.0; 2];
-    for (function, seeds, results) in [
-        (
-            c::fmi3GetDirectionalDerivative as unsafe extern "C" fn(_, _, _, _, _, _, _, _, _) -> _,
-            2,
-            2,
-        ),
-        (c::fmi3GetAdjointDerivative, 1, 1),
-    ] {
-        // SAFETY: no length is larger than its array
-        let message = instance.refused(|i| unsafe {
-            function(
-                i.handle,
-                unknowns.as_ptr(),
-                1,
-                knowns.as_ptr(),
-                2,
-                [1.0; 2].as_ptr(),
-                seeds,
-                result.as_mut_ptr(),
-                results,
-            )
-        });
-        assert!(message.contains("argument nSensitivity is"), "{message}");
-        // SAFETY: a null pointer is refused
-        let message = instance.refused(|i| unsafe {
-            function(
-                i.handle,
-                std::ptr::null(),
-                1,
-                knowns.as_ptr(),
-                1,
-                [1.0].as_ptr(),
-                1,
-                result.as_mut_ptr(),
-                1,
-            )
-        });
-        assert!(
-            message.contains("argument unknowns is a null pointer"),
-            "{message}"
-        );
-    }
 }

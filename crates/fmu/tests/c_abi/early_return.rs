@@ -4,8 +4,10 @@ use std::{cell::RefCell, rc::Rc};
 
 use crate::{
     c,
-    importer::{Kind, Stepped, vr},
-    intermediate_update::{EQUATIONS, START, STATES, assert_close, lap, taking_part},
+    equations::{EQUATIONS, START, STATES, assert_close},
+    importer::{Kind, vr},
+    intermediate_update::{lap, taking_part},
+    raw::Stepped,
 };
 
 #[test]
@@ -42,14 +44,14 @@ fn an_early_return_ends_exactly_where_it_was_asked_for() {
         assert_close(&instance.get(STATES), &reached, 1e-11);
         // the simulation goes on from there
         instance.on_update(|_, _| None);
-        assert_eq!(instance.step(at, 1e-3), (c::OK, at + 1e-3));
+        assert_eq!(instance.step_to(at, 1e-3), (c::OK, at + 1e-3));
         let end = EQUATIONS.runge_kutta(reached, 2e-4, 5);
         assert_close(&instance.get(STATES), &end, 1e-11);
     }
     // at the end it is not early; and what has passed cannot be brought back
     let mut instance = lap(&[], true);
     instance.on_update(|_, update| (update.time > 9e-4).then_some(update.time));
-    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
     instance.on_update(|_, _| Some(1e-3));
     let stepped = instance.do_step(1e-3, 1e-3);
     assert!(
@@ -91,7 +93,7 @@ fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
             "{message}"
         );
         instance.on_update(|_, _| None);
-        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
         assert_close(
             &instance.get(STATES),
             &EQUATIONS.runge_kutta(START, 2e-4, 5),
@@ -120,14 +122,14 @@ fn a_step_that_fails_goes_back_to_its_beginning_with_its_inputs() {
         assert_eq!(i.set(&[vr::B_F], &[1e9 * update.time]), c::OK);
         None
     });
-    assert_eq!(instance.step(0.0, 1e-2), (c::ERROR, 0.0));
+    assert_eq!(instance.step_to(0.0, 1e-2), (c::ERROR, 0.0));
     let message = instance.error();
     assert!(message.contains("softening joint"), "{message}");
     // found at the very internal step, long before the communication step's end
     let last = *last.borrow();
     assert!(last < 5e-3, "{last}");
     assert_eq!(instance.get(all), before);
-    assert_eq!(instance.step(0.0, 1e-3).0, c::ERROR);
+    assert_eq!(instance.step(0.0, 1e-3), c::ERROR);
     assert!(instance.error().contains("in state Terminated"));
 }
 

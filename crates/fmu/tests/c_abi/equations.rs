@@ -1,5 +1,7 @@
 //! The lap with one DOF, written down once more, for results to compare with.
 
+use crate::importer::vr;
+
 /// The lap's equations with one DOF, written down once more: m, k, c of both bodies; k12, c12, k3; F of both.
 #[derive(Clone, Copy)]
 pub(crate) struct Equations {
@@ -10,6 +12,31 @@ pub(crate) struct Equations {
     pub(crate) c12: f64,
     pub(crate) k3: f64,
     pub(crate) force: [f64; 2],
+}
+
+/// The lap of most tests: the bodies of the tests' start files, with k3 = 5e12.
+pub(crate) const EQUATIONS: Equations = Equations {
+    m: 2.0,
+    k: 8e5,
+    c: 1.0,
+    k12: 4e6,
+    c12: 8.0,
+    k3: 5e12,
+    force: [30.0, -20.0],
+};
+/// A motion of it, and its states in that order.
+pub(crate) const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
+pub(crate) const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
+
+/// Each number agrees with the one that is expected but for this part of it.
+pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found - expected).abs() <= tolerance * expected.abs(),
+            "{found} {expected}"
+        );
+    }
 }
 
 impl Equations {

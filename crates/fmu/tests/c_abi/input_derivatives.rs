@@ -2,15 +2,16 @@
 //! what they do to motion and outputs.
 
 use crate::{
+    c,
     equations::Equations,
-    fmi2::{c, importer::Instance},
-    importer::{Kind, vr},
+    importer::{Instance, Kind, Make as _, vr},
+    raw::Fmi2,
 };
 
 const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 
 fn stepping(kind: Kind, changes: &[(&str, f64)]) -> Instance {
-    Instance::stepping(kind, 1, changes)
+    Fmi2.stepping(kind, 1, changes)
 }
 
 /// F sin Ωt and its first three derivatives.
@@ -36,7 +37,7 @@ fn each_derivative_that_is_given_raises_the_order() {
     for orders in 0..=3_i32 {
         let error = |steps: u32| {
             let changes = [("a.c_y", 0.0), ("b.c_y", 0.0), ("step_size_max", 5e-6)];
-            let mut instance = stepping(Kind::Lap, &changes);
+            let instance = stepping(Kind::Lap, &changes);
             let h = duration / f64::from(steps);
             for n in 0..steps {
                 let t = h * f64::from(n);
@@ -68,7 +69,7 @@ fn a_cubic_load_is_integrated_as_such() {
     let [f0, f1, f2, f3] = [20.0, 3e5, -4e8, 9e11];
     let load = |t: f64| f0 + t * (f1 + t / 2.0 * (f2 + t / 3.0 * f3));
     for k3 in [0.0, 5e12] {
-        let mut instance = stepping(Kind::Lap, &[("joint.k3_y", k3), ("step_size_max", 1e-5)]);
+        let instance = stepping(Kind::Lap, &[("joint.k3_y", k3), ("step_size_max", 1e-5)]);
         assert_eq!(instance.set(&[vr::A_F, vr::B_F], &[f0, -7.0]), c::OK);
         let given = instance.set_input_derivatives(&[vr::A_F; 3], &[1, 3, 2], &[f1, f3, f2]);
         assert_eq!(given, c::OK);
@@ -117,7 +118,7 @@ fn derivatives_of_outputs_follow_those_of_inputs() {
     // F_b = k r + c ṙ: Ḟ_b = k v_a + c v̇_a; with y_a's own derivative given, that one counts
     let mut instance = stepping(Kind::Element, &[]);
     assert_eq!(instance.set(&[vr::A_Y, vr::A_V], &[1e-4, 0.2]), c::OK);
-    let rate = |i: &mut Instance| i.output_derivatives(&[vr::B_F], &[1]).unwrap()[0];
+    let rate = |i: &mut Instance| i.output_derivatives(&[vr::B_F]).unwrap()[0];
     let close = |found: f64, expected: f64| {
         assert!(
             (found - expected).abs() <= 1e-13 * expected.abs(),
@@ -172,4 +173,141 @@ fn a_load_that_would_overflow_is_refused_and_nothing_moves() {
         c::OK
     );
     assert_eq!(instance.step(0.0, 1e-3), c::OK);
+}
+
+#[test]
+fn derivatives_of_inputs_carry_the_inputs_through_the_step() {
+    // the element follows its inputs: after the step they are where their Taylor polynomials lead
+    let instance = stepping(Kind::Element, &[]);
+    assert_eq!(instance.set(&[vr::A_Y, vr::B_Y], &[1e-4, 5e-5]), c::OK);
+    assert_eq!(
+        instance.set_input_derivatives(
+            &[vr::A_Y, vr::A_Y, vr::B_Y, vr::A_Y],
+            &[1, 2, 1, 3],
+            &[0.25, 4.0, -0.5, 12.0]
+        ),
+        c::OK
+    );
+    let h: f64 = 0.5;
+    assert_eq!(instance.step(0.0, h), c::OK);
+    let a = 1e-4 + 0.25 * h + 4.0 * h * h / 2.0 + 12.0 * h * h * h / 6.0;
+    let b = 5e-5 - 0.5 * h;
+    let [found_a, found_b, force] = instance.get([vr::A_Y, vr::B_Y, vr::JOINT_F]);
+    assert!((found_a - a).abs() < 1e-15 && (found_b - b).abs() < 1e-15);
+    assert!((force - 4e6 * (a - b)).abs() < 1e-8);
+    // they are for one step only
+    assert_eq!(instance.step(h, h), c::OK);
+    assert_eq!(instance.get([vr::A_Y, vr::B_Y]), [found_a, found_b]);
+}
+
+#[test]
+fn a_lap_under_a_ramp_follows_the_equations_of_motion() {
+    // a ramp of the load given as derivative, against the same ramp in steps of one hundredth
+    let ramp = 2e5;
+    let mut instance = stepping(Kind::Lap, &[]);
+    let mut fine = stepping(Kind::Lap, &[]);
+    let (h, parts) = (1e-3, 100);
+    for n in 0..20 {
+        let t = f64::from(n) * h;
+        assert_eq!(instance.set(&[vr::A_F], &[ramp * t]), c::OK);
+        assert_eq!(
+            instance.set_input_derivatives(&[vr::A_F], &[1], &[ramp]),
+            c::OK
+        );
+        assert_eq!(instance.step(t, h), c::OK);
+        for part in 0..parts {
+            let (t, h) = (
+                t + f64::from(part) * h / f64::from(parts),
+                h / f64::from(parts),
+            );
+            assert_eq!(fine.set(&[vr::A_F], &[ramp * (t + h / 2.0)]), c::OK);
+            assert_eq!(fine.step(t, h), c::OK);
+        }
+    }
+    let [y, held] = [&mut instance, &mut fine].map(|i| i.get([vr::A_Y])[0]);
+    assert!(
+        y.abs() > 1e-4 && (y - held).abs() < 1e-5 * y.abs(),
+        "{y} {held}"
+    );
+}
+
+#[test]
+fn each_derivative_of_a_load_gains_an_order() {
+    const OMEGA: f64 = 300.0;
+    /// Displacement of body b under a sine of which the importer tells this many derivatives.
+    fn displacement(orders: usize, steps: u32) -> f64 {
+        let instance = stepping(Kind::Lap, &[]);
+        let h = 0.02 / f64::from(steps);
+        for n in 0..steps {
+            let t = f64::from(n) * h;
+            let (sin, cos) = (OMEGA * t).sin_cos();
+            let load = 1e3;
+            let derivatives = [
+                load * OMEGA * cos,
+                -load * OMEGA.powi(2) * sin,
+                -load * OMEGA.powi(3) * cos,
+            ];
+            assert_eq!(instance.set(&[vr::B_F], &[load * sin]), c::OK);
+            assert_eq!(
+                instance.set_input_derivatives(
+                    &[vr::B_F; 3][..orders],
+                    &[1, 2, 3][..orders],
+                    &derivatives[..orders],
+                ),
+                c::OK
+            );
+            assert_eq!(instance.step(t, h), c::OK);
+        }
+        instance.get([vr::B_Y])[0]
+    }
+    let exact = displacement(3, 4000);
+    for orders in 0..=3 {
+        let [coarse, fine] = [40, 80].map(|steps| (displacement(orders, steps) - exact).abs());
+        // the load is followed to the order n, which leaves an error of the order n + 1
+        let gain = f64::from(2_u32.pow(orders as u32 + 1));
+        assert!(
+            coarse / fine > 0.8 * gain && coarse < 0.1 * exact.abs(),
+            "{orders}: {coarse:e} {fine:e} of {exact:e}"
+        );
+    }
+}
+
+#[test]
+fn derivatives_of_anything_but_inputs_are_refused() {
+    let mut instance = stepping(Kind::Lap, &[]);
+    for (reference, order, value, expected) in [
+        (vr::A_Y, 1, 1.0, "variable a.y is a state and no input"),
+        (
+            vr::K_YY,
+            1,
+            1.0,
+            "variable joint.k_yy is a parameter and no input",
+        ),
+        (vr::NONE, 1, 1.0, "value reference 52 does not exist"),
+        (
+            vr::B_F,
+            0,
+            1.0,
+            "order of the derivative of variable b.F is 0, expected 1 to 3",
+        ),
+        (
+            vr::B_F,
+            4,
+            1.0,
+            "order of the derivative of variable b.F is 4, expected 1 to 3",
+        ),
+        (vr::B_F, 1, f64::NAN, "variable b.F cannot be set to NaN"),
+    ] {
+        let message = instance.refused(|i| {
+            i.set_input_derivatives(&[vr::A_F, reference], &[1, order], &[3.0, value])
+        });
+        assert!(message.contains(expected), "{message}");
+    }
+    // an input that would overflow on the way: the step is refused, not the derivative
+    assert_eq!(
+        instance.set_input_derivatives(&[vr::A_F], &[1], &[f64::MAX]),
+        c::OK
+    );
+    let message = instance.refused(|i| i.step(0.0, 1e3));
+    assert!(message.contains("input a.F overflows"), "{message}");
 }

@@ -1,74 +1,82 @@
-//! Instantiation: the token, names, options that are not offered.
+//! Instantiation: versions, the token, names, types, options that are not offered.
 
-use std::{ffi::CStr, ptr};
-
-use crate::{
-    c,
-    importer::{Folder, Kind, Message, Request, TOKEN, start_text, text, vr},
+use std::{
+    ffi::{CStr, CString, c_int},
+    ptr,
 };
 
-/// The one reason why there is no instance.
-pub(crate) fn refusal(request: &Request<'_>) -> String {
-    match request.instantiate() {
-        Ok(_) => panic!("instantiated"),
-        Err(log) => {
-            let [
-                Message {
-                    status,
-                    category,
-                    text,
-                },
-            ] = log.as_slice()
-            else {
-                panic!("{log:?}");
-            };
-            assert_eq!((*status, category.as_str()), (c::ERROR, "logStatusError"));
-            assert!(text.starts_with("fmi3InstantiateCoSimulation: "), "{text}");
-            text.clone()
-        }
+use bolted_joint_importer::header::{fmi2::*, fmi3::*};
+
+use crate::{
+    importer::{Folder, Kind, Message, Request, TOKEN, record, record_fmi2, start_text, text, vr},
+    raw::{
+        BOTH, Fmi2, Fmi3, FmiVersion,
+        Interface::{CoSimulation, ModelExchange},
+    },
+};
+
+#[test]
+fn versions_of_the_headers() {
+    // SAFETY: the library returns terminated strings
+    unsafe {
+        assert_eq!(CStr::from_ptr(fmi2GetTypesPlatform()), c"default");
+        assert_eq!(CStr::from_ptr(fmi2GetVersion()), c"2.0");
+        assert_eq!(CStr::from_ptr(fmi3GetVersion()), c"3.0");
     }
 }
 
-pub(crate) fn lap() -> String {
-    start_text(Kind::Lap, 2, &[])
-}
-
 #[test]
-fn version() {
-    // SAFETY: the library returns a terminated string
-    assert_eq!(unsafe { CStr::from_ptr(c::fmi3GetVersion()) }, c"3.0");
-}
-
-#[test]
-fn another_token_is_refused() {
-    let folder = Folder::with_start(&lap());
+fn name_token_and_resources_are_checked() {
+    let folder = Folder::with_start(&start_text(Kind::Lap, 2, &[]));
     let path = text(&folder.0);
-    let request = |token| Request {
-        token,
-        resources: Some(&path),
-        ..Request::default()
-    };
-    let message = refusal(&request(Some("another")));
-    assert!(
-        message.contains("instantiationToken is \"another\"")
-            && message.contains("\"{7f0c-4a} ##1\""),
-        "{message}"
-    );
-    assert!(refusal(&request(None)).contains("argument instantiationToken is a null pointer"));
-    assert!(request(Some(TOKEN)).instantiate().is_ok());
-}
-
-#[test]
-fn instances_need_a_name() {
-    let folder = Folder::with_start(&lap());
-    let path = text(&folder.0);
-    let request = |name| Request {
-        name,
-        resources: Some(&path),
-        ..Request::default()
-    };
-    assert!(refusal(&request(None)).contains("argument instanceName is a null pointer"));
-    assert!(refusal(&request(Some("  "))).contains("argument instanceName is an empty string"));
+    for version in BOTH {
+        let argument = match version {
+            Fmi2 => "fmuGUID",
+            Fmi3 => "instantiationToken",
+        };
+        for interface in [CoSimulation, ModelExchange] {
+            let good = Request {
+                version,
+                interface,
+                resources: Some(&path),
+                ..Request::default()
+            };
+            assert!(good.instantiate().is_ok());
+            for (name, expected) in [
+                (None, "argument instanceName is a null pointer"),
+                (Some(""), "argument instanceName is an empty string"),
+                (Some(" \t"), "argument instanceName is an empty string"),
+            ] {
+                let message = Request { name, ..good }.refusal();
+                assert!(message.contains(expected), "{message}");
+            }
+            let expected = format!("argument {argument} is a null pointer");
+            let message = Request {
+                token: None,
+                ..good
+            }
+            .refusal();
+            assert!(message.contains(&expected), "{message}");
+            for other in ["", "another", "{7f0c-4a}", "7f0c-4a} #1", "{{7f0c-4a} #1}"] {
+                let message = Request {
+                    token: Some(other),
+                    ..good
+                }
+                .refusal();
+                // a literal '#' is doubled
+                let [other, own] = [other, TOKEN].map(|token| token.replace('#', "##"));
+                let expected =
+                    format!("{argument} is \"{other}\", but the FMU's resources have \"{own}\"");
+                assert!(message.contains(&expected), "{message}");
+            }
+            let message = Request {
+                resources: Some("/nowhere"),
+                ..good
+            }
+            .refusal();
+            assert!(message.contains("cannot be read"), "{message}");
+        }
+    }
 }
 
 #[test]
@@ -101,45 +109,103 @@ fn required_intermediate_variables_are_checked() {
         (vr::A_THETA, "value reference 2 does not exist"),
         (vr::NONE, "value reference 52 does not exist"),
     ] {
-        let message = refusal(&request(&path, &[vr::A_F, reference]));
+        let message = request(&path, &[vr::A_F, reference]).refusal();
         assert!(message.contains(expected), "{message}");
     }
     let without_callback = Request {
         updated: false,
         ..request(&path, &[vr::A_F])
     };
-    let message = refusal(&without_callback);
+    let message = without_callback.refusal();
     assert!(
         message.contains("the callback intermediateUpdate is a null pointer"),
         "{message}"
     );
 }
 
-#[test]
-fn text_that_is_not_utf_8_is_refused() {
+/// Tries to instantiate with texts that need not be UTF-8, and a type; the messages.
+fn messages(
+    version: FmiVersion,
+    [name, token, resources]: [&CStr; 3],
+    fmu_type: c_int,
+) -> Vec<Message> {
     let mut log: Vec<Message> = Vec::new();
+    let environment = (&raw mut log).cast();
+    let [name, token, resources] = [name, token, resources].map(CStr::as_ptr);
+    let functions = CallbackFunctions {
+        logger: Some(variadic(record_fmi2)),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment,
+    };
     // SAFETY: strings are terminated, the log outlives the call
     let handle = unsafe {
-        c::fmi3InstantiateCoSimulation(
-            c"joint".as_ptr(),
-            c"\xff".as_ptr(),
-            ptr::null(),
-            false,
-            false,
-            false,
-            false,
-            ptr::null(),
-            0,
-            (&raw mut log).cast(),
-            Some(crate::importer::record),
-            None,
-        )
+        match version {
+            Fmi2 => fmi2Instantiate(name, fmu_type, token, resources, &raw const functions, 0, 1),
+            Fmi3 => fmi3InstantiateCoSimulation(
+                name,
+                token,
+                resources,
+                0,
+                0,
+                0,
+                0,
+                ptr::null(),
+                0,
+                environment,
+                Some(record),
+                None,
+            ),
+        }
     };
     assert!(handle.is_null());
-    assert_eq!(
-        log[0].text,
-        "fmi3InstantiateCoSimulation: argument instantiationToken is not UTF-8"
-    );
+    log
+}
+
+#[test]
+fn text_that_is_not_utf8_is_refused() {
+    let folder = Folder::with_start(&start_text(Kind::Element, 1, &[]));
+    let path = CString::new(text(&folder.0)).unwrap();
+    let token = CString::new(TOKEN).unwrap();
+    let (name, bad) = (c"joint", c"\xff\xfe");
+    // the name as FMI 2.0 hands it back would be no text either
+    for (version, texts, argument) in [
+        (Fmi2, [name, bad, &path], "fmuGUID"),
+        (Fmi2, [name, &token, bad], "fmuResourceLocation"),
+        (Fmi3, [bad, &token, &path], "instanceName"),
+        (Fmi3, [name, bad, &path], "instantiationToken"),
+        (Fmi3, [name, &token, bad], "resourcePath"),
+    ] {
+        let log = messages(version, texts, CO_SIMULATION);
+        let expected = format!("argument {argument} is not UTF-8");
+        assert!(log[0].text.contains(&expected), "{log:?}");
+    }
+    // SAFETY: the strings are terminated, nobody wants messages
+    let instance = unsafe {
+        fmi2Instantiate(
+            bad.as_ptr(),
+            1,
+            token.as_ptr(),
+            path.as_ptr(),
+            ptr::null(),
+            0,
+            1,
+        )
+    };
+    assert!(instance.is_null());
+}
+
+#[test]
+fn other_types_of_fmus_are_refused() {
+    let folder = Folder::with_start(&start_text(Kind::Element, 1, &[]));
+    let path = CString::new(text(&folder.0)).unwrap();
+    let token = CString::new(TOKEN).unwrap();
+    for fmu_type in [2, -1, c_int::MAX] {
+        let log = messages(Fmi2, [c"joint", &token, &path], fmu_type);
+        let expected = format!("fmuType is {fmu_type}, expected 0 (fmi2ModelExchange) or 1");
+        assert!(log[0].text.contains(&expected), "{log:?}");
+    }
 }
 
 #[test]
@@ -147,14 +213,14 @@ fn scheduled_execution_is_refused() {
     let mut log: Vec<Message> = Vec::new();
     // SAFETY: strings are terminated, the log outlives the call
     unsafe {
-        let handle = c::fmi3InstantiateScheduledExecution(
+        let handle = fmi3InstantiateScheduledExecution(
             c"joint".as_ptr(),
             c"token".as_ptr(),
             ptr::null(),
-            false,
-            false,
+            0,
+            0,
             (&raw mut log).cast(),
-            Some(crate::importer::record),
+            Some(record),
             None,
             None,
             None,
@@ -168,54 +234,4 @@ fn scheduled_execution_is_refused() {
             .starts_with("fmi3InstantiateScheduledExecution: is not provided"),
         "{log:?}"
     );
-}
-
-#[test]
-fn model_exchange_checks_the_same() {
-    let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[]));
-    let path = text(&folder.0);
-    let good = || Request {
-        resources: Some(&path),
-        ..Request::default()
-    };
-    assert!(good().instantiate_model_exchange().is_ok());
-    for (request, expected) in [
-        (
-            Request {
-                name: None,
-                ..good()
-            },
-            "argument instanceName is a null pointer",
-        ),
-        (
-            Request {
-                name: Some(" "),
-                ..good()
-            },
-            "argument instanceName is an empty string",
-        ),
-        (
-            Request {
-                token: Some("other"),
-                ..good()
-            },
-            "instantiationToken is \"other\"",
-        ),
-        (
-            Request {
-                resources: Some("/nowhere"),
-                ..good()
-            },
-            "cannot be read",
-        ),
-    ] {
-        let log = request.instantiate_model_exchange().err().unwrap();
-        assert_eq!(log.len(), 1);
-        let message = &log[0].text;
-        assert!(
-            message.starts_with("fmi3InstantiateModelExchange: "),
-            "{message}"
-        );
-        assert!(message.contains(expected), "{message}");
-    }
 }

@@ -2,22 +2,13 @@
 
 use std::{cell::RefCell, ptr, rc::Rc};
 
+use bolted_joint_importer::header::fmi3::fmi3DoStep;
+
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, START, STATES, assert_close},
     importer::{Folder, Instance, Kind, Request, Update, start_text, vr},
-};
-
-pub(crate) const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
-pub(crate) const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
-pub(crate) const EQUATIONS: Equations = Equations {
-    m: 2.0,
-    k: 8e5,
-    c: 1.0,
-    k12: 4e6,
-    c12: 8.0,
-    k3: 5e12,
-    force: [30.0, -20.0],
+    raw::{Raw, call, status_of},
 };
 
 /// Instance in Step Mode at t = 0 whose importer takes part in steps with these variables.
@@ -51,16 +42,6 @@ pub(crate) fn lap(intermediate: &[u32], early_return: bool) -> Instance {
     taking_part(Kind::Lap, &changes, intermediate, early_return)
 }
 
-pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() <= tolerance * expected.abs(),
-            "{found} {expected}"
-        );
-    }
-}
-
 #[test]
 fn the_importer_sees_every_internal_step() {
     // registered, or, as the FMI project's own example does, without a word before
@@ -72,7 +53,7 @@ fn the_importer_sees_every_internal_step() {
             log.borrow_mut().push((update, i.get(STATES)));
             None
         });
-        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
         let seen = seen.take();
         assert_eq!(seen.len(), 5);
         for (n, (update, state)) in (1..).zip(&seen) {
@@ -90,7 +71,7 @@ fn the_importer_sees_every_internal_step() {
         }
         assert_eq!(seen[4].0.time, 1e-3);
         // the end is the same as without a callback, to the last bit
-        let mut alone = Instance::new(
+        let alone = Instance::new(
             Kind::Lap,
             1,
             &[("joint.k3_y", 5e12), ("step_size_max", 2e-4)],
@@ -99,7 +80,7 @@ fn the_importer_sees_every_internal_step() {
         assert_eq!(alone.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
         assert_eq!(alone.enter_initialization(0.0, None), c::OK);
         assert_eq!(alone.exit_initialization(), c::OK);
-        assert_eq!(alone.step(0.0, 1e-3).0, c::OK);
+        assert_eq!(alone.step(0.0, 1e-3), c::OK);
         assert_eq!(
             instance.get(STATES).map(f64::to_bits),
             alone.get(STATES).map(f64::to_bits)
@@ -135,7 +116,7 @@ fn inputs_that_the_importer_knows_between_the_points_are_followed_with_fourth_or
             assert_eq!(i.set(&[vr::A_F, vr::B_F], &[load(update.time); 2]), c::OK);
             None
         });
-        assert_eq!(instance.step(0.0, duration), (c::OK, duration));
+        assert_eq!(instance.step_to(0.0, duration), (c::OK, duration));
         // asked for the middle and the end of each internal step, and told of its end
         assert_eq!(*calls.borrow(), 3 * count);
         assert_eq!(instance.get([vr::A_F]), [load(duration)]);
@@ -158,7 +139,7 @@ fn inputs_that_are_set_after_an_internal_step_act_from_there_on() {
         }
         None
     });
-    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
     let mut expected = START;
     for n in 0..5 {
         let load = if n == 0 {
@@ -196,7 +177,7 @@ fn derivatives_of_outputs_know_how_the_inputs_go() {
         None
     });
     for n in 0..3 {
-        assert_eq!(instance.step(1e-3 * f64::from(n), 1e-3).0, c::OK);
+        assert_eq!(instance.step(1e-3 * f64::from(n), 1e-3), c::OK);
     }
     let seen = seen.take();
     assert_eq!(seen.len(), 3);
@@ -229,7 +210,7 @@ fn an_element_is_asked_once() {
         log.borrow_mut().push((update.time, update.set, update.get));
         None
     });
-    assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+    assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
     assert_eq!(
         *seen.borrow(),
         [(5e-4, true, false), (1e-3, true, false), (1e-3, true, true)]
@@ -238,64 +219,51 @@ fn an_element_is_asked_once() {
 
 #[test]
 fn only_what_the_standard_allows_reaches_the_instance() {
-    type Call = fn(&mut Instance) -> i32;
-    fn status<T>(result: Result<T, i32>) -> i32 {
-        result.err().unwrap_or(c::OK)
-    }
+    type Call = fn(Raw) -> i32;
     const INSIDE: &str = "is not allowed in state Intermediate Update Mode";
     let refused: [(Call, &str, &str); 16] = [
         (
             |i| {
-                let (mut flag, mut time) = (false, 0.0);
-                let flag = &raw mut flag;
-                // SAFETY: the instance lives, all pointers are to locals
-                unsafe { c::fmi3DoStep(i.handle, 0.0, 1e-3, true, flag, flag, flag, &raw mut time) }
+                let (mut flag, mut time) = (0, 0.0);
+                let (flag, time) = (&raw mut flag, &raw mut time);
+                call!(@one i, fmi3DoStep(0.0, 1e-3, 1, flag, flag, flag, time))
             },
             "fmi3DoStep",
             INSIDE,
         ),
-        (Instance::reset, "fmi3Reset", INSIDE),
-        (Instance::terminate, "fmi3Terminate", INSIDE),
+        (Raw::reset, "fmi3Reset", INSIDE),
+        (Raw::terminate, "fmi3Terminate", INSIDE),
         (
             |i| i.enter_initialization(0.0, None),
             "fmi3EnterInitializationMode",
             INSIDE,
         ),
         (
-            Instance::exit_initialization,
+            Raw::exit_initialization,
             "fmi3ExitInitializationMode",
             INSIDE,
         ),
         (
-            |i| {
-                let mut state = ptr::null_mut();
-                // SAFETY: the instance lives, the pointer is to a local
-                unsafe { c::fmi3GetFMUState(i.handle, &raw mut state) }
-            },
+            |i| i.save_in(&mut ptr::null_mut()),
             "fmi3GetFMUState",
             INSIDE,
         ),
         (|i| i.restore(ptr::null_mut()), "fmi3SetFMUState", INSIDE),
+        (Raw::enter_event, "fmi3EnterEventMode", INSIDE),
         (
-            // SAFETY: the instance lives
-            |i| unsafe { c::fmi3EnterEventMode(i.handle) },
-            "fmi3EnterEventMode",
-            INSIDE,
-        ),
-        (
-            |i| status(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
+            |i| status_of(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
             "fmi3GetDirectionalDerivative",
             INSIDE,
         ),
         (
-            |i| status(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
+            |i| status_of(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0])),
             "fmi3GetAdjointDerivative",
             INSIDE,
         ),
         (
             |i| {
-                // SAFETY: the instance lives; it must go on living
-                unsafe { c::fmi3FreeInstance(i.handle) };
+                // it must go on living
+                i.free();
                 c::ERROR
             },
             "fmi3FreeInstance",
@@ -318,29 +286,29 @@ fn only_what_the_standard_allows_reaches_the_instance() {
              requiredIntermediateVariables",
         ),
         (
-            |i| status(i.try_get(&[vr::A_F, vr::ENERGY])),
+            |i| status_of(i.try_get(&[vr::A_F, vr::ENERGY])),
             "fmi3GetFloat64",
             "variable energy.stored cannot be accessed within a communication step",
         ),
         (
-            |i| status(i.output_derivatives(&[vr::A_Y])),
+            |i| status_of(i.output_derivatives(&[vr::A_Y])),
             "fmi3GetOutputDerivatives",
             "variable a.y cannot be accessed within a communication step",
         ),
     ];
     for (call, function, expected) in refused {
         let required = [vr::A_F, vr::JOINT_F];
-        let (mut careless, mut careful) = (lap(&required, true), lap(&required, true));
+        let (mut careless, careful) = (lap(&required, true), lap(&required, true));
         let messages = Rc::new(RefCell::new(Vec::new()));
         let log = Rc::clone(&messages);
         careless.on_update(move |i, update| {
             // what is allowed at one time is not at another
             let allowed = if update.finished {
                 assert_eq!(i.get([vr::A_F]), [30.0]);
-                assert_eq!(status(i.output_derivatives(&[vr::JOINT_F])), c::OK);
+                assert_eq!(status_of(i.output_derivatives(&[vr::JOINT_F])), c::OK);
                 i.set(&[vr::A_F], &[30.0])
             } else {
-                assert_eq!(status(i.try_get(&[vr::JOINT_F])), c::ERROR);
+                assert_eq!(status_of(i.try_get(&[vr::JOINT_F])), c::ERROR);
                 let message = i.error();
                 assert!(
                     message.contains("variable joint.F cannot be read now"),
@@ -349,17 +317,15 @@ fn only_what_the_standard_allows_reaches_the_instance() {
                 i.set(&[vr::A_F], &[30.0])
             };
             assert_eq!(allowed, c::OK);
-            // SAFETY: the instance lives
-            let logging = unsafe { c::fmi3SetDebugLogging(i.handle, true, 0, ptr::null()) };
-            assert_eq!(logging, c::OK);
+            assert_eq!(i.switch_logging(true, &[]), c::OK);
             if update.finished {
-                assert_eq!(call(i), c::ERROR, "{function}");
+                assert_eq!(call(i.raw), c::ERROR, "{function}");
                 log.borrow_mut().push(i.error());
             }
             None
         });
-        assert_eq!(careless.step(0.0, 1e-3), (c::OK, 1e-3));
-        assert_eq!(careful.step(0.0, 1e-3), (c::OK, 1e-3));
+        assert_eq!(careless.step_to(0.0, 1e-3), (c::OK, 1e-3));
+        assert_eq!(careful.step_to(0.0, 1e-3), (c::OK, 1e-3));
         let messages = messages.take();
         assert_eq!(messages.len(), 5);
         for message in &messages {

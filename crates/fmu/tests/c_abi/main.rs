@@ -1,4 +1,4 @@
-//! Drives the library through the C functions that an importer sees, declared here as in the FMI 3.0 headers.
+//! Drives the library through the C functions that an importer sees, by both versions of FMI.
 
 #![allow(
     clippy::unwrap_used,
@@ -9,14 +9,14 @@
 // the functions come from the library's symbols
 extern crate bolted_joint as _;
 
+mod arguments;
 mod c;
+mod calling_order;
 mod derivatives;
 mod early_return;
 mod equations;
 mod escape;
 mod events;
-mod fmi2;
-mod fmu_state;
 mod higher_terms;
 mod importer;
 mod input_derivatives;
@@ -29,10 +29,15 @@ mod output_derivatives;
 mod own_folder;
 mod parameters;
 mod random_calls;
+#[path = "../raw/mod.rs"]
+mod raw;
+mod refusals;
+mod resources;
+mod saved_states;
 mod short_way;
 mod softening;
 mod start_file;
-mod state_machine;
 mod step_ends;
 mod stepping;
 mod variables;
+mod versions;

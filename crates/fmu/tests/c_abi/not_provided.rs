@@ -23,7 +23,7 @@ fn functions_that_are_not_provided_say_so() {
         fmi3ExitConfigurationMode();
         fmi3EvaluateDiscreteStates();
         fmi3EnterContinuousTimeMode();
-        fmi3CompletedIntegratorStep(true, null_mut(), null_mut());
+        fmi3CompletedIntegratorStep(1, null_mut(), null_mut());
         fmi3SetTime(0.0);
         fmi3SetContinuousStates(null(), 0);
         fmi3GetContinuousStateDerivatives(null_mut(), 0);

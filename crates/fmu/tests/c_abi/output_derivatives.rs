@@ -2,29 +2,24 @@
 
 use crate::{
     c,
-    equations::Equations,
-    importer::{Instance, Kind, vr},
+    equations::{EQUATIONS, Equations, STATES},
+    importer::{Instance, Kind, Make as _, vr},
+    raw::{Fmi2, status_of},
 };
 
-const EQUATIONS: Equations = Equations {
-    m: 2.0,
-    k: 8e5,
-    c: 1.0,
-    k12: 4e6,
-    c12: 8.0,
-    k3: 5e12,
+const LOADED: Equations = Equations {
     force: [300.0, -200.0],
+    ..EQUATIONS
 };
-const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 const OUTPUTS: [u32; 3] = [vr::JOINT_F, vr::ENERGY, vr::POWER];
 
 #[test]
 fn a_lap_gives_those_of_all_its_outputs() {
-    let mut instance = Instance::new(Kind::Lap, 1, &[("joint.k3_y", 5e12)]);
+    let instance = Instance::new(Kind::Lap, 1, &[("joint.k3_y", 5e12)]);
     assert_eq!(instance.set(&STATES, &[1e-4, 0.1, -2e-4, 0.0]), c::OK);
     assert_eq!(instance.enter_initialization(0.0, None), c::OK);
     assert_eq!(instance.exit_initialization(), c::OK);
-    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+    assert_eq!(instance.set(&[vr::A_F, vr::B_F], &LOADED.force), c::OK);
     let mut t = 0.0;
     for _ in 0..20 {
         let state = instance.get(STATES);
@@ -35,8 +30,8 @@ fn a_lap_gives_those_of_all_its_outputs() {
         let delta = 1e-5;
         let at = |n: i32| {
             let h = delta * f64::from(n) / 100.0;
-            let x = EQUATIONS.runge_kutta(state, h, 100);
-            let [force, energy, power] = EQUATIONS.outputs(x);
+            let x = LOADED.runge_kutta(state, h, 100);
+            let [force, energy, power] = LOADED.outputs(x);
             let [ya, va, yb, vb] = x;
             [force, energy, power, ya, va, yb, vb]
         };
@@ -57,9 +52,9 @@ fn a_lap_gives_those_of_all_its_outputs() {
         // the derivative of the energy is what the loads bring less what the dampers take: exact
         let [power] = instance.get([vr::POWER]);
         let [_, va, _, vb] = state;
-        let balance = EQUATIONS.force[0] * va + EQUATIONS.force[1] * vb - power;
+        let balance = LOADED.force[0] * va + LOADED.force[1] * vb - power;
         assert!((found[1] - balance).abs() < 1e-12 * (power.abs() + balance.abs() + 100.0));
-        assert_eq!(instance.step(t, 3e-4).0, c::OK);
+        assert_eq!(instance.step(t, 3e-4), c::OK);
         t += 3e-4;
     }
 }
@@ -67,7 +62,7 @@ fn a_lap_gives_those_of_all_its_outputs() {
 #[test]
 fn an_element_takes_the_velocities_for_what_they_are() {
     // F_b = k r + c ṙ + k3 r³ with ṙ = v: Ḟ_b = (k + 3 k3 r²) v while v is held
-    let mut instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
+    let instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
     let motion = [vr::A_Y, vr::B_Y, vr::A_V, vr::B_V];
     assert_eq!(instance.set(&motion, &[3e-4, 1e-4, 0.2, 0.05]), c::OK);
     let (r, v): (f64, f64) = (3e-4 - 1e-4, 0.2 - 0.05);
@@ -118,59 +113,56 @@ fn only_first_derivatives_of_outputs_are_given() {
         (vr::A_Y, -1, "is -1, expected 1"),
         (vr::A_Y, i32::MIN, "is -2147483648, expected 1"),
     ] {
-        let message = instance.refused(|i| {
-            let result = i.derivatives_of_order(&[vr::JOINT_F, reference], &[1, order]);
-            result.err().unwrap_or(c::OK)
-        });
+        let message = instance
+            .refused(|i| status_of(i.derivatives_of_order(&[vr::JOINT_F, reference], &[1, order])));
         assert!(
             message.starts_with("fmi3GetOutputDerivatives: ") && message.contains(expected),
             "{message}"
         );
     }
     assert_eq!(instance.output_derivatives(&[]), Ok(vec![]));
-    let mut value = 0.0;
-    for (references, orders, values, count, expected) in [
-        (
-            false,
-            true,
-            true,
-            1,
-            "argument valueReferences is a null pointer",
-        ),
-        (true, false, true, 1, "argument orders is a null pointer"),
-        (true, true, false, 1, "argument values is a null pointer"),
-        (true, true, true, 0, "argument nValues is 0, expected 1"),
-    ] {
-        let pick = |given: bool| {
-            if given {
-                [1_i32].as_ptr()
-            } else {
-                std::ptr::null()
-            }
-        };
-        // SAFETY: all pointers are null or to one value
-        let message = instance.refused(|i| unsafe {
-            c::fmi3GetOutputDerivatives(
-                i.handle,
-                pick(references).cast(),
-                1,
-                pick(orders),
-                if values {
-                    &raw mut value
-                } else {
-                    std::ptr::null_mut()
-                },
-                count,
-            )
-        });
-        assert!(message.contains(expected), "{message}");
-    }
     // a number that overflows is not handed on
     let mut instance = Instance::stepping(Kind::Element, 1, &[]);
     assert_eq!(instance.set(&[vr::A_V], &[1e305]), c::OK);
-    let message = instance.refused(|i| {
-        let result = i.output_derivatives(&[vr::JOINT_F]);
-        result.err().unwrap_or(c::OK)
-    });
+    let message = instance.refused(|i| status_of(i.output_derivatives(&[vr::JOINT_F])));
     assert!(message.contains("variable joint.F overflows"), "{message}");
+}
+
+#[test]
+fn derivatives_of_outputs_are_rates_of_change() {
+    let mut instance = Fmi2.stepping(Kind::Lap, 1, &[]);
+    assert_eq!(instance.set(&[vr::A_F], &[50.0]), c::OK);
+    assert_eq!(instance.step(0.0, 1e-3), c::OK);
+    let [v_a, v_b, acceleration_a, acceleration_b] =
+        instance.get([vr::A_V, vr::B_V, vr::A_ACCELERATION, vr::B_ACCELERATION]);
+    let rates = instance
+        .output_derivatives(&[vr::A_Y, vr::A_V, vr::JOINT_F])
+        .unwrap();
+    assert_eq!(rates[..2], [v_a, acceleration_a]);
+    let of_joint = 4e6 * (v_a - v_b) + 8.0 * (acceleration_a - acceleration_b);
+    assert!((rates[2] - of_joint).abs() <= 1e-13 * of_joint.abs());
+    // FMI 2.0, 4.2.1: what is of higher order than the slave knows is zero
+    assert_eq!(
+        instance.derivatives_of_order(&[vr::A_Y, vr::A_Y, vr::A_V], &[2, 1, 7]),
+        Ok(vec![0.0, v_a, 0.0])
+    );
+    for (reference, order, expected) in [
+        (
+            vr::A_Y,
+            0,
+            "order of the derivative of variable a.y is 0, expected 1",
+        ),
+        (
+            vr::A_Y,
+            -1,
+            "order of the derivative of variable a.y is -1, expected 1",
+        ),
+        (vr::A_F, 1, "variable a.F is an input and no output"),
+        (vr::A_F, 2, "variable a.F is an input and no output"),
+        (vr::NONE, 1, "value reference 52 does not exist"),
+    ] {
+        let message = instance
+            .refused(|i| status_of(i.derivatives_of_order(&[vr::A_V, reference], &[1, order])));
+        assert!(message.contains(expected), "{message}");
+    }
 }

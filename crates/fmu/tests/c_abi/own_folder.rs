@@ -7,6 +7,8 @@ use std::{
     fs, mem, ptr,
 };
 
+use bolted_joint_importer::header::{fmi2::*, fmi3::*};
+
 use crate::importer::{Folder, Kind, TOKEN, start_text, text, vr};
 
 unsafe extern "C" {
@@ -16,35 +18,6 @@ unsafe extern "C" {
 }
 
 const NOW: c_int = 2;
-
-type Instantiate = unsafe extern "C" fn(
-    *const c_char,
-    *const c_char,
-    *const c_char,
-    bool,
-    bool,
-    bool,
-    bool,
-    *const u32,
-    usize,
-    *mut c_void,
-    *const c_void,
-    *const c_void,
-) -> *mut c_void;
-type Instantiate2 = unsafe extern "C" fn(
-    *const c_char,
-    c_int,
-    *const c_char,
-    *const c_char,
-    *const c_void,
-    c_int,
-    c_int,
-) -> *mut c_void;
-type SetUp2 = unsafe extern "C" fn(*mut c_void, c_int, f64, f64, c_int, f64) -> c_int;
-type Enter2 = unsafe extern "C" fn(*mut c_void) -> c_int;
-type Get2 = unsafe extern "C" fn(*mut c_void, *const u32, usize, *mut f64) -> c_int;
-type Free = unsafe extern "C" fn(*mut c_void);
-type Get = unsafe extern "C" fn(*mut c_void, *const u32, usize, *mut f64, usize) -> c_int;
 
 #[test]
 fn the_library_finds_its_own_resources() {
@@ -73,47 +46,39 @@ fn the_library_finds_its_own_resources() {
     unsafe {
         let library = dlopen(path.as_ptr(), NOW);
         assert!(!library.is_null());
-        let instantiate: Instantiate =
-            mem::transmute(dlsym(library, c"fmi3InstantiateCoSimulation".as_ptr()));
-        let free: Free = mem::transmute(dlsym(library, c"fmi3FreeInstance".as_ptr()));
-        let get: Get = mem::transmute(dlsym(library, c"fmi3GetFloat64".as_ptr()));
+        macro_rules! function {
+            ($name:ident) => {{
+                let found = dlsym(library, concat!(stringify!($name), "\0").as_ptr().cast());
+                assert!(!found.is_null());
+                mem::transmute::<*mut c_void, $name>(found)
+            }};
+        }
+        let (name, token) = (c"joint".as_ptr(), token.as_ptr());
+        let (none, nothing) = (ptr::null(), ptr::null_mut());
+        let reference = [vr::K_YY];
+        let mut value = 0.0;
         for resources in [ptr::null(), c"".as_ptr()] {
-            let instance = instantiate(
-                c"joint".as_ptr(),
-                token.as_ptr(),
-                resources,
-                false,
-                false,
-                false,
-                false,
-                ptr::null(),
-                0,
-                ptr::null_mut(),
-                ptr::null(),
-                ptr::null(),
+            let instance = function!(fmi3InstantiateCoSimulation)(
+                name, token, resources, 0, 0, 0, 0, none, 0, nothing, None, None,
             );
             assert!(!instance.is_null());
-            let mut value = 0.0;
-            assert_eq!(get(instance, [vr::K_YY].as_ptr(), 1, &raw mut value, 1), 0);
-            assert_eq!(value, 77.0);
-            free(instance);
+            let status =
+                function!(fmi3GetFloat64)(instance, reference.as_ptr(), 1, &raw mut value, 1);
+            assert_eq!((status, mem::take(&mut value)), (0, 77.0));
+            function!(fmi3FreeInstance)(instance);
         }
-        let instantiate: Instantiate2 = mem::transmute(dlsym(library, c"fmi2Instantiate".as_ptr()));
-        let free: Free = mem::transmute(dlsym(library, c"fmi2FreeInstance".as_ptr()));
-        let set_up: SetUp2 = mem::transmute(dlsym(library, c"fmi2SetupExperiment".as_ptr()));
-        let enter: Enter2 = mem::transmute(dlsym(library, c"fmi2EnterInitializationMode".as_ptr()));
-        let get: Get2 = mem::transmute(dlsym(library, c"fmi2GetReal".as_ptr()));
         for (fmu_type, resources) in [(0, ptr::null()), (1, c"".as_ptr())] {
-            let token = token.as_ptr();
-            let name = c"joint".as_ptr();
-            let instance = instantiate(name, fmu_type, token, resources, ptr::null(), 0, 0);
+            let instance =
+                function!(fmi2Instantiate)(name, fmu_type, token, resources, ptr::null(), 0, 0);
             assert!(!instance.is_null());
-            assert_eq!(set_up(instance, 0, 0.0, 0.0, 0, 0.0), 0);
-            assert_eq!(enter(instance), 0);
-            let mut value = 0.0;
-            assert_eq!(get(instance, [vr::K_YY].as_ptr(), 1, &raw mut value), 0);
-            assert_eq!(value, 77.0);
-            free(instance);
+            assert_eq!(
+                function!(fmi2SetupExperiment)(instance, 0, 0.0, 0.0, 0, 0.0),
+                0
+            );
+            assert_eq!(function!(fmi2EnterInitializationMode)(instance), 0);
+            let status = function!(fmi2GetReal)(instance, reference.as_ptr(), 1, &raw mut value);
+            assert_eq!((status, mem::take(&mut value)), (0, 77.0));
+            function!(fmi2FreeInstance)(instance);
         }
         dlclose(library);
     }

@@ -2,9 +2,10 @@
 
 use crate::{
     c,
-    equations::Equations,
-    importer::{Instance, Kind, vr},
-    stepping::{EQUATIONS, STATES, assert_close, lap},
+    equations::{EQUATIONS, Equations, STATES, assert_close},
+    importer::{Instance, Kind, Make as _, vr},
+    raw::{Fmi2, Fmi3, Interface::CoSimulation, Raw},
+    stepping::lap,
 };
 
 #[test]
@@ -29,50 +30,56 @@ fn parameters_are_checked_when_they_take_effect() {
             "step_size_max = 0.0014 s diverge",
         ),
     ] {
-        let mut instance = Instance::new(Kind::Lap, 1, &[]);
-        assert_eq!(instance.set(&[reference], &[value]), c::OK);
-        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
-        let message = instance.refused(Instance::exit_initialization);
-        assert!(
-            message.starts_with("fmi3ExitInitializationMode: "),
-            "{message}"
-        );
-        assert!(message.contains(expected), "{message}");
+        for (version, prefix) in [(Fmi2, "fmi2"), (Fmi3, "fmi3")] {
+            let mut instance = version.instance(CoSimulation, Kind::Lap, 1, &[]);
+            assert_eq!(instance.set(&[reference], &[value]), c::OK);
+            assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+            let message = instance.refused(Raw::exit_initialization);
+            let function = format!("{prefix}ExitInitializationMode: ");
+            assert!(
+                message.starts_with(&function) && message.contains(expected),
+                "{message}"
+            );
 
-        let mut start = Instance::new(Kind::Lap, 1, &[]);
-        let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
-        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
-        assert_eq!(instance.set(&[reference], &[value]), c::OK);
-        let [good] = start.get([reference]);
-        let message = instance.refused(|i| i.step(1e-3, 1e-3).0);
-        assert!(
-            message.starts_with("fmi3DoStep: ") && message.contains(expected),
-            "{message}"
-        );
-        // with the parameter as it was, the simulation goes on as if nothing had been
-        assert_eq!(instance.set(&[reference], &[good]), c::OK);
-        assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+            let mut instance = version.stepping(Kind::Lap, 1, &[]);
+            let [good] = instance.get([reference]);
+            assert_eq!(instance.step(0.0, 1e-3), c::OK);
+            assert_eq!(instance.set(&[reference], &[value]), c::OK);
+            let message = instance.refused(|i| {
+                let (status, last) = i.step_to(1e-3, 1e-3);
+                assert_eq!(last, 1e-3);
+                status
+            });
+            let function = format!("{prefix}DoStep: ");
+            assert!(
+                message.starts_with(&function) && message.contains(expected),
+                "{message}"
+            );
+            // with the parameter as it was, the simulation goes on as if nothing had been
+            assert_eq!(instance.set(&[reference], &[good]), c::OK);
+            assert_eq!(instance.step_to(1e-3, 1e-3), (c::OK, 2e-3));
+        }
     }
-    let mut instance = Instance::new(Kind::Lap, 1, &[("step_size_max", 1.3e-3)]);
+    let instance = Instance::new(Kind::Lap, 1, &[("step_size_max", 1.3e-3)]);
     assert_eq!(instance.enter_initialization(0.0, None), c::OK);
     assert_eq!(instance.exit_initialization(), c::OK);
 }
 
 #[test]
 fn a_tuned_parameter_acts_from_the_next_step_on() {
-    let mut instance = lap(2e-5);
-    assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+    let instance = lap(2e-5);
+    assert_eq!(instance.step(0.0, 1e-3), c::OK);
     let reached = instance.get(STATES);
     assert_eq!(instance.set(&[vr::K_YY, vr::C_YY], &[2e6, 30.0]), c::OK);
-    assert_eq!(instance.step(1e-3, 1e-3).0, c::OK);
+    assert_eq!(instance.step(1e-3, 1e-3), c::OK);
     let tuned = Equations {
         k12: 2e6,
         c12: 30.0,
         ..EQUATIONS
     };
     assert_close(
-        instance.get(STATES),
-        tuned.runge_kutta(reached, 2e-5, 50),
+        &instance.get(STATES),
+        &tuned.runge_kutta(reached, 2e-5, 50),
         1e-11,
     );
 }
@@ -106,16 +113,16 @@ fn active_models_give_a_warning_and_work() {
             .unwrap();
         assert_eq!(warning.category, "logStatusWarning");
         assert!(warning.text.contains(expected), "{warning:?}");
-        assert_eq!(instance.step(0.0, 1e-3).0, c::OK);
+        assert_eq!(instance.step(0.0, 1e-3), c::OK);
     }
     // tuned later, the next step warns once
-    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    let instance = Instance::stepping(Kind::Lap, 1, &[]);
     assert_eq!(instance.set(&[vr::B_C_Y], &[-0.5]), c::OK);
-    assert_eq!(instance.step(0.0, 1e-3), (c::WARNING, 1e-3));
-    assert_eq!(instance.step(1e-3, 1e-3), (c::OK, 2e-3));
+    assert_eq!(instance.step_to(0.0, 1e-3), (c::WARNING, 1e-3));
+    assert_eq!(instance.step_to(1e-3, 1e-3), (c::OK, 2e-3));
     // a step that is refused for another reason does not swallow the warning
     let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
     assert_eq!(instance.set(&[vr::B_C_Y], &[-0.5]), c::OK);
-    instance.refused(|i| i.step(0.0, 1e5).0);
-    assert_eq!(instance.step(0.0, 1e-3), (c::WARNING, 1e-3));
+    instance.refused(|i| i.step(0.0, 1e5));
+    assert_eq!(instance.step_to(0.0, 1e-3), (c::WARNING, 1e-3));
 }

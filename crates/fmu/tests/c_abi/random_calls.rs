@@ -65,7 +65,7 @@ struct Subject {
 
 impl Subject {
     fn new() -> Self {
-        let mut instance = Instance::new(Kind::Lap, 2, &[]);
+        let instance = Instance::new(Kind::Lap, 2, &[]);
         let bytes = instance.state_bytes();
         Self {
             instance,
@@ -188,7 +188,7 @@ impl Subject {
             11 if random.one_in(8) => {
                 // a moment that no number can follow: the one kind of call that ends the simulation
                 assert_eq!(self.instance.set(&[vr::B_M], &[f64::MAX]), c::OK);
-                let (status, last) = self.instance.step(expected.time, 1e-4);
+                let (status, last) = self.instance.step_to(expected.time, 1e-4);
                 assert_eq!(last, expected.time);
                 self.expected.mode = Mode::Terminated;
                 (false, status)
@@ -205,7 +205,7 @@ impl Subject {
                     expected.time
                 };
                 let ok = allowed(&[Mode::Step]) && h > 0.0 && t == expected.time;
-                let (status, last) = self.instance.step(t, h);
+                let (status, last) = self.instance.step_to(t, h);
                 if ok {
                     self.expected.time = t + h;
                 }

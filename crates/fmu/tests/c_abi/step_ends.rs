@@ -2,8 +2,9 @@
 
 use crate::{
     c,
-    importer::{Instance, Kind, vr},
-    stepping::lap,
+    importer::{Instance, Kind, Make as _, vr},
+    raw::{BOTH, Fmi2, Fmi3, Interface::CoSimulation},
+    stepping::{lap, lap_of},
 };
 
 #[test]
@@ -24,7 +25,7 @@ fn time_does_not_drift() {
             assert_eq!(instance.exit_initialization(), c::OK);
             let mut t = start;
             for n in 1..=STEPS {
-                let (status, last) = instance.step(t, h);
+                let (status, last) = instance.step_to(t, h);
                 assert_eq!(
                     (status, last),
                     (c::OK, t + h),
@@ -42,16 +43,16 @@ fn time_does_not_drift() {
             let drift = if multiply { 2.0 } else { f64::from(STEPS) } * rounding;
             assert!((time - stop).abs() <= drift, "{start} {h}: {time} {stop}");
             if multiply {
-                let message = instance.refused(|i| i.step(t, h).0);
+                let message = instance.refused(|i| i.step(t, h));
                 assert!(message.contains("after stopTime"), "{message}");
             }
         }
     }
     // a lap, with steps that are no multiple of its internal ones
-    let mut instance = lap(3e-5);
+    let instance = lap(3e-5);
     let mut t = 0.0;
     for n in 1..=100_000_u32 {
-        assert_eq!(instance.step(t, 1e-4), (c::OK, t + 1e-4));
+        assert_eq!(instance.step_to(t, 1e-4), (c::OK, t + 1e-4));
         t = f64::from(n) * 1e-4;
     }
 }
@@ -59,13 +60,13 @@ fn time_does_not_drift() {
 #[test]
 fn a_stop_time_that_rounding_has_moved_is_reached() {
     for ulps in -8_i64..=8 {
-        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        let instance = Instance::new(Kind::Lap, 1, &[]);
         let stop = f64::from_bits((0.7_f64.to_bits() as i64 + ulps) as u64);
         assert_eq!(instance.enter_initialization(0.0, Some(stop)), c::OK);
         assert_eq!(instance.exit_initialization(), c::OK);
         let mut t = 0.0;
         for n in 1..=7 {
-            assert_eq!(instance.step(t, 0.1).0, c::OK, "{ulps}");
+            assert_eq!(instance.step(t, 0.1), c::OK, "{ulps}");
             t = 0.1 * f64::from(n);
         }
     }
@@ -81,20 +82,20 @@ fn no_step_passes_a_late_stop_time() {
     assert_eq!(instance.exit_initialization(), c::OK);
     let time = |n: u32| start + h * f64::from(n);
     for n in 0..steps {
-        assert_eq!(instance.step(time(n), h).0, c::OK, "{n}");
+        assert_eq!(instance.step(time(n), h), c::OK, "{n}");
     }
     for longer in [h, 0.1 * h] {
-        let message = instance.refused(|i| i.step(time(steps), longer).0);
+        let message = instance.refused(|i| i.step(time(steps), longer));
         assert!(message.contains("after stopTime"), "{message}");
     }
     // nor does one that begins in time
     let mut instance = Instance::new(Kind::Element, 1, &[]);
     assert_eq!(instance.enter_initialization(start, Some(stop)), c::OK);
     assert_eq!(instance.exit_initialization(), c::OK);
-    assert_eq!(instance.step(start, h * f64::from(steps - 1)).0, c::OK);
-    let message = instance.refused(|i| i.step(time(steps - 1), 1.02 * h).0);
+    assert_eq!(instance.step(start, h * f64::from(steps - 1)), c::OK);
+    let message = instance.refused(|i| i.step(time(steps - 1), 1.02 * h));
     assert!(message.contains("after stopTime"), "{message}");
-    assert_eq!(instance.step(time(steps - 1), h).0, c::OK);
+    assert_eq!(instance.step(time(steps - 1), h), c::OK);
 }
 
 #[test]
@@ -114,37 +115,42 @@ fn steps_that_cannot_be_are_refused_and_nothing_moves() {
         (0.0, 1e5, "more than 1000000000 Runge-Kutta steps"),
         (0.0, 1e300, "more than 1000000000 Runge-Kutta steps"),
     ] {
-        let mut instance = lap(2e-5);
-        let message = instance.refused(|i| {
-            let (status, last) = i.step(t, h);
-            assert_eq!(last, 0.0);
-            status
-        });
-        assert!(
-            message.starts_with("fmi3DoStep: ") && message.contains(expected),
-            "{message}"
-        );
-        // mended, the step is taken
-        assert_eq!(instance.step(0.0, 1e-3), (c::OK, 1e-3));
+        for (version, function) in [(Fmi2, "fmi2DoStep: "), (Fmi3, "fmi3DoStep: ")] {
+            let mut instance = lap_of(version, 2e-5);
+            let message = instance.refused(|i| {
+                let (status, last) = i.step_to(t, h);
+                assert_eq!(last, 0.0);
+                status
+            });
+            assert!(
+                message.starts_with(function) && message.contains(expected),
+                "{message}"
+            );
+            assert!(version == Fmi3 || !instance.has_terminated());
+            // mended, the step is taken
+            assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
+        }
     }
 }
 
 #[test]
 fn a_step_that_rounding_swallows_is_refused() {
-    let mut instance = Instance::new(Kind::Element, 1, &[]);
-    assert_eq!(instance.enter_initialization(1e6, None), c::OK);
-    assert_eq!(instance.exit_initialization(), c::OK);
-    let message = instance.refused(|i| i.step(1e6, 1e-12).0);
-    assert!(
-        message.contains("is lost to rounding at t = 1000000 s"),
-        "{message}"
-    );
+    for version in BOTH {
+        let mut instance = version.instance(CoSimulation, Kind::Element, 1, &[]);
+        assert_eq!(instance.enter_initialization(1e6, None), c::OK);
+        assert_eq!(instance.exit_initialization(), c::OK);
+        let message = instance.refused(|i| i.step(1e6, 1e-12));
+        assert!(
+            message.contains("is lost to rounding at t = 1000000 s"),
+            "{message}"
+        );
+    }
 }
 
 #[test]
 fn the_stop_time_is_kept_but_for_rounding() {
     let started = || {
-        let mut instance = Instance::new(Kind::Lap, 1, &[]);
+        let instance = Instance::new(Kind::Lap, 1, &[]);
         assert_eq!(instance.enter_initialization(0.0, Some(0.3)), c::OK);
         assert_eq!(instance.exit_initialization(), c::OK);
         instance
@@ -153,41 +159,39 @@ fn the_stop_time_is_kept_but_for_rounding() {
     // 0.1 + 0.1 + 0.1 > 0.3 by one bit
     let mut t = 0.0;
     for _ in 0..3 {
-        assert_eq!(instance.step(t, 0.1).0, c::OK);
+        assert_eq!(instance.step(t, 0.1), c::OK);
         t += 0.1;
     }
     assert!(t > 0.3);
-    let message = instance.refused(|i| i.step(t, 1e-3).0);
+    let message = instance.refused(|i| i.step(t, 1e-3));
     assert!(message.contains("after stopTime = 0.3 s"), "{message}");
     assert_eq!(instance.terminate(), c::OK);
     let mut instance = started();
-    let message = instance.refused(|i| i.step(0.0, 0.31).0);
+    let message = instance.refused(|i| i.step(0.0, 0.31));
     assert!(
         message.contains("the step would end at t = 0.31 s, after stopTime = 0.3 s"),
         "{message}"
     );
-    assert_eq!(instance.step(0.0, 0.3), (c::OK, 0.3));
+    assert_eq!(instance.step_to(0.0, 0.3), (c::OK, 0.3));
 }
 
 #[test]
-fn null_results_are_refused() {
-    use std::ptr::null_mut;
-    let (mut flag, mut time) = (false, 0.0);
-    let (flag, time) = (&raw mut flag, &raw mut time);
-    for (event, terminate, early, last, expected) in [
-        (null_mut(), flag, flag, time, "eventHandlingNeeded"),
-        (flag, null_mut(), flag, time, "terminateSimulation"),
-        (flag, flag, null_mut(), time, "earlyReturn"),
-        (flag, flag, flag, null_mut(), "lastSuccessfulTime"),
-    ] {
-        let mut instance = lap(2e-5);
-        // SAFETY: all pointers are null or to locals
-        let message = instance.refused(|i| unsafe {
-            c::fmi3DoStep(i.handle, 0.0, 1e-3, true, event, terminate, early, last)
-        });
-        assert!(
-            message.contains(&format!("argument {expected} is a null pointer")),
-            "{message}"
-        );
+fn communication_points_may_be_rounded() {
+    // t0 + n·h as importers compute it, for steps that no binary fraction is equal to
+    for version in BOTH {
+        for h in [1e-3, 1e-4 / 3.0, 0.1] {
+            let instance = version.instance(CoSimulation, Kind::Element, 1, &[]);
+            let (start, count) = (100.0, 1000);
+            let end = start + f64::from(count) * h;
+            assert_eq!(instance.enter_initialization(start, Some(end)), c::OK);
+            assert_eq!(instance.exit_initialization(), c::OK);
+            let mut last = start;
+            for n in 0..count {
+                let (status, reached) = instance.step_to(start + f64::from(n) * h, h);
+                assert_eq!(status, c::OK, "{n}");
+                last = reached;
+            }
+            assert!((last - end).abs() <= 4.0 * f64::EPSILON * end);
+        }
     }
 }

@@ -14,6 +14,8 @@
 extern crate bolted_joint as _;
 
 mod calls;
+#[path = "../raw/mod.rs"]
+mod raw;
 
 use std::{env, fs, panic, path::Path, thread};
 
@@ -69,7 +71,8 @@ fn a_million_random_calls_keep_every_promise() {
     let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
     let tally = sequences(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
     println!(
-        "{} calls, {} failed simulations, {} forged states accepted, {} intermediate updates, {} refusals without a word",
+        "digest {:#x}: {} calls, {} failed simulations, {} forged states accepted, {} intermediate updates, {} refusals without a word",
+        tally.digest,
         tally.calls(),
         tally.failures,
         tally.forged,

@@ -1,11 +1,13 @@
 //! What can be wrong with a model description, told so that it can be mended in the file.
 
 mod agreement;
+mod frame;
 mod structure;
 mod unit;
 mod variable;
 
 pub use agreement::AgreementProblem;
+pub use frame::FrameProblem;
 pub use structure::StructureProblem;
 pub use unit::UnitProblem;
 pub use variable::VariableProblem;
@@ -13,14 +15,6 @@ pub use variable::VariableProblem;
 /// A model description that the library must not be built from.
 #[derive(Debug, thiserror::Error)]
 pub enum InterfaceError {
-    /// The file could not be read.
-    #[error("{path}: cannot be read: {source}; put the model description there")]
-    Unreadable {
-        /// Path of the file.
-        path: String,
-        /// What the operating system said.
-        source: std::io::Error,
-    },
     /// The file is not an FMI 3.0 model description.
     #[error(
         "{file}: is not an FMI 3.0 model description: {source}; compare it with fmi3ModelDescription.xsd"
@@ -91,6 +85,9 @@ pub enum Problem {
     /// What is wrong in `ModelStructure`.
     #[error(transparent)]
     Structure(#[from] StructureProblem),
+    /// What is wrong with the frame that the model description is made from.
+    #[error(transparent)]
+    Frame(#[from] FrameProblem),
     /// Where a model description disagrees with the other one.
     #[error(transparent)]
     Agreement(#[from] AgreementProblem),

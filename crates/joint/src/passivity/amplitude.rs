@@ -1,36 +1,34 @@
 //! Damping that depends on the amplitude: whether it only takes energy, and up to where.
 
-use bolted_joint_dynamics::JointLaw;
+use bolted_joint_dynamics::{JointLaw, Polynomial, with_dofs};
 
 use super::MatrixPassivity;
 use crate::{DofSet, Joint};
-
-/// Names and units of the relative displacements.
-const DISPLACEMENTS: [(&str, &str); 2] = [("y", "m"), ("theta", "rad")];
 
 /// Judgement on the damping matrix at the worst amplitude; none where the damping does not depend on it.
 pub(super) fn passivity(joint: &Joint) -> Vec<MatrixPassivity> {
     let Some(terms) = &joint.higher else {
         return Vec::new();
     };
-    let amplitude = &terms.amplitude;
-    let found = match joint.dofs {
-        DofSet::Translation => joint.law::<1>().map(|law| judge(&law, amplitude)),
-        DofSet::TranslationRotation => joint.law::<2>().map(|law| judge(&law, amplitude)),
-    };
+    let found = with_dofs!(joint.dofs.size(), D => {
+        joint.law::<D>().map(|law| judge(&law, joint.dofs, &terms.amplitude))
+    });
     // a malformed joint is told by `JointFile::validate`
     found.unwrap_or_default()
 }
 
-fn judge<const D: usize>(law: &JointLaw<D>, amplitude: &[f64]) -> Vec<MatrixPassivity> {
-    let terms = &law.higher;
-    let lists = [&terms.damping_quadratic, &terms.damping_quartic];
-    if lists.into_iter().flatten().all(|&term| term == 0.0) {
+fn judge<const D: usize>(
+    law: &JointLaw<D>,
+    dofs: DofSet,
+    amplitude: &[f64],
+) -> Vec<MatrixPassivity> {
+    let terms = law.polynomials();
+    if !terms.iter().any(Polynomial::has_damping) {
         return Vec::new();
     }
     let farthest: [f64; D] =
         std::array::from_fn(|i| amplitude.get(i).copied().unwrap_or(f64::INFINITY));
-    let least = terms.least_damping(&farthest);
+    let least: [f64; D] = std::array::from_fn(|i| terms[i].least_damping(farthest[i]));
     let limits = law.active_amplitude();
     let alone: Vec<MatrixPassivity> = (0..D)
         .filter_map(|i| {
@@ -42,7 +40,7 @@ fn judge<const D: usize>(law: &JointLaw<D>, amplitude: &[f64]) -> Vec<MatrixPass
                 // it falls without end: what it is twice as far out
                 lost_at(law, i, 2.0 * limit)
             };
-            let (name, unit) = DISPLACEMENTS[i.min(1)];
+            let (name, unit) = displacement(dofs, i);
             let path =
                 format!("joint.damping with joint.higher beyond {name} = {limit:.4e} {unit}");
             Some(MatrixPassivity {
@@ -57,7 +55,7 @@ fn judge<const D: usize>(law: &JointLaw<D>, amplitude: &[f64]) -> Vec<MatrixPass
     // neither DOF alone makes the joint active, but both together may
     let mut path = "joint.damping with joint.higher".to_owned();
     for (i, limit) in limits.iter().enumerate() {
-        let (name, unit) = DISPLACEMENTS[i.min(1)];
+        let (name, unit) = displacement(dofs, i);
         if farthest[i].is_finite() {
             path += &format!(" up to {name} = {:.4e} {unit}", farthest[i]);
         }
@@ -66,6 +64,12 @@ fn judge<const D: usize>(law: &JointLaw<D>, amplitude: &[f64]) -> Vec<MatrixPass
         }
     }
     vec![matrix(path, law, &least)]
+}
+
+/// Name and unit of a relative displacement.
+fn displacement(dofs: DofSet, i: usize) -> (&'static str, &'static str) {
+    let dof = dofs.row(i);
+    (dof.name, dof.kind.displacement_unit())
 }
 
 /// Damping that the amplitude adds at this displacement, which is past where it turns negative.
@@ -77,12 +81,12 @@ fn lost_at<const D: usize>(law: &JointLaw<D>, i: usize, displacement: f64) -> f6
     } else {
         1e-3
     };
-    law.linearised_about(&at).damping[i][i] - law.damping[i][i]
+    law.linearised_about(&at).linear.damping[i][i] - law.linear.damping[i][i]
 }
 
 /// C with so much added to its diagonal.
 fn matrix<const D: usize>(path: String, law: &JointLaw<D>, added: &[f64; D]) -> MatrixPassivity {
-    let mut damping = law.damping;
+    let mut damping = law.linear.damping;
     for (i, added) in added.iter().enumerate() {
         damping[i][i] += added;
     }
@@ -96,18 +100,11 @@ mod tests {
     use crate::HigherTerms;
 
     fn joint(c2: f64, c4: f64, amplitude: Option<f64>) -> Joint {
+        let damper = Polynomial::with(&[], &[c2, c4]);
+        let amplitude = amplitude.into_iter().collect();
         Joint {
-            dofs: DofSet::Translation,
-            stiffness: vec![vec![1e6]],
-            damping: vec![vec![10.0]],
-            cubic: Vec::new(),
-            higher: Some(HigherTerms {
-                damping_quadratic: vec![c2],
-                damping_quartic: vec![c4],
-                amplitude: amplitude.into_iter().collect(),
-                ..HigherTerms::default()
-            }),
-            over_preload: None,
+            higher: Some(HigherTerms::of(&[damper], amplitude)),
+            ..Joint::linear(DofSet::TRANSLATION, vec![vec![1e6]], vec![vec![10.0]])
         }
     }
 
@@ -148,13 +145,11 @@ mod tests {
     #[test]
     fn both_degrees_of_freedom_together_may_be_active() {
         let mut both = joint(-8e6, 0.0, Some(1e-3));
-        both.dofs = DofSet::TranslationRotation;
+        both.dofs = DofSet::TRANSLATION_ROTATION;
         both.stiffness = vec![vec![1e6, 0.0], vec![0.0, 1e3]];
         both.damping = vec![vec![10.0, 2.0], vec![2.0, 5.0]];
-        let terms = both.higher.as_mut().unwrap();
-        terms.damping_quadratic = vec![-8e6, -3e4];
-        terms.damping_quartic = Vec::new();
-        terms.amplitude = vec![1e-3, 1e-2];
+        let dampers = [-8e6, -3e4].map(|c2| Polynomial::with(&[], &[c2]));
+        both.higher = Some(HigherTerms::of(&dampers, vec![1e-3, 1e-2]));
         // alone [[2, 2], [2, 5]] and [[10, 2], [2, 2]], together [[2, 2], [2, 2]]: on the boundary
         assert!(both.passivity().is_passive());
         both.higher.as_mut().unwrap().amplitude[1] = 1.01e-2;
@@ -167,7 +162,8 @@ mod tests {
     #[test]
     fn a_joint_without_such_damping_is_judged_by_its_matrices() {
         let mut springs = joint(0.0, 0.0, None);
-        springs.higher.as_mut().unwrap().quintic = vec![-1e18];
+        let quintic = Polynomial::with(&[0.0, -1e18], &[]);
+        springs.higher = Some(HigherTerms::of(&[quintic], Vec::new()));
         assert_eq!(springs.passivity().matrices.len(), 2);
     }
 }

@@ -4,14 +4,15 @@
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
+use bolted_joint_dynamics::law::Term;
+use bolted_joint_files::TextFileError;
+
 use super::data::{RESPONSE, Use};
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
-use super::terms::Term;
 use crate::error::LapError;
-use bolted_joint_files::TextFileError;
 
 /// Half-periods that a free decay is read over at a time.
 const HALF_PERIODS: usize = 10;
@@ -67,7 +68,7 @@ impl BackboneLine {
             ResponseUnknown::SupportDamping => [0.0, 0.0, 0.5],
             ResponseUnknown::JointDamping => [0.0, 0.0, 1.0],
             ResponseUnknown::Term(term) => {
-                let by = z.by_term[term as usize];
+                let by = z.by_term[term.index()];
                 [by.re, 0.0, by.im / self.omega]
             }
             ResponseUnknown::OtherModesReal | ResponseUnknown::OtherModesImaginary => [0.0; 3],

@@ -1,11 +1,13 @@
 //! Force over relative motion as a function of the amplitude of that motion, with exact derivatives: in closed form for one
 //! harmonic, by harmonic balance for more.
 
-use bolted_joint_dynamics::{Body, HigherTerms, JointLaw, Lap};
+use bolted_joint_dynamics::{
+    Body, Lap, Linear,
+    law::{TERM_COUNT, Term},
+};
 use num_complex::Complex64;
 
 use super::model::Values;
-use super::terms::Term;
 use bolted_joint_harmonic::{
     HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side, Target,
 };
@@ -24,7 +26,7 @@ pub(super) struct DynamicStiffness {
     /// Derivative by C = c/2 + c12.
     pub(super) by_damping: Complex64,
     /// Derivatives by the terms, in the order of [`Term::ALL`].
-    pub(super) by_term: [Complex64; 5],
+    pub(super) by_term: [Complex64; TERM_COUNT],
 }
 
 /// The relative motion of a lap with given numbers.
@@ -68,8 +70,8 @@ impl<'a> RelativeMotion<'a> {
     fn closed(&self, amplitude_m: f64, omega: f64) -> DynamicStiffness {
         let values = self.values;
         let by_term = Term::ALL.map(|term| {
-            let share = term.describing() * amplitude_m.powi(term.power());
-            match term.is_damping() {
+            let share = term.describing() * amplitude_m.powi(term.amplitude_power());
+            match term.is_damper() {
                 false => Complex64::new(share, 0.0),
                 true => Complex64::new(0.0, omega * share),
             }
@@ -106,17 +108,14 @@ impl<'a> RelativeMotion<'a> {
             solution.load_factor(),
             balance.amplitude_of(&solution, seen, 1),
         );
-        let parameters = [
+        let linear = [
             Parameter::Inertia(Side::A, 0),
             Parameter::Inertia(Side::B, 0),
             Parameter::JointStiffness(0, 0),
             Parameter::JointDamping(0, 0),
-            Parameter::Cubic(0),
-            Parameter::Quintic(0),
-            Parameter::Septic(0),
-            Parameter::DampingQuadratic(0),
-            Parameter::DampingQuartic(0),
         ];
+        let terms = Term::ALL.map(|term| Parameter::Term(term, 0));
+        let parameters = [&linear[..], &terms].concat();
         let changes = balance.sensitivities(&solution, &parameters).ok()?;
         // z = λ/r
         let by = |place: usize| {
@@ -124,7 +123,7 @@ impl<'a> RelativeMotion<'a> {
             let dr = balance.amplitude_change(&solution, change, seen, 1);
             (change.load_factor - load * dr / r) / r
         };
-        let by_term = [4, 5, 6, 7, 8].map(by);
+        let by_term = Term::ALL.map(|term| by(linear.len() + term.index()));
         Some(DynamicStiffness {
             value: load / r,
             by_log_amplitude: self.by_log_amplitude(&by_term),
@@ -136,10 +135,10 @@ impl<'a> RelativeMotion<'a> {
     }
 
     /// Over its own amplitude R the motion depends on k3 R², k5 R⁴, … alone: ∂z/∂ln R = Σ power · coefficient · ∂z/∂coefficient.
-    fn by_log_amplitude(&self, by_term: &[Complex64; 5]) -> Complex64 {
+    fn by_log_amplitude(&self, by_term: &[Complex64; TERM_COUNT]) -> Complex64 {
         let terms = Term::ALL.into_iter().zip(by_term);
         terms
-            .map(|(term, by)| by * self.values.term(term) * f64::from(term.power()))
+            .map(|(term, by)| by * self.values.term(term) * f64::from(term.amplitude_power()))
             .sum()
     }
 }
@@ -151,19 +150,12 @@ fn lap(values: &Values) -> Lap<1> {
         stiffness: [0.0],
         damping: [0.0],
     };
-    let of = |term: Term| [values.term(term)];
+    let linear = Linear {
+        stiffness: [[values.relative_stiffness()]],
+        damping: [[values.relative_damping()]],
+    };
     Lap {
-        joint: JointLaw {
-            stiffness: [[values.relative_stiffness()]],
-            damping: [[values.relative_damping()]],
-            cubic: of(Term::Cubic),
-            higher: HigherTerms {
-                quintic: of(Term::Quintic),
-                septic: of(Term::Septic),
-                damping_quadratic: of(Term::DampingQuadratic),
-                damping_quartic: of(Term::DampingQuartic),
-            },
-        },
+        joint: linear.beside([values.terms]),
         a: body,
         b: body,
     }
@@ -172,6 +164,7 @@ fn lap(values: &Values) -> Lap<1> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bolted_joint_dynamics::{Polynomial, law::SPRING_COUNT};
 
     fn values() -> Values {
         Values {
@@ -180,7 +173,7 @@ mod tests {
             support_damping: 0.4,
             joint_stiffness: 4.9e5,
             joint_damping: 3.0,
-            terms: [-3e11, 9e18, -5e25, 4.6e8, 1e15],
+            terms: Polynomial::with(&[-3e11, 9e18, -5e25], &[4.6e8, 1e15]),
             ..Values::default()
         }
     }
@@ -218,7 +211,7 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_differences() {
         let values = Values {
-            terms: [8e12, 0.0, 0.0, 3e9, 0.0],
+            terms: Polynomial::with(&[8e12], &[3e9]),
             ..values()
         };
         for highest in [1, 5] {
@@ -250,8 +243,14 @@ mod tests {
                     differences(&|v, d| v.joint_damping += d, 1e-3),
                     z.by_damping,
                 ),
-                (differences(&|v, d| v.terms[0] += d, 1e8), z.by_term[0]),
-                (differences(&|v, d| v.terms[3] += d, 1e5), z.by_term[3]),
+                (
+                    differences(&|v, d| v.terms.springs[0] += d, 1e8),
+                    z.by_term[0],
+                ),
+                (
+                    differences(&|v, d| v.terms.dampers[0] += d, 1e5),
+                    z.by_term[SPRING_COUNT],
+                ),
             ] {
                 assert!(
                     (numerical - exact).norm() < 1e-5 * exact.norm(),

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use bolted_joint_dynamics::law::Term;
+
 use super::data::Use;
 use super::model::ResponseUnknown;
 use super::result::LapResponse;
 use super::study::LapResponseStudy;
-use super::terms::Term;
 use bolted_joint_joint::{
     Bodies, Body, Correlation, DofSet, Format, FunctionResidual, HigherTerms, Intervals, Joint,
     JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
@@ -17,23 +18,14 @@ impl LapResponse {
     #[must_use]
     pub fn joint_file(&self, study: &LapResponseStudy) -> JointFile {
         let values = &self.fit.values;
-        let of = |term: Term| match values.term(term) {
-            0.0 => Vec::new(),
-            value => vec![value],
-        };
-        let higher = HigherTerms {
-            quintic: of(Term::Quintic),
-            septic: of(Term::Septic),
-            damping_quadratic: of(Term::DampingQuadratic),
-            damping_quartic: of(Term::DampingQuartic),
-            amplitude: vec![self.amplitude_m],
-        };
-        let has_higher = self
-            .model
-            .terms
-            .terms()
-            .iter()
-            .any(|term| *term != Term::Cubic);
+        let higher = HigherTerms::of(&[values.terms], vec![self.amplitude_m]);
+        let mut terms = self.model.terms.terms().iter();
+        let has_higher = terms.any(|term| *term != Term::CUBIC);
+        let linear = Joint::linear(
+            DofSet::TRANSLATION,
+            vec![vec![values.joint_stiffness]],
+            vec![vec![values.joint_damping]],
+        );
         let body = Body {
             inertia: vec![values.mass],
             stiffness: vec![values.support_stiffness.max(0.0)],
@@ -43,12 +35,9 @@ impl LapResponse {
             format: Format::V1,
             name: self.name.clone(),
             joint: Joint {
-                dofs: DofSet::Translation,
-                stiffness: vec![vec![values.joint_stiffness]],
-                damping: vec![vec![values.joint_damping]],
-                cubic: vec![values.term(Term::Cubic)],
+                cubic: vec![values.term(Term::CUBIC)],
                 higher: has_higher.then_some(higher),
-                over_preload: None,
+                ..linear
             },
             bodies: Some(Bodies {
                 a: body.clone(),

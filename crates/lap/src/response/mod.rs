@@ -29,4 +29,4 @@ pub use prediction::{Prediction, Resonance, measured_resonance, predicted_resona
 pub use result::{Estimate, LapResponse};
 pub use start::fit_responses;
 pub use study::{LapResponseStudy, Noise, Place};
-pub use terms::{Term, TermSet};
+pub use terms::TermSet;

@@ -1,12 +1,15 @@
 //! The lap model as a test sees it: what is unknown, and force, response and phase as functions of the relative amplitude.
 
+use std::borrow::Cow;
+
+use bolted_joint_dynamics::{Polynomial, law::Term};
 use num_complex::Complex64;
 use serde::Serialize;
 
 use super::data::{SineLine, wrapped};
 use super::dynamic_stiffness::RelativeMotion;
 use super::study::{Noise, Place};
-use super::terms::{Term, TermSet};
+use super::terms::{self, TermSet};
 
 /// A number that a study may leave unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -22,7 +25,7 @@ pub enum ResponseUnknown {
     /// c12 of the joint, N·s/m.
     JointDamping,
     /// A term of the joint that depends on amplitude.
-    Term(Term),
+    Term(#[serde(serialize_with = "terms::by_symbol")] Term),
     /// Real part of what other modes add to the receptance, m/N.
     OtherModesReal,
     /// Imaginary part of that, m/N.
@@ -39,7 +42,7 @@ impl ResponseUnknown {
             Self::SupportDamping => "c",
             Self::JointStiffness => "k12",
             Self::JointDamping => "c12",
-            Self::Term(term) => term.symbol(),
+            Self::Term(term) => term.row().symbol,
             Self::OtherModesReal => "Re ρ",
             Self::OtherModesImaginary => "Im ρ",
         }
@@ -47,19 +50,20 @@ impl ResponseUnknown {
 
     /// Its SI unit.
     #[must_use]
-    pub fn unit(self) -> &'static str {
-        match self {
+    pub fn unit(self) -> Cow<'static, str> {
+        let unit = match self {
             Self::Mass => "kg",
             Self::SupportStiffness | Self::JointStiffness => "N/m",
             Self::SupportDamping | Self::JointDamping => "N·s/m",
-            Self::Term(term) => term.unit(),
+            Self::Term(term) => return terms::unit_of(term).into(),
             Self::OtherModesReal | Self::OtherModesImaginary => "m/N",
-        }
+        };
+        unit.into()
     }
 }
 
 /// A value of everything.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Values {
     /// m of each body, kg.
     pub mass: f64,
@@ -71,17 +75,33 @@ pub struct Values {
     pub joint_stiffness: f64,
     /// c12 of the joint, N·s/m.
     pub joint_damping: f64,
-    /// k3, k5, k7, c2, c4 of the joint in their SI units, in the order of [`Term::ALL`].
-    pub terms: [f64; 5],
+    /// The terms of the joint that depend on amplitude, in their SI units.
+    #[serde(serialize_with = "terms::as_list")]
+    pub terms: Polynomial,
     /// What other modes add to the receptance, real and imaginary part, m/N.
     pub other_modes: [f64; 2],
+}
+
+impl Default for Values {
+    /// Zero everywhere.
+    fn default() -> Self {
+        Self {
+            mass: 0.0,
+            support_stiffness: 0.0,
+            support_damping: 0.0,
+            joint_stiffness: 0.0,
+            joint_damping: 0.0,
+            terms: Polynomial::NONE,
+            other_modes: [0.0; 2],
+        }
+    }
 }
 
 impl Values {
     /// The value of a term.
     #[must_use]
     pub fn term(&self, term: Term) -> f64 {
-        self.terms[term as usize]
+        self.terms.coefficient(term)
     }
 
     /// K = k/2 + k12: linear stiffness of the relative motion, N/m.
@@ -110,7 +130,7 @@ impl Values {
             ResponseUnknown::SupportDamping => &mut self.support_damping,
             ResponseUnknown::JointStiffness => &mut self.joint_stiffness,
             ResponseUnknown::JointDamping => &mut self.joint_damping,
-            ResponseUnknown::Term(term) => &mut self.terms[term as usize],
+            ResponseUnknown::Term(term) => self.terms.coefficient_mut(term),
             ResponseUnknown::OtherModesReal => &mut self.other_modes[0],
             ResponseUnknown::OtherModesImaginary => &mut self.other_modes[1],
         }
@@ -289,7 +309,7 @@ impl Model {
                 ResponseUnknown::SupportDamping => (0.5 * z.by_damping, j_omega),
                 ResponseUnknown::JointStiffness => (z.by_stiffness, Complex64::ZERO),
                 ResponseUnknown::JointDamping => (z.by_damping, Complex64::ZERO),
-                ResponseUnknown::Term(term) => (z.by_term[term as usize], Complex64::ZERO),
+                ResponseUnknown::Term(term) => (z.by_term[term.index()], Complex64::ZERO),
                 ResponseUnknown::OtherModesReal => {
                     return rows(Complex64::ZERO, Complex64::ONE, 0.0);
                 }

@@ -192,11 +192,11 @@ fn is_identified(
 ) -> bool {
     let negligible = match unknown {
         ResponseUnknown::Term(term) => {
-            let linear = match term.is_damping() {
+            let linear = match term.is_damper() {
                 false => 0.5 * values.support_stiffness + values.joint_stiffness,
                 true => 0.5 * values.support_damping + values.joint_damping,
             };
-            NEGLIGIBLE * linear / (term.describing() * amplitude_m.powi(term.power()))
+            NEGLIGIBLE * linear / (term.describing() * amplitude_m.powi(term.amplitude_power()))
         }
         _ => 0.0,
     };

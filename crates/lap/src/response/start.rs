@@ -1,5 +1,6 @@
 //! Where the search starts: for a relative mode a linear fit of force over response, otherwise the resonances of the lowest level.
 
+use bolted_joint_dynamics::{Polynomial, law::Term};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -8,7 +9,7 @@ use super::data::{SineLine, SineRun};
 use super::fit::{Data, Fit, fit};
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
-use super::terms::{Term, TermSet};
+use super::terms::TermSet;
 use crate::error::LapError;
 
 /// Damping ratios that are tried at each resonance.
@@ -103,7 +104,7 @@ fn starts(
     {
         starts.push(start);
         starts.push(Values {
-            terms: [0.0; 5],
+            terms: Polynomial::NONE,
             ..start
         });
     }
@@ -113,7 +114,7 @@ fn starts(
 /// The linear model, and with a cubic spring of either sign.
 fn with_terms(model: &Model, data: &[SineLine], linear: Values) -> Vec<Values> {
     let mut starts = vec![linear];
-    if model.terms.terms().contains(&Term::Cubic) {
+    if model.terms.terms().contains(&Term::CUBIC) {
         let amplitudes = data
             .iter()
             .map(|line| model.relative_amplitude(&linear, line));
@@ -125,7 +126,7 @@ fn with_terms(model: &Model, data: &[SineLine], linear: Values) -> Vec<Values> {
             -0.1 * CUBIC_SHARE,
         ] {
             let mut start = linear;
-            start.terms[Term::Cubic as usize] =
+            *start.terms.coefficient_mut(Term::CUBIC) =
                 share * linear.joint_stiffness / (largest * largest);
             starts.push(start);
         }
@@ -166,8 +167,8 @@ fn force_over_response(model: &Model, data: &[SineLine], known: &Values) -> Opti
             ResponseUnknown::JointStiffness => Complex64::new(1.0, 0.0),
             ResponseUnknown::JointDamping => Complex64::new(0.0, omega),
             ResponseUnknown::Term(term) => {
-                let share = term.describing() * amplitude.powi(term.power());
-                match term.is_damping() {
+                let share = term.describing() * amplitude.powi(term.amplitude_power());
+                match term.is_damper() {
                     false => Complex64::new(share, 0.0),
                     true => Complex64::new(0.0, omega * share),
                 }
@@ -206,7 +207,7 @@ fn force_over_response(model: &Model, data: &[SineLine], known: &Values) -> Opti
     let mut values = *known;
     for ((unknown, value), norm) in linear.iter().zip(solution.iter()).zip(&norms) {
         let power = match unknown {
-            ResponseUnknown::Term(term) => scale_amplitude.powi(term.power()),
+            ResponseUnknown::Term(term) => scale_amplitude.powi(term.amplitude_power()),
             _ => 1.0,
         };
         *values.place(*unknown) = value / norm / power;

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use bolted_joint_dynamics::law::Term;
 use serde::{Deserialize, Serialize};
 
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
-use super::terms::{Term, TermSet};
+use super::terms::{NamedTerm, TermSet};
 use crate::error::LapError;
 use bolted_joint_study::{FrequencyTable, Method, StudyError, StudyText};
 
@@ -142,7 +143,7 @@ struct StudyFile {
 struct ModelTable {
     drive: Place,
     response: Place,
-    terms: Option<Vec<Term>>,
+    terms: Option<Vec<NamedTerm>>,
     harmonics: Option<usize>,
     #[serde(default)]
     other_modes: bool,
@@ -216,10 +217,15 @@ impl LapResponseStudy {
         study.check_method(file.method, &[Method::LapResponse])?;
         study.check_name("name", &file.name)?;
         let noise = noise(study, &file.noise)?;
-        let terms = file.model.terms.as_deref().unwrap_or_default();
-        let mut places = terms.iter().enumerate();
-        if let Some((_, twice)) = places.find(|(place, term)| terms[..*place].contains(term)) {
-            let found = format!("{} twice", twice.symbol());
+        let terms: Option<Vec<Term>> = file
+            .model
+            .terms
+            .as_deref()
+            .map(|terms| terms.iter().map(|named| named.0).collect());
+        let named = terms.as_deref().unwrap_or_default();
+        let mut places = named.iter().enumerate();
+        if let Some((_, twice)) = places.find(|(place, term)| named[..*place].contains(term)) {
+            let found = format!("{} twice", twice.row().symbol);
             return Ok(study.refuse("model.terms", found, "every term once")?);
         }
         if let Some(torque) = file.torque {
@@ -282,7 +288,7 @@ impl LapResponseStudy {
             name: file.name,
             drive: file.model.drive,
             response: file.model.response,
-            terms: file.model.terms.map(|terms| TermSet::of(&terms)),
+            terms: terms.as_deref().map(TermSet::of),
             harmonics,
             other_modes: file.model.other_modes,
             known,

@@ -53,12 +53,12 @@ impl LapUpdate {
             format: Format::V1,
             name,
             joint: Joint {
-                dofs: DofSet::Translation,
-                stiffness: vec![vec![torque.file_value(LapParameter::JointStiffness)]],
-                damping: vec![vec![torque.file_value(LapParameter::JointDamping)]],
                 cubic: vec![torque.file_value(LapParameter::JointCubic)],
-                higher: None,
-                over_preload: None,
+                ..Joint::linear(
+                    DofSet::TRANSLATION,
+                    vec![vec![torque.file_value(LapParameter::JointStiffness)]],
+                    vec![vec![torque.file_value(LapParameter::JointDamping)]],
+                )
             },
             bodies: Some(torque.bodies()),
             uncertainty: Some(Uncertainty {

@@ -1,5 +1,7 @@
 //! Damping over the amplitude by the terms that a joint file has: c + c2 r² + c4 r⁴ in place of dry friction.
 
+use bolted_joint_dynamics::Polynomial;
+
 use super::error::{LayeredBeamError, value};
 
 /// Amplitudes of a relative motion, m, from a smaller to a larger one.
@@ -85,9 +87,12 @@ impl AmplitudeDamping {
     #[must_use]
     pub fn equivalent_n_s_per_m(&self, amplitude_m: f64) -> f64 {
         // ∮ c(r) ṙ² dt/(π ω R²) = c + c2 R²/4 + c4 R⁴/8
-        let squared = amplitude_m * amplitude_m;
-        self.constant_n_s_per_m
-            + (0.25 * self.quadratic_n_s_per_m3 + 0.125 * self.quartic_n_s_per_m5 * squared)
-                * squared
+        self.constant_n_s_per_m + self.terms().equivalent_damping(amplitude_m)
+    }
+
+    /// What depends on the amplitude, as a law has it.
+    #[must_use]
+    pub fn terms(&self) -> Polynomial {
+        Polynomial::with(&[], &[self.quadratic_n_s_per_m3, self.quartic_n_s_per_m5])
     }
 }

@@ -57,14 +57,7 @@ pub(super) fn lap_file(
 ) -> Result<LapFile, LayeredBeamError> {
     let lap = EquivalentLap::of(nominal);
     let stiffness = vec![vec![lap.stiffness_n_per_m]];
-    let mut joint = Joint {
-        dofs: DofSet::Translation,
-        stiffness: stiffness.clone(),
-        damping: Vec::new(),
-        cubic: Vec::new(),
-        higher: None,
-        over_preload: None,
-    };
+    let mut joint = Joint::linear(DofSet::TRANSLATION, stiffness.clone(), Vec::new());
     let mut notes = vec![
         format!(
             "lap equivalent of mode {} of a layered beam: body a is the beam's deflection at {:.6} m from its first end, body b its mount",
@@ -108,12 +101,8 @@ pub(super) fn lap_file(
         EquivalentDamping::Over(range) => {
             let found = lap.joint_damping_over(nominal, range)?;
             joint.damping = vec![vec![found.constant_n_s_per_m]];
-            joint.higher = Some(HigherTerms {
-                damping_quadratic: vec![found.quadratic_n_s_per_m3],
-                damping_quartic: vec![found.quartic_n_s_per_m5],
-                amplitude: vec![lap.relative(range.to_m())],
-                ..HigherTerms::default()
-            });
+            let amplitude = vec![lap.relative(range.to_m())];
+            joint.higher = Some(HigherTerms::of(&[found.terms()], amplitude));
             notes.push(format!(
                 "c + c2 r^2 + c4 r^4 in place of dry friction: its loss over a period is within {:.1} % of friction's for amplitudes from {:.4e} to {:.4e} m; below, it is less, beyond, more",
                 100.0 * found.worst_error,

@@ -53,8 +53,8 @@ impl Planar {
     #[must_use]
     pub fn dofs(self) -> DofSet {
         match self.rotation {
-            Some(_) => DofSet::TranslationRotation,
-            None => DofSet::Translation,
+            Some(_) => DofSet::TRANSLATION_ROTATION,
+            None => DofSet::TRANSLATION,
         }
     }
 

@@ -18,14 +18,8 @@ impl Prediction<'_> {
     pub fn joint_file(&self) -> JointFile {
         let nominal = self.nominal();
         let dofs = self.study.planar.dofs();
-        let joint = Joint {
-            dofs,
-            stiffness: nominal.planar.stiffness.clone(),
-            damping: nominal.planar.damping.clone(),
-            cubic: Vec::new(),
-            higher: None,
-            over_preload: None,
-        };
+        let planar = &nominal.planar;
+        let joint = Joint::linear(dofs, planar.stiffness.clone(), planar.damping.clone());
         JointFile {
             format: Format::V1,
             name: self.study.name.clone(),
@@ -70,18 +64,18 @@ impl Prediction<'_> {
             0 => String::new(),
             refused => format!(", {refused} of them refused"),
         };
-        let names = unknowns(dofs).into_iter().map(|(name, ..)| name.to_owned());
+        let names = unknowns(dofs).into_iter().map(|(name, ..)| name);
         let over = self.study.torques_n_m.iter().map(|&torque| Some(torque));
         let at_all: Vec<String> = over
             .clone()
             .flat_map(|torque| {
                 let names = unknowns(dofs).into_iter();
-                names.map(move |(name, ..)| at(name, torque))
+                names.map(move |(name, ..)| at(&name, torque))
             })
             .collect();
         let at_nominal: Vec<String> = unknowns(dofs)
             .into_iter()
-            .map(|(name, ..)| at(name, nominal))
+            .map(|(name, ..)| at(&name, nominal))
             .collect();
         Uncertainty {
             standard_deviation: deviation(outcome, dofs, nominal),
@@ -187,9 +181,9 @@ impl Prediction<'_> {
             ),
         ];
         notes.extend(study.notes.iter().cloned());
-        let model = match study.planar.dofs() {
-            DofSet::Translation => "translation",
-            DofSet::TranslationRotation => "full",
+        let model = match study.planar.rotation() {
+            None => "translation",
+            Some(_) => "full",
         };
         provenance(study.method, model, study.files.clone(), notes)
     }
@@ -214,7 +208,7 @@ fn filled<T: Copy>(
         vec![vec![empty; count]; count],
     ];
     for (name, is_stiffness, [i, j]) in unknowns(dofs) {
-        if let Some(found) = estimate(outcome, name, torque_n_m) {
+        if let Some(found) = estimate(outcome, &name, torque_n_m) {
             let value = of(found);
             let matrix = &mut matrices[usize::from(!is_stiffness)];
             matrix[i][j] = value;

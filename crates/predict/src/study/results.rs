@@ -3,25 +3,23 @@
 use super::model::State;
 use super::prediction::Prediction;
 use crate::patch::{InterfaceJoint, PlanarJoint};
+use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS};
 use bolted_joint_joint::DofSet;
 
 /// Names of the rows and columns of the 6×6 stiffness.
 pub(super) const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Names of the unknowns of a planar joint's stiffness, and of its damping, with the place of each in its matrix.
-pub(super) fn unknowns(dofs: DofSet) -> Vec<(&'static str, bool, [usize; 2])> {
-    let all = [
-        ("k_yy", true, [0, 0]),
-        ("k_ytheta", true, [0, 1]),
-        ("k_thetatheta", true, [1, 1]),
-        ("c_yy", false, [0, 0]),
-        ("c_ytheta", false, [0, 1]),
-        ("c_thetatheta", false, [1, 1]),
-    ];
-    let count = dofs.count();
-    all.into_iter()
-        .filter(|(_, _, [i, j])| (*i).max(*j) < count)
-        .collect()
+pub(super) fn unknowns(dofs: DofSet) -> Vec<(String, bool, [usize; 2])> {
+    let name = |symbol, [i, j]: [usize; 2]| {
+        let (row, column) = (dofs.row(i).name, dofs.row(j).name);
+        format!("{symbol}_{row}{column}")
+    };
+    let of = |row: &'static Parameter, is_stiffness| {
+        let entries = dofs.entries();
+        entries.map(move |place| (name(row.symbol, place), is_stiffness, place))
+    };
+    of(STIFFNESS, true).chain(of(DAMPING, false)).collect()
 }
 
 /// Name of a result at a torque of the table.
@@ -36,7 +34,7 @@ pub(super) fn at(name: &str, torque_n_m: Option<f64>) -> String {
 pub(super) fn names(dofs: DofSet, torque_n_m: Option<f64>) -> Vec<String> {
     let planar = unknowns(dofs)
         .into_iter()
-        .map(|(name, ..)| at(name, torque_n_m));
+        .map(|(name, ..)| at(&name, torque_n_m));
     let diagonal = DOFS
         .iter()
         .map(|dof| at(&format!("K_{dof}{dof}"), torque_n_m));
@@ -62,32 +60,34 @@ pub(super) fn values(dofs: DofSet, interface: &InterfaceJoint, planar: &PlanarJo
 }
 
 /// A number of the joint file.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Unknown {
     /// Its name, such as `k_yy`.
-    pub name: &'static str,
+    pub name: String,
     /// Its value.
     pub value: f64,
     /// Its unit.
-    pub unit: &'static str,
+    pub unit: String,
 }
 
 impl Prediction<'_> {
     /// The numbers of the joint file at one of the states.
     #[must_use]
     pub fn unknowns(&self, state: &State) -> Vec<Unknown> {
-        let unknowns = unknowns(self.study.planar.dofs()).into_iter();
-        let valued = unknowns.map(|(name, is_stiffness, [i, j])| {
-            let (matrix, units) = match is_stiffness {
-                true => (&state.planar.stiffness, ["N/m", "N/rad", "N·m/rad"]),
-                false => (&state.planar.damping, ["N·s/m", "N·s/rad", "N·m·s/rad"]),
-            };
-            Unknown {
-                name,
-                value: matrix[i][j],
-                unit: units[i + j],
-            }
-        });
+        let dofs = self.study.planar.dofs();
+        let valued = unknowns(dofs)
+            .into_iter()
+            .map(|(name, is_stiffness, place)| {
+                let (matrix, row) = match is_stiffness {
+                    true => (&state.planar.stiffness, STIFFNESS),
+                    false => (&state.planar.damping, DAMPING),
+                };
+                Unknown {
+                    name,
+                    value: matrix[place[0]][place[1]],
+                    unit: dofs.unit(row.unit, place),
+                }
+            });
         valued.collect()
     }
 

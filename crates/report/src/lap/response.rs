@@ -68,7 +68,7 @@ impl LapResponseReport<'_> {
             format!(
                 "<th scope=\"row\">{}</th>{values}{}",
                 escaped(estimate.unknown.symbol()),
-                cell(estimate.unknown.unit())
+                cell(&estimate.unknown.unit())
             )
         });
         let rows: Vec<String> = rows.collect();

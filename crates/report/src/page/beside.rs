@@ -3,6 +3,7 @@
 use super::IdentificationReport;
 use bolted_joint_figures::html::{escaped, number, percent};
 use bolted_joint_identify::{BandOrigin, FromModes, JointMatrices};
+use bolted_joint_joint::with_symbols;
 
 /// What the modes supplied, and how well they give what was measured.
 pub(super) fn from_modes(found: &FromModes) -> String {
@@ -48,7 +49,7 @@ pub(super) fn bands(report: &IdentificationReport<'_>) -> String {
     for (joint, used) in report.found.estimate.bands().iter().enumerate() {
         for used in used {
             let bolt = bolts.get(joint).map(|bolt| format!("{} ", escaped(bolt)));
-            let name = bolt.unwrap_or_default() + &used.name.replace("theta", "θ");
+            let name = bolt.unwrap_or_default() + &with_symbols(&used.name);
             let ranges = used.bands.iter();
             let ranges =
                 ranges.map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)));

@@ -7,6 +7,7 @@ use bolted_joint_figures::html::{
     beside, cell, escaped, number_cell, quantity, shown, spread, table,
 };
 use bolted_joint_identify::{JointEstimate, Unknown};
+use bolted_joint_joint::with_symbols;
 
 /// Digits of a parameter.
 const DIGITS: usize = 5;
@@ -109,7 +110,7 @@ impl IdentificationReport<'_> {
     /// The same in plain letters.
     pub(super) fn label(&self, unknown: &Unknown) -> String {
         let label = unknown.label(self.found.bolts.with_own_joint());
-        label.replace("theta", "θ")
+        with_symbols(&label)
     }
 }
 
@@ -119,7 +120,7 @@ fn symbol(name: &str) -> String {
         Some((letter, index)) => format!(
             "<i>{}</i><sub>{}</sub>",
             escaped(letter),
-            escaped(&index.replace("theta", "θ"))
+            escaped(&with_symbols(index))
         ),
         None => escaped(name),
     }

@@ -8,6 +8,7 @@ mod surfaces;
 use super::lap::{page, warnings};
 use bolted_joint_export::provenance;
 use bolted_joint_files::Timestamp;
+use bolted_joint_joint::with_symbols;
 use bolted_joint_predict::study::Prediction;
 
 /// The report of a prediction.
@@ -52,7 +53,7 @@ impl PredictionReport<'_> {
 fn symbol(name: &str) -> String {
     match name.split_once('_') {
         Some((letter, index)) => {
-            format!("<i>{letter}</i><sub>{}</sub>", index.replace("theta", "θ"))
+            format!("<i>{letter}</i><sub>{}</sub>", with_symbols(index))
         }
         None => name.to_owned(),
     }

@@ -4,6 +4,7 @@ use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::super::lap::figure;
 use super::symbol;
 use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, spread, table};
+use bolted_joint_joint::with_symbols;
 use bolted_joint_predict::study::{Prediction, State, Unknown};
 
 /// Shares below this are not worth a row.
@@ -60,8 +61,8 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
         .unknowns(state)
         .iter()
         .map(|unknown| {
-            let head = format!("<th scope=\"row\">{}</th>", symbol(unknown.name));
-            let cells = match found.estimate(unknown.name, state.torque_n_m) {
+            let head = format!("<th scope=\"row\">{}</th>", symbol(&unknown.name));
+            let cells = match found.estimate(&unknown.name, state.torque_n_m) {
                 Some(estimate) => {
                     let deviation = estimate.standard_deviation;
                     let [low, high] = estimate.interval_95.map(|end| beside(end, deviation));
@@ -75,7 +76,7 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
                 }
                 None => number_cell(&number(unknown.value)),
             };
-            format!("{head}{cells}{}", cell(unknown.unit))
+            format!("{head}{cells}{}", cell(&unknown.unit))
         })
         .collect();
     let headings: &[&str] = match found.outcome {
@@ -99,7 +100,7 @@ fn over_torque(found: &Prediction<'_>) -> String {
     }
     let unknowns = found.unknowns(found.nominal());
     let panels = unknowns.iter().enumerate().map(|(place, unknown)| Panel {
-        name: unknown.name.replace("theta", "θ"),
+        name: with_symbols(&unknown.name),
         unit: unknown.unit.to_owned(),
         colour: COLOURS[usize::from(unknown.name.starts_with('c'))],
         values: found
@@ -108,7 +109,7 @@ fn over_torque(found: &Prediction<'_>) -> String {
             .map(|state| Estimated {
                 at: state.torque_n_m.unwrap_or(0.0),
                 value: found.unknowns(state).get(place).map(|at: &Unknown| {
-                    let estimate = found.estimate(at.name, state.torque_n_m);
+                    let estimate = found.estimate(&at.name, state.torque_n_m);
                     (at.value, estimate.map_or([at.value; 2], |e| e.interval_95))
                 }),
             })
@@ -135,7 +136,7 @@ pub(super) fn contributions(found: &Prediction<'_>) -> String {
     let unknowns = found.unknowns(state);
     let estimates: Vec<_> = unknowns
         .iter()
-        .filter_map(|unknown| found.estimate(unknown.name, state.torque_n_m))
+        .filter_map(|unknown| found.estimate(&unknown.name, state.torque_n_m))
         .collect();
     let mut inputs: Vec<usize> = (0..outcome.inputs.len()).collect();
     let largest = |input: usize| {
@@ -160,7 +161,7 @@ pub(super) fn contributions(found: &Prediction<'_>) -> String {
         .collect();
     let symbols: Vec<String> = unknowns
         .iter()
-        .map(|unknown| symbol(unknown.name))
+        .map(|unknown| symbol(&unknown.name))
         .collect();
     let headings: Vec<&str> = std::iter::once("Input")
         .chain(symbols.iter().map(String::as_str))

@@ -1,13 +1,13 @@
 //! From tables to a study: everything that can be wrong is said with its key.
 
+use bolted_joint_dynamics::{Dof, with_dofs};
 use bolted_joint_harmonic::{Harmonics, Observed, Side};
 use bolted_joint_joint::{DofSet, JointFile};
 use bolted_joint_study::{OneOrMore, StudyError, StudyText};
 
 use super::super::RespondError;
 use super::tables::{
-    Direction, DofName, FrequencyTable, HarmonicsTable, Kind, LapTable, ResponseTable, StudyFile,
-    TimeTable,
+    Direction, FrequencyTable, HarmonicsTable, Kind, LapTable, ResponseTable, StudyFile, TimeTable,
 };
 use super::{LoadPlace, Span, Start, StudyLap, Test, Times};
 
@@ -66,10 +66,7 @@ pub(super) fn laps(study: &StudyText, tables: &[LapTable]) -> Result<Vec<StudyLa
         let path = study.resolved(&table.joint);
         let file = JointFile::read(&path)?.at_preload(table.preload);
         let file = file.map_err(|source| StudyError::model(&path, None, source))?;
-        let is_lap = match file.joint.dofs {
-            DofSet::Translation => file.lap::<1>().map(drop),
-            DofSet::TranslationRotation => file.lap::<2>().map(drop),
-        };
+        let is_lap = with_dofs!(file.joint.dofs.size(), D => file.lap::<D>().map(drop));
         is_lap.map_err(|source| StudyError::model(&path, None, source))?;
         let found = file.joint.dofs;
         let first = laps.first().map_or(found, |first| first.file.joint.dofs);
@@ -103,7 +100,7 @@ pub(super) fn motions(
 fn motion(study: &StudyText, key: &str, name: &str, dofs: DofSet) -> Result<Observed, StudyError> {
     let parts = name.split_once('.');
     let found = parts.and_then(|(place, dof)| {
-        let dof = dofs.names().iter().position(|name| *name == dof)?;
+        let dof = dofs.position(dof)?;
         match place {
             "relative" => Some(Observed::Relative(dof)),
             "a" => Some(Observed::Body(Side::A, dof)),
@@ -256,10 +253,7 @@ fn start(
     table: &std::collections::BTreeMap<String, f64>,
     dofs: DofSet,
 ) -> Result<Vec<Start>, StudyError> {
-    let expected = match dofs {
-        DofSet::Translation => "a.y, a.v, b.y or b.v",
-        DofSet::TranslationRotation => "a or b, a point, and y, theta, v or omega",
-    };
+    let expected = states(dofs);
     let one = |(name, &value): (&String, &f64)| {
         let key = format!("start.{name}");
         let parts = name.split_once('.');
@@ -269,24 +263,19 @@ fn start(
                 "b" => Side::B,
                 _ => return None,
             };
-            let (dof, is_velocity) = match state {
-                "y" => (0, false),
-                "v" => (0, true),
-                "theta" => (1, false),
-                "omega" => (1, true),
-                _ => return None,
-            };
-            (dof < dofs.count()).then_some(Start {
+            let is_of = |dof: &Dof| dof.name == state || dof.rate == state;
+            let dof = dofs.rows().position(is_of)?;
+            Some(Start {
                 side,
                 dof,
-                is_velocity,
+                is_velocity: dofs.row(dof).rate == state,
                 value,
             })
         });
         match found {
             Some(start) if value.is_finite() => Ok(start),
             Some(_) => study.refuse(&key, value, "a finite number"),
-            None => study.refuse("start", format!("{name:?}"), expected),
+            None => study.refuse("start", format!("{name:?}"), &expected),
         }
     };
     let start: Vec<Start> = table.iter().map(one).collect::<Result<_, _>>()?;
@@ -298,12 +287,11 @@ fn start(
 pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<Test, StudyError> {
     let load = match &file.load {
         Some(table) => {
-            let dof = match table.dof {
-                DofName::Y => 0,
-                DofName::Theta => 1,
-            };
-            let expected = format!("one of the joint's degrees of freedom, {dofs}");
-            study.ensure(dof < dofs.count(), "load.dof", "theta", expected)?;
+            let name = table.dof.dof().name;
+            let dof = dofs.position(name).ok_or_else(|| {
+                let expected = format!("one of the joint's degrees of freedom, {dofs}");
+                study.refusal("load.dof", name, expected)
+            })?;
             LoadPlace {
                 body: table.on.body(),
                 dof,
@@ -430,5 +418,19 @@ pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<
             )?,
             times: times(study, time)?,
         }),
+    }
+}
+
+/// The states of a start, for people.
+fn states(dofs: DofSet) -> String {
+    let names: Vec<&str> = dofs
+        .rows()
+        .map(|dof| dof.name)
+        .chain(dofs.rows().map(|dof| dof.rate))
+        .collect();
+    match names.as_slice() {
+        [name, rate] => format!("a.{name}, a.{rate}, b.{name} or b.{rate}"),
+        [others @ .., last] => format!("a or b, a point, and {} or {last}", others.join(", ")),
+        [] => String::new(),
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use bolted_joint_joint::DofName;
 use serde::Deserialize;
 
 use bolted_joint_study::{Method, OneOrMore};
@@ -102,14 +103,6 @@ pub(super) enum Place {
     #[default]
     B,
     Opposed,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum DofName {
-    #[default]
-    Y,
-    Theta,
 }
 
 #[derive(Deserialize)]

@@ -29,7 +29,7 @@ impl<const D: usize> Loads<'_, D> {
     }
 
     /// Loads at the stages of the Runge–Kutta step of `length_s` (s) that has the number `index`, from 0.
-    pub(super) fn at_stages(&self, index: u32, length_s: f64) -> [LapLoads<D>; 3] {
+    pub(in crate::models) fn at_stages(&self, index: u32, length_s: f64) -> [LapLoads<D>; 3] {
         [0.0, 0.5, 1.0].map(|part| self.after((f64::from(index) + part) * length_s))
     }
 }

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Most Runge–Kutta steps in one communication step: about a minute's work.
-pub(crate) const SUBSTEPS_MAX: u32 = 1_000_000_000;
+const SUBSTEPS_MAX: u32 = 1_000_000_000;
 
 /// Runge–Kutta steps in a communication step from which preparing for that one step alone is quicker than taking them.
 const STEPS_WORTH_PREPARING: u32 = 256;
@@ -275,6 +275,7 @@ pub(in crate::models) fn count(
         .ok_or(Refusal::TooManySubsteps {
             interval_s,
             step_size_max_s,
+            most: SUBSTEPS_MAX,
         })
 }
 

@@ -7,11 +7,14 @@ use bolted_joint_dynamics::{JointLaw, JointOverPreload};
 use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, reference as vr},
+    interface::{
+        ElementCalculatedParameters, ElementOverPreloadOutputs, InterfaceType, Values,
+        reference as vr,
+    },
     models::{
         CommunicationStep, Model,
         element::{differentiate, rates, relative, set_outputs},
-        sides::{is_active, set_escape_amplitude},
+        sides::is_active,
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -111,18 +114,24 @@ impl<const D: usize> Model for LooseningElement<D> {
 
     fn calculate_parameters(&self, values: &mut Values) {
         let samples = self.table.samples_n_m(CHECKED_BETWEEN);
-        let amplitude = samples.fold([f64::MAX; D], |least, preload_n_m| {
+        let joint_escape_amplitude = samples.fold([f64::MAX; D], |least, preload_n_m| {
             smaller(
                 least,
                 finite(self.table.law(preload_n_m).escape_amplitude()),
             )
         });
-        set_escape_amplitude(values, &amplitude);
+        ElementCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, _: &Values, change: &mut Values) {
         // the table is what it is
-        set_escape_amplitude(change, &[0.0; D]);
+        ElementCalculatedParameters {
+            joint_escape_amplitude: [0.0; D],
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -133,7 +142,10 @@ impl<const D: usize> Model for LooseningElement<D> {
         let law = self.law(values);
         set_outputs(values, &law);
         let r = relative::<D>(values).displacement;
-        values[vr::POWER_PRELOAD] = preload_power(&self.table, values, &r);
+        ElementOverPreloadOutputs {
+            power_preload: preload_power(&self.table, values, &r),
+        }
+        .write(values);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -141,7 +153,9 @@ impl<const D: usize> Model for LooseningElement<D> {
         let law_change = slope.times(change[vr::PRELOAD]);
         differentiate([&self.law(values), &law_change], values, change);
         let [r, r_change] = [values, &*change].map(|values| relative::<D>(values).displacement);
-        change[vr::POWER_PRELOAD] =
-            preload_power_change(&self.table, [values, &*change], [&r, &r_change]);
+        ElementOverPreloadOutputs {
+            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
+        }
+        .write(change);
     }
 }

@@ -8,13 +8,20 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, JointOverPreload, Lap, LapConditions, LapLoads, LapState, PassedEnergy,
+    CountedState, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions, LapLoads, LapState,
+    PassedEnergy,
 };
 
-use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
+use super::{
+    CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller,
+    stored_energy_change,
+};
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, Values, memory, reference as vr},
+    interface::{
+        InterfaceType, LapCalculatedParameters, LapOverPreloadOutputs, Values, memory,
+        reference as vr,
+    },
     models::{
         CommunicationStep, Model,
         lap::{
@@ -25,7 +32,7 @@ use crate::{
             prepared::{count, is_within},
             rates, set_outputs, state,
         },
-        sides::{A, B, is_active, set_escape_amplitude},
+        sides::{A, B, is_active},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -189,15 +196,11 @@ impl<const D: usize> Model for LooseningLap<D> {
         self.interface_type = interface_type;
         // the bodies may be others
         self.latest = None;
-        let supports = [A.body::<D>(values), B.body::<D>(values)]
-            .iter()
-            .flat_map(|body| body.stiffness.iter().chain(&body.damping))
-            .any(|&coefficient| coefficient < 0.0);
         let [joint_stiffness, joint_damping] = active;
         Ok(Active {
             joint_stiffness,
             joint_damping,
-            supports,
+            supports: self.lap(values).has_active_support(),
         }
         .warning())
     }
@@ -206,7 +209,9 @@ impl<const D: usize> Model for LooseningLap<D> {
         values[memory::COUNTED_PRELOAD] = values[vr::PRELOAD];
         values[memory::PRELOAD_WORK] = 0.0;
         // what the balance E = E₀ + supplied − dissipated + preload starts from
-        let stored = self.lap(values).stored_energy(&state(values));
+        let stored = self
+            .lap(values)
+            .stored_energy(&JointMemory::REST, &state(values));
         values[memory::FIRST_ENERGY] =
             stored - values[vr::ENERGY_SUPPLIED] + values[vr::ENERGY_DISSIPATED];
     }
@@ -259,6 +264,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         let relative = state.a.relative_to(&state.b);
         let start = CountedState {
             state,
+            memory: JointMemory::REST,
             passed: PassedEnergy {
                 supplied: values[vr::ENERGY_SUPPLIED],
                 dissipated: values[vr::ENERGY_DISSIPATED],
@@ -321,10 +327,13 @@ impl<const D: usize> Model for LooseningLap<D> {
     }
 
     fn calculate_parameters(&self, values: &mut Values) {
-        let amplitude = self.laps(values).fold([f64::MAX; D], |least, lap| {
+        let joint_escape_amplitude = self.laps(values).fold([f64::MAX; D], |least, lap| {
             smaller(least, finite(lap.escape_amplitude()))
         });
-        set_escape_amplitude(values, &amplitude);
+        LapCalculatedParameters {
+            joint_escape_amplitude,
+        }
+        .write(values);
     }
 
     fn differentiate_parameters(&self, values: &Values, change: &mut Values) {
@@ -343,7 +352,10 @@ impl<const D: usize> Model for LooseningLap<D> {
                 }
             }
         }
-        set_escape_amplitude(change, &tangent);
+        LapCalculatedParameters {
+            joint_escape_amplitude: tangent,
+        }
+        .write(change);
     }
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
@@ -357,18 +369,21 @@ impl<const D: usize> Model for LooseningLap<D> {
         let state = state::<D>(values);
         let r = state.a.relative_to(&state.b).displacement;
         set_outputs(values, &lap, &state);
-        values[vr::POWER_PRELOAD] = preload_power(&self.table, values, &r);
-        values[vr::POWER_SUPPLIED] = supplied_power(&loads(values), &state);
-        values[vr::ENERGY_PRELOAD] = match self.interface_type {
-            InterfaceType::CoSimulation => self.preload_energy(values, &lap.joint, &r),
-            // E − E₀ − supplied + dissipated
-            InterfaceType::ModelExchange => {
-                values[vr::ENERGY_STORED]
-                    - values[memory::FIRST_ENERGY]
-                    - values[vr::ENERGY_SUPPLIED]
-                    + values[vr::ENERGY_DISSIPATED]
-            }
-        };
+        LapOverPreloadOutputs {
+            power_preload: preload_power(&self.table, values, &r),
+            power_supplied: supplied_power(&loads(values), &state),
+            energy_preload: match self.interface_type {
+                InterfaceType::CoSimulation => self.preload_energy(values, &lap.joint, &r),
+                // E − E₀ − supplied + dissipated
+                InterfaceType::ModelExchange => {
+                    values[vr::ENERGY_STORED]
+                        - values[memory::FIRST_ENERGY]
+                        - values[vr::ENERGY_SUPPLIED]
+                        + values[vr::ENERGY_DISSIPATED]
+                }
+            },
+        }
+        .write(values);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -383,24 +398,25 @@ impl<const D: usize> Model for LooseningLap<D> {
         let [r, r_change] =
             [&state, &state_change].map(|state| state.a.relative_to(&state.b).displacement);
         differentiate([&lap, &lap_change], values, change);
-        change[vr::POWER_PRELOAD] =
-            preload_power_change(&self.table, [values, &*change], [&r, &r_change]);
-        // dP = dFᵀẋ + Fᵀdẋ
-        change[vr::POWER_SUPPLIED] =
-            supplied_power(&loads(change), &state) + supplied_power(&loads(values), &state_change);
-        change[vr::ENERGY_PRELOAD] = match self.interface_type {
-            InterfaceType::CoSimulation => {
-                // d(U(r; p) − U(r; p_counted))
-                let counted = self.table.law(values[memory::COUNTED_PRELOAD]);
-                lap.joint
-                    .stored_energy_tangent(&lap_change.joint, &r, &r_change)
-                    - counted.stored_energy_tangent(&JointLaw::NONE, &r, &r_change)
-            }
-            InterfaceType::ModelExchange => {
-                change[vr::ENERGY_STORED] - change[vr::ENERGY_SUPPLIED]
-                    + change[vr::ENERGY_DISSIPATED]
-            }
-        };
+        LapOverPreloadOutputs {
+            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
+            // dP = dFᵀẋ + Fᵀdẋ
+            power_supplied: supplied_power(&loads(change), &state)
+                + supplied_power(&loads(values), &state_change),
+            energy_preload: match self.interface_type {
+                InterfaceType::CoSimulation => {
+                    // d(U(r; p) − U(r; p_counted))
+                    let counted = self.table.law(values[memory::COUNTED_PRELOAD]);
+                    stored_energy_change([&lap.joint, &lap_change.joint], [&r, &r_change])
+                        - stored_energy_change([&counted, &JointLaw::NONE], [&r, &r_change])
+                }
+                InterfaceType::ModelExchange => {
+                    change[vr::ENERGY_STORED] - change[vr::ENERGY_SUPPLIED]
+                        + change[vr::ENERGY_DISSIPATED]
+                }
+            },
+        }
+        .write(change);
     }
 }
 

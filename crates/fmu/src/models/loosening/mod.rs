@@ -6,7 +6,7 @@ mod lap;
 pub(super) use element::LooseningElement;
 pub(super) use lap::LooseningLap;
 
-use bolted_joint_dynamics::JointOverPreload;
+use bolted_joint_dynamics::{Dual, JointLaw, JointOverPreload};
 
 use crate::{
     interface::{Values, memory, reference as vr},
@@ -61,7 +61,17 @@ fn preload_power_change<const D: usize>(
     let slope_change = table.curvature(preload_n_m).times(change[vr::PRELOAD]);
     // d(∂U/∂p ṗ) = ∂U/∂p dṗ + ṗ (∂²U/∂p² dp + ∂²U/∂p∂r dr)
     change[memory::PRELOAD_RATE] * slope.stored_energy(r)
-        + values[memory::PRELOAD_RATE] * slope.stored_energy_tangent(&slope_change, r, r_change)
+        + values[memory::PRELOAD_RATE]
+            * stored_energy_change([&slope, &slope_change], [r, r_change])
+}
+
+/// First-order change of the energy that a law stores at the relative displacement r, with law and displacement.
+fn stored_energy_change<const D: usize>(
+    [law, law_change]: [&JointLaw<D>; 2],
+    [r, r_change]: [&[f64; D]; 2],
+) -> f64 {
+    let r = std::array::from_fn(|dof| Dual::new(r[dof], [r_change[dof]]));
+    law.with_change(law_change).stored_energy(&r).change[0]
 }
 
 /// The smaller of two amplitudes in each DOF.

@@ -1,165 +1,214 @@
-//! An instance, from instantiation to the end of its initialisation, with its values and its log.
+//! An instance with its log, from its making to where a test wants it.
 
-use std::ffi::{c_int, c_void};
+use std::{ffi::c_int, mem, ops::Deref};
 
 use super::callbacks::Environment;
 use super::{Folder, Kind, Message, Request, Update, start_text};
-use crate::c;
+use crate::{
+    c,
+    raw::{Fmi2, Fmi3, FmiVersion, Interface, Raw},
+};
 
 /// An instance with its log.
 pub(crate) struct Instance {
-    pub(crate) handle: *mut c_void,
+    pub(crate) raw: Raw,
     pub(super) environment: *mut Environment,
-    pub(super) start_s: f64,
 }
 
 // SAFETY: FMI instances may be moved between threads
 unsafe impl Send for Instance {}
 
+impl Deref for Instance {
+    type Target = Raw;
+
+    fn deref(&self) -> &Raw {
+        &self.raw
+    }
+}
+
 impl Drop for Instance {
     fn drop(&mut self) {
+        self.raw.free();
         // SAFETY: made together, freed together
-        unsafe {
-            c::fmi3FreeInstance(self.handle);
-            drop(Box::from_raw(self.environment));
+        drop(unsafe { Box::from_raw(self.environment) });
+    }
+}
+
+/// States of the state machines (FMI 2.0, 3.2.3 and 4.2.4; FMI 3.0, 2.3, 3.2.1 and 4.2.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum State {
+    Instantiated,
+    /// FMI 2.0: the time span is known.
+    SetUp,
+    Initialization,
+    /// An event: in Model Exchange, and in Co-Simulation of FMI 3.0 if the importer handles events.
+    Event,
+    /// Co-Simulation: between steps.
+    Step,
+    /// Model Exchange: between events.
+    Continuous,
+    Terminated,
+}
+
+impl State {
+    pub(crate) const ALL: &[Self] = &[
+        Self::Instantiated,
+        Self::SetUp,
+        Self::Initialization,
+        Self::Event,
+        Self::Step,
+        Self::Continuous,
+        Self::Terminated,
+    ];
+
+    /// Whether instances of this version and interface type can be in it.
+    pub(crate) fn is_of(self, version: FmiVersion, interface: Interface) -> bool {
+        match self {
+            Self::SetUp => version == Fmi2,
+            Self::Event | Self::Continuous => interface == Interface::ModelExchange,
+            Self::Step => interface == Interface::CoSimulation,
+            Self::Instantiated | Self::Initialization | Self::Terminated => true,
+        }
+    }
+
+    /// Name in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Instantiated => "Instantiated",
+            Self::SetUp => "Instantiated after fmi2SetupExperiment",
+            Self::Initialization => "Initialization Mode",
+            Self::Event => "Event Mode",
+            Self::Step => "Step Mode",
+            Self::Continuous => "Continuous-Time Mode",
+            Self::Terminated => "Terminated",
         }
     }
 }
 
-impl Instance {
+/// Makes instances of a version.
+pub(crate) trait Make: Sized {
+    fn version(self) -> FmiVersion;
+
     /// Instance in state Instantiated.
-    pub(crate) fn new(kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Self {
+    fn instance(
+        self,
+        interface: Interface,
+        kind: Kind,
+        dofs: u8,
+        changes: &[(&str, f64)],
+    ) -> Instance {
         let folder = Folder::with_start(&start_text(kind, dofs, changes));
         let request = Request {
+            version: self.version(),
+            interface,
             resources: folder.0.to_str(),
             ..Request::default()
         };
         request.instantiate().unwrap()
     }
 
-    /// Instance for Model Exchange in state Instantiated.
-    pub(crate) fn exchanging(kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Self {
-        let folder = Folder::with_start(&start_text(kind, dofs, changes));
-        let request = Request {
-            resources: folder.0.to_str(),
-            ..Request::default()
-        };
-        request.instantiate_model_exchange().unwrap()
+    /// Instance in Step Mode at t = 0.
+    fn stepping(self, kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Instance {
+        let mut instance = self.instance(Interface::CoSimulation, kind, dofs, changes);
+        instance.go_to(State::Step);
+        instance
+    }
+
+    /// Instance in Continuous-Time Mode at t = 0.
+    fn continuous(self, kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Instance {
+        let mut instance = self.instance(Interface::ModelExchange, kind, dofs, changes);
+        instance.go_to(State::Continuous);
+        instance
+    }
+}
+
+impl Make for FmiVersion {
+    fn version(self) -> FmiVersion {
+        self
+    }
+}
+
+/// Instances of FMI 3.0.
+impl Instance {
+    /// Instance for Co-Simulation in state Instantiated.
+    pub(crate) fn new(kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Self {
+        Fmi3.instance(Interface::CoSimulation, kind, dofs, changes)
     }
 
     /// Instance in Step Mode at t = 0.
     pub(crate) fn stepping(kind: Kind, dofs: u8, changes: &[(&str, f64)]) -> Self {
-        let mut instance = Self::new(kind, dofs, changes);
-        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
-        instance
+        Fmi3.stepping(kind, dofs, changes)
+    }
+}
+
+impl Instance {
+    /// From Instantiated to another state, at t = 0.
+    pub(crate) fn go_to(&mut self, state: State) {
+        use State::{Continuous, Event, Instantiated, SetUp, Step, Terminated};
+        match state {
+            Instantiated => {}
+            SetUp => assert_eq!(self.set_up(0.0, None), c::OK),
+            _ => assert_eq!(self.enter_initialization(0.0, None), c::OK),
+        }
+        if matches!(state, Event | Step | Continuous | Terminated) {
+            assert_eq!(self.exit_initialization(), c::OK);
+        }
+        if state == Continuous {
+            assert_eq!(self.update(), c::OK);
+            assert_eq!(self.enter_continuous(), c::OK);
+        }
+        if state == Terminated {
+            assert_eq!(self.terminate(), c::OK);
+        }
+        self.take_log();
     }
 
     /// All messages since the last call.
     pub(crate) fn take_log(&mut self) -> Vec<Message> {
         // SAFETY: the library writes to the log only during a call
-        std::mem::take(unsafe { &mut (*self.environment).log })
+        mem::take(unsafe { &mut (*self.environment).log })
     }
 
-    /// The one error message since the last call; events are ignored.
+    /// The one error message since the last call; events and warnings are ignored.
     pub(crate) fn error(&mut self) -> String {
+        self.message_among(c::ERROR, c::ERROR)
+    }
+
+    /// Text of the one message with this status since the last call; events alone are ignored.
+    pub(crate) fn message(&mut self, status: c_int) -> String {
+        self.message_among(c::WARNING, status)
+    }
+
+    fn message_among(&mut self, least: c_int, status: c_int) -> String {
         let log = self.take_log();
-        let errors: Vec<&Message> = log
-            .iter()
-            .filter(|message| message.status == c::ERROR)
-            .collect();
-        match errors.as_slice() {
-            [error] => {
-                assert_eq!(error.category, "logStatusError");
-                error.text.clone()
-            }
-            _ => panic!("expected one error, found {log:?}"),
-        }
+        let messages: Vec<_> = log.iter().filter(|m| m.status >= least).collect();
+        let [message] = messages.as_slice() else {
+            panic!("expected one message, found {log:?}");
+        };
+        assert_eq!(message.status, status);
+        assert_eq!(message.category, "logStatusError");
+        let name = (self.version == Fmi2).then_some("joint");
+        assert_eq!(message.instance_name.as_deref(), name);
+        message.text.clone()
     }
 
     /// The message of a call that is refused, and that must leave the instance as it was, mode included.
-    pub(crate) fn refused(&mut self, call: impl FnOnce(&mut Self) -> c_int) -> String {
+    pub(crate) fn refused(&mut self, call: impl FnOnce(Raw) -> c_int) -> String {
         let before = self.state_bytes();
-        assert_eq!(call(self), c::ERROR);
+        assert_eq!(call(self.raw), c::ERROR);
         assert!(
             self.state_bytes() == before,
             "the call changed the instance"
         );
-        self.error()
+        self.message(c::ERROR)
     }
 
-    /// All that the instance remembers: mode, stop time, values.
-    pub(crate) fn state_bytes(&mut self) -> Vec<u8> {
-        let state = self.save();
-        let bytes = self.serialize(state);
-        self.free_state(state);
-        bytes
-    }
-
-    pub(crate) fn enter_initialization(&mut self, start_s: f64, stop_s: Option<f64>) -> c_int {
-        self.start_s = start_s;
-        // SAFETY: the instance lives
-        unsafe {
-            c::fmi3EnterInitializationMode(
-                self.handle,
-                false,
-                0.0,
-                start_s,
-                stop_s.is_some(),
-                stop_s.unwrap_or(f64::NAN),
-            )
+    /// Each call is refused in the words that are expected of it.
+    pub(crate) fn refused_all(&mut self, calls: &[(&str, &dyn Fn(Raw) -> c_int)]) {
+        for (expected, call) in calls {
+            let message = self.refused(call);
+            assert!(message.contains(expected), "{message}, not {expected}");
         }
-    }
-
-    pub(crate) fn exit_initialization(&mut self) -> c_int {
-        // SAFETY: the instance lives
-        unsafe { c::fmi3ExitInitializationMode(self.handle) }
-    }
-
-    pub(crate) fn terminate(&mut self) -> c_int {
-        // SAFETY: the instance lives
-        unsafe { c::fmi3Terminate(self.handle) }
-    }
-
-    pub(crate) fn reset(&mut self) -> c_int {
-        // SAFETY: the instance lives
-        unsafe { c::fmi3Reset(self.handle) }
-    }
-
-    pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> c_int {
-        // SAFETY: pointers and lengths are those of slices
-        unsafe {
-            c::fmi3SetFloat64(
-                self.handle,
-                references.as_ptr(),
-                references.len(),
-                values.as_ptr(),
-                values.len(),
-            )
-        }
-    }
-
-    pub(crate) fn try_get(&mut self, references: &[u32]) -> Result<Vec<f64>, c_int> {
-        let mut values = vec![f64::NAN; references.len()];
-        // SAFETY: pointers and lengths are those of slices
-        let status = unsafe {
-            c::fmi3GetFloat64(
-                self.handle,
-                references.as_ptr(),
-                references.len(),
-                values.as_mut_ptr(),
-                values.len(),
-            )
-        };
-        if status == c::OK {
-            Ok(values)
-        } else {
-            Err(status)
-        }
-    }
-
-    pub(crate) fn get<const N: usize>(&mut self, references: [u32; N]) -> [f64; N] {
-        self.try_get(&references).unwrap().try_into().unwrap()
     }
 
     /// What to do in the callback within a communication step.
@@ -170,47 +219,4 @@ impl Instance {
         // SAFETY: the library uses the environment only during a call
         unsafe { (*self.environment).script = Some(Box::new(script)) };
     }
-
-    /// Status of a step that ends where it shall or not at all, and the time that it reached.
-    pub(crate) fn step(&mut self, t: f64, h: f64) -> (c_int, f64) {
-        let Stepped {
-            status,
-            early,
-            last,
-        } = self.do_step(t, h);
-        assert!(!early);
-        (status, last)
-    }
-
-    /// What a step returned.
-    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Stepped {
-        let (mut event, mut terminate, mut early, mut last) = (true, true, true, f64::NAN);
-        // SAFETY: the instance lives, all pointers are to locals
-        let status = unsafe {
-            c::fmi3DoStep(
-                self.handle,
-                t,
-                h,
-                true,
-                &raw mut event,
-                &raw mut terminate,
-                &raw mut early,
-                &raw mut last,
-            )
-        };
-        assert!(!event && !terminate);
-        Stepped {
-            status,
-            early,
-            last,
-        }
-    }
-}
-
-/// What a communication step returned.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stepped {
-    pub(crate) status: c_int,
-    pub(crate) early: bool,
-    pub(crate) last: f64,
 }

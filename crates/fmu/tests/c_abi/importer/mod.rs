@@ -1,17 +1,14 @@
-//! A small importer: writes an FMU's resources, instantiates it, and keeps what it logs.
+//! A small importer: writes an FMU's resources, instantiates it by either version, and keeps what it logs.
 
 mod callbacks;
-mod derivatives;
 mod instance;
-mod model_exchange;
 mod request;
 mod resources;
-mod saved_states;
 
-pub(crate) use callbacks::{Message, Update, record};
-pub(crate) use instance::{Instance, Stepped};
+pub(crate) use callbacks::{Message, Update, record, record_fmi2};
+pub(crate) use instance::{Instance, Make, State};
 pub(crate) use request::Request;
-pub(crate) use resources::{Folder, start_text, text};
+pub(crate) use resources::{Folder, Kind, start_text, text};
 
 pub(crate) const TOKEN: &str = "{7f0c-4a} #1";
 
@@ -26,6 +23,8 @@ pub(crate) mod vr {
     pub(crate) const B_THETA: u32 = 6;
     pub(crate) const B_V: u32 = 7;
     pub(crate) const B_OMEGA: u32 = 8;
+    /// Motion of both sides.
+    pub(crate) const MOTION: [u32; 8] = [A_Y, A_THETA, A_V, A_OMEGA, B_Y, B_THETA, B_V, B_OMEGA];
     pub(crate) const A_F: u32 = 9;
     pub(crate) const A_M: u32 = 10;
     pub(crate) const B_F: u32 = 11;
@@ -51,10 +50,4 @@ pub(crate) mod vr {
     pub(crate) const B_ACCELERATION: u32 = 40;
     pub(crate) const B_ALPHA: u32 = 41;
     pub(crate) const NONE: u32 = 52;
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Element,
-    Lap,
 }

@@ -1,16 +1,15 @@
 //! How an instance is asked for.
 
-use std::{
-    ffi::{CString, c_char, c_void},
-    ptr,
-};
+use std::ffi::CString;
 
 use super::callbacks::{Environment, update};
-use super::{Instance, Message, TOKEN, record};
-use crate::c;
+use super::{Instance, Message, TOKEN, record, record_fmi2};
+use crate::raw::{self, Fmi3, FmiVersion, Interface};
 
 /// How to instantiate.
 pub(crate) struct Request<'a> {
+    pub(crate) version: FmiVersion,
+    pub(crate) interface: Interface,
     pub(crate) name: Option<&'a str>,
     pub(crate) token: Option<&'a str>,
     pub(crate) resources: Option<&'a str>,
@@ -25,6 +24,8 @@ pub(crate) struct Request<'a> {
 impl Default for Request<'_> {
     fn default() -> Self {
         Self {
+            version: Fmi3,
+            interface: Interface::CoSimulation,
             name: Some("joint"),
             token: Some(TOKEN),
             resources: None,
@@ -40,62 +41,52 @@ impl Default for Request<'_> {
 impl Request<'_> {
     /// The instance, or the messages that say why there is none.
     pub(crate) fn instantiate(&self) -> Result<Instance, Vec<Message>> {
-        // SAFETY: all strings are terminated and live through the call, the log lives until the instance is freed
-        self.instantiate_by(|[name, token, resources], log| unsafe {
-            c::fmi3InstantiateCoSimulation(
-                name,
-                token,
-                resources,
-                false,
-                self.logging,
-                self.event_mode,
-                self.early_return,
-                self.intermediate.as_ptr(),
-                self.intermediate.len(),
-                log,
-                Some(record),
-                self.updated.then_some(update),
-            )
-        })
-    }
-
-    /// The instance for Model Exchange, or the messages that say why there is none.
-    pub(crate) fn instantiate_model_exchange(&self) -> Result<Instance, Vec<Message>> {
-        // SAFETY: all strings are terminated and live through the call, the log lives until the instance is freed
-        self.instantiate_by(|[name, token, resources], log| unsafe {
-            c::fmi3InstantiateModelExchange(
-                name,
-                token,
-                resources,
-                false,
-                self.logging,
-                log,
-                Some(record),
-            )
-        })
-    }
-
-    fn instantiate_by(
-        &self,
-        function: impl FnOnce([*const c_char; 3], *mut c_void) -> *mut c_void,
-    ) -> Result<Instance, Vec<Message>> {
         let texts = [self.name, self.token, self.resources]
             .map(|text| text.map(|text| CString::new(text).unwrap()));
-        let pointers = texts
-            .each_ref()
-            .map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+        let [name, token, resources] = texts.each_ref().map(|text| text.as_deref());
         let environment: *mut Environment = Box::into_raw(Box::default());
-        let handle = function(pointers, environment.cast());
-        if handle.is_null() {
+        let request = raw::request::Request {
+            version: self.version,
+            interface: self.interface,
+            name,
+            token,
+            resources,
+            logging: self.logging,
+            event_mode: self.event_mode,
+            early_return: self.early_return,
+            intermediate: self.intermediate,
+            environment: environment.cast(),
+            log: (Some(record_fmi2), Some(record)),
+            update: self.updated.then_some(update),
+        };
+        let Some(raw) = request.instantiate() else {
             // SAFETY: nobody else has the environment any more
             return Err(unsafe { Box::from_raw(environment) }.log);
-        }
+        };
         // SAFETY: the library uses the environment only during a call
-        unsafe { (*environment).handle = Some(handle) };
-        Ok(Instance {
-            handle,
-            environment,
-            start_s: 0.0,
-        })
+        unsafe { (*environment).handle = Some(raw.handle) };
+        Ok(Instance { raw, environment })
+    }
+
+    /// The one reason why there is no instance.
+    pub(crate) fn refusal(&self) -> String {
+        let log = self.instantiate().err().unwrap();
+        let [message] = log.as_slice() else {
+            panic!("{log:?}");
+        };
+        let function = match (self.version, self.interface) {
+            (FmiVersion::Two, _) => "fmi2Instantiate",
+            (Fmi3, Interface::CoSimulation) => "fmi3InstantiateCoSimulation",
+            (Fmi3, Interface::ModelExchange) => "fmi3InstantiateModelExchange",
+        };
+        let name = (self.version == FmiVersion::Two).then(|| self.name.unwrap_or(""));
+        assert_eq!(message.instance_name.as_deref(), name);
+        assert_eq!(message.status, crate::c::ERROR);
+        assert_eq!(message.category, "logStatusError");
+        assert!(
+            message.text.starts_with(&format!("{function}: ")),
+            "{message:?}"
+        );
+        message.text.clone()
     }
 }

@@ -6,7 +6,14 @@ use std::{
     sync::atomic::{AtomicU32, Ordering},
 };
 
-use super::{Kind, TOKEN};
+use super::TOKEN;
+
+/// Which FMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Element,
+    Lap,
+}
 
 /// Parameters of the FMUs with round values, so that expected results can be worked out by hand.
 const JOINT: [(&str, f64); 16] = [

@@ -2,8 +2,8 @@
 
 use super::{
     choices::Choices,
-    fmi2, fmi3,
-    turn::{Mode, Subject, Version},
+    lives,
+    turn::{Mode, Subject},
 };
 
 /// FNV-1a, 64 bits: the last eight bytes of a serialised state are that of all before.
@@ -46,10 +46,7 @@ pub(crate) fn forge(bytes: &mut [u8], choices: &mut Choices<'_>) {
 /// Restores a forged state, if it is accepted, and takes a few steps from it: whatever it says, nothing may break.
 /// The instance is at its start values afterwards, unless the state was refused.
 pub(crate) fn go_on_from(subject: &mut Subject, bytes: &[u8]) -> Vec<f64> {
-    let values = match subject.version {
-        Version::Fmi2 => fmi2::go_on_from(subject.handle, bytes),
-        Version::Fmi3 => fmi3::go_on_from(subject.handle, bytes),
-    };
+    let values = lives::go_on_from(subject.raw, bytes);
     if !values.is_empty() {
         subject.mode = Some(Mode::Instantiated);
         subject.time_s = 0.0;

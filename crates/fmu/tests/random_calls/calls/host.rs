@@ -7,7 +7,9 @@ use std::{
     sync::OnceLock,
 };
 
-use super::fmi3_abi;
+use bolted_joint_importer::header::{OK, WARNING};
+
+use crate::raw::{Fmi3, Raw};
 
 /// Token of all FMUs here.
 pub(crate) const TOKEN: &CStr = c"{random calls}";
@@ -152,13 +154,6 @@ pub(crate) fn resources(model: usize) -> &'static CStr {
     &RESOURCES.get().expect("write_resources comes first")[model]
 }
 
-/// Statuses of both versions have the same numbers.
-pub(crate) const OK: c_int = 0;
-pub(crate) const WARNING: c_int = 1;
-pub(crate) const DISCARD: c_int = 2;
-pub(crate) const ERROR: c_int = 3;
-pub(crate) const PENDING: c_int = 5;
-
 /// What the callbacks of one instance see and answer. Its address is the instance environment.
 #[derive(Default)]
 pub(crate) struct Host {
@@ -230,57 +225,79 @@ pub(crate) unsafe extern "C" fn log_fmi3(
     unsafe { (*environment.cast::<Host>()).note(status, category, text) };
 }
 
+/// `fmi2CallbackLogger`; the library never hands over further arguments.
+pub(crate) unsafe extern "C" fn log_fmi2(
+    environment: *mut c_void,
+    _name: *const c_char,
+    status: c_int,
+    category: *const c_char,
+    text: *const c_char,
+    _: *const c_char,
+) {
+    // SAFETY: as above
+    unsafe { (*environment.cast::<Host>()).note(status, category, text) };
+}
+
 /// `fmi3IntermediateUpdateCallback`.
 pub(crate) unsafe extern "C" fn update_fmi3(
     environment: *mut c_void,
     time: f64,
-    set_requested: bool,
-    get_allowed: bool,
-    _step_finished: bool,
-    can_return_early: bool,
-    early_return_requested: *mut bool,
+    set_requested: u8,
+    get_allowed: u8,
+    step_finished: u8,
+    can_return_early: u8,
+    early_return_requested: *mut u8,
     early_return_time: *mut f64,
 ) {
     let host = environment.cast::<Host>();
+    let flags = [set_requested, get_allowed, step_finished, can_return_early];
     // SAFETY: the environment is the host of the instance; the two last arguments point to one value each
     unsafe {
-        if !time.is_finite() {
-            (*host)
-                .faults
-                .push(format!("intermediate update at {time} s"));
+        if !time.is_finite() || flags.iter().any(|&flag| flag > 1) {
+            let fault = format!("intermediate update at {time} s, {flags:?}");
+            (*host).faults.push(fault);
         }
-        if set_requested {
+        if set_requested == 1 {
             set_input(host, time);
         }
-        if get_allowed {
+        if get_allowed == 1 {
             get_outputs(host);
         }
-        let early = can_return_early && (*host).wants_early_return();
-        early_return_requested.write(early);
+        let early = can_return_early == 1 && (*host).wants_early_return();
+        early_return_requested.write(early.into());
         if early {
             early_return_time.write(time);
         }
     }
 }
 
-/// Sets an input from within an intermediate update, which the library has asked for.
+/// The instance that has called back, if it is known.
 ///
 /// # Safety
 ///
 /// `host` is that of a living instance. Nothing else may refer to it: the library may call the log callback.
+unsafe fn instance(host: *mut Host) -> Option<Raw> {
+    // SAFETY: the caller's promise
+    let handle = unsafe { (*host).instance }?;
+    let version = Fmi3;
+    Some(Raw { version, handle })
+}
+
+/// Sets an input from within an intermediate update, which the library has asked for.
+///
+/// # Safety
+///
+/// As for [`instance`].
 unsafe fn set_input(host: *mut Host, time: f64) {
-    // SAFETY: the caller's promise; the arrays have one element
+    // SAFETY: the caller's promise
     unsafe {
-        let (instance, (inputs, _)) = ((*host).instance, (*host).references);
-        let (Some(instance), Some(&input)) = (instance, inputs.first()) else {
+        let (inputs, _) = (*host).references;
+        let (Some(instance), Some(&input)) = (instance(host), inputs.first()) else {
             return;
         };
-        let value = time.sin();
-        let status = fmi3_abi::fmi3SetFloat64(instance, &raw const input, 1, &raw const value, 1);
-        if status != OK {
-            (*host)
-                .faults
-                .push(format!("input {input} cannot be set within a step"));
+        if instance.set(&[input], &[time.sin()]) != OK {
+            let fault = format!("input {input} cannot be set within a step");
+            (*host).faults.push(fault);
         }
     }
 }
@@ -289,29 +306,21 @@ unsafe fn set_input(host: *mut Host, time: f64) {
 ///
 /// # Safety
 ///
-/// As for [`set_input`].
+/// As for [`instance`].
 unsafe fn get_outputs(host: *mut Host) {
-    // SAFETY: the caller's promise; the arrays have the lengths that are told
+    // SAFETY: the caller's promise
     unsafe {
-        let (instance, (_, outputs)) = ((*host).instance, (*host).references);
-        let Some(instance) = instance else {
+        let (_, outputs) = (*host).references;
+        let Some(instance) = instance(host) else {
             return;
         };
         let messages = (*host).messages.len();
-        let mut values = vec![f64::NAN; outputs.len()];
-        let status = fmi3_abi::fmi3GetFloat64(
-            instance,
-            outputs.as_ptr(),
-            outputs.len(),
-            values.as_mut_ptr(),
-            values.len(),
-        );
+        let values = instance.try_get(outputs).unwrap_or_default();
         // a number that overflows is refused, and that message is not one of the step
         (*host).messages.truncate(messages);
-        if status == OK && !values.iter().all(|value| value.is_finite()) {
-            (*host)
-                .faults
-                .push(format!("outputs {values:?} within a step"));
+        if !values.iter().all(|value| value.is_finite()) {
+            let fault = format!("outputs {values:?} within a step");
+            (*host).faults.push(fault);
         }
     }
 }

@@ -6,10 +6,9 @@
 
 mod arrays;
 mod choices;
+mod draws;
 mod fmi2;
-mod fmi2_abi;
 mod fmi3;
-mod fmi3_abi;
 mod forged;
 mod host;
 mod lives;

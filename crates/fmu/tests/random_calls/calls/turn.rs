@@ -1,28 +1,18 @@
 //! One turn: an instance, the saved states, and the arguments of the call that is made.
 
 use std::{
-    ffi::{CStr, c_int, c_void},
+    ffi::{CStr, c_char, c_int, c_void},
     ptr,
 };
 
+use bolted_joint_importer::header::{DISCARD, OK, WARNING};
+
 use super::{
     arrays::Arguments,
-    host::{DISCARD, Host, MODELS, Model, OK, WARNING},
+    host::{Host, MODELS, Model},
 };
-
-/// Version of FMI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Version {
-    Fmi2,
-    Fmi3,
-}
-
-/// Interface type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Interface {
-    CoSimulation,
-    ModelExchange,
-}
+pub(crate) use crate::raw::Interface;
+use crate::raw::{FmiVersion, Raw};
 
 /// State of the state machine, in the words of FMI 3.0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +53,24 @@ pub(crate) struct Function {
     pub(crate) call: fn(&mut Turn<'_, '_>) -> Outcome,
 }
 
+/// A table of functions.
+macro_rules! table {
+    ($($name:literal $rule:expr => $call:expr;)*) => {
+        [$(Function { name: $name, rule: $rule, call: $call }),*]
+    };
+}
+pub(crate) use table;
+
+/// Calls a function that returns a text.
+pub(crate) fn text_of(
+    function: unsafe extern "C" fn() -> *const c_char,
+    expected: &CStr,
+) -> Outcome {
+    // SAFETY: returns a terminated string
+    assert_eq!(unsafe { CStr::from_ptr(function()) }, expected);
+    Outcome::NONE
+}
+
 /// What came out of a call.
 pub(crate) struct Outcome {
     /// The status; `None` if the function returns none.
@@ -77,6 +85,14 @@ impl Outcome {
         status: None,
         values: Vec::new(),
     };
+
+    /// Outcome of a function that writes numbers.
+    pub(crate) fn with(status: c_int, values: &[f64]) -> Self {
+        Self {
+            status: Some(status),
+            values: values.to_vec(),
+        }
+    }
 }
 
 impl From<c_int> for Outcome {
@@ -142,11 +158,10 @@ impl Told {
 
 /// An instance, and what its importer knows of it.
 pub(crate) struct Subject {
-    pub(crate) version: Version,
+    pub(crate) raw: Raw,
     pub(crate) interface: Interface,
     /// Index into [`MODELS`].
     pub(crate) model: usize,
-    pub(crate) handle: *mut c_void,
     pub(crate) host: Box<Host>,
     /// Whether the instance has a log callback.
     pub(crate) logs: bool,
@@ -160,6 +175,21 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
+    /// A new instance whose importer knows nothing unusual of it.
+    pub(crate) fn new(raw: Raw, interface: Interface, model: usize, host: Box<Host>) -> Self {
+        Self {
+            raw,
+            interface,
+            model,
+            host,
+            logs: true,
+            told: Told::from_the_start(true),
+            event_mode: false,
+            mode: Some(Mode::Instantiated),
+            time_s: 0.0,
+        }
+    }
+
     /// What is simulated.
     pub(crate) fn model(&self) -> Model {
         MODELS[self.model]
@@ -184,7 +214,7 @@ impl Subject {
 #[derive(Clone, Copy)]
 pub(crate) struct Saved {
     pub(crate) handle: *mut c_void,
-    pub(crate) version: Version,
+    pub(crate) version: FmiVersion,
     pub(crate) interface: Interface,
     pub(crate) model: usize,
     pub(crate) event_mode: bool,
@@ -206,13 +236,13 @@ pub(crate) struct Turn<'t, 'b> {
 
 impl Turn<'_, '_> {
     /// The instance; of a wild call sometimes null or something else.
-    pub(crate) fn instance(&mut self) -> *mut c_void {
+    pub(crate) fn instance(&mut self) -> Raw {
+        let mut raw = self.subject.raw;
         if self.a.wrong(24) {
             self.reached = false;
-            self.not_a_handle()
-        } else {
-            self.subject.handle
+            raw.handle = self.not_a_handle();
         }
+        raw
     }
 
     /// Log categories: any, in any order, also twice.
@@ -244,7 +274,7 @@ impl Turn<'_, '_> {
             return match self.a.choices.below(4) {
                 0 => ptr::null_mut(),
                 1 => FOREIGN.as_ptr().cast_mut().cast(),
-                2 => self.subject.handle,
+                2 => self.subject.raw.handle,
                 // possibly of another FMU
                 _ => self
                     .saved
@@ -258,7 +288,7 @@ impl Turn<'_, '_> {
     /// States that came from the same FMU, version and interface type.
     fn fitting(&self) -> impl Iterator<Item = Saved> {
         let (version, interface, model) = (
-            self.subject.version,
+            self.subject.raw.version,
             self.subject.interface,
             self.subject.model,
         );
@@ -273,7 +303,7 @@ impl Turn<'_, '_> {
     pub(crate) fn keep(&mut self, handle: *mut c_void, mode: Option<Mode>, time_s: f64) {
         self.saved.push(Saved {
             handle,
-            version: self.subject.version,
+            version: self.subject.raw.version,
             interface: self.subject.interface,
             model: self.subject.model,
             event_mode: self.subject.event_mode,

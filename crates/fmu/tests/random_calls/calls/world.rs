@@ -7,16 +7,19 @@
 //! * No number that a successful call hands over is NaN or infinite.
 //! * Everything that was made can be freed.
 
-use std::{collections::BTreeMap, ffi::c_void};
+use std::collections::BTreeMap;
+
+use bolted_joint_importer::header::{DISCARD, ERROR, OK, PENDING, WARNING};
 
 use super::{
     arrays::Arguments,
     choices::Choices,
     fmi2, fmi3,
     forged::{forge, go_on_from},
-    host::{DISCARD, ERROR, OK, PENDING, WARNING},
-    turn::{Function, Mode, Outcome, Rule, Saved, Subject, Told, Turn, Version},
+    lives,
+    turn::{Function, Mode, Outcome, Rule, Saved, Subject, Told, Turn},
 };
+use crate::raw::{Fmi2, Fmi3};
 
 /// Most instances at a time.
 const INSTANCES: usize = 4;
@@ -133,7 +136,7 @@ impl World {
         if self.trace {
             eprintln!("{index}: {} in {:?}", function.name, subject.mode);
         }
-        let before = observe.then(|| observed(subject));
+        let before = observe.then(|| subject.raw.state_bytes());
         let mode = subject.mode;
         subject.host.messages.clear();
         let (outcome, right, is_the_instance) = {
@@ -155,7 +158,7 @@ impl World {
         self.tally.silent += u64::from(is_refused(&outcome) && !subject.told.errors);
         if let Some(before) = before
             && is_refused(&outcome)
-            && observed(subject) != before
+            && subject.raw.state_bytes() != before
         {
             assert!(
                 may_end(function.name),
@@ -184,11 +187,8 @@ impl World {
         if self.subjects.len() == INSTANCES {
             self.free_instance(0);
         }
-        let (name, subject) = if choices.one_in(2) {
-            fmi2::instantiate(choices)
-        } else {
-            fmi3::instantiate(choices)
-        };
+        let version = if choices.one_in(2) { Fmi2 } else { Fmi3 };
+        let (name, subject) = lives::instantiate(version, choices);
         let made = Outcome::from(if subject.is_some() { OK } else { ERROR });
         if self.trace {
             eprintln!("{name}: {:?}", made.status);
@@ -199,7 +199,7 @@ impl World {
 
     fn forge(&mut self, index: usize, choices: &mut Choices<'_>) {
         let subject = &mut self.subjects[index];
-        let mut bytes = observed(subject);
+        let mut bytes = subject.raw.state_bytes();
         forge(&mut bytes, choices);
         let values = go_on_from(subject, &bytes);
         if self.trace {
@@ -214,25 +214,25 @@ impl World {
     fn free_instance(&mut self, index: usize) {
         let subject = self.subjects.remove(index);
         // states may outlive the instance that made them: another one of the same version frees them
-        let heirs = |version| self.subjects.iter().any(|other| other.version == version);
-        if !heirs(subject.version) {
+        let raw = subject.raw;
+        let heirs = |version| {
+            self.subjects
+                .iter()
+                .any(|other| other.raw.version == version)
+        };
+        if !heirs(raw.version) {
             let (orphans, kept) = std::mem::take(&mut self.saved)
                 .into_iter()
-                .partition(|state| state.version == subject.version);
+                .partition(|state| state.version == raw.version);
             self.saved = kept;
             for state in orphans as Vec<Saved> {
-                free_state_by(&subject, state.handle);
+                raw.free_state(state.handle);
             }
         }
-        let name = match subject.version {
-            Version::Fmi2 => {
-                fmi2::free(subject.handle);
-                "fmi2FreeInstance"
-            }
-            Version::Fmi3 => {
-                fmi3::free(subject.handle);
-                "fmi3FreeInstance"
-            }
+        raw.free();
+        let name = match raw.version {
+            Fmi2 => "fmi2FreeInstance",
+            Fmi3 => "fmi3FreeInstance",
         };
         self.tally.note(name, &Outcome::NONE);
         self.tally.updates += subject.host.updates;
@@ -244,17 +244,17 @@ impl World {
         let by = self
             .subjects
             .iter()
-            .find(|subject| subject.version == state.version)
+            .find(|subject| subject.raw.version == state.version)
             .expect("states go with the last instance of their version");
-        free_state_by(by, state.handle);
+        by.raw.free_state(state.handle);
     }
 }
 
 /// What would make sense next, or any function at all.
 fn draw_function(subject: &Subject, choices: &mut Choices<'_>) -> &'static Function {
-    let (functions, sensible): (&'static [Function], &[&str]) = match subject.version {
-        Version::Fmi2 => (&fmi2::FUNCTIONS, fmi2::sensible(subject.mode)),
-        Version::Fmi3 => (&fmi3::FUNCTIONS, fmi3::sensible(subject.mode)),
+    let (functions, sensible): (&'static [Function], &[&str]) = match subject.raw.version {
+        Fmi2 => (&fmi2::FUNCTIONS, fmi2::sensible(subject.mode)),
+        Fmi3 => (&fmi3::FUNCTIONS, fmi3::sensible(subject.mode)),
     };
     if choices.one_in(3) {
         return &functions[choices.below(functions.len())];
@@ -342,27 +342,9 @@ fn judge(
     );
 }
 
-/// All that the instance remembers, as it serialises it itself.
-fn observed(subject: &Subject) -> Vec<u8> {
-    match subject.version {
-        Version::Fmi2 => fmi2::state_bytes(subject.handle),
-        Version::Fmi3 => fmi3::state_bytes(subject.handle),
-    }
-}
-
 /// Time and states: readable in every mode, and never anything but finite.
-fn observed_values(subject: &mut Subject) -> Vec<f64> {
-    let values = match subject.version {
-        Version::Fmi2 => fmi2::values(subject),
-        Version::Fmi3 => fmi3::values(subject),
-    };
+fn observed_values(subject: &Subject) -> Vec<f64> {
+    let values = lives::values(subject);
     assert!(values.iter().all(|value| value.is_finite()), "{values:?}");
     values
-}
-
-fn free_state_by(subject: &Subject, state: *mut c_void) {
-    match subject.version {
-        Version::Fmi2 => fmi2::free_state(subject.handle, state),
-        Version::Fmi3 => fmi3::free_state(subject.handle, state),
-    }
 }

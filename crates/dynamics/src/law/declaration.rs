@@ -1,0 +1,125 @@
+//! What a law says of itself once, from which variables, files, schemas, checks and pages follow.
+
+/// A law of the joint: its parameters and what it remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Declaration {
+    /// Name in joint files and messages.
+    pub name: &'static str,
+    /// What it is, in one sentence for people.
+    pub summary: &'static str,
+    /// Its parameters, in the order in which it takes them.
+    pub parameters: &'static [Parameter],
+    /// What it remembers of the motion, in the order in which it gives it; nothing for a law without memory.
+    pub memory: &'static [Remembered],
+}
+
+/// One parameter of a law, on each DOF or between each two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Variable `joint.SYMBOL_DOF`, such as `k3` in `joint.k3_y`; between DOFs `joint.SYMBOL_DOFDOF`.
+    pub symbol: &'static str,
+    /// Key in a joint file.
+    pub key: &'static str,
+    /// Where it is.
+    pub span: Span,
+    /// Its unit.
+    pub unit: UnitRule,
+    /// Values that it can have.
+    pub range: Range,
+    /// Name of its type for each kind of place.
+    pub quantity: Quantity,
+    /// What it is, for people. `{load}`, `{motion}` and `{rate}` stand for the words of its DOF.
+    pub description: &'static str,
+    /// What changes with it.
+    pub acts_on: ActsOn,
+}
+
+/// Where a parameter is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Span {
+    /// On each relative DOF.
+    Dof,
+    /// On each DOF and between each two, as the upper triangle of a symmetric matrix; with the description of an entry off the
+    /// diagonal, in which `{other_load}`, `{other_motion}` and `{other_rate}` stand for the words of the second DOF.
+    Matrix(&'static str),
+}
+
+/// Unit of a parameter: load · s^`seconds` / displacement^`displacement`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnitRule {
+    /// Power of the displacement by which the load is divided; of a pair, the second DOF's displacement is the divisor.
+    pub displacement: u8,
+    /// Power of the time by which it is multiplied.
+    pub seconds: u8,
+}
+
+/// Values that a parameter can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Every finite number.
+    Any,
+    /// Zero or more.
+    NotNegative,
+}
+
+/// A physical quantity as FMI types have it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name for a translation; that for a rotation has `Rotational` before it, that between the two `Coupling`.
+    pub name: &'static str,
+    /// Typical size in translation, between translation and rotation, and in rotation.
+    pub nominal: [f64; 3],
+    /// Start value where no joint file gives one, in the same places.
+    pub start: [f64; 3],
+}
+
+/// Which of a joint's unknowns change with a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActsOn {
+    /// The load on the DOF.
+    pub load: bool,
+    /// The stored energy.
+    pub stored_energy: bool,
+    /// The power turned into heat.
+    pub dissipated_power: bool,
+    /// How far a softening joint holds.
+    pub escape: bool,
+}
+
+impl ActsOn {
+    /// A spring: its load and what it stores, and with them how far the joint holds.
+    pub const SPRING: Self = Self {
+        load: true,
+        stored_energy: true,
+        dissipated_power: false,
+        escape: true,
+    };
+
+    /// A damper: its load and its heat.
+    pub const DAMPER: Self = Self {
+        load: true,
+        stored_energy: false,
+        dissipated_power: true,
+        escape: false,
+    };
+}
+
+/// A number that a law remembers on each DOF, committed at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Remembered {
+    /// Variable `joint.SYMBOL_DOF`.
+    pub symbol: &'static str,
+    /// Its quantity, that is its unit and type.
+    pub quantity: RememberedAs,
+    /// What it is, for people; words in braces as in [`Parameter::description`].
+    pub description: &'static str,
+}
+
+/// What a remembered number is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RememberedAs {
+    /// A relative displacement of its DOF.
+    Displacement,
+    /// A load on its DOF.
+    Load,
+}

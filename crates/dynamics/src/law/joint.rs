@@ -1,0 +1,381 @@
+//! The whole law of the massless joint: the linear one, and on each relative DOF the laws beside it.
+
+use super::{DOF_PARAMETER_COUNT, DofLaws, DofMemory, Linear, Polynomial};
+use crate::{
+    motion::Motion,
+    number::{Dual, Number},
+};
+
+/// Load law of a joint with `D` DOFs, of the relative motion `r = x_a − x_b`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLaw<const D: usize, N = f64> {
+    /// Stiffness and viscous damping.
+    pub linear: Linear<D, N>,
+    /// The laws on each relative DOF beside it.
+    pub on: [DofLaws<N>; D],
+}
+
+/// What a joint remembers of its motion, on each relative DOF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointMemory<const D: usize> {
+    /// On each relative DOF.
+    pub on: [DofMemory; D],
+}
+
+impl<const D: usize> JointMemory<D> {
+    /// Nothing has moved yet.
+    pub const REST: Self = Self {
+        on: [DofMemory::REST; D],
+    };
+}
+
+impl<const D: usize> From<Linear<D>> for JointLaw<D> {
+    /// The linear law alone.
+    fn from(linear: Linear<D>) -> Self {
+        Self {
+            linear,
+            ..Self::NONE
+        }
+    }
+}
+
+impl<const D: usize> Linear<D> {
+    /// The joint with these polynomials beside the linear law, one on each relative DOF.
+    #[must_use]
+    pub fn beside(self, polynomials: [Polynomial; D]) -> JointLaw<D> {
+        JointLaw {
+            linear: self,
+            on: polynomials.map(DofLaws::from),
+        }
+    }
+}
+
+impl<const D: usize, N: Number> JointLaw<D, N> {
+    /// Nothing between the sides.
+    pub const NONE: Self = Self {
+        linear: Linear::NONE,
+        on: [DofLaws::NONE; D],
+    };
+
+    /// Load on side b (N, N·m) at the relative motion x_a − x_b; the load on side a is its opposite. A joint with memory is
+    /// taken as it is before its first motion.
+    #[inline]
+    #[must_use]
+    pub fn load_on_b(&self, relative: &Motion<D, N>) -> [N; D] {
+        self.load_on_b_after(&JointMemory::REST, relative)
+    }
+
+    /// The same of a joint that remembers `memory`.
+    #[inline]
+    #[must_use]
+    pub fn load_on_b_after(&self, memory: &JointMemory<D>, relative: &Motion<D, N>) -> [N; D] {
+        // F_b = K r + C ṙ + Σ f(r, ṙ)
+        let linear = self.linear.load(relative);
+        std::array::from_fn(|i| {
+            if self.on[i].are_none() {
+                return linear[i];
+            }
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            linear[i] + self.on[i].load(&memory.on[i], r, velocity)
+        })
+    }
+
+    /// Energy stored in the joint's springs (J) at the relative displacement r.
+    #[inline]
+    #[must_use]
+    pub fn stored_energy(&self, r: &[N; D]) -> N {
+        self.stored_energy_after(&JointMemory::REST, r)
+    }
+
+    /// The same of a joint that remembers `memory`.
+    #[inline]
+    #[must_use]
+    pub fn stored_energy_after(&self, memory: &JointMemory<D>, r: &[N; D]) -> N {
+        (0..D).fold(self.linear.stored_energy(r), |sum, i| {
+            if self.on[i].are_none() {
+                return sum;
+            }
+            sum + self.on[i].stored_energy(&memory.on[i], r[i])
+        })
+    }
+
+    /// Power that the joint turns into heat (W) at the relative motion.
+    #[inline]
+    #[must_use]
+    pub fn dissipated_power(&self, relative: &Motion<D, N>) -> N {
+        self.dissipated_power_after(&JointMemory::REST, relative)
+    }
+
+    /// The same of a joint that remembers `memory`.
+    #[inline]
+    #[must_use]
+    pub fn dissipated_power_after(&self, memory: &JointMemory<D>, relative: &Motion<D, N>) -> N {
+        let linear = self.linear.dissipated_power(&relative.velocity);
+        (0..D).fold(linear, |sum, i| {
+            if self.on[i].are_none() {
+                return sum;
+            }
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            sum + self.on[i].dissipated_power(&memory.on[i], r, velocity)
+        })
+    }
+
+    /// Power that the dampers turn into heat (W) at the relative motion. Laws that remember have no part in it: they tell their
+    /// heat where they move on, in [`JointLaw::commit`].
+    #[must_use]
+    pub fn viscous_power(&self, relative: &Motion<D, N>) -> N {
+        let linear = self.linear.dissipated_power(&relative.velocity);
+        (0..D).fold(linear, |sum, i| {
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            sum + self.on[i].viscous_power(r, velocity)
+        })
+    }
+
+    /// Whether the joint is linear.
+    #[inline]
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.on.iter().all(DofLaws::are_none)
+    }
+
+    /// Whether the joint remembers its motion.
+    #[inline]
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.on.iter().any(DofLaws::have_memory)
+    }
+
+    /// A function of each coefficient of several laws.
+    #[inline]
+    #[must_use]
+    pub fn each<const L: usize, M: Number>(
+        laws: [&Self; L],
+        of: impl Fn([N; L]) -> M,
+    ) -> JointLaw<D, M> {
+        let matrix = |part: fn(&Self) -> &[[N; D]; D]| {
+            std::array::from_fn(|i| std::array::from_fn(|j| of(laws.map(|law| part(law)[i][j]))))
+        };
+        JointLaw {
+            linear: Linear {
+                stiffness: matrix(|law| &law.linear.stiffness),
+                damping: matrix(|law| &law.linear.damping),
+            },
+            on: std::array::from_fn(|i| {
+                if laws.iter().all(|law| law.on[i].are_none()) {
+                    return DofLaws::NONE;
+                }
+                let parameters: [M; DOF_PARAMETER_COUNT] =
+                    std::array::from_fn(|p| of(laws.map(|law| law.on[i].parameters()[p])));
+                DofLaws::new(parameters)
+            }),
+        }
+    }
+
+    /// Whether every coefficient is a finite number.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let matrices = self.linear.stiffness.iter().chain(&self.linear.damping);
+        let parameters = self.on.iter().flat_map(DofLaws::parameters);
+        matrices.flatten().chain(parameters).all(|c| c.is_finite())
+    }
+}
+
+impl<const D: usize> JointLaw<D> {
+    /// The law with its change along one direction.
+    #[must_use]
+    pub fn with_change(&self, change: &Self) -> JointLaw<D, Dual<1>> {
+        Self::each([self, change], |[value, change]| Dual::new(value, [change]))
+    }
+
+    /// Every coefficient times `factor`: the change of the law when what it depends on changes by `factor`.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        Self::each([self], |[coefficient]| factor * coefficient)
+    }
+
+    /// Moves what the joint remembers on to the relative displacement r (m, rad); returns the heat of that way, J, beside
+    /// that of dampers.
+    pub fn commit(&self, memory: &mut JointMemory<D>, r: &[f64; D]) -> f64 {
+        (0..D).fold(0.0, |heat, i| {
+            heat + self.on[i].commit(&mut memory.on[i], r[i])
+        })
+    }
+
+    /// The polynomial law on each relative DOF.
+    #[must_use]
+    pub fn polynomials(&self) -> [Polynomial; D] {
+        self.on.map(|laws| laws.polynomial())
+    }
+
+    /// The linear law of small motion about this static relative displacement (m, rad), to which the joint was taken in one
+    /// go.
+    #[must_use]
+    pub fn linearised_about(&self, displacement: &[f64; D]) -> Self {
+        let mut linear = self.linear;
+        for i in 0..D {
+            if self.on[i].are_none() {
+                continue;
+            }
+            // ∂f/∂r and ∂f/∂ṙ at rest there
+            let laws = DofLaws::new(self.on[i].parameters().map(Dual::<2>::from));
+            let (r, velocity) = (Dual::along(displacement[i], 0), Dual::along(0.0, 1));
+            let [stiffness, damping] = laws.load(&DofMemory::REST, r, velocity).change;
+            linear.stiffness[i][i] += stiffness;
+            linear.damping[i][i] += damping;
+        }
+        linear.into()
+    }
+
+    /// Displacements of DOF `i` (m, rad), from rest to `amplitude`, at which its stiffness or damping of small motion is
+    /// largest or least: rest, the amplitude, and what turns between them.
+    pub fn extremes(&self, i: usize, amplitude: f64) -> impl Iterator<Item = f64> {
+        let ends = (amplitude > 0.0).then_some(amplitude);
+        let between = self.on[i].polynomial().turning_points(amplitude);
+        [0.0].into_iter().chain(ends).chain(between)
+    }
+
+    /// Relative displacement (m, rad) of each DOF at which the first of its laws beside the linear one is as large as that, or
+    /// changes its own stiffness; infinite where it has none, zero where there is no linear one beside it.
+    #[must_use]
+    pub fn nonlinear_amplitude(&self) -> [f64; D] {
+        std::array::from_fn(|i| {
+            let (k, c) = (self.linear.stiffness[i][i], self.linear.damping[i][i]);
+            self.on[i].nonlinear_amplitude(k.abs(), c.abs())
+        })
+    }
+
+    /// Relative displacement (m, rad) of each DOF, the other at rest, beyond which the damping that depends on it makes the
+    /// joint active: the damping matrix is then no longer positive semidefinite. `None` where that does not happen, zero
+    /// where it happens at once.
+    #[must_use]
+    pub fn active_amplitude(&self) -> [Option<f64>; D] {
+        let damping = &self.linear.damping;
+        std::array::from_fn(|i| {
+            // C + (c2 u + c4 u²) eᵢeᵢᵀ is semidefinite as long as C_ii − C_ij²/C_jj + c2 u + c4 u² is not negative
+            let condensed = (0..D).filter(|&j| j != i).fold(damping[i][i], |c, j| {
+                let coupling = 0.5 * (damping[i][j] + damping[j][i]);
+                if coupling == 0.0 {
+                    c
+                } else {
+                    c - coupling * coupling / damping[j][j]
+                }
+            });
+            self.on[i].polynomial().first_active(condensed)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law() -> JointLaw<2> {
+        Linear {
+            stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
+            damping: [[10.83, -0.83], [-0.83, 0.083]],
+        }
+        .beside(Polynomial::on_each(
+            &[[-3e11, 4e6], [5e16, -3e9], [-1e21, 2e12]],
+            &[[-4e6, 30.0], [7e11, -2e4]],
+        ))
+    }
+
+    #[test]
+    fn the_linear_law_is_the_difference_quotient_of_the_load() {
+        let law = law();
+        let about = [1.3e-3, -8e-3];
+        let linear = law.linearised_about(&about);
+        for j in 0..2 {
+            let load = |step: f64, rate: f64| {
+                let mut motion = Motion {
+                    displacement: about,
+                    velocity: [0.0; 2],
+                };
+                motion.displacement[j] += step;
+                motion.velocity[j] += rate;
+                law.load_on_b(&motion)
+            };
+            let step = 1e-6 * about[j].abs();
+            let [above, below] = [step, -step].map(|step| load(step, 0.0));
+            let [still, moving] = [0.0, 1.0].map(|rate| load(0.0, rate));
+            for i in 0..2 {
+                let stiffness = (above[i] - below[i]) / (2.0 * step);
+                let damping = moving[i] - still[i];
+                assert!((linear.linear.stiffness[i][j] / stiffness - 1.0).abs() < 1e-6);
+                assert!((linear.linear.damping[i][j] / damping - 1.0).abs() < 1e-9);
+            }
+        }
+        assert!(linear.is_linear());
+    }
+
+    #[test]
+    fn between_the_extremes_nothing_is_larger_or_smaller() {
+        let alone = law().linear.beside([-3e11, 4e6].map(Polynomial::cubic));
+        let without_septic = law().linear.beside(law().polynomials().map(|mut terms| {
+            terms.springs[2] = 0.0;
+            terms
+        }));
+        for law in [law(), alone, without_septic] {
+            for (i, amplitude) in [(0, 8e-3), (1, 0.05)] {
+                let at = |r: f64| {
+                    let mut displacement = [0.0; 2];
+                    displacement[i] = r;
+                    let linear = law.linearised_about(&displacement).linear;
+                    [linear.stiffness[i][i], linear.damping[i][i]]
+                };
+                let extremes: Vec<[f64; 2]> = law.extremes(i, amplitude).map(at).collect();
+                for kind in 0..2 {
+                    let all = || extremes.iter().map(|values| values[kind]);
+                    let least = all().fold(f64::INFINITY, f64::min);
+                    let most = all().fold(f64::NEG_INFINITY, f64::max);
+                    let slack = 1e-12 * most.abs().max(least.abs());
+                    for n in 0..=5000 {
+                        let value = at(amplitude * f64::from(n) / 5000.0)[kind];
+                        assert!(
+                            (least - slack..=most + slack).contains(&value),
+                            "{i} {kind} {n}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_term_to_reach_the_linear_one_tells_the_amplitude() {
+        let [y, theta] = law().nonlinear_amplitude();
+        // c2 r² = c: √(10.83/4e6); c2 θ² = c: √(0.083/30) is past √(1.29e3/4e6)
+        assert!((y / (5.73e5_f64 / 3e11).sqrt() - 1.0).abs() < 1e-15);
+        assert!((theta / (1.29e3_f64 / 4e6).sqrt() - 1.0).abs() < 1e-15);
+        let mut law = law().linear.beside([0.0, -0.0].map(Polynomial::cubic));
+        assert_eq!(law.nonlinear_amplitude(), [f64::INFINITY; 2]);
+        law.on[0] = Polynomial::with(&[0.0, 0.0, -5.73e5 / 64.0], &[]).into();
+        assert!((law.nonlinear_amplitude()[0] - 2.0).abs() < 1e-15);
+        law.linear.stiffness[0][0] = 0.0;
+        assert_eq!(law.nonlinear_amplitude()[0], 0.0);
+    }
+
+    #[test]
+    fn with_rotation_the_coupling_takes_its_share_of_the_damping() {
+        let law = Linear {
+            damping: [[10.0, 2.0], [2.0, 1.0]],
+            ..Linear::NONE
+        }
+        .beside(Polynomial::on_each(&[], &[[-3.0, -1.0]]));
+        // 10 − 4/1 = 6 = 3 u and 1 − 4/10 = 0.6 = u
+        let [y, theta] = law.active_amplitude().map(Option::unwrap);
+        assert!((y - 2.0_f64.sqrt()).abs() < 1e-15 && (theta - 0.6_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn damping_that_does_not_fall_is_never_where_a_joint_turns_active() {
+        for (c, dampers) in [(-1.0, [1.0, 0.0]), (0.0, [0.0, 0.0]), (1.0, [0.0, 2.0])] {
+            let law = Linear {
+                damping: [[c]],
+                ..Linear::NONE
+            }
+            .beside([Polynomial::with(&[], &dampers)]);
+            assert_eq!(law.active_amplitude(), [None]);
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! The laws of a joint. Each is a file that declares its parameters and what it remembers, and says once, for real numbers and
+//! for numbers with their changes, which load it gives, what it stores and what it turns into heat.
+//!
+//! A new law is a file here and a line in [`dof_laws!`] below.
+
+mod declaration;
+mod joint;
+mod linear;
+mod over_preload;
+mod polynomial;
+
+pub use declaration::{
+    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
+};
+pub use joint::{JointLaw, JointMemory};
+pub use linear::{DAMPING, Linear, STIFFNESS};
+pub use over_preload::{Beyond, JointOverPreload, TableDefect};
+pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT, TERM_COUNT, Tangent, Term};
+
+use crate::number::Number;
+
+/// A law of the relative motion of one DOF, which acts beside the linear one.
+///
+/// `memory` is what the law remembers since its last commit, [`Declaration::memory`] numbers, all zero before the first
+/// motion. Loads and energies are those of a trial motion from there and leave it as it is; only [`Law::commit`] moves on.
+pub trait Law<N: Number>: Copy {
+    /// What the law says of itself.
+    const DECLARATION: Declaration;
+
+    /// The law with these parameters, in the order of its declaration.
+    fn new(parameters: &[N]) -> Self;
+
+    /// Writes its parameters in that order.
+    fn write(&self, parameters: &mut [N]);
+
+    /// Load on side b, N or N·m, at the relative displacement r (m, rad) and its rate.
+    fn load(&self, memory: &[f64], r: N, velocity: N) -> N;
+
+    /// Energy stored in its springs, J.
+    fn stored_energy(&self, memory: &[f64], r: N) -> N;
+
+    /// Power that it turns into heat, W.
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N;
+
+    /// Moves what it remembers on to the relative displacement r; returns the heat of that way (J) beside that of dampers.
+    fn commit(&self, _memory: &mut [f64], _r: f64) -> f64 {
+        0.0
+    }
+
+    /// Relative displacement (m, rad) at which it is no longer small beside the linear stiffness `_k` and damping `_c` of its
+    /// DOF, or no longer linear itself; infinite where that never is.
+    fn nonlinear_amplitude(&self, _k: f64, _c: f64) -> f64 {
+        f64::INFINITY
+    }
+}
+
+/// Where a law's numbers are among those of all laws on a DOF.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    parameters: [usize; 2],
+    memory: [usize; 2],
+}
+
+impl Place {
+    /// Whether the law there remembers anything.
+    const fn has_memory(self) -> bool {
+        self.memory[0] < self.memory[1]
+    }
+
+    /// The place of a law behind this one.
+    const fn then(self, declaration: &Declaration) -> Self {
+        let ([_, parameters], [_, memory]) = (self.parameters, self.memory);
+        Self {
+            parameters: [parameters, parameters + declaration.parameters.len()],
+            memory: [memory, memory + declaration.memory.len()],
+        }
+    }
+}
+
+/// Puts the laws that act on one relative DOF together, in this order.
+macro_rules! dof_laws {
+    ($($name:ident: $law:ident),+ $(,)?) => {
+        /// What every law of a joint says of itself, the linear one first.
+        pub const DECLARATIONS: &[Declaration] = &[
+            linear::DECLARATION,
+            $(<$law<f64> as Law<f64>>::DECLARATION,)+
+        ];
+
+        /// The place of each law, and behind them all.
+        struct Places {
+            $($name: Place,)+
+            end: Place,
+        }
+
+        const PLACES: Places = {
+            let end = Place { parameters: [0, 0], memory: [0, 0] };
+            $(
+                let end = end.then(&<$law<f64> as Law<f64>>::DECLARATION);
+                let $name = end;
+            )+
+            Places { $($name,)+ end }
+        };
+
+        impl<N: Number> DofLaws<N> {
+            $(
+                /// This law by itself.
+                #[inline]
+                #[must_use]
+                pub fn $name(&self) -> $law<N> {
+                    $law::new(self.of(PLACES.$name))
+                }
+            )+
+
+            /// Load on side b, N or N·m, at the relative displacement r (m, rad) and its rate.
+            #[inline]
+            #[must_use]
+            pub fn load(&self, memory: &DofMemory, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name) {
+                    sum = sum + self.$name().load(memory.of(PLACES.$name), r, velocity);
+                })+
+                sum
+            }
+
+            /// Energy stored in the springs, J.
+            #[inline]
+            #[must_use]
+            pub fn stored_energy(&self, memory: &DofMemory, r: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name) {
+                    sum = sum + self.$name().stored_energy(memory.of(PLACES.$name), r);
+                })+
+                sum
+            }
+
+            /// Power turned into heat, W.
+            #[inline]
+            #[must_use]
+            pub fn dissipated_power(&self, memory: &DofMemory, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name) {
+                    sum = sum + self.$name().dissipated_power(memory.of(PLACES.$name), r, velocity);
+                })+
+                sum
+            }
+
+            /// The same of the laws that remember nothing, W: the others tell their heat where they move on.
+            #[inline]
+            #[must_use]
+            pub fn viscous_power(&self, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if !PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    sum = sum + self.$name().dissipated_power(&[], r, velocity);
+                })+
+                sum
+            }
+
+            /// Whether a law that is there remembers the motion.
+            #[inline]
+            #[must_use]
+            pub fn have_memory(&self) -> bool {
+                $((PLACES.$name.has_memory() && self.has(PLACES.$name)) ||)+ false
+            }
+        }
+
+        impl DofLaws {
+            /// Moves what is remembered on to the relative displacement r (m, rad); returns the heat of that way, J, beside
+            /// that of dampers.
+            pub fn commit(&self, memory: &mut DofMemory, r: f64) -> f64 {
+                let mut heat = 0.0;
+                $(if self.has(PLACES.$name) {
+                    heat += self.$name().commit(memory.of_mut(PLACES.$name), r);
+                })+
+                heat
+            }
+
+            /// Relative displacement (m, rad) at which the first of the laws is no longer small beside the linear stiffness `k`
+            /// and damping `c`; infinite where none is there.
+            pub(crate) fn nonlinear_amplitude(&self, k: f64, c: f64) -> f64 {
+                let mut least = f64::INFINITY;
+                $(if self.has(PLACES.$name) {
+                    least = least.min(self.$name().nonlinear_amplitude(k, c));
+                })+
+                least
+            }
+        }
+
+        $(
+            impl<N: Number> From<$law<N>> for DofLaws<N> {
+                /// This law alone.
+                fn from(law: $law<N>) -> Self {
+                    let mut laws = Self::NONE;
+                    let [start, end] = PLACES.$name.parameters;
+                    law.write(&mut laws.parameters[start..end]);
+                    laws
+                }
+            }
+        )+
+    };
+}
+
+dof_laws! {
+    polynomial: Polynomial,
+}
+
+/// Number of parameters that the laws have on each DOF.
+pub const DOF_PARAMETER_COUNT: usize = PLACES.end.parameters[1];
+
+/// What the laws on each DOF declare of their parameters, each with its law, in the order of [`DofLaws::parameters`].
+pub fn dof_parameters() -> impl Iterator<Item = (&'static Declaration, &'static Parameter)> {
+    let laws = DECLARATIONS.iter().skip(1);
+    laws.flat_map(|law| law.parameters.iter().map(move |parameter| (law, parameter)))
+}
+
+/// Number of numbers that the laws remember on each DOF.
+pub const DOF_MEMORY_COUNT: usize = PLACES.end.memory[1];
+
+/// The laws on one relative DOF, by their parameters in the order of [`DECLARATIONS`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DofLaws<N = f64> {
+    parameters: [N; DOF_PARAMETER_COUNT],
+}
+
+/// What the laws on one relative DOF remember, in the order of [`DECLARATIONS`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DofMemory {
+    numbers: [f64; DOF_MEMORY_COUNT],
+}
+
+impl<N: Number> DofLaws<N> {
+    /// No law there.
+    pub const NONE: Self = Self {
+        parameters: [N::ZERO; DOF_PARAMETER_COUNT],
+    };
+
+    /// The laws with these parameters, in the order of [`DECLARATIONS`].
+    #[inline]
+    #[must_use]
+    pub const fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
+        Self { parameters }
+    }
+
+    /// Their parameters, in the order of [`DECLARATIONS`].
+    #[inline]
+    #[must_use]
+    pub const fn parameters(&self) -> &[N; DOF_PARAMETER_COUNT] {
+        &self.parameters
+    }
+
+    /// Whether no law is there: all parameters are zero.
+    #[inline]
+    #[must_use]
+    pub fn are_none(&self) -> bool {
+        self.parameters.iter().all(|parameter| parameter.is_zero())
+    }
+
+    /// The laws with these parameters alone, the others zero.
+    #[must_use]
+    pub fn with_only(&self, stays: impl Fn(&Parameter) -> bool) -> Self {
+        let mut only = *self;
+        for (value, (_, parameter)) in only.parameters.iter_mut().zip(dof_parameters()) {
+            if !stays(parameter) {
+                *value = N::ZERO;
+            }
+        }
+        only
+    }
+
+    #[inline]
+    fn of(&self, place: Place) -> &[N] {
+        let [start, end] = place.parameters;
+        &self.parameters[start..end]
+    }
+
+    #[inline]
+    fn has(&self, place: Place) -> bool {
+        !self.of(place).iter().all(|parameter| parameter.is_zero())
+    }
+}
+
+impl DofMemory {
+    /// Nothing has moved yet.
+    pub const REST: Self = Self {
+        numbers: [0.0; DOF_MEMORY_COUNT],
+    };
+
+    /// What is remembered, as numbers in the order of [`DECLARATIONS`].
+    #[inline]
+    #[must_use]
+    pub const fn new(numbers: [f64; DOF_MEMORY_COUNT]) -> Self {
+        Self { numbers }
+    }
+
+    /// The numbers themselves.
+    #[inline]
+    #[must_use]
+    pub const fn numbers(&self) -> &[f64; DOF_MEMORY_COUNT] {
+        &self.numbers
+    }
+
+    #[inline]
+    fn of(&self, place: Place) -> &[f64] {
+        let [start, end] = place.memory;
+        &self.numbers[start..end]
+    }
+
+    #[inline]
+    fn of_mut(&mut self, place: Place) -> &mut [f64] {
+        let [start, end] = place.memory;
+        &mut self.numbers[start..end]
+    }
+}

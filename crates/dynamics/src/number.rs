@@ -1,0 +1,198 @@
+//! The numbers that laws compute with: real ones, and real ones with their changes, so that a law is written once and its
+//! tangents follow from it.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number that a law can be evaluated with.
+pub trait Number:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Nought.
+    const ZERO: Self;
+
+    /// The number without its changes.
+    fn value(self) -> f64;
+
+    /// Whether it is nought, and does not change.
+    fn is_zero(self) -> bool;
+
+    /// Whether it is a finite number, and its changes are.
+    fn is_finite(self) -> bool;
+}
+
+impl Number for f64 {
+    const ZERO: Self = 0.0;
+
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn is_zero(self) -> bool {
+        self == 0.0
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+/// A number and its first-order changes along `K` directions, by forward differentiation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<const K: usize> {
+    /// The number.
+    pub value: f64,
+    /// Its change along each direction.
+    pub change: [f64; K],
+}
+
+impl<const K: usize> Dual<K> {
+    /// A number with its changes.
+    #[inline]
+    #[must_use]
+    pub const fn new(value: f64, change: [f64; K]) -> Self {
+        Self { value, change }
+    }
+
+    /// The number that is itself the direction with this index.
+    #[inline]
+    #[must_use]
+    pub fn along(value: f64, direction: usize) -> Self {
+        let change = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });
+        Self { value, change }
+    }
+
+    #[inline]
+    fn changed(value: f64, change: impl Fn(usize) -> f64) -> Self {
+        Self {
+            value,
+            change: std::array::from_fn(change),
+        }
+    }
+}
+
+impl<const K: usize> From<f64> for Dual<K> {
+    #[inline]
+    fn from(value: f64) -> Self {
+        Self {
+            value,
+            change: [0.0; K],
+        }
+    }
+}
+
+impl<const K: usize> Number for Dual<K> {
+    const ZERO: Self = Self {
+        value: 0.0,
+        change: [0.0; K],
+    };
+
+    #[inline]
+    fn value(self) -> f64 {
+        self.value
+    }
+
+    #[inline]
+    fn is_zero(self) -> bool {
+        self.value == 0.0 && self.change == [0.0; K]
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.change.iter().all(|change| change.is_finite())
+    }
+}
+
+impl<const K: usize> Add for Dual<K> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::changed(self.value + other.value, |k| {
+            self.change[k] + other.change[k]
+        })
+    }
+}
+
+impl<const K: usize> Sub for Dual<K> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self::changed(self.value - other.value, |k| {
+            self.change[k] - other.change[k]
+        })
+    }
+}
+
+impl<const K: usize> Mul for Dual<K> {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        // d(x y) = dx y + x dy
+        Self::changed(self.value * other.value, |k| {
+            self.change[k] * other.value + self.value * other.change[k]
+        })
+    }
+}
+
+impl<const K: usize> Div for Dual<K> {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        // d(x/y) = (dx − (x/y) dy)/y
+        let value = self.value / other.value;
+        Self::changed(value, |k| {
+            (self.change[k] - value * other.change[k]) / other.value
+        })
+    }
+}
+
+impl<const K: usize> Neg for Dual<K> {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        Self::changed(-self.value, |k| -self.change[k])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Dual, Number};
+
+    /// x³/(1 + x y) − y
+    fn function<N: Number>(x: N, y: N) -> N {
+        x * x * x / (N::from(1.0) + x * y) - y
+    }
+
+    #[test]
+    fn changes_are_the_partial_derivatives() {
+        let (x, y): (f64, f64) = (1.3, -0.4);
+        let found = function(Dual::<2>::along(x, 0), Dual::along(y, 1));
+        let below = 1.0 + x * y;
+        let by_x = (3.0 * x * x * below - x.powi(3) * y) / (below * below);
+        let by_y = -x.powi(4) / (below * below) - 1.0;
+        assert_eq!(found.value, function(x, y));
+        assert!((found.change[0] - by_x).abs() < 1e-14);
+        assert!((found.change[1] - by_y).abs() < 1e-14);
+        assert_eq!((-found).change[0], -found.change[0]);
+    }
+
+    #[test]
+    fn what_changes_is_not_nought() {
+        assert!(!Dual::<1>::along(0.0, 0).is_zero());
+        assert!(Dual::<1>::from(-0.0).is_zero());
+        assert!(!Dual::new(1.0, [f64::NAN]).is_finite());
+    }
+}

@@ -1,0 +1,430 @@
+//! Saved states: bit-exact continuation, exchange between instances, states of other FMUs, damaged bytes.
+
+use crate::{
+    c,
+    importer::{Folder, Instance, Kind, Make as _, Request, State, TOKEN, start_text, vr},
+    raw::{
+        BOTH, Fmi2, Fmi3, FmiVersion,
+        Interface::{self, CoSimulation, ModelExchange},
+        Raw, status_of,
+    },
+};
+
+const SEEN: [u32; 8] = [
+    vr::TIME,
+    vr::A_Y,
+    vr::A_V,
+    vr::B_Y,
+    vr::B_V,
+    vr::A_F,
+    vr::JOINT_F,
+    vr::ENERGY,
+];
+
+/// Versions and interface types.
+const MACHINES: [(FmiVersion, Interface); 4] = [
+    (Fmi2, CoSimulation),
+    (Fmi2, ModelExchange),
+    (Fmi3, CoSimulation),
+    (Fmi3, ModelExchange),
+];
+
+/// Ten steps under a changing load, with FMI 2.0 along its derivatives, and with a parameter that is tuned on the way.
+fn step_on(instance: Raw) -> Vec<[u64; 8]> {
+    let [mut t] = instance.get([vr::TIME]);
+    (0..10)
+        .map(|n| {
+            let load = 100.0 * f64::from(n).sin();
+            match instance.version {
+                Fmi3 => assert_eq!(instance.set(&[vr::A_F], &[load]), c::OK),
+                Fmi2 if n % 3 == 1 => {
+                    assert_eq!(instance.set(&[vr::A_F], &[load]), c::OK);
+                    let inputs = [vr::A_F, vr::B_F];
+                    let given = instance.set_input_derivatives(&inputs, &[1, 2], &[1e4, -1e8]);
+                    assert_eq!(given, c::OK);
+                }
+                Fmi2 => {}
+            }
+            if n == 5 {
+                assert_eq!(instance.set(&[vr::K_YY], &[4.4e6]), c::OK);
+            }
+            assert_eq!(instance.step(t, 3e-4), c::OK);
+            t += 3e-4;
+            instance.get(SEEN).map(f64::to_bits)
+        })
+        .collect()
+}
+
+/// Semi-implicit Euler steps are enough: the same arithmetic outside, the same numbers from the FMU.
+fn integrate_on(instance: Raw) -> Vec<[u64; 8]> {
+    let [mut t] = instance.get([vr::TIME]);
+    (0..20)
+        .map(|n| {
+            if n == 10 {
+                assert_eq!(instance.enter_event(), c::OK);
+                assert_eq!(instance.set(&[vr::K_YY], &[5e6]), c::OK);
+                assert_eq!(instance.update(), c::OK);
+                assert_eq!(instance.enter_continuous(), c::OK);
+            }
+            let mut states = instance.states(8);
+            for (state, rate) in states.iter_mut().zip(instance.derivatives(8)) {
+                *state += 1e-6 * rate;
+            }
+            t += 1e-6;
+            assert_eq!(instance.set_time(t), c::OK);
+            assert_eq!(instance.set_states(&states), c::OK);
+            assert_eq!(instance.complete_step(), c::OK);
+            instance.get(SEEN).map(f64::to_bits)
+        })
+        .collect()
+}
+
+/// From its present point the instance goes the same way again and again, and so does another one.
+fn goes_on_to_the_bit(instance: &Instance, interface: Interface, go_on: fn(Raw) -> Vec<[u64; 8]>) {
+    let saved = instance.save();
+    let bytes = instance.serialize(saved);
+    let expected = go_on(instance.raw);
+    // the same instance, several times
+    for _ in 0..3 {
+        assert_eq!(instance.restore(saved), c::OK);
+        assert_eq!(go_on(instance.raw), expected);
+    }
+    // another instance, in another state, through bytes
+    let changes = [("joint.k_yy", 1.0)];
+    let mut other = instance.version.instance(interface, Kind::Lap, 2, &changes);
+    let fresh = other.state_bytes();
+    let loaded = other.deserialize(&bytes).unwrap();
+    assert!(
+        other.state_bytes() == fresh,
+        "deserialising changes nothing"
+    );
+    assert_eq!(other.restore(loaded), c::OK);
+    assert_eq!(go_on(other.raw), expected);
+    // and by the handle itself
+    assert_eq!(other.restore(saved), c::OK);
+    assert_eq!(go_on(other.raw), expected);
+    other.take_log();
+    instance.free_state(saved);
+    other.free_state(loaded);
+}
+
+#[test]
+fn co_simulation_goes_on_to_the_bit() {
+    for version in BOTH {
+        let instance = version.stepping(Kind::Lap, 2, &[("joint.k3_y", 1e12)]);
+        step_on(instance.raw);
+        // with a parameter and derivatives that have not yet taken effect
+        assert_eq!(instance.set(&[vr::K3_Y], &[2e12]), c::OK);
+        if version == Fmi2 {
+            let given = instance.set_input_derivatives(&[vr::B_M], &[1], &[5e3]);
+            assert_eq!(given, c::OK);
+        }
+        goes_on_to_the_bit(&instance, CoSimulation, step_on);
+    }
+}
+
+#[test]
+fn model_exchange_goes_on_to_the_bit() {
+    for version in BOTH {
+        let instance = version.continuous(Kind::Lap, 2, &[("joint.k3_y", 1e12)]);
+        let start = [1e-4, 1e-3, 0.1, 1.0, 2e-4, 2e-3, 0.2, 2.0];
+        assert_eq!(instance.set_time(0.25), c::OK);
+        assert_eq!(instance.set_states(&start), c::OK);
+        assert_eq!(instance.set(&[vr::B_M], &[3.0]), c::OK);
+        let point = (instance.states(8), instance.derivatives(8));
+        let bytes = instance.state_bytes();
+        goes_on_to_the_bit(&instance, ModelExchange, integrate_on);
+        let other = version.instance(ModelExchange, Kind::Lap, 2, &[]);
+        let loaded = other.deserialize(&bytes).unwrap();
+        assert_eq!(other.restore(loaded), c::OK);
+        other.free_state(loaded);
+        assert_eq!(other.get([vr::TIME, vr::B_M]), [0.25, 3.0]);
+        assert_eq!((other.states(8), other.derivatives(8)), point);
+        // in the same mode, ready to go on
+        assert_eq!(other.complete_step(), c::OK);
+        assert_eq!(other.set_states(&[0.0; 8]), c::OK);
+    }
+}
+
+#[test]
+fn a_linear_lap_goes_on_to_the_bit_from_every_point() {
+    // after some equal steps the library takes one product in their place: a restored state must do so at once
+    for dofs in [1, 2] {
+        let instance = Instance::stepping(Kind::Lap, dofs, &[]);
+        let intervals = |n: u32| if n % 30 < 25 { 3e-4 } else { 1e-4 };
+        let step = |instance: &Instance, n: u32| {
+            let load = 100.0 * f64::from(n).sin();
+            assert_eq!(instance.set(&[vr::A_F], &[load]), c::OK);
+            let [t] = instance.get([vr::TIME]);
+            assert_eq!(instance.step(t, intervals(n)), c::OK);
+            instance.get(SEEN).map(f64::to_bits)
+        };
+        let mut points = Vec::new();
+        for n in 0..60 {
+            points.push((instance.state_bytes(), step(&instance, n)));
+        }
+        for first in 0..60 {
+            let other = Instance::new(Kind::Lap, dofs, &[]);
+            let state = other.deserialize(&points[first].0).unwrap();
+            assert_eq!(other.restore(state), c::OK);
+            other.free_state(state);
+            for (n, (_, expected)) in points.iter().enumerate().skip(first) {
+                assert_eq!(step(&other, n as u32), *expected, "{first} {n}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_state_handle_is_used_again() {
+    for version in BOTH {
+        let instance = version.stepping(Kind::Lap, 1, &[]);
+        let mut state = instance.save();
+        let first = state;
+        assert_eq!(instance.set(&[vr::A_F], &[7.0]), c::OK);
+        assert_eq!(instance.step(0.0, 1e-3), c::OK);
+        assert_eq!((instance.save_in(&mut state), state), (c::OK, first));
+        let bytes = instance.serialize(state);
+        assert_eq!(instance.set(&[vr::A_F], &[8.0]), c::OK);
+        assert_eq!(instance.reset(), c::OK);
+        assert_eq!(instance.restore(state), c::OK);
+        assert_eq!(instance.get([vr::A_F, vr::TIME]), [7.0, 1e-3]);
+        let read = instance.deserialize_in(&bytes, &mut state);
+        assert_eq!((read, state), (c::OK, first));
+        instance.free_state(state);
+    }
+}
+
+#[test]
+fn the_time_span_belongs_to_the_state() {
+    for version in BOTH {
+        let instance = version.instance(CoSimulation, Kind::Lap, 1, &[]);
+        match version {
+            Fmi2 => assert_eq!(instance.set_up(2.0, Some(3.0)), c::OK),
+            Fmi3 => assert_eq!(instance.enter_initialization(2.0, Some(3.0)), c::OK),
+        }
+        let bytes = instance.state_bytes();
+        let mut other = version.instance(CoSimulation, Kind::Lap, 1, &[]);
+        let loaded = other.deserialize(&bytes).unwrap();
+        assert_eq!(other.restore(loaded), c::OK);
+        other.free_state(loaded);
+        if version == Fmi2 {
+            assert_eq!(other.enter_set_up(), c::OK);
+        }
+        assert_eq!(other.exit_initialization(), c::OK);
+        assert_eq!(other.get([vr::TIME]), [2.0]);
+        assert_eq!(other.step(2.0, 1.0), c::OK);
+        let message = other.refused(|i| i.step(3.0, 1.0));
+        assert!(message.contains("after stopTime = 3 s"), "{message}");
+    }
+}
+
+#[test]
+fn a_state_whose_outputs_overflow_can_be_saved() {
+    let instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 1.0)]);
+    assert_eq!(instance.set(&[vr::A_Y], &[1e200]), c::OK);
+    assert_eq!(instance.try_get(&[vr::JOINT_F]), Err(c::ERROR));
+    let saved = instance.save();
+    let bytes = instance.serialize(saved);
+    let loaded = instance.deserialize(&bytes).unwrap();
+    assert_eq!(instance.restore(loaded), c::OK);
+    assert_eq!(instance.get([vr::A_Y]), [1e200]);
+    instance.free_state(saved);
+    instance.free_state(loaded);
+}
+
+#[test]
+fn states_of_another_fmu_are_refused() {
+    for (version, interface) in MACHINES {
+        let (name, other_interface) = match interface {
+            CoSimulation => ("Co-Simulation", ModelExchange),
+            ModelExchange => ("Model Exchange", CoSimulation),
+        };
+        let instance = version.instance(interface, Kind::Lap, 1, &[]);
+        let saved = instance.save();
+        let bytes = instance.serialize(saved);
+        // same interface, another token
+        let start = start_text(Kind::Lap, 1, &[]).replace(TOKEN, "another");
+        let folder = Folder::with_start(&start);
+        let request = Request {
+            version,
+            interface,
+            token: Some("another"),
+            resources: folder.0.to_str(),
+            ..Request::default()
+        };
+        let expected = format!(
+            "the FMU state is that of \"lap with 1 DOF a side for {name} of FMI {}.0, token",
+            if version == Fmi2 { 2 } else { 3 }
+        );
+        for mut other in [
+            version.instance(interface, Kind::Lap, 2, &[]),
+            version.instance(interface, Kind::Element, 1, &[]),
+            version.instance(other_interface, Kind::Lap, 1, &[]),
+            request.instantiate().unwrap(),
+        ] {
+            other.refused_all(&[
+                (&expected, &|i| i.restore(saved)),
+                (&expected, &|i| status_of(i.deserialize(&bytes))),
+            ]);
+        }
+        let mut other = request.instantiate().unwrap();
+        let message = other.refused(|i| i.restore(saved));
+        assert!(message.contains("token another"), "{message}");
+        instance.free_state(saved);
+    }
+}
+
+#[test]
+fn every_damaged_byte_is_noticed() {
+    for version in BOTH {
+        let mut instance = version.stepping(Kind::Lap, 1, &[]);
+        let bytes = instance.state_bytes();
+        let mut refuses = |damaged: &[u8], expected: &str| {
+            let message = instance.refused(|i| status_of(i.deserialize(damaged)));
+            assert!(
+                message.contains("the serialised FMU state cannot be used")
+                    && message.contains(expected),
+                "{message}, not {expected}"
+            );
+        };
+        for position in 0..bytes.len() {
+            let mut damaged = bytes.clone();
+            damaged[position] ^= 0x10;
+            refuses(&damaged, "");
+            refuses(&bytes[..position], "");
+        }
+        refuses(&[&bytes[..], &[0]].concat(), "");
+        let mut newer = bytes.clone();
+        newer[8] += 1;
+        let expected = format!(
+            "it has layout {}, this library reads layout {}",
+            newer[8], bytes[8]
+        );
+        refuses(&newer, &expected);
+        refuses(
+            b"something else altogether, and long enough",
+            "were not written by this library",
+        );
+    }
+}
+
+#[test]
+fn impossible_values_are_refused_even_with_a_right_checksum() {
+    let mut instance = Instance::stepping(Kind::Lap, 1, &[]);
+    let bytes = instance.state_bytes();
+    let forge = |position: usize, content: &[u8]| {
+        let mut forged = bytes.clone();
+        forged[position..position + content.len()].copy_from_slice(content);
+        let end = forged.len() - 8;
+        let hash = forged[..end]
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+            });
+        forged[end..].copy_from_slice(&hash.to_le_bytes());
+        forged
+    };
+    // mark, layout, length of the token, token, and what makes an FMU; mode, stop time, pace, values, inputs, checksum
+    let mode = 8 + 4 + 4 + TOKEN.len() + 5;
+    let steps_in_a_row = mode + 1 + 1 + 8 + 8;
+    let count = steps_in_a_row + 1;
+    let first_value = count + 4;
+    let values = u32::from_le_bytes(bytes[count..first_value].try_into().unwrap());
+    let inputs = first_value + 8 * values as usize;
+    assert_eq!(inputs + 3 + 8 * 3 * 13 + 8, bytes.len());
+    let step_size_max = first_value + 8 * vr::STEP_SIZE_MAX as usize;
+    let loaded = instance.deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()));
+    instance.free_state(loaded.unwrap());
+    let nan = f64::NAN.to_le_bytes();
+    let course = "its course of the inputs is impossible";
+    let of_another_build = |found: u32| {
+        format!(
+            "it has {found} values, this library remembers {values}: another build of the library wrote it"
+        )
+    };
+    for (position, content, expected) in [
+        (
+            step_size_max,
+            &nan[..],
+            "its value of step_size_max is impossible",
+        ),
+        (
+            inputs - 8,
+            &f64::INFINITY.to_le_bytes(),
+            "of what it remembers beside the variables is impossible",
+        ),
+        (mode, &[9], "its mode is impossible"),
+        (mode, &[7], "its mode is impossible"),
+        (
+            steps_in_a_row,
+            &[u8::MAX],
+            "its communication step is impossible",
+        ),
+        // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
+        (inputs, &[0x00, 0x80], course),
+        (inputs + 2, &[3], course),
+        (inputs + 3 + 8, &1.0_f64.to_le_bytes(), course),
+        (inputs, &[&[0, 0, 1], &nan[..]].concat(), course),
+        // more or fewer numbers than this build remembers
+        (
+            count,
+            &(values + 1).to_le_bytes(),
+            &of_another_build(values + 1),
+        ),
+        (
+            count,
+            &(values - 1).to_le_bytes(),
+            &of_another_build(values - 1),
+        ),
+        (count, &0_u32.to_le_bytes(), &of_another_build(0)),
+        (count, &u32::MAX.to_le_bytes(), &of_another_build(u32::MAX)),
+    ] {
+        let forged = forge(position, content);
+        let message = instance.refused(|i| status_of(i.deserialize(&forged)));
+        assert!(message.contains(expected), "{message}, not {expected}");
+    }
+}
+
+#[test]
+fn states_move_instances_between_all_states() {
+    for (version, interface) in MACHINES {
+        let states = || {
+            State::ALL
+                .iter()
+                .filter(|state| state.is_of(version, interface))
+        };
+        let instance_in = |state| {
+            let mut instance = version.instance(interface, Kind::Lap, 1, &[]);
+            instance.go_to(state);
+            instance
+        };
+        for &from in states() {
+            let instance = instance_in(from);
+            let saved = instance.save();
+            let bytes = instance.serialize(saved);
+            for &to in states() {
+                let other = instance_in(to);
+                assert_eq!(other.restore(saved), c::OK);
+                assert!(other.state_bytes() == bytes, "{from:?} {to:?}");
+            }
+            instance.free_state(saved);
+        }
+    }
+}
+
+#[test]
+fn states_of_one_version_are_refused_by_the_other() {
+    for (own, other, name) in [(Fmi2, Fmi3, "FMI 3.0"), (Fmi3, Fmi2, "FMI 2.0")] {
+        let mut instance = own.stepping(Kind::Lap, 1, &[]);
+        let foreign = other.stepping(Kind::Lap, 1, &[]);
+        let saved = foreign.save();
+        let bytes = foreign.serialize(saved);
+        let expected = format!("for Co-Simulation of {name}, token");
+        instance.refused_all(&[
+            (&expected, &|i| i.restore(saved)),
+            (&expected, &|i| status_of(i.deserialize(&bytes))),
+        ]);
+        foreign.free_state(saved);
+    }
+}

@@ -1,0 +1,179 @@
+//! Writes the interfaces as Rust tables for the library to include.
+
+mod outputs;
+mod references;
+
+use std::fmt::Write as _;
+
+use crate::{
+    frame::Expanded,
+    interface::{Interface, Interfaces},
+    scope::Joints,
+};
+
+impl Interfaces {
+    /// Rust source of the tables: value references as constants, one array of variables for each FMU, and what each calculates.
+    ///
+    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here), `Role`, `Values` and
+    /// `scatter`.
+    #[must_use]
+    pub fn to_rust(&self) -> String {
+        let mut source = String::from(
+            "// Written by the build from modelDescription/*.xml, the DOFs and the laws: change those files, not this one.\n\n",
+        );
+        let count = self.reference_count();
+        line(&mut source, "/// Number of value references.");
+        line(
+            &mut source,
+            &format!("pub(crate) const REFERENCE_COUNT: usize = {count};"),
+        );
+        line(
+            &mut source,
+            "/// Value references of the inputs of either FMU, ascending.",
+        );
+        let inputs = self.input_references();
+        line(
+            &mut source,
+            &format!(
+                "pub(crate) const INPUT_REFERENCES: [usize; {}] = {inputs:?};",
+                inputs.len()
+            ),
+        );
+        line(&mut source, "/// Names of the log categories.");
+        line(
+            &mut source,
+            &format!(
+                "pub(crate) const LOG_CATEGORIES: &[&str] = &{:?};",
+                self.lap.log_categories
+            ),
+        );
+        for (doc, name, joints) in [
+            (
+                "Joints whose law is given by parameters.",
+                "CONSTANT_JOINTS",
+                Joints::CONSTANT,
+            ),
+            (
+                "Joints whose law follows from the preload.",
+                "JOINTS_OVER_PRELOAD",
+                Joints::OVER_PRELOAD,
+            ),
+        ] {
+            line(&mut source, &format!("/// {doc}"));
+            line(
+                &mut source,
+                &format!("const {name}: u32 = {};", joints.bits()),
+            );
+        }
+        memory_laws(&mut source, &self.memory_laws);
+        references::write(&mut source, self);
+        for (name, interface, expanded) in self.both() {
+            let constant = name.to_uppercase();
+            table(&mut source, &constant, interface, expanded, count);
+            states(&mut source, &constant, interface);
+            outputs::write(&mut source, name, interface, expanded);
+        }
+        source
+    }
+
+    /// Name in types, interface and its source of each FMU.
+    fn both(&self) -> [(&'static str, &Interface, &Expanded); 2] {
+        let [element, lap] = &self.expanded;
+        [("Element", &self.element, element), ("Lap", &self.lap, lap)]
+    }
+}
+
+/// The laws that remember the motion, with the kind of joints that has each.
+fn memory_laws(source: &mut String, laws: &[(&'static str, Joints)]) {
+    let with_memory: Vec<(&str, u32)> = laws
+        .iter()
+        .map(|(name, joints)| (*name, joints.bits()))
+        .collect();
+    line(
+        source,
+        "/// Laws that remember the motion, each with the joints that have it.",
+    );
+    line(
+        source,
+        &format!("pub(crate) const MEMORY_LAWS: &[(&str, u32)] = &{with_memory:?};"),
+    );
+}
+
+fn table(
+    source: &mut String,
+    name: &str,
+    interface: &Interface,
+    expanded: &Expanded,
+    count: usize,
+) {
+    line(
+        source,
+        &format!("/// Variables of `{}` by value reference.", interface.file),
+    );
+    line(
+        source,
+        &format!("pub(crate) static {name}: [Option<Variable>; REFERENCE_COUNT] = ["),
+    );
+    for reference in 0..count {
+        let variable = interface
+            .variables
+            .iter()
+            .find(|variable| variable.reference as usize == reference)
+            .and_then(|variable| Some((variable, expanded.scope(&variable.name)?)));
+        match variable {
+            None => line(source, "    None,"),
+            Some((variable, scope)) => {
+                let rows: Vec<u32> = scope.rows.iter().map(|rows| rows.bits()).collect();
+                line(
+                    source,
+                    &format!(
+                        "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rows: &{rows:?}, joints: {}, intermediate: {} }}),",
+                        variable.name,
+                        variable.unit,
+                        variable.role,
+                        variable.start.unwrap_or(0.0),
+                        scope.joints.bits(),
+                        variable.intermediate_update,
+                    ),
+                );
+            }
+        }
+    }
+    line(source, "];");
+}
+
+fn states(source: &mut String, name: &str, interface: &Interface) {
+    line(
+        source,
+        &format!("/// Continuous states of `{}`.", interface.file),
+    );
+    line(
+        source,
+        &format!("pub(crate) static {name}_STATES: &[ContinuousState] = &["),
+    );
+    for state in &interface.continuous_states {
+        line(
+            source,
+            &format!(
+                "    ContinuousState {{ reference: {}, derivative: {}, nominal: {:?} }},",
+                state.reference, state.derivative, state.nominal
+            ),
+        );
+    }
+    line(source, "];");
+}
+
+/// Name of a constant or, in small letters, of a field: `a.{load}` becomes `A_LOAD` and `a.k_{displacement}`, in which the
+/// placeholder tells the DOF and no more, `A_K`.
+fn constant_name(pattern: &str) -> String {
+    pattern
+        .replace("_{displacement}", "")
+        .replace(['{', '}'], "")
+        .replace('.', "_")
+        .to_uppercase()
+}
+
+fn line(source: &mut String, text: &str) {
+    // writing to a String cannot fail
+    let _ = writeln!(source, "{text}");
+}

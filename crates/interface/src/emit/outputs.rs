@@ -1,0 +1,120 @@
+//! Writes what each FMU calculates as structures, so that the library cannot be built before it calculates every variable that
+//! is declared.
+
+use super::{constant_name, line};
+use crate::{
+    frame::{Expanded, Origin},
+    interface::Interface,
+    scope::Joints,
+    variable::Role,
+};
+
+/// What is calculated together: of the same kinds of joints, when outputs are, or when parameters are.
+struct Group {
+    joints: Joints,
+    is_parameter: bool,
+    fields: Vec<Field>,
+}
+
+/// One variable, or one on each DOF.
+#[derive(PartialEq)]
+struct Field {
+    pattern: String,
+    of_each_dof: bool,
+}
+
+pub(super) fn write(source: &mut String, fmu: &str, interface: &Interface, expanded: &Expanded) {
+    for group in groups(interface, expanded) {
+        let kind = if group.is_parameter {
+            "CalculatedParameters"
+        } else {
+            "Outputs"
+        };
+        let name = format!("{fmu}{}{kind}", group.joints.label());
+        let generic = group.fields.iter().any(|field| field.of_each_dof);
+        let [declared, used] = if generic {
+            ["<const D: usize>", "<D>"]
+        } else {
+            ["", ""]
+        };
+        line(
+            source,
+            &format!("/// What is calculated of `{}`.", interface.file),
+        );
+        line(source, "#[derive(Clone, Copy, Debug)]");
+        line(source, &format!("pub(crate) struct {name}{declared} {{"));
+        for field in &group.fields {
+            let of = if field.of_each_dof { "[f64; D]" } else { "f64" };
+            line(source, &format!("    /// `{}`.", field.pattern));
+            line(source, &format!("    pub(crate) {}: {of},", field.name()));
+        }
+        line(source, "}");
+        line(source, &format!("impl{declared} {name}{used} {{"));
+        line(source, "    /// Writes all of it to the variables.");
+        line(source, "    #[inline]");
+        line(
+            source,
+            "    pub(crate) fn write(&self, values: &mut Values) {",
+        );
+        for field in &group.fields {
+            let (constant, name) = (constant_name(&field.pattern), field.name());
+            line(
+                source,
+                &if field.of_each_dof {
+                    format!("        scatter(values, &reference::{constant}, &self.{name});")
+                } else {
+                    format!("        values[reference::{constant}] = self.{name};")
+                },
+            );
+        }
+        line(source, "    }");
+        line(source, "}");
+    }
+}
+
+impl Field {
+    fn name(&self) -> String {
+        constant_name(&self.pattern).to_lowercase()
+    }
+}
+
+/// What a frame declares as calculated; what laws remember has a table of its own.
+fn groups(interface: &Interface, expanded: &Expanded) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for declared in expanded.variables() {
+        let role = interface
+            .variable(&declared.name)
+            .map(|variable| variable.role);
+        let is_parameter = match role {
+            Some(Role::Output | Role::Derivative) => false,
+            Some(Role::CalculatedParameter) => true,
+            _ => continue,
+        };
+        for origin in &declared.origins {
+            let field = match origin {
+                Origin::Alone => Field {
+                    pattern: declared.name.clone(),
+                    of_each_dof: false,
+                },
+                Origin::Dof { pattern, .. } => Field {
+                    pattern: pattern.clone(),
+                    of_each_dof: true,
+                },
+                Origin::Parameter { .. } | Origin::Memory(_) => continue,
+            };
+            let joints = declared.scope.joints;
+            let same =
+                |group: &&mut Group| group.joints == joints && group.is_parameter == is_parameter;
+            match groups.iter_mut().find(same) {
+                Some(group) if group.fields.contains(&field) => {}
+                Some(group) => group.fields.push(field),
+                None => groups.push(Group {
+                    joints,
+                    is_parameter,
+                    fields: vec![field],
+                }),
+            }
+        }
+    }
+    groups
+}

@@ -1,0 +1,173 @@
+//! JSON Schema of what a joint file has by the declarations of its laws and by the table of DOFs, beside what follows from the
+//! records' own types.
+
+use std::borrow::Cow;
+
+use bolted_joint_dynamics::{
+    DOF_COUNT, DOFS, DofKind,
+    law::{Declaration, Parameter, Range, Term},
+};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value, json};
+
+use super::{
+    DofSet, HigherTerms,
+    friction::{self, Friction},
+    higher,
+    units::{description, unit},
+};
+
+/// JSON Schema has a word for "greater than zero", the derive macro has none.
+pub(super) fn entries_above_zero(list: &mut Schema) {
+    if let Some(entries) = list
+        .pointer_mut("/items")
+        .and_then(|items| items.as_object_mut())
+    {
+        entries.insert("exclusiveMinimum".to_owned(), 0.into());
+    }
+}
+
+/// Adds the list of laws with parameters of their own, as soon as there is a law that can stand in it.
+pub(super) fn with_friction(joint: &mut Schema) {
+    let entries: Vec<Value> = Friction::laws().map(entry).collect();
+    if entries.is_empty() {
+        return;
+    }
+    let list = json!({
+        "description": "Laws with parameters of their own, each at most once on a relative DOF. Left out, there are none.",
+        "type": "array",
+        "items": { "oneOf": entries }
+    });
+    let properties = joint.get_mut("properties");
+    if let Some(properties) = properties.and_then(|properties| properties.as_object_mut()) {
+        // at its place among the others
+        let place = properties.keys().position(|key| key == "over_preload");
+        let place = place.unwrap_or(properties.len());
+        properties.shift_insert(place, "friction".to_owned(), list);
+    }
+}
+
+impl JsonSchema for DofSet {
+    fn schema_name() -> Cow<'static, str> {
+        "DofSet".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let motions: Vec<String> = DOFS
+            .iter()
+            .map(|dof| {
+                let (motion, unit) = (dof.kind.motion(), dof.kind.displacement_unit());
+                format!("{motion} {} ({unit})", dof.name)
+            })
+            .collect();
+        let sets: Vec<Vec<&str>> = Self::all().map(Self::names).collect();
+        json_schema!({
+            "description": format!(
+                "Relative motions that the joint resists: {}. They set the order of the matrices.",
+                motions.join(", ")
+            ),
+            "enum": sets
+        })
+    }
+}
+
+impl JsonSchema for HigherTerms {
+    fn schema_name() -> Cow<'static, str> {
+        "HigherTerms".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let mut lists = Map::new();
+        for term in Self::terms() {
+            let row = term.row();
+            let description = format!("{}, {}.", row.symbol, units(row));
+            lists.insert(row.key.to_owned(), list(&description, json!({})));
+        }
+        let above_zero = json!({ "exclusiveMinimum": 0 });
+        lists.insert(higher::AMPLITUDE.to_owned(), list(AMPLITUDE, above_zero));
+        json_schema!({
+            "description": format!(
+                "Terms of higher order on each relative DOF r = x_a - x_b: load on side b {}. What is\nleft out is zero.",
+                load()
+            ),
+            "type": "object",
+            "properties": lists,
+            "additionalProperties": false
+        })
+    }
+}
+
+const AMPLITUDE: &str = "Largest relative displacement, m and rad, that the joint was observed at and its terms hold up to. \
+                         Within it the joint\nmust take energy; left out, it must at every displacement.";
+
+/// An entry of the list of laws.
+fn entry(law: &Declaration) -> Value {
+    let names: Vec<&str> = DOFS.iter().map(|dof| dof.name).collect();
+    let mut properties = Map::new();
+    properties.insert(friction::DOF.to_owned(), json!({ "enum": names }));
+    properties.insert(friction::LAW.to_owned(), json!({ "const": law.name }));
+    for parameter in law.parameters {
+        let mut number = json!({
+            "description": format!(
+                "{}, {}.",
+                kinds().map(|kind| description(parameter, kind)).join(" / "),
+                units(parameter)
+            ),
+            "type": "number",
+            "format": "double"
+        });
+        match parameter.range {
+            Range::Any => {}
+            Range::NotNegative => number["minimum"] = 0.into(),
+        }
+        properties.insert(parameter.key.to_owned(), number);
+    }
+    let required: Vec<String> = properties.keys().cloned().collect();
+    json!({
+        "description": format!("{}.", law.summary),
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+        "required": required
+    })
+}
+
+/// Both kinds of DOFs.
+fn kinds() -> [DofKind; 2] {
+    [DofKind::Translation, DofKind::Rotation]
+}
+
+/// Units of a parameter in translation and in rotation.
+fn units(parameter: &Parameter) -> String {
+    kinds()
+        .map(|kind| unit(parameter.unit, kind, kind))
+        .join(" and ")
+}
+
+/// A list with a number for each DOF.
+fn list(description: &str, more: Value) -> Value {
+    let mut items = json!({ "type": "number", "format": "double" });
+    if let (Some(items), Value::Object(more)) = (items.as_object_mut(), more) {
+        items.extend(more);
+    }
+    json!({
+        "description": description,
+        "type": "array",
+        "items": items,
+        "minItems": 1,
+        "maxItems": DOF_COUNT
+    })
+}
+
+/// The load of the terms, such as `k5 r^5 + (c2 r^2) dr/dt`.
+fn load() -> String {
+    let of = |is_damper: bool| {
+        let terms = HigherTerms::terms().filter(move |term| term.is_damper() == is_damper);
+        let each = terms.map(|term: Term| {
+            let [power, _] = term.powers();
+            format!("{} r^{power}", term.row().symbol)
+        });
+        each.collect::<Vec<String>>().join(" + ")
+    };
+    format!("{} + ({}) dr/dt", of(false), of(true))
+}

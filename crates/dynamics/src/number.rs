@@ -70,6 +70,23 @@ impl<const K: usize> Dual<K> {
         Self { value, change }
     }
 
+    /// d(x y) = dx y + x dy
+    #[inline]
+    fn product(&self, other: &Self) -> Self {
+        Self::changed(self.value * other.value, |k| {
+            self.change[k] * other.value + self.value * other.change[k]
+        })
+    }
+
+    /// d(x/y) = (dx − (x/y) dy)/y
+    #[inline]
+    fn quotient(&self, other: &Self) -> Self {
+        let value = self.value / other.value;
+        Self::changed(value, |k| {
+            (self.change[k] - value * other.change[k]) / other.value
+        })
+    }
+
     #[inline]
     fn changed(value: f64, change: impl Fn(usize) -> f64) -> Self {
         Self {
@@ -138,10 +155,7 @@ impl<const K: usize> Mul for Dual<K> {
 
     #[inline]
     fn mul(self, other: Self) -> Self {
-        // d(x y) = dx y + x dy
-        Self::changed(self.value * other.value, |k| {
-            self.change[k] * other.value + self.value * other.change[k]
-        })
+        self.product(&other)
     }
 }
 
@@ -150,11 +164,7 @@ impl<const K: usize> Div for Dual<K> {
 
     #[inline]
     fn div(self, other: Self) -> Self {
-        // d(x/y) = (dx − (x/y) dy)/y
-        let value = self.value / other.value;
-        Self::changed(value, |k| {
-            (self.change[k] - value * other.change[k]) / other.value
-        })
+        self.quotient(&other)
     }
 }
 

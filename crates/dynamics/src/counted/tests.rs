@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     integrator::LapIntegrator,
     lap::Body,
-    law::{Beyond, JointOverPreload, Linear, Polynomial},
+    law::{Beyond, Jenkins, JointOverPreload, Linear, Polynomial},
 };
 use std::num::NonZeroU32;
 
@@ -141,4 +141,66 @@ fn at_a_constant_preload_the_motion_is_that_of_the_plain_integrator() {
         }
     }
     assert_eq!(counted.passed.preload, 0.0);
+}
+
+/// m = 1, k = 0.75, c = 0.01 with an elastic slider k_t = 0.25, h = 0.06 under F cos ωt, F = 0.15, ω = 0.9, after 20 periods;
+/// reference by DOP853 with located events of sticking and slipping.
+#[test]
+fn a_slider_converges_to_the_located_events_and_keeps_the_balance() {
+    let omega: f64 = 0.9;
+    let duration_s = 20.0 * std::f64::consts::TAU / omega;
+    // body b is held by a mass that nothing moves
+    let held = 1e12;
+    let law = Linear {
+        stiffness: [[0.75]],
+        damping: [[0.01]],
+    };
+    let mut joint: JointLaw<1> = law.into();
+    joint.on[0] = Jenkins {
+        stiffness: 0.25,
+        slip_force: 0.06,
+    }
+    .into();
+    let body = |inertia: f64| Body {
+        inertia: [inertia],
+        stiffness: [0.0],
+        damping: [0.0],
+    };
+    let lap = Lap {
+        joint,
+        a: body(1.0),
+        b: body(held),
+    };
+    for (steps_a_period, tolerance, imbalance) in [(100, 1e-3, 1e-5), (1600, 3e-6, 1e-7)] {
+        let count = 20 * steps_a_period;
+        let step_s = duration_s / f64::from(count);
+        let conditions = |time_s: f64| LapConditions {
+            lap,
+            law_rate: JointLaw::NONE,
+            loads: LapLoads {
+                a: [0.15 * (omega * time_s).cos()],
+                b: [0.0],
+            },
+        };
+        let mut counted = CountedState::REST;
+        for index in 0..count {
+            let at = |part: f64| conditions((f64::from(index) + part) * step_s);
+            let [start, middle, end] = [0.0, 0.5, 1.0].map(at);
+            counted = LapConditions::step([&start, &middle, &end], &counted, step_s);
+        }
+        let a = &counted.state.a;
+        let error = f64::max(
+            (a.displacement[0] + 2.341_440_94).abs(),
+            (a.velocity[0] - 1.277_183_01).abs(),
+        );
+        assert!(error < tolerance, "{steps_a_period}: {error:e}");
+        let stored = lap.stored_energy(&counted.memory, &counted.state);
+        let PassedEnergy {
+            supplied,
+            dissipated,
+            ..
+        } = counted.passed;
+        let balance = (supplied - dissipated - stored) / supplied;
+        assert!(balance.abs() < imbalance, "{steps_a_period}: {balance:e}");
+    }
 }

@@ -4,6 +4,7 @@
 //! A new law is a file here and a line in [`dof_laws!`] below.
 
 mod declaration;
+mod jenkins;
 mod joint;
 mod linear;
 mod over_preload;
@@ -12,6 +13,7 @@ mod polynomial;
 pub use declaration::{
     ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
 };
+pub use jenkins::Jenkins;
 pub use joint::{JointLaw, JointMemory};
 pub use linear::{DAMPING, Linear, STIFFNESS};
 pub use over_preload::{Beyond, JointOverPreload, TableDefect};
@@ -201,6 +203,7 @@ macro_rules! dof_laws {
 
 dof_laws! {
     polynomial: Polynomial,
+    jenkins: Jenkins,
 }
 
 /// Number of parameters that the laws have on each DOF.

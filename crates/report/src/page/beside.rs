@@ -49,7 +49,7 @@ pub(super) fn bands(report: &IdentificationReport<'_>) -> String {
     for (joint, used) in report.found.estimate.bands().iter().enumerate() {
         for used in used {
             let bolt = bolts.get(joint).map(|bolt| format!("{} ", escaped(bolt)));
-            let name = bolt.unwrap_or_default() + &with_symbols(&used.name);
+            let name = bolt.unwrap_or_default() + &with_symbols(used.name);
             let ranges = used.bands.iter();
             let ranges =
                 ranges.map(|[from, to]| format!("{} to {} Hz", number(*from), number(*to)));

@@ -1,0 +1,293 @@
+//! The Jenkins element: a spring and a slider in series, which sticks until the spring bears the slip force (Tol 2.2).
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
+    },
+};
+use crate::number::Number;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "jenkins_k",
+    key: "stiffness",
+    span: Span::Dof,
+    unit: UnitRule {
+        displacement: 1,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SliderStiffness",
+        nominal: [1e6, 1e4, 1e3],
+        start: [0.0; 3],
+    },
+    description: "Stiffness of the joint's elastic slider in {motion}",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+/// Part of the slip force that rounding may leave between it and the load of a slider that has just slipped.
+const ROUNDING: f64 = 1e-9;
+
+/// A spring and a slider in series on one relative DOF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jenkins<N = f64> {
+    /// k: N/m, N·m/rad.
+    pub stiffness: N,
+    /// h: N, N·m.
+    pub slip_force: N,
+}
+
+/// How the element bears a trial motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bearing<N> {
+    /// The slider stays, and the spring is elongated so far (m, rad).
+    Sticks(N),
+    /// It slips towards a larger or a smaller displacement, 1 or −1.
+    Slips(f64),
+}
+
+impl<N: Number> Jenkins<N> {
+    /// Return mapping from the slider's committed place x to the displacement r.
+    fn bearing(&self, memory: &[f64], r: N) -> Bearing<N> {
+        // e* = r − x; it sticks if |k e*| ≤ h
+        let slider = memory.first().copied().unwrap_or(0.0);
+        let elongation = r - N::from(slider);
+        if (self.stiffness.value() * elongation.value()).abs() <= self.slip_force.value() {
+            Bearing::Sticks(elongation)
+        } else {
+            Bearing::Slips(elongation.value().signum())
+        }
+    }
+}
+
+impl<N: Number> Law<N> for Jenkins<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "jenkins",
+        summary: "A spring and a slider in series, which slips at its slip force",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "jenkins_h",
+                key: "slip_force",
+                unit: UnitRule {
+                    displacement: 0,
+                    seconds: 0,
+                },
+                quantity: Quantity {
+                    name: "SlipForce",
+                    nominal: [100.0, 10.0, 1.0],
+                    start: [0.0; 3],
+                },
+                description: "Load at which the joint's elastic slider slips in {motion}",
+                ..PARAMETER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "jenkins_slider",
+            quantity: RememberedAs::Displacement,
+            description: "Relative {motion} at which the joint's elastic slider is without load, as of the last step",
+        }],
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            stiffness: at(0),
+            slip_force: at(1),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip([self.stiffness, self.slip_force]) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+        match self.bearing(memory, r) {
+            // f = k e*
+            Bearing::Sticks(elongation) => self.stiffness * elongation,
+            // f = h sgn e*
+            Bearing::Slips(sign) => self.slip_force * N::from(sign),
+        }
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        let half = N::from(0.5);
+        match self.bearing(memory, r) {
+            // ½ k e²
+            Bearing::Sticks(elongation) => half * self.stiffness * elongation * elongation,
+            // ½ h²/k, as e = h/k
+            Bearing::Slips(_) => half * self.slip_force * self.slip_force / self.stiffness,
+        }
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        // h |ṙ| while it moves on at the slip force, where a commit has left it, or beyond
+        let elongation = r.value() - memory.first().copied().unwrap_or(0.0);
+        let (force, rate) = (self.stiffness.value() * elongation, velocity.value());
+        let is_at_slip = force.abs() >= (1.0 - ROUNDING) * self.slip_force.value();
+        if is_at_slip && force * rate > 0.0 {
+            self.slip_force * N::from(rate.signum()) * velocity
+        } else {
+            N::ZERO
+        }
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64) -> f64 {
+        let (Bearing::Slips(sign), [slider, ..]) = (self.bearing(memory, N::from(r)), &mut *memory)
+        else {
+            return 0.0;
+        };
+        // x = r − h/k sgn e*, heat h |Δx|
+        let (k, h) = (self.stiffness.value(), self.slip_force.value());
+        let place = r - sign * h / k;
+        let heat = h * (place - *slider).abs();
+        *slider = place;
+        heat
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        // it slips from h/k on
+        self.slip_force.value() / self.stiffness.value()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// Loads of a steady cycle u = U cos θ, by equal steps of θ, and the heat of it.
+    fn cycle(law: Jenkins, amplitude: f64, count: usize) -> (Vec<f64>, f64) {
+        let mut memory = [0.0];
+        let mut heat = 0.0;
+        let mut loads = Vec::new();
+        // the second of two periods is steady
+        for index in 0..2 * count {
+            let r = amplitude * (TAU * index as f64 / count as f64).cos();
+            let load = law.load(&memory, r, 0.0);
+            let of_step = law.commit(&mut memory, r);
+            if index >= count {
+                loads.push(load);
+                heat += of_step;
+            }
+        }
+        (loads, heat)
+    }
+
+    /// Fourier coefficients of two such elements, and their heat in a cycle, by closed forms (θ_s = arccos(1 − 2h/(kU)),
+    /// a₁ = (kU/π)(θ_s − ½ sin 2θ_s), D = 4h(U − h/k)), evaluated with 30 digits.
+    #[test]
+    fn a_steady_cycle_has_the_closed_form_s_coefficients_and_heat() {
+        for (k, h, amplitude, a1, b1, a3, b3, expected_heat) in [
+            (
+                2.0,
+                3.0,
+                5.0,
+                2.52315787734,
+                -2.67380304394,
+                0.653488258255,
+                0.606062023294,
+                42.0,
+            ),
+            (
+                1.5e7,
+                4000.0,
+                6e-4,
+                3864.69258139,
+                -2829.42121052,
+                208.288993044,
+                919.852986137,
+                5.33333333333,
+            ),
+        ] {
+            let law = Jenkins {
+                stiffness: k,
+                slip_force: h,
+            };
+            let count = 200_000;
+            let (loads, heat) = cycle(law, amplitude, count);
+            let coefficient = |n: f64, wave: fn(f64) -> f64| {
+                let sum: f64 = loads
+                    .iter()
+                    .enumerate()
+                    .map(|(index, load)| load * wave(n * TAU * index as f64 / count as f64))
+                    .sum();
+                2.0 * sum / count as f64
+            };
+            for (found, expected) in [
+                (coefficient(1.0, f64::cos), a1),
+                (coefficient(1.0, f64::sin), b1),
+                (coefficient(3.0, f64::cos), a3),
+                (coefficient(3.0, f64::sin), b3),
+                (heat, expected_heat),
+                (heat, -PI * amplitude * b1),
+            ] {
+                assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn work_is_what_is_stored_and_the_heat() {
+        let law = Jenkins {
+            stiffness: 2e6,
+            slip_force: 300.0,
+        };
+        let mut memory = [0.0];
+        let (mut work, mut heat, mut r) = (0.0, 0.0, 0.0);
+        let mut seed = 1_u64;
+        for _ in 0..2000 {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let target = 1e-3 * ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
+            // the load is piecewise linear: the trapezoidal rule is exact on either side of where it begins to slip
+            let slips_from = memory[0] + (target - memory[0]).signum() * 300.0 / 2e6;
+            let between = (slips_from - r) * (target - slips_from) > 0.0;
+            let stops = if between {
+                vec![slips_from, target]
+            } else {
+                vec![target]
+            };
+            for stop in stops {
+                let before = law.load(&memory, r, 0.0);
+                let of_step = law.commit(&mut memory, stop);
+                assert!(of_step >= 0.0);
+                work += 0.5 * (before + law.load(&memory, stop, 0.0)) * (stop - r);
+                heat += of_step;
+                r = stop;
+            }
+        }
+        let balance = work - heat - law.stored_energy(&memory, r);
+        assert!(balance.abs() < 1e-12 * heat, "{balance:e} of {heat}");
+    }
+
+    #[test]
+    fn a_loop_inside_another_closes() {
+        let law = Jenkins {
+            stiffness: 2.0,
+            slip_force: 3.0,
+        };
+        let mut memory = [0.0];
+        for r in [5.0, 3.0] {
+            law.commit(&mut memory, r);
+        }
+        let before = (law.load(&memory, 3.0, 0.0), memory);
+        for r in [4.5, 2.5, 3.0] {
+            law.commit(&mut memory, r);
+        }
+        assert_eq!((law.load(&memory, 3.0, 0.0), memory), before);
+        // the power of slipping is the slip force times the rate, and none while it turns back
+        assert_eq!(law.dissipated_power(&memory, 6.0, 0.5), 1.5);
+        assert_eq!(law.dissipated_power(&memory, 6.0, -0.5), 0.0);
+    }
+}

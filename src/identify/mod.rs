@@ -74,6 +74,5 @@ pub use study::{FrfFile, FurtherAssembly, MeasuredJoint, Rotation, Source, Study
 pub use torque::{DependenceFit, TorqueChoice, TorqueDependence};
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::Covariance;
-pub(crate) use uncertainty::student_975;
 pub use unknown::Unknown;
 pub use watch::Watch;

@@ -1,11 +1,12 @@
 //! The identified lap model: its unknowns with intervals, which of them the data determine, and how it does on every run.
 
+use bolted_joint_statistics::{NORMAL_975, student_975};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use serde::Serialize;
 
 use super::super::super::error::IdentifyError;
-use super::super::super::uncertainty::{student_975, unit_covariance};
+use super::super::super::uncertainty::unit_covariance;
 use super::super::super::watch::Watch;
 use super::super::input;
 use super::choice::{self, ModelComparison};
@@ -92,7 +93,7 @@ impl LapResponse {
             .chain(of_backbone)
             .fold(0.0, f64::max);
         let quantile = if study.noise.is_stated {
-            student_975(usize::MAX)
+            NORMAL_975
         } else {
             student_975(fit.degrees_of_freedom)
         };

@@ -14,6 +14,7 @@ use crate::respond::{Pollution, RespondStudy, to_csv, with_noise};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::output::{check_output, print, write_file};
+use super::progress::Progress;
 use super::{NoiseArguments, NoiseProcedure, RespondArguments, RespondNoise, respond_lap};
 
 /// More lines than any analyser has.
@@ -58,6 +59,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let study = Study::read(&arguments.study)?;
     let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
     let joints = joints(joint, &study)?;
+    let progress = Progress::new("responding", 0);
     let exact = predict_assembly(&study, &joints, &frequency_hz)?;
     let measured = match noise {
         Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,
@@ -83,6 +85,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let functions = measured.functions().count();
     let lines = predict_lines(&study, &joints, &frequency_hz)?;
     let bands = study.choose_bands(&lines, &joints)?;
+    drop(progress);
     if arguments.json {
         let of_bands = |bands: &Bands| json!({ "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta });
         let mut value = json!({

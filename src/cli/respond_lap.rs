@@ -10,6 +10,7 @@ use crate::respond::{RespondStudy, ResponseTable};
 use super::RespondArguments;
 use super::error::CliError;
 use super::output::{check_output, print, write_file};
+use super::progress::Progress;
 
 #[derive(Clone, Copy)]
 enum Picture {
@@ -60,7 +61,9 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         }
     };
     let study = RespondStudy::read(&arguments.study)?;
-    let table = study.run()?;
+    let progress = Progress::of_share("responding");
+    let table = study.run(&|share| progress.reached(share))?;
+    drop(progress);
     let drawing = match picture {
         None => None,
         Some((path, picture)) => match study.figure(&table) {

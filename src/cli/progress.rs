@@ -131,97 +131,30 @@ fn shortened(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use indicatif::TermLike;
-
     use super::*;
 
-    /// A terminal that keeps what is written between two clearings.
-    #[derive(Clone, Debug)]
-    struct Screen {
-        width: u16,
-        written: Arc<Mutex<String>>,
-    }
-
-    impl TermLike for Screen {
-        fn width(&self) -> u16 {
-            self.width
+    #[test]
+    fn every_bar_fills_the_terminal_and_says_how_long_the_rest_takes() {
+        for template in [COUNTING, SHARE, READING] {
+            assert!(template.contains("{wide_bar}") && template.ends_with("{eta} left"));
         }
-        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
-            Ok(())
+        for template in [WAITING, COUNTING, SHARE, READING] {
+            assert!(ProgressStyle::with_template(template).is_ok(), "{template}");
         }
-        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
-            Ok(())
-        }
-        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
-            Ok(())
-        }
-        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
-            Ok(())
-        }
-        fn write_line(&self, text: &str) -> io::Result<()> {
-            self.write_str(&format!("{text}\n"))
-        }
-        fn write_str(&self, text: &str) -> io::Result<()> {
-            self.written.lock().unwrap().push_str(text);
-            Ok(())
-        }
-        fn clear_line(&self) -> io::Result<()> {
-            self.written.lock().unwrap().clear();
-            Ok(())
-        }
-        fn flush(&self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    /// What stands on a terminal of so many columns after `steps`.
-    fn shown(progress: &Progress, width: u16, steps: impl Fn()) -> Vec<String> {
-        let screen = Screen {
-            width,
-            written: Arc::default(),
-        };
-        let target = ProgressDrawTarget::term_like(Box::new(screen.clone()));
-        progress.lines.set_draw_target(target);
-        steps();
-        progress.work.force_draw();
-        // every line is filled up to the terminal's width
-        let text: Vec<char> = screen.written.lock().unwrap().chars().collect();
-        let lines = text.chunks(width.into());
-        let lines = lines.map(|line| line.iter().collect::<String>().trim().to_owned());
-        lines.filter(|line| !line.is_empty()).collect()
     }
 
     #[test]
-    fn lines_fit_the_terminal() {
-        let name = "a measurement with a long name, second day.csv";
-        for width in [60, 100, 200] {
-            let progress = Progress::new("identifying", 40);
-            let waiting = shown(&progress, width, || ());
-            assert!(waiting[0].starts_with("identifying … "), "{waiting:?}");
-            let reading = shown(&progress, width, || {
-                progress.read(Path::new(name), 99_000_000, 990_000_000);
-            });
-            assert_eq!(reading.len(), 2, "{reading:?}");
-            assert!(reading[1].starts_with("…econd day.csv [#"), "{reading:?}");
-            assert!(
-                reading[1].contains("99.00 MB of 990.00 MB, "),
-                "{reading:?}"
-            );
-            let counting = shown(&progress, width, || {
-                progress.read(Path::new(name), 990_000_000, 990_000_000);
-                (0..10).for_each(|_| progress.advance());
-            });
-            assert_eq!(counting.len(), 1, "{counting:?}");
-            assert!(counting[0].contains("10 of 40, "), "{counting:?}");
-            let progress = Progress::of_share("responding");
-            let share = shown(&progress, width, || progress.reached(0.25));
-            assert_eq!(share.len(), 1, "{share:?}");
-            assert!(share[0].contains("25 %, "), "{share:?}");
-            for line in [&reading[1], &counting[0], &share[0]] {
-                assert!(line.ends_with(" left"), "{line}");
-            }
-        }
+    fn files_come_and_go_beside_the_work() {
+        let progress = Progress::new("identifying", 40);
+        let name = "a measurement with a long name,\u{7} second day.csv";
+        progress.read(Path::new(name), 250, 1000);
+        let shown = |progress: &Progress| progress.reading.lock().unwrap().clone();
+        let bar = shown(&progress).unwrap();
+        assert_eq!((bar.position(), bar.length()), (250, Some(1000)));
+        assert_eq!(bar.message(), "…econd day.csv");
+        progress.read(Path::new(name), 1000, 1000);
+        assert!(shown(&progress).is_none());
+        (0..10).for_each(|_| progress.advance());
+        assert_eq!(progress.work.position(), 10);
     }
 }

@@ -20,6 +20,7 @@ pub mod reproduce;
 pub mod respond;
 pub mod structure;
 mod text_file;
+mod text_table;
 pub(crate) mod whole_file;
 
 pub use text_file::TextFileError;

@@ -8,12 +8,13 @@ use std::path::Path;
 use num_complex::Complex64;
 
 use super::CsvProblem;
-use super::header::{Columns, Form, Header, Keys, unquoted};
+use super::header::{Columns, Form, Header, Keys};
 use super::number::Decimal;
 use crate::frf::gathered::Gathered;
 use crate::frf::statement::{Stated, Statement};
 use crate::frf::summary::Statements;
 use crate::frf::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions};
+use crate::text_table::Cells;
 
 /// The longest line that is still taken for a table, bytes.
 const LONGEST_LINE: usize = 1 << 20;
@@ -210,16 +211,13 @@ impl<R: BufRead> Rows<'_, R> {
             ',' => Decimal::Point,
             _ => Decimal::Either,
         };
+        let mut tokeniser = Cells::separated_by(header.separator);
         while self.advance()? {
             let text = self.text();
             if text.trim().is_empty() || text.starts_with('#') {
                 continue;
             }
-            let cells: Vec<&str> = text
-                .trim_end_matches(['\n', '\r'])
-                .split(header.separator)
-                .map(unquoted)
-                .collect();
+            let cells = tokeniser.of(text.trim_end_matches(['\n', '\r']));
             if cells.len() != header.column_count {
                 return Err(self.problem(CsvProblem::Fields {
                     found: cells.len(),

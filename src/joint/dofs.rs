@@ -1,8 +1,8 @@
 //! Which relative motions of its two sides a joint resists.
 
-use std::borrow::Cow;
 use std::fmt;
 
+#[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
@@ -59,8 +59,9 @@ impl TryFrom<Vec<String>> for DofSet {
     }
 }
 
+#[cfg(test)]
 impl JsonSchema for DofSet {
-    fn schema_name() -> Cow<'static, str> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
         "DofSet".into()
     }
 

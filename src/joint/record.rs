@@ -1,19 +1,21 @@
 //! The records of the joint file, format "bolted-joint/1", as plain data.
 
+#[cfg(test)]
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
 use super::DofSet;
 
 /// A bolted joint, with what is known about it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "Joint file of bolted-joint")]
+#[cfg_attr(test, schemars(title = "Joint file of bolted-joint"))]
 pub struct JointFile {
     /// Version of the format.
     pub format: Format,
     /// Name of the joint, one line.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub name: String,
     /// The joint itself: stiffness and damping, linear and beyond.
     pub joint: Joint,
@@ -35,7 +37,8 @@ pub struct JointFile {
 }
 
 /// Version of the joint file's format.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub enum Format {
     /// The first and only version.
     #[default]
@@ -53,23 +56,30 @@ impl Format {
 ///
 /// `stiffness` and `damping` are required unless `over_preload` is there, which replaces them and `cubic`; `higher` cannot
 /// be combined with it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
+#[cfg_attr(test, schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }])))]
 pub struct Joint {
     /// Relative motions that the joint resists.
     pub dofs: DofSet,
     /// K, symmetric: N/m, N/rad; N·m/m, N·m/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    #[cfg_attr(
+        test,
+        schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))
+    )]
     pub stiffness: Vec<Vec<f64>>,
     /// C, symmetric: N·s/m, N·s/rad; N·m·s/m, N·m·s/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))]
+    #[cfg_attr(
+        test,
+        schemars(length(min = 1, max = 2), inner(length(min = 1, max = 2)))
+    )]
     pub damping: Vec<Vec<f64>>,
     /// k3 on each relative DOF, N/m³ and N·m/rad³: positive hardens, negative softens. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2)))]
     pub cubic: Vec<f64>,
     /// Terms of higher order on each relative DOF. Left out, there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -81,47 +91,49 @@ pub struct Joint {
 
 /// Terms of higher order on each relative DOF r = x_a - x_b: load on side b k5 r^5 + k7 r^7 + (c2 r^2 + c4 r^4) dr/dt. What is
 /// left out is zero.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct HigherTerms {
     /// k5, N/m⁵ and N·m/rad⁵.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2)))]
     pub quintic: Vec<f64>,
     /// k7, N/m⁷ and N·m/rad⁷.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2)))]
     pub septic: Vec<f64>,
     /// c2, N·s/m³ and N·m·s/rad³.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2)))]
     pub damping_quadratic: Vec<f64>,
     /// c4, N·s/m⁵ and N·m·s/rad⁵.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2)))]
     pub damping_quartic: Vec<f64>,
     /// Largest relative displacement, m and rad, that the joint was observed at and its terms hold up to. Within it the joint
     /// must take energy; left out, it must at every displacement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2), transform = entries_above_zero))]
     pub amplitude: Vec<f64>,
 }
 
 /// Stiffness, damping and cubic stiffness at several preloads of the bolt.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct OverPreload {
     /// Tightening torques, N·m, strictly increasing.
-    #[schemars(length(min = 2), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(range(min = 0))))]
     pub preload: Vec<f64>,
     /// Tightening torque at the start, N·m, within the range of `preload`.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub nominal: f64,
     /// K at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = 2))))]
     pub stiffness: Vec<Vec<Vec<f64>>>,
     /// C at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = 2)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = 2))))]
     pub damping: Vec<Vec<Vec<f64>>>,
     /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -129,7 +141,8 @@ pub struct OverPreload {
 }
 
 /// The two bodies of a lap model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Bodies {
     /// Body on side a.
@@ -139,22 +152,24 @@ pub struct Bodies {
 }
 
 /// A rigid body on its own support, one entry for each DOF of the joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Mass in kg, moment of inertia in kg·m²; greater than zero.
-    #[schemars(length(min = 1, max = 2), transform = entries_above_zero)]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2), transform = entries_above_zero))]
     pub inertia: Vec<f64>,
     /// Support stiffness in N/m, N·m/rad; zero for a free body.
-    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2), inner(range(min = 0))))]
     pub stiffness: Vec<f64>,
     /// Support damping in N·s/m, N·m·s/rad.
-    #[schemars(length(min = 1, max = 2), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = 2), inner(range(min = 0))))]
     pub damping: Vec<f64>,
 }
 
 /// How well the joint's parameters are known.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Uncertainty {
     /// One standard deviation of each entry of the joint's matrices.
@@ -169,7 +184,7 @@ pub struct Uncertainty {
     pub interval_95: Option<Intervals>,
     /// By how much the standard deviations were raised because the residual is not the assumed noise, at most of all unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub inflation: Option<f64>,
     /// Unknowns that the data do not determine: their values are not to be believed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -186,11 +201,12 @@ pub struct Uncertainty {
 }
 
 /// How well the joint's parameters are known over the bolt's preload.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintyOverPreload {
     /// One entry for each of `joint.over_preload.preload`, in its order.
-    #[schemars(length(min = 2))]
+    #[cfg_attr(test, schemars(length(min = 2)))]
     pub at: Vec<UncertaintyAtPreload>,
     /// Correlation of the unknowns of all preloads, which measured substructures in common bring about. Their names have the
     /// preload behind them, such as `k_yy@10`.
@@ -199,11 +215,12 @@ pub struct UncertaintyOverPreload {
 }
 
 /// How well the joint's parameters are known at one preload.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintyAtPreload {
     /// The preload as in `joint.over_preload.preload`, N·m.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub preload: f64,
     /// One standard deviation of each entry of the joint's matrices.
     pub standard_deviation: StandardDeviation,
@@ -222,18 +239,20 @@ pub struct UncertaintyAtPreload {
 }
 
 /// Correlation of the unknowns of a joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Correlation {
     /// Names of the unknowns, such as `k_yy`, in the order of the rows.
     pub unknowns: Vec<String>,
     /// The matrix, symmetric with a unit diagonal.
-    #[schemars(inner(inner(range(min = -1, max = 1))))]
+    #[cfg_attr(test, schemars(inner(inner(range(min = -1, max = 1)))))]
     pub matrix: Vec<Vec<f64>>,
 }
 
 /// Lower and upper end of an interval for each entry of the joint's matrices; entries that are no unknowns have `[0, 0]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Intervals {
     /// Of K, in its units.
@@ -243,7 +262,8 @@ pub struct Intervals {
 }
 
 /// Matrices of a joint that may be active.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FreeEstimate {
     /// K, in its units.
@@ -253,7 +273,8 @@ pub struct FreeEstimate {
 }
 
 /// A parametric bootstrap.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BootstrapRecord {
     /// Draws from the fitted model.
@@ -269,30 +290,38 @@ pub struct BootstrapRecord {
 }
 
 /// One standard deviation of each entry of the joint's matrices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StandardDeviation {
     /// Of K, in its units.
-    #[schemars(
-        length(min = 1, max = 2),
-        inner(length(min = 1, max = 2), inner(range(min = 0)))
+    #[cfg_attr(
+        test,
+        schemars(
+            length(min = 1, max = 2),
+            inner(length(min = 1, max = 2), inner(range(min = 0)))
+        )
     )]
     pub stiffness: Vec<Vec<f64>>,
     /// Of C, in its units.
-    #[schemars(
-        length(min = 1, max = 2),
-        inner(length(min = 1, max = 2), inner(range(min = 0)))
+    #[cfg_attr(
+        test,
+        schemars(
+            length(min = 1, max = 2),
+            inner(length(min = 1, max = 2), inner(range(min = 0)))
+        )
     )]
     pub damping: Vec<Vec<f64>>,
 }
 
 /// Where the joint's parameters hold.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Validity {
     /// Lowest and highest frequency that the parameters were determined from, Hz.
     #[serde(deserialize_with = "super::read::pair")]
-    #[schemars(inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(inner(range(min = 0))))]
     pub frequency_hz: [f64; 2],
     /// Lowest and highest tightening torque of the assemblies measured, N·m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -303,11 +332,12 @@ pub struct Validity {
 }
 
 /// How far the model is from the measurement that it was identified from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Residual {
     /// Root mean square of |measured - computed| / |computed| over all lines and functions.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative_rms: f64,
     /// Number of spectral lines compared.
     pub lines: usize,
@@ -316,7 +346,7 @@ pub struct Residual {
     pub functions: Vec<FunctionResidual>,
     /// χ² over degrees of freedom, where the noise was stated or coherence told it: about 1 if the model fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub reduced_chi_squared: Option<f64>,
     /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -327,21 +357,23 @@ pub struct Residual {
 }
 
 /// Noise of measured functions: standard deviation √((relative·|H|)² + floor²) of the complex error.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct NoiseRecord {
     /// Fraction of the receptance.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative: f64,
     /// Part that does not depend on it, in its unit (m/N).
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub floor: f64,
     /// Whether the study stated it; else it was estimated from the residual.
     pub stated: bool,
 }
 
 /// How far the model is from one measured function.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FunctionResidual {
     /// Response DOF, such as `11:+Y`.
@@ -349,12 +381,13 @@ pub struct FunctionResidual {
     /// Reference DOF, such as `12:+Y`.
     pub reference: String,
     /// Root mean square of |measured - computed| / |computed| over the lines.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative_rms: f64,
 }
 
 /// Where the joint's parameters come from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// Program that wrote the file.
@@ -383,7 +416,8 @@ pub struct Provenance {
 }
 
 /// Bands over which the decoupled values of each entry were averaged.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BandsRecord {
     /// For k_yy and c_yy.
@@ -398,7 +432,8 @@ pub struct BandsRecord {
 }
 
 /// Bands of one entry.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BandRecord {
     /// Where they come from.
@@ -409,7 +444,8 @@ pub struct BandRecord {
 }
 
 /// Where the bands of an average come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum BandOriginRecord {
     /// The study gives them.
@@ -421,7 +457,8 @@ pub enum BandOriginRecord {
 }
 
 /// Receptances of a substructure that its modes supplied.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FromModesRecord {
     /// `a` or `b`.
@@ -433,7 +470,8 @@ pub struct FromModesRecord {
 }
 
 /// A file that the parameters were determined from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct InputFile {
     /// What the file was used for, such as `a.frf`.
@@ -441,16 +479,44 @@ pub struct InputFile {
     /// Its name, as the study gives it.
     pub file: String,
     /// SHA-256 of its contents, 64 lower-case hexadecimal digits.
-    #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
+    #[cfg_attr(test, schemars(regex(pattern = "^[0-9a-f]{64}$")))]
     pub sha256: String,
 }
 
 /// JSON Schema has a word for "greater than zero", the derive macro has none.
+#[cfg(test)]
 fn entries_above_zero(list: &mut Schema) {
     if let Some(entries) = list
         .pointer_mut("/items")
         .and_then(|items| items.as_object_mut())
     {
         entries.insert("exclusiveMinimum".to_owned(), 0.into());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{env, fs, path::Path};
+
+    use super::JointFile;
+
+    #[test]
+    fn the_schema_in_docs_is_that_of_the_types() {
+        let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+        let in_docs = folders.find_map(|folder| {
+            let path = folder.join("docs/joint-file.schema.json");
+            path.exists().then_some(path)
+        });
+        let path = in_docs.unwrap();
+        let schema = schemars::schema_for!(JointFile);
+        let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
+        if env::var_os("UPDATE_SCHEMA").is_some() {
+            fs::write(&path, &text).unwrap();
+        }
+        let found = fs::read_to_string(&path).unwrap();
+        assert!(
+            found == text,
+            "docs/joint-file.schema.json is out of date: run UPDATE_SCHEMA=1 cargo test"
+        );
     }
 }

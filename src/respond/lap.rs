@@ -9,6 +9,7 @@ use bolted_joint_figures::html;
 
 use super::super::error::CliError;
 use super::super::output::{check_output, print, write_file};
+use super::super::progress::Progress;
 use super::RespondArguments;
 
 #[derive(Clone, Copy)]
@@ -60,7 +61,9 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         }
     };
     let study = RespondStudy::read(&arguments.study)?;
-    let table = study.run()?;
+    let progress = Progress::of_share("responding");
+    let table = study.run(&|share| progress.reached(share))?;
+    drop(progress);
     let drawing = match picture {
         None => None,
         Some((path, picture)) => match study.figure(&table) {

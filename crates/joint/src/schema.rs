@@ -189,6 +189,6 @@ fn the_schema_in_docs_is_that_of_the_types() {
     let found = fs::read_to_string(&path).unwrap();
     assert!(
         found == text,
-        "docs/joint-file.schema.json is out of date: run UPDATE_SCHEMA=1 cargo test"
+        "docs/joint-file.schema.json is out of date: run UPDATE_SCHEMA=1 cargo test -p bolted-joint-joint"
     );
 }

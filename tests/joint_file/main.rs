@@ -103,21 +103,6 @@ fn a_byte_order_mark_does_no_harm() {
 }
 
 #[test]
-fn the_schema_in_docs_is_that_of_the_types() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/joint-file.schema.json");
-    let schema = schemars::schema_for!(JointFile);
-    let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
-    if std::env::var_os("UPDATE_SCHEMA").is_some() {
-        fs::write(&path, &text).unwrap();
-    }
-    let found = fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        found == text,
-        "docs/joint-file.schema.json is out of date: run UPDATE_SCHEMA=1 cargo test"
-    );
-}
-
-#[test]
 fn an_error_leaves_no_file_behind() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m10.joint.json");

@@ -15,6 +15,7 @@ mod passivity;
 mod problem;
 mod read;
 mod record;
+#[cfg(test)]
 mod schema;
 mod units;
 mod validate;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use bolted_joint_files::text_file::{self, TextFileError};
+use bolted_joint_files::text_table::{self, Cells};
 use bolted_joint_frf::{Decimal, shown};
 
 /// Why a table of numbers cannot be read.
@@ -91,20 +92,19 @@ pub(super) fn read<const N: usize>(
     wanted: [Column; N],
 ) -> Result<Rows<N>, ColumnsError> {
     let text = text_file::read(path, what)?;
-    let text = text.trim_start_matches('\u{feff}');
-    let mut lines = (1..)
-        .zip(text.lines())
-        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let mut lines = text_table::rows(&text);
     let example: Vec<String> = wanted.iter().map(Column::example).collect();
     let Some((header_line, header)) = lines.next() else {
         let expected = format!("the row of column names, such as {}", example.join(","));
         return Err(problem(path, 1, "nothing but comments", expected));
     };
-    let separator = [';', '\t']
+    let separator = text_table::separator(header);
+    let mut tokeniser = Cells::separated_by(separator);
+    let names: Vec<String> = tokeniser
+        .of(header)
         .into_iter()
-        .find(|&separator| header.contains(separator))
-        .unwrap_or(',');
-    let names: Vec<&str> = header.split(separator).map(unquoted).collect();
+        .map(str::to_owned)
+        .collect();
     let mut places = [(0, 1.0); N];
     for (place, column) in places.iter_mut().zip(wanted) {
         let mut matching = names
@@ -121,7 +121,7 @@ pub(super) fn read<const N: usize>(
             problem(path, header_line, shown(header.trim()), expected)
         })?;
         if let Some((second, _)) = matching.next() {
-            let found = format!("a second column {}", shown(names[second]));
+            let found = format!("a second column {}", shown(&names[second]));
             return Err(problem(path, header_line, found, "one of each quantity"));
         }
     }
@@ -131,7 +131,7 @@ pub(super) fn read<const N: usize>(
     };
     let mut rows = Vec::new();
     for (line, text) in lines {
-        let cells: Vec<&str> = text.split(separator).map(unquoted).collect();
+        let cells = tokeniser.of(text);
         if cells.len() != names.len() {
             let found = format!("{} fields", cells.len());
             let expected = format!("{} as in the row of names", names.len());
@@ -172,11 +172,4 @@ impl Column {
         word.eq_ignore_ascii_case(self.name)
             .then(|| self.units.iter().find_map(known))?
     }
-}
-
-fn unquoted(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"')
-        .and_then(|cell| cell.strip_suffix('"'))
-        .map_or(cell, str::trim)
 }

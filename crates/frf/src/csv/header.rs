@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use super::CsvProblem;
 use crate::{Dof, Quantity};
+use bolted_joint_files::text_table::{Cells, separator};
 
 /// What comments of the form `# key = value` say of all functions.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -134,12 +135,10 @@ pub(super) struct Header {
 
 impl Header {
     pub(super) fn read(row: &str) -> Result<Self, CsvProblem> {
-        let separator = [';', '\t']
-            .into_iter()
-            .find(|&c| row.contains(c))
-            .unwrap_or(',');
-        let names: Vec<&str> = row.split(separator).map(unquoted).collect();
-        check_frequency(names[0])?;
+        let separator = separator(row);
+        let mut cells = Cells::separated_by(separator);
+        let names = cells.of(row);
+        check_frequency(names.first().copied().unwrap_or_default())?;
         let mut order = Vec::new();
         let mut parts: BTreeMap<(Dof, Dof), BTreeMap<Part, (usize, Column)>> = BTreeMap::new();
         for (index, name) in names.iter().enumerate().skip(1) {
@@ -173,14 +172,6 @@ impl Header {
             functions,
         })
     }
-}
-
-/// A cell without blanks and quotation marks around it.
-pub(super) fn unquoted(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"')
-        .and_then(|cell| cell.strip_suffix('"'))
-        .map_or(cell, str::trim)
 }
 
 /// A name without its unit, which stands in brackets at the end.

@@ -5,10 +5,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use bolted_joint_files::text_table::Cells;
 use num_complex::Complex64;
 
 use super::CsvProblem;
-use super::header::{Columns, Form, Header, Keys, unquoted};
+use super::header::{Columns, Form, Header, Keys};
 use super::number::Decimal;
 use crate::gathered::Gathered;
 use crate::statement::{Stated, Statement};
@@ -210,16 +211,13 @@ impl<R: BufRead> Rows<'_, R> {
             ',' => Decimal::Point,
             _ => Decimal::Either,
         };
+        let mut tokeniser = Cells::separated_by(header.separator);
         while self.advance()? {
             let text = self.text();
             if text.trim().is_empty() || text.starts_with('#') {
                 continue;
             }
-            let cells: Vec<&str> = text
-                .trim_end_matches(['\n', '\r'])
-                .split(header.separator)
-                .map(unquoted)
-                .collect();
+            let cells = tokeniser.of(text.trim_end_matches(['\n', '\r']));
             if cells.len() != header.column_count {
                 return Err(self.problem(CsvProblem::Fields {
                     found: cells.len(),

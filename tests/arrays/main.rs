@@ -75,6 +75,6 @@ fn has_variance(set: &FrfSet, tolerance: f64) {
     let variance = set.relative_variance(dof("11:Y"), dof("2:Y")).unwrap();
     assert_eq!(variance.len(), 7);
     for (index, found) in variance.iter().enumerate() {
-        near(found, 1e-3 * (index + 1) as f64, tolerance);
+        near(*found, 1e-3 * (index + 1) as f64, tolerance);
     }
 }

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use bolted_joint::check::{InspectError, RunError};
+use bolted_joint::check::CheckError;
 use bolted_joint::cosimulation::CouplingError;
 use bolted_joint::export::{DateError, ExportError};
 use bolted_joint::frf::FrfError;
 use bolted_joint::identify::IdentifyError;
 use bolted_joint::identify::lap::LapError;
-use bolted_joint::joint::{JointFileError, PreloadError};
+use bolted_joint::joint::{JointFileError, LawError};
 use bolted_joint::reproduce::ReproduceError;
 use bolted_joint::respond::RespondError;
 use bolted_joint::study::StudyError;
@@ -27,7 +27,7 @@ pub(super) enum CliError {
     #[error("{}: {source}", path.display())]
     Unexportable { path: PathBuf, source: ExportError },
     #[error("{}: {source}", path.display())]
-    Preload { path: PathBuf, source: PreloadError },
+    Preload { path: PathBuf, source: LawError },
     #[error("communication step: {0}")]
     Coupling(CouplingError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
@@ -63,12 +63,11 @@ from_the_library!(
     ExportError,
     FrfError,
     IdentifyError,
-    InspectError,
+    CheckError,
     JointFileError,
     LapError,
     ReproduceError,
     RespondError,
-    RunError,
     StudyError
 );
 

@@ -138,14 +138,12 @@ pub(super) fn export_to(
 ) -> Result<Exported, CliError> {
     let (file, text) = JointFile::read_with_source(joint_file)?;
     let exported = fmu_bytes(&file, &text, options).map_err(|source| match source {
-        ExportError::Invalid { .. }
-        | ExportError::Active { .. }
-        | ExportError::Law(_)
-        | ExportError::Preload(_)
-        | ExportError::NoSpectrum => CliError::Unexportable {
-            path: joint_file.to_owned(),
-            source,
-        },
+        ExportError::Active { .. } | ExportError::Law(_) | ExportError::NoSpectrum => {
+            CliError::Unexportable {
+                path: joint_file.to_owned(),
+                source,
+            }
+        }
         _ => source.into(),
     })?;
     exported.write(fmu)?;

@@ -1,93 +1,121 @@
-//! A progress line on stderr for work that takes more than a second.
+//! Progress on stderr for work that takes more than a second: how much is done and how long the rest takes, on a terminal only.
 
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, IsTerminal as _};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use bolted_joint::identify::Watch;
 
-/// From so many bytes on a size is given in MB.
-const LARGE: u64 = 10_000_000;
-/// Work shorter than this needs no line.
+/// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 const BETWEEN_LINES: Duration = Duration::from_millis(100);
-/// Characters of the bar, and of the longest line.
-const BAR: usize = 30;
-const LINE: usize = 78;
-/// Characters of a file's name, so that the line is none too long.
+/// Characters of a file's name, so that a bar has room beside it.
 const NAME: usize = 14;
+/// Steps of a bar whose work is not counted in pieces.
+const FINE: u32 = 1000;
 
-/// Says on a terminal, from the second second on, how long the work has taken and how many pieces of it are done, or how much
-/// of a file has been read.
+const WAITING: &str = "{msg} … {elapsed}";
+const COUNTING: &str = "{msg} [{wide_bar}] {pos} of {len}, {eta} left";
+const SHARE: &str = "{msg} [{wide_bar}] {percent} %, {eta} left";
+const READING: &str = "{msg} [{wide_bar}] {decimal_bytes} of {decimal_total_bytes}, {eta} left";
+
+/// Says, from the second second on, how long the work has taken or how much of it is done, and how much of a file has been read.
+/// However the work ends, the lines go away.
 pub(super) struct Progress {
-    state: Arc<State>,
-    writer: Option<JoinHandle<()>>,
-}
-
-struct State {
-    work: &'static str,
-    total: usize,
-    done: AtomicUsize,
-    reading: Mutex<Option<Reading>>,
-    has_ended: AtomicBool,
-    begun: Instant,
-}
-
-/// How much of a file has been read, bytes.
-struct Reading {
-    name: String,
-    bytes: u64,
-    of: u64,
+    lines: MultiProgress,
+    work: ProgressBar,
+    /// How the work is shown once some of it is done.
+    known: &'static str,
+    reading: Mutex<Option<ProgressBar>>,
 }
 
 impl Progress {
     /// Begins `work`, which has `total` pieces that can be counted, or none.
     pub(super) fn new(work: &'static str, total: usize) -> Self {
-        let state = Arc::new(State {
-            work,
-            total,
-            done: AtomicUsize::new(0),
+        Self::begin(work, total as u64, COUNTING)
+    }
+
+    /// Begins `work` that tells which part of it is done.
+    pub(super) fn of_share(work: &'static str) -> Self {
+        Self::begin(work, FINE.into(), SHARE)
+    }
+
+    fn begin(work: &'static str, total: u64, known: &'static str) -> Self {
+        let lines = MultiProgress::with_draw_target(ProgressDrawTarget::hidden());
+        let bar = line(&lines, total, WAITING, work.to_owned());
+        if io::stderr().is_terminal() {
+            bar.enable_steady_tick(BETWEEN_LINES);
+            let (lines, bar) = (lines.clone(), bar.downgrade());
+            thread::spawn(move || {
+                thread::sleep(PATIENCE);
+                if bar.upgrade().is_some() {
+                    lines.set_draw_target(ProgressDrawTarget::stderr());
+                }
+            });
+        }
+        Self {
+            lines,
+            work: bar,
+            known,
             reading: Mutex::new(None),
-            has_ended: AtomicBool::new(false),
-            begun: Instant::now(),
-        });
-        let writer = io::stderr().is_terminal().then(|| {
-            let state = Arc::clone(&state);
-            thread::spawn(move || state.write_lines())
-        });
-        Self { state, writer }
+        }
     }
 
     /// One more piece is done. May be called from any thread.
     pub(super) fn advance(&self) {
-        self.state.done.fetch_add(1, Ordering::Relaxed);
+        self.has_begun();
+        self.work.inc(1);
+    }
+
+    /// This part of the work is done, from 0 to 1.
+    pub(super) fn reached(&self, share: f64) {
+        self.has_begun();
+        self.work.set_position((share * f64::from(FINE)) as u64);
+    }
+
+    /// What came before the first piece says nothing of how long the others take.
+    fn has_begun(&self) {
+        if self.work.position() == 0 {
+            self.work.set_style(style(self.known));
+            self.work.reset_eta();
+        }
     }
 }
 
 impl Watch for Progress {
     fn read(&self, path: &Path, bytes: u64, of: u64) {
-        let mut reading = self
-            .state
-            .reading
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        match &mut *reading {
-            _ if bytes >= of => *reading = None,
-            Some(reading) => (reading.bytes, reading.of) = (bytes, of),
-            None => {
-                let name = path.file_name().unwrap_or(path.as_os_str());
-                let name = shortened(&name.to_string_lossy());
-                *reading = Some(Reading { name, bytes, of });
+        let mut reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
+        if bytes >= of {
+            if let Some(done) = reading.take() {
+                self.lines.remove(&done);
             }
+            return;
         }
+        let bar = reading.get_or_insert_with(|| {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            line(&self.lines, of, READING, shortened(&name.to_string_lossy()))
+        });
+        bar.set_position(bytes);
     }
 
     fn drawn(&self) {
         self.advance();
     }
+}
+
+fn line(lines: &MultiProgress, total: u64, template: &str, text: String) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
+    lines.add(bar.with_style(style(template)).with_message(text))
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template)
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .progress_chars("#-")
 }
 
 /// The end of a long name tells files apart.
@@ -101,97 +129,32 @@ fn shortened(name: &str) -> String {
     }
 }
 
-/// Takes the line away, however the work ended.
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.state.has_ended.store(true, Ordering::Relaxed);
-        if let Some(writer) = self.writer.take() {
-            writer.thread().unpark();
-            let _ = writer.join();
-        }
-    }
-}
-
-impl State {
-    fn write_lines(&self) {
-        let mut has_written = false;
-        while !self.has_ended.load(Ordering::Relaxed) {
-            let elapsed = self.begun.elapsed();
-            if elapsed > PATIENCE {
-                let line = self.line(elapsed);
-                let _ = write!(io::stderr(), "\r{line:LINE$}");
-                has_written = true;
-            }
-            thread::park_timeout(BETWEEN_LINES);
-        }
-        if has_written {
-            let _ = write!(io::stderr(), "\r{:LINE$}\r", "");
-        }
-    }
-
-    fn line(&self, elapsed: Duration) -> String {
-        let seconds = elapsed.as_secs();
-        let reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(Reading { name, bytes, of }) = &*reading {
-            let bar = bar(*bytes, *of);
-            let (bytes, of, unit) = match of {
-                0..LARGE => (bytes / 1000, of / 1000, "kB"),
-                _ => (bytes / 1_000_000, of / 1_000_000, "MB"),
-            };
-            return format!("{bar} {bytes} of {of} {unit} of {name}, {seconds} s");
-        }
-        let done = self.done.load(Ordering::Relaxed).min(self.total);
-        if done == 0 {
-            return format!("{} … {seconds} s", self.work);
-        }
-        let bar = bar(done as u64, self.total as u64);
-        format!("{bar} {done} of {}, {seconds} s", self.total)
-    }
-}
-
-fn bar(done: u64, total: u64) -> String {
-    let share = done as f64 / total.max(1) as f64;
-    let filled = ((BAR as f64 * share) as usize).min(BAR);
-    let (full, empty) = ("#".repeat(filled), "-".repeat(BAR - filled));
-    format!("[{full}{empty}]")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn reading_comes_before_pieces_and_fits_the_line() {
-        let progress = Progress::new("identifying", 40);
-        let line = || progress.state.line(Duration::from_millis(2900));
-        progress.advance();
-        progress.read(Path::new("/data/c.uff"), 250_000_000, 1_000_000_000);
-        assert_eq!(
-            line(),
-            "[#######-----------------------] 250 of 1000 MB of c.uff, 2 s"
-        );
-        progress.read(Path::new("/data/c.uff"), 1_000_000_000, 1_000_000_000);
-        assert_eq!(line(), "[------------------------------] 1 of 40, 2 s");
-        let name = "a measurement with a long name, second day.csv";
-        progress.read(Path::new(name), 999_999, 9_999_999);
-        assert_eq!(
-            line(),
-            "[##----------------------------] 999 of 9999 kB of …econd day.csv, 2 s"
-        );
-        progress.read(Path::new(name), 98_999_999_999, 99_999_999_999);
-        assert!(line().chars().count() <= LINE);
-    }
-
-    fn line(done: usize) -> String {
-        let progress = Progress::new("identifying", 40);
-        (0..done).for_each(|_| progress.advance());
-        progress.state.line(Duration::from_millis(2900))
+    fn every_bar_fills_the_terminal_and_says_how_long_the_rest_takes() {
+        for template in [COUNTING, SHARE, READING] {
+            assert!(template.contains("{wide_bar}") && template.ends_with("{eta} left"));
+        }
+        for template in [WAITING, COUNTING, SHARE, READING] {
+            assert!(ProgressStyle::with_template(template).is_ok(), "{template}");
+        }
     }
 
     #[test]
-    fn the_line_tells_the_time_until_there_are_pieces_to_count() {
-        assert_eq!(line(0), "identifying … 2 s");
-        assert_eq!(line(10), "[#######-----------------------] 10 of 40, 2 s");
-        assert_eq!(line(41), "[##############################] 40 of 40, 2 s");
+    fn files_come_and_go_beside_the_work() {
+        let progress = Progress::new("identifying", 40);
+        let name = "a measurement with a long name,\u{7} second day.csv";
+        progress.read(Path::new(name), 250, 1000);
+        let shown = |progress: &Progress| progress.reading.lock().unwrap().clone();
+        let bar = shown(&progress).unwrap();
+        assert_eq!((bar.position(), bar.length()), (250, Some(1000)));
+        assert_eq!(bar.message(), "…econd day.csv");
+        progress.read(Path::new(name), 1000, 1000);
+        assert!(shown(&progress).is_none());
+        (0..10).for_each(|_| progress.advance());
+        assert_eq!(progress.work.position(), 10);
     }
 }

@@ -18,6 +18,7 @@ use bolted_joint::study::{Method, StudyText};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::output::{check_output, print, write_file};
+use super::progress::Progress;
 
 /// `respond`
 #[derive(Debug, Args)]
@@ -119,6 +120,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let study = Study::of(&text)?;
     let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
     let joints = joints(joint, &study)?;
+    let progress = Progress::new("responding", 0);
     let exact = predict_assembly(&study, &joints, &frequency_hz)?;
     let measured = match noise {
         Some((noise, pollution)) => with_noise(&exact, &pollution, noise.seed)?,
@@ -144,6 +146,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let functions = measured.functions().count();
     let lines = predict_lines(&study, &joints, &frequency_hz)?;
     let bands = study.choose_bands(&lines, &joints)?;
+    drop(progress);
     if arguments.json {
         let of_bands = |bands: &Bands| json!({ "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta });
         let mut value = json!({

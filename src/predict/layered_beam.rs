@@ -4,6 +4,7 @@ use serde_json::json;
 
 use super::super::error::CliError;
 use super::super::output::{message, print};
+use super::super::progress::Progress;
 use super::PredictArguments;
 use super::outputs::{self, Outputs};
 use bolted_joint::predict::layered_beam::LayeredBeamStudy;
@@ -40,7 +41,9 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         ],
     )?;
     let study = LayeredBeamStudy::of(study)?;
+    let progress = Progress::new("predicting", 0);
     let found = study.run()?;
+    drop(progress);
     let joint_file = found.joint_file().to_json()?;
     let mut files = Outputs::new();
     files.add(Some(&arguments.output), || joint_file);

@@ -10,6 +10,7 @@ use bolted_joint_figures::html;
 
 use super::super::error::CliError;
 use super::super::output::{check_output, print, write_file};
+use super::super::progress::Progress;
 use super::RespondArguments;
 
 #[derive(Clone, Copy)]
@@ -56,7 +57,9 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         }
     };
     let study = RespondStudy::of(study)?;
-    let table = study.run()?;
+    let progress = Progress::of_share("responding");
+    let table = study.run(&|share| progress.reached(share))?;
+    drop(progress);
     let drawing = match picture {
         None => None,
         Some((path, picture)) => match study.figure(&table) {

@@ -1,7 +1,7 @@
 //! Tables.
 
 use bolted_joint::frf::{
-    CsvProblem, FrfError, FrfReading, Quantity, ReadOptions, Selection, UnitSystem, read_csv_from,
+    FrfError, FrfReading, Quantity, ReadOptions, Selection, TableProblem, UnitSystem, read_csv_from,
 };
 use num_complex::Complex64;
 
@@ -12,7 +12,7 @@ fn read(text: impl AsRef<[u8]>) -> Result<FrfReading, FrfError> {
 }
 
 /// The line and the problem of a table that is not usable.
-fn problem_of(text: impl AsRef<[u8]>) -> (usize, CsvProblem) {
+fn problem_of(text: impl AsRef<[u8]>) -> (usize, TableProblem) {
     match read(text).unwrap_err() {
         FrfError::Csv { line, problem, .. } => (line, *problem),
         other => panic!("{other}"),
@@ -137,12 +137,14 @@ fn every_fault_is_located_and_named() {
         assert!(message.contains(named), "{text}: {message}");
         assert_eq!(found_line, line, "{text}: {message}");
     }
-    assert!(matches!(problem_of(b"\xFF\xFEf\0"), (1, CsvProblem::Utf16)));
-    let endless = vec![b'x'; 2 << 20];
-    assert!(matches!(
-        problem_of(endless),
-        (1, CsvProblem::LineTooLong { .. })
-    ));
+    for (bytes, named) in [
+        (b"\xFF\xFEf\0".to_vec(), "UTF-16"),
+        (vec![b'x'; 2 << 20], "a line of more than"),
+    ] {
+        let (line, problem) = problem_of(bytes);
+        assert!(problem.to_string().contains(named), "{problem}");
+        assert_eq!(line, 1);
+    }
 }
 
 #[test]

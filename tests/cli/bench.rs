@@ -1,5 +1,6 @@
 //! A folder of its own for each test, in which the real binary runs.
 
+use bolted_joint_testing::has;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -97,10 +98,7 @@ impl Bench {
         assert_eq!(outcome.stdout, "", "{command:?}");
         assert!(stderr.starts_with("error: "), "{command:?}: {stderr}");
         for fragment in fragments {
-            assert!(
-                stderr.contains(fragment),
-                "expected {fragment:?} in: {stderr}"
-            );
+            has(&stderr, &[fragment]);
         }
         // Messages are for people: no bytes of a binary file, no hundreds of digits.
         let printable = |c: char| !c.is_control() || c == '\n';

@@ -1,5 +1,6 @@
 //! `check` runs the library in an FMU: sound ones pass, and none that fails takes the report with it.
 
+use bolted_joint_testing::has;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -74,14 +75,15 @@ fn sound_fmus_run_and_their_energy_is_balanced() {
                 assert!(energy("tolerance") < 1e-5 * energy("work").abs());
                 assert!(energy("dissipated") > 1e-3 * energy("work").abs());
                 let facts = report["facts"].to_string();
-                for fact in [
-                    "loads: those",
-                    "derivatives: those",
-                    "last bit",
-                    "reference run: met",
-                ] {
-                    assert!(facts.contains(fact), "{fact}: {facts}");
-                }
+                has(
+                    &facts,
+                    &[
+                        "loads: those",
+                        "derivatives: those",
+                        "last bit",
+                        "reference run: met",
+                    ],
+                );
                 assert_eq!(report["messages"].as_array().unwrap().len(), 0);
             }
         }
@@ -108,18 +110,10 @@ fn a_library_that_fails_is_told_of_with_what_it_logged() {
         let outcome = bench.run(&["check", "faulty.fmu"]);
         assert_eq!(outcome.code, Some(1));
         for fragment in fragments {
-            assert!(
-                outcome.stderr.contains(fragment),
-                "{fault}: {}",
-                outcome.stderr
-            );
+            has(&outcome.stderr, &[fragment]);
         }
         // the rest of the report is there
-        assert!(
-            outcome.stdout.contains("joint.stiffness is passive"),
-            "{}",
-            outcome.stdout
-        );
+        has(&outcome.stdout, &["joint.stiffness is passive"]);
         assert_eq!(
             outcome
                 .stdout
@@ -171,12 +165,9 @@ fn without_a_library_for_this_platform_the_rest_is_checked() {
     bench.write("x.fmu", other.finish().unwrap().into_inner());
     let outcome = bench.done(&["check", "x.fmu"]);
     assert!(outcome.stdout.contains("platforms: riscv32-linux"));
-    assert!(
-        outcome
-            .stdout
-            .contains("run: left out, as the FMU has no library for this platform"),
-        "{}",
-        outcome.stdout
+    has(
+        &outcome.stdout,
+        &["run: left out, as the FMU has no library for this platform"],
     );
 }
 
@@ -219,10 +210,6 @@ fn a_reference_run_that_is_not_met_is_found() {
         });
         let outcome = bench.run(&["check", "other.fmu"]);
         assert_eq!(outcome.code, Some(1));
-        assert!(
-            outcome.stderr.contains(fragment),
-            "{fragment}: {}",
-            outcome.stderr
-        );
+        has(&outcome.stderr, &[fragment]);
     }
 }

@@ -3,6 +3,7 @@
 use crate::bench::Bench;
 use crate::bench::replaced;
 use crate::rig::{self, FULL, Quantity, TRANSLATION, matrix_of, measure, study};
+use bolted_joint_testing::has;
 
 const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
 
@@ -17,11 +18,9 @@ fn translation(joint: &rig::Joint) -> Bench {
 fn a_translation_is_compared_with_the_models_that_rotate() {
     let bench = translation(&FULL);
     let text = bench.done(&IDENTIFY).stdout;
-    assert!(
-        text.contains(
-            "\"full\" is the simplest adequate one: consider it instead of \"translation\""
-        ),
-        "{text}"
+    has(
+        &text,
+        &["\"full\" is the simplest adequate one: consider it instead of \"translation\""],
     );
     let models = bench.done(&[&IDENTIFY[..], &["--json"]].concat()).json();
     let compared: Vec<&str> = models["models"]["compared"]
@@ -38,10 +37,7 @@ fn a_translation_is_compared_with_the_models_that_rotate() {
     // Where there is no stiffness in rotation the simplest model is enough.
     let bench = translation(&TRANSLATION);
     let text = bench.done(&IDENTIFY).stdout;
-    assert!(
-        text.contains("\"translation\" is the simplest adequate one"),
-        "{text}"
-    );
+    has(&text, &["\"translation\" is the simplest adequate one"]);
     let found = matrix_of(&bench.json("o.joint.json"), "stiffness");
     assert!((found[(0, 0)] / 8e4 - 1.0).abs() < 1e-8, "{found}");
 }
@@ -90,10 +86,7 @@ fn a_presumed_joint_is_one_start_more() {
     assert_eq!(tried(&bench), without + 1);
     bench.done(&[&IDENTIFY[..], &["--report", "o.html"]].concat());
     let page = bench.text("o.html");
-    assert!(
-        page.contains("Presumed joint, a start of the search"),
-        "{page}"
-    );
+    has(&page, &["Presumed joint, a start of the search"]);
 }
 
 #[test]
@@ -103,9 +96,9 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
     let output = bench
         .done(&[&IDENTIFY[..], &["--report", "o.html"]].concat())
         .stdout;
-    assert!(
-        output.contains("Hz, chosen by sensitivity and distance to resonances"),
-        "{output}"
+    has(
+        &output,
+        &["Hz, chosen by sensitivity and distance to resonances"],
     );
     assert!(bench.text("o.html").contains("Hz, chosen"));
     let bands = |bench: &Bench| bench.json("o.joint.json")["provenance"]["bands"].clone();
@@ -121,12 +114,13 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
         text.clone() + "\n[bands]\nyy = [[20, 60]]\nytheta = \"median\"\n",
     );
     let output = bench.done(&IDENTIFY).stdout;
-    for fragment in [
-        "yy: 20.00 to 60.00 Hz, as in the study",
-        "ytheta: all lines, their median, as in the study",
-    ] {
-        assert!(output.contains(fragment), "{output}");
-    }
+    has(
+        &output,
+        &[
+            "yy: 20.00 to 60.00 Hz, as in the study",
+            "ytheta: all lines, their median, as in the study",
+        ],
+    );
     let mixed = bands(&bench);
     assert_eq!(
         mixed["yy"],
@@ -137,10 +131,7 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
     // Two lines are no band.
     bench.write("study.toml", replaced(&text, "to = 200", "to = 6"));
     let output = bench.done(&IDENTIFY).stdout;
-    assert!(
-        output.contains("all lines, their median: no band qualifies"),
-        "{output}"
-    );
+    has(&output, &["all lines, their median: no band qualifies"]);
     // The word for all.
     bench.write(
         "study.toml",
@@ -150,8 +141,5 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
     let all = replaced(&text, "name = ", "bands = \"median\"\nname = ");
     bench.write("study.toml", all);
     let output = bench.done(&IDENTIFY).stdout;
-    assert!(
-        output.contains("yy: all lines, their median, as in the study"),
-        "{output}"
-    );
+    has(&output, &["yy: all lines, their median, as in the study"]);
 }

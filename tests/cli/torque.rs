@@ -1,5 +1,6 @@
 //! Assemblies tightened to different torques: a joint for each, over the torque in the joint file, and its export.
 
+use bolted_joint_testing::has;
 use std::fs;
 
 use nalgebra::matrix;
@@ -65,14 +66,15 @@ fn error(table: &Value, factor: f64) -> f64 {
 fn each_torque_has_its_joint_in_the_file_ascending() {
     let bench = ready("separate");
     let outcome = bench.done(&IDENTIFY);
-    for line in [
-        "at 20 N·m\n",
-        "at 10 N·m\n",
-        "joints over the torque by BIC: common +",
-        "\"separate\" is the simplest adequate one",
-    ] {
-        assert!(outcome.stdout.contains(line), "{line}: {}", outcome.stdout);
-    }
+    has(
+        &outcome.stdout,
+        &[
+            "at 20 N·m\n",
+            "at 10 N·m\n",
+            "joints over the torque by BIC: common +",
+            "\"separate\" is the simplest adequate one",
+        ],
+    );
     let file = bench.json("o.joint.json");
     let table = &file["joint"]["over_preload"];
     assert_eq!(table["preload"], json!([10.0, 20.0, 25.0]));
@@ -139,11 +141,7 @@ fn an_export_is_at_one_preload() {
         "--preload",
         "20",
     ]);
-    assert!(
-        outcome.stdout.contains("two bodies, at 20 N·m"),
-        "{}",
-        outcome.stdout
-    );
+    has(&outcome.stdout, &["two bodies, at 20 N·m"]);
     let entry =
         |place: usize, (i, j): (usize, usize)| table["stiffness"][place][i][j].as_f64().unwrap();
     assert_eq!(start("nominal.fmu", "joint.k_yy"), entry(1, (0, 0)));
@@ -201,11 +199,7 @@ fn an_export_is_at_one_preload() {
     }
     // The FMU is sound in itself, and has the table that it was taken from beside the joint that it is.
     let checked = bench.done(&["check", "twelve.fmu"]);
-    assert!(
-        checked.stdout.contains("no problem found"),
-        "{}",
-        checked.stdout
-    );
+    has(&checked.stdout, &["no problem found"]);
     let file = fs::File::open(bench.path("twelve.fmu")).unwrap();
     let mut archive = zip::ZipArchive::new(file).unwrap();
     let mut member = |name: &str| {
@@ -222,19 +216,19 @@ fn an_export_is_at_one_preload() {
     assert_eq!(constant["joint"]["over_preload"], Value::Null);
     assert_eq!(constant["validity"]["torque_n_m"], json!([10.0, 20.0]));
     let page = member("documentation/index.html");
-    for text in [
-        "force 0.5 to 2.5 N amplitude",
-        "interpolated between 10 and 20 N·m",
-        "resources/joint-over-preload.json",
-        "10 to 20 N·m",
-    ] {
-        assert!(page.contains(text), "{text}");
-    }
+    has(
+        &page,
+        &[
+            "force 0.5 to 2.5 N amplitude",
+            "interpolated between 10 and 20 N·m",
+            "resources/joint-over-preload.json",
+            "10 to 20 N·m",
+        ],
+    );
     let checked = bench.done(&["check", "o.joint.json"]);
-    assert!(
-        checked
-            .stdout
-            .contains("preloads: 10, 20, 25 N·m, nominal 20 N·m")
+    has(
+        &checked.stdout,
+        &["preloads: 10, 20, 25 N·m, nominal 20 N·m"],
     );
 }
 
@@ -248,11 +242,7 @@ fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
     measure(&bench, &active, [Quantity::Receptance; 3]);
     fs::rename(bench.path("c.uff"), bench.path("c0.uff")).unwrap();
     let outcome = bench.done(&IDENTIFY);
-    assert!(
-        outcome.stdout.contains("free estimate"),
-        "{}",
-        outcome.stdout
-    );
+    has(&outcome.stdout, &["free estimate"]);
     let file = bench.json("o.joint.json");
     let table = &file["joint"]["over_preload"];
     let damping = &table["damping"][1];
@@ -270,11 +260,7 @@ fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
             json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
         assert!(error(&own, factor) < 1e-6);
     }
-    assert!(
-        outcome
-            .stdout
-            .contains("The free estimate is active at 20 N·m;")
-    );
+    has(&outcome.stdout, &["The free estimate is active at 20 N·m;"]);
     bench.done(&["export", "o.joint.json", "-o", "o.fmu"]);
 }
 
@@ -292,11 +278,9 @@ fn a_preload_is_refused_where_the_joint_has_none() {
 fn a_common_joint_of_different_joints_is_warned_of() {
     let bench = ready("common");
     let outcome = bench.done(&IDENTIFY);
-    assert!(
-        outcome.stderr.contains("the joint depends on the torque")
-            && outcome.stderr.contains("torques = \"separate\""),
-        "{}",
-        outcome.stderr
+    has(
+        &outcome.stderr,
+        &["the joint depends on the torque", "torques = \"separate\""],
     );
     assert_eq!(
         bench.json("o.joint.json")["joint"]["over_preload"],
@@ -358,17 +342,18 @@ fn the_report_shows_the_joint_over_the_torque() {
     let bench = ready("separate");
     bench.done(&[&IDENTIFY[..], &["--report", "o.html"]].concat());
     let page = bench.text("o.html");
-    for text in [
-        "<h2>Identified parameters</h2>\n<p>Each torque has a joint of its own",
-        "id=\"over-torque\"",
-        ">tightening torque, N·m</text>",
-        "<h3>Dependence on the torque</h3>",
-        "The joint depends on the torque.",
-        "tightened to 20 N·m; force 0.5 N amplitude",
-        "<th scope=\"row\">10 and 20 N·m</th>",
-    ] {
-        assert!(page.contains(text), "{text}");
-    }
+    has(
+        &page,
+        &[
+            "<h2>Identified parameters</h2>\n<p>Each torque has a joint of its own",
+            "id=\"over-torque\"",
+            ">tightening torque, N·m</text>",
+            "<h3>Dependence on the torque</h3>",
+            "The joint depends on the torque.",
+            "tightened to 20 N·m; force 0.5 N amplitude",
+            "<th scope=\"row\">10 and 20 N·m</th>",
+        ],
+    );
     let figure = page.split("id=\"over-torque\"").nth(1).unwrap();
     let figure = figure.split("</figure>").next().unwrap();
     // Six unknowns, each with one line joining its three values.

@@ -1,6 +1,7 @@
 //! The command line itself: help, version, and what is wrong usage.
 
 use crate::bench::Bench;
+use bolted_joint_testing::has;
 
 #[test]
 fn wrong_usage_ends_with_2() {
@@ -51,11 +52,7 @@ fn help_says_what_each_command_needs() {
     for (arguments, fragments) in cases {
         let outcome = bench.done(arguments);
         for fragment in fragments {
-            assert!(
-                outcome.stdout.contains(fragment),
-                "{fragment} in {}",
-                outcome.stdout
-            );
+            has(&outcome.stdout, &[fragment]);
         }
         assert_eq!(outcome.stderr, "");
     }

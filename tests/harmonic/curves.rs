@@ -4,6 +4,7 @@ use bolted_joint::harmonic::{
     CurveOptions, CurvePoint, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Target,
 };
 use bolted_joint_dynamics::Lap;
+use bolted_joint_testing::close;
 use num_complex::Complex64;
 
 use super::duffing::{HARDENING, SOFTENING};
@@ -82,10 +83,7 @@ fn the_formula_of_one_harmonic_has_the_same_folds() {
         });
         let omega = (sign * on_branch(turned)).sqrt();
         assert!((second.solution.omega_rad_s() / omega - 1.0).abs() < 1e-13);
-        assert!(
-            (at_second / turned - 1.0).abs() < 1e-6,
-            "{at_second} {turned}"
-        );
+        close(at_second, turned, 1e-6);
         // The first, near the tip, is where the same branch turns back.
         let at_first = amplitude(first);
         let highest = least(0.99 * at_first, 1.000_001 * at_first, |x| {
@@ -227,10 +225,7 @@ fn the_backbone_is_the_conservative_oscillator() {
         for point in &curve {
             let peak = balance.peak_of(&point.solution, Observed::Relative(0));
             let expected = conservative_omega(undamped, peak);
-            assert!(
-                (point.solution.omega_rad_s() / expected - 1.0).abs() < 1e-10,
-                "{peak}"
-            );
+            close(point.solution.omega_rad_s(), expected, 1e-10);
             assert!(point.solution.damping_ratio().abs() < 1e-12);
         }
     }

@@ -4,6 +4,7 @@ use bolted_joint::identify::{
     Bands, IdentifyError, JointMatrices, JointModel, Lines, LinesEstimate, Noise, NoiseLevel,
     Options, Receptances, identify_lines,
 };
+use bolted_joint_testing::near;
 use nalgebra::dmatrix;
 
 use crate::cases::{axis, beams_4_2_2, joint_4_2_2};
@@ -153,10 +154,7 @@ fn one_per_cent_noise_leaves_the_estimate_near_the_bound() {
         .zip(&trial.deviation)
         .flat_map(|(error, deviation)| (0..4).map(|i| (error[i] / deviation[i]).powi(2)))
         .sum();
-    assert!(
-        (chi_squared - 80.0).abs() < 5.0 * (2.0_f64 * 80.0).sqrt(),
-        "{chi_squared}"
-    );
+    near(chi_squared, 80.0, 5.0 * (2.0_f64 * 80.0).sqrt());
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use bolted_joint::identify::{
     JointMatrices, LinesEstimate, Noise, NoiseLevel, Options, TorqueDependence, identify_lines,
 };
+use bolted_joint_testing::near;
 use nalgebra::{DMatrix, DVector};
 
 use crate::cases::axis;
@@ -113,10 +114,7 @@ fn each_torque_has_its_joint_within_its_intervals() {
     // χ² of the errors, five of its standard deviations wide.
     let count = (draws as usize * size) as f64;
     println!("χ² of {count} errors: {squares:.1}");
-    assert!(
-        (squares - count).abs() < 5.0 * (2.0 * count).sqrt(),
-        "{squares} of {count}"
-    );
+    near(squares, count, 5.0 * (2.0 * count).sqrt());
 }
 
 #[test]
@@ -203,10 +201,7 @@ fn measured_substructures_in_common_couple_the_torques() {
         let squares = distance(&errors, stated);
         let count = errors.len() as f64;
         println!("χ² of {count} errors: {squares:.1}");
-        assert!(
-            (squares - count).abs() < 4.0 * (2.0 * count).sqrt(),
-            "{squares}"
-        );
+        near(squares, count, 4.0 * (2.0 * count).sqrt());
         // What separate studies would say of a change from torque to torque is far more than its error.
         for i in 0..size {
             let (low, high) = (size + i, 2 * size + i);

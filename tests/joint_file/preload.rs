@@ -1,6 +1,6 @@
 //! Joints over the preload: taken at one, with their deviations, and tables that do not fit.
 
-use bolted_joint::joint::{JointFile, PreloadError};
+use bolted_joint::joint::{JointFile, LawError};
 
 use crate::GOOD;
 
@@ -113,12 +113,12 @@ fn a_joint_over_preload_is_at_its_own_preloads_what_the_table_says() {
     assert_eq!(constant.at_preload(None), Ok(constant.clone()));
     assert_eq!(
         constant.at_preload(Some(10.0)),
-        Err(PreloadError::Constant { found_n_m: 10.0 })
+        Err(LawError::ConstantJoint { found_n_m: 10.0 })
     );
     for found_n_m in [9.9, 25.1, -1.0, f64::INFINITY] {
         assert_eq!(
             table.at_preload(Some(found_n_m)),
-            Err(PreloadError::Outside {
+            Err(LawError::OutsideTable {
                 found_n_m,
                 first_n_m: 10.0,
                 last_n_m: 25.0

@@ -1,5 +1,6 @@
 //! The measured Brake–Reuß beam: what it takes to describe it, and how well runs that were left out are predicted.
 
+use bolted_joint_testing::{has, near};
 use std::path::{Path, PathBuf};
 
 use bolted_joint::identify::lap::{LapResponse, LapResponseStudy, Term};
@@ -87,11 +88,7 @@ fn measured_resonances_are_those_of_the_description() {
         let row = found.predictions.iter().find(|row| row.run == run).unwrap();
         let omega = std::f64::consts::TAU * row.measured.frequency_hz;
         let found = omega * omega * row.measured.displacement_m / row.measured.force_n;
-        assert!(
-            (row.measured.frequency_hz - hz).abs() < 2e-3,
-            "{run}: {}",
-            row.measured.frequency_hz
-        );
+        near(row.measured.frequency_hz, hz, 2e-3);
         assert!((found / inertance - 1.0).abs() < 5e-3, "{run}: {found}");
     }
 }
@@ -124,11 +121,7 @@ fn a_cubic_spring_with_viscous_damping_does_not_do() {
     // Softens first, stiffens then; local modal mass about 1.95 kg; damping grows.
     let values = &found.fit.values;
     assert!(values.term(Term::CUBIC) < 0.0 && values.term(term("k5")) > 0.0);
-    assert!(
-        (0.5 * values.mass / 1.95 - 1.0).abs() < 0.05,
-        "{}",
-        values.mass
-    );
+    near(0.5 * values.mass / 1.95, 1.0, 0.05);
     assert!(values.term(term("c2")) > 0.0 && (2.0..4.0).contains(&values.joint_damping));
 }
 
@@ -158,10 +151,7 @@ fn the_phase_of_the_acceleration_is_refused_as_active() {
     );
     std::fs::write(&path, text).unwrap();
     let error = LapResponseStudy::read(&path).unwrap_err().to_string();
-    assert!(
-        error.contains("force-control-1.csv") && error.contains("phase_of"),
-        "{error}"
-    );
+    has(&error, &["force-control-1.csv", "phase_of"]);
 }
 
 /// Every run but the highest level, which would be an extrapolation, left out alone.

@@ -1,5 +1,6 @@
 //! Terms from a free decay and from a backbone, which an independent integration and a quadrature of the period supply.
 
+use bolted_joint_testing::close;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -64,11 +65,7 @@ fn identified(folder: &Path, table: &str, terms: &str) -> LapResponse {
 
 fn assert_close(found: &LapResponse, unknown: ResponseUnknown, expected: f64, tolerance: f64) {
     let value = found.fit.values.of(unknown);
-    assert!(
-        (value / expected - 1.0).abs() < tolerance,
-        "{}: {value:e} instead of {expected:e}",
-        unknown.symbol()
-    );
+    close(value, expected, tolerance);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Studies and tables that cannot be used: each message names the file, the key or line, and what to do.
 
+use bolted_joint_testing::has;
 use std::fs;
 use std::path::PathBuf;
 
@@ -99,10 +100,7 @@ fn damaged_response_studies_are_refused_by_their_key() {
         assert!(RESPONSE.contains(from));
         let path = written("study.toml", &RESPONSE.replace(from, to), &folder);
         let error = LapResponseStudy::read(&path).unwrap_err().to_string();
-        assert!(
-            error.contains("study.toml") && error.contains(part),
-            "{to}: {error}"
-        );
+        has(&error, &["study.toml", part]);
     }
 }
 
@@ -118,9 +116,6 @@ fn every_method_has_its_reader() {
         &folder,
     );
     let error = method(&other).unwrap_err().to_string();
-    assert!(
-        error.contains("lap-magic") && error.contains("`lap-response`"),
-        "{error}"
-    );
+    has(&error, &["lap-magic", "`lap-response`"]);
     assert!(Study::read(&path).is_err());
 }

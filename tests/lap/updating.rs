@@ -1,5 +1,6 @@
 //! Updating from natural frequencies: closed forms, SciPy's bounded least squares, and what is not identifiable.
 
+use bolted_joint_testing::close;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -36,11 +37,7 @@ const SCIPY: [(f64, f64); 4] = [
 fn within_table_2_the_objective_is_that_of_scipy() {
     let found = example("study.toml");
     for (torque, (objective, mass)) in found.torques.iter().zip(SCIPY) {
-        assert!(
-            (torque.objective / objective - 1.0).abs() < 1e-9,
-            "{} {objective}",
-            torque.objective
-        );
+        close(torque.objective, objective, 1e-9);
         assert!((torque.solution.of(LapParameter::Mass) / mass - 1.0).abs() < 1e-7);
         // The fireflies come close from above.
         let excess = torque.firefly.objective / objective - 1.0;
@@ -91,10 +88,7 @@ fn a_known_mass_makes_the_stiffnesses_known() {
         // σ(k₁₂) = m √(ω₁⁴ + ω₂⁴) σ by propagation
         let deviation = m * sigma * first.powi(2).hypot(second.powi(2));
         let found = torque.identifiability.standard_deviation[2].unwrap();
-        assert!(
-            (found / deviation - 1.0).abs() < 1e-6,
-            "{found} {deviation}"
-        );
+        close(found, deviation, 1e-6);
         assert_eq!(torque.not_identified(), ["kN"]);
     }
 }

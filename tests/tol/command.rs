@@ -1,5 +1,6 @@
 //! The commands `reproduce` and `respond` from the outside.
 
+use bolted_joint_testing::has;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -22,15 +23,16 @@ fn reproduce_prints_published_and_obtained_values_for_people_and_machines() {
     let output = bolted_joint(here, &arguments);
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
-    for part in [
-        "published",
-        "obtained",
-        "2008",
-        "Not given in the thesis",
-        "Differences",
-    ] {
-        assert!(text.contains(part), "{part} in {text}");
-    }
+    has(
+        &text,
+        &[
+            "published",
+            "obtained",
+            "2008",
+            "Not given in the thesis",
+            "Differences",
+        ],
+    );
     let output = bolted_joint(here, &[&arguments[..], &["--json"]].concat());
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let row = &found[0]["rows"][0];
@@ -84,10 +86,7 @@ fn a_planned_test_identifies_the_joint_that_it_was_planned_with() {
     let text = String::from_utf8(planned.stdout).unwrap();
     assert!(planned.status.success());
     // The study names bands; they stay.
-    assert!(
-        text.contains("yy = [[330, 360]]  # as in the study"),
-        "{text}"
-    );
+    has(&text, &["yy = [[330, 360]]  # as in the study"]);
     let found = bolted_joint(
         folder.path(),
         &["identify", "study.toml", "-o", "found.joint.json"],

@@ -1,6 +1,7 @@
 //! Published tables against what `reproduce` obtains.
 
 use bolted_joint::reproduce::PublishedTable;
+use bolted_joint_testing::has;
 
 use crate::reproduced::{
     assert_published, case, mean, reproduced, reproduced_over, standard_deviation,
@@ -140,8 +141,5 @@ fn every_table_has_a_key_of_its_own_and_unknown_ones_are_named() {
         }
     }
     let message = "4.1".parse::<PublishedTable>().unwrap_err().to_string();
-    assert!(
-        message.contains("\"4.1\"") && message.contains("4.2"),
-        "{message}"
-    );
+    has(&message, &["\"4.1\"", "4.2"]);
 }

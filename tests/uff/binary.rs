@@ -4,6 +4,7 @@ use bolted_joint::frf::{
     ByteOrder, Dof, Frf, FrfError, FrfSet, ReadOptions, Selection, UffProblem, read_uff58,
     write_uff58b, write_uff58b_to,
 };
+use bolted_joint_testing::has;
 use num_complex::Complex64;
 
 use super::foreign::{is_oscillator, own_file};
@@ -227,10 +228,7 @@ fn a_length_that_does_not_fit_is_refused_with_all_that_would() {
             ..
         }
     ));
-    assert!(
-        message.contains("after 48 bytes") && message.contains("says 64 bytes"),
-        "{message}"
-    );
+    has(&message, &["after 48 bytes", "says 64 bytes"]);
     for count in ["1000000000000", "18446744073709551615"] {
         let (_, problem) = problem_of(changed(
             "         6         4         1",

@@ -1,5 +1,6 @@
 //! Files of other programs: shared ones, and small ones written with pyuff (see tests/data/uff/README.md).
 
+use bolted_joint_testing::has;
 use std::path::{Path, PathBuf};
 
 use bolted_joint::frf::{Frf, FrfError, Quantity, ReadOptions, UffProblem, read_uff58};
@@ -183,14 +184,15 @@ fn a_label_that_contradicts_its_units_needs_the_callers_word() {
         }
     ));
     let message = error.to_string();
-    for part in [
-        "dataset58_FRF.unv, line 11",
-        "(m/s)/N",
-        "\"Receptance\"",
-        "state the quantity",
-    ] {
-        assert!(message.contains(part), "{message}");
-    }
+    has(
+        &message,
+        &[
+            "dataset58_FRF.unv, line 11",
+            "(m/s)/N",
+            "\"Receptance\"",
+            "state the quantity",
+        ],
+    );
     let quantity = Some(Quantity::Mobility);
     let reading = read_uff58(
         &path,

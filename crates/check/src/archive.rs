@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use super::InspectError;
+use super::CheckError;
 
 /// An opened FMU.
 pub(super) struct Archive {
@@ -13,12 +13,12 @@ pub(super) struct Archive {
 }
 
 impl Archive {
-    pub(super) fn open(path: &Path) -> Result<Self, InspectError> {
-        let file = File::open(path).map_err(|source| InspectError::Unreadable {
+    pub(super) fn open(path: &Path) -> Result<Self, CheckError> {
+        let file = File::open(path).map_err(|source| CheckError::Unreadable {
             path: path.to_owned(),
             source,
         })?;
-        let zip = zip::ZipArchive::new(file).map_err(|source| InspectError::Archive {
+        let zip = zip::ZipArchive::new(file).map_err(|source| CheckError::Archive {
             path: path.to_owned(),
             source,
         })?;
@@ -41,12 +41,11 @@ impl Archive {
     }
 
     /// A text that every FMU of this program has.
-    pub(super) fn text(&mut self, entry: &'static str) -> Result<String, InspectError> {
-        self.optional_text(entry)
-            .ok_or_else(|| InspectError::Entry {
-                path: self.path.clone(),
-                entry,
-            })
+    pub(super) fn text(&mut self, entry: &'static str) -> Result<String, CheckError> {
+        self.optional_text(entry).ok_or_else(|| CheckError::Entry {
+            path: self.path.clone(),
+            entry,
+        })
     }
 
     /// The text of an entry, if there is one and it is text.

@@ -1,4 +1,4 @@
-//! Why a file cannot be looked into as an FMU.
+//! Why a file cannot be looked into as an FMU, or run.
 
 use std::path::PathBuf;
 
@@ -6,9 +6,9 @@ use thiserror::Error;
 
 use bolted_joint_joint::JointFileError;
 
-/// Why a file cannot be looked into as an FMU.
+/// Why a file cannot be looked into as an FMU, or run.
 #[derive(Debug, Error)]
-pub enum InspectError {
+pub enum CheckError {
     /// The file cannot be read.
     #[error("{}: cannot be read ({source}); give the path of a joint file or an FMU", path.display())]
     Unreadable {
@@ -41,4 +41,9 @@ pub enum InspectError {
         /// What is wrong with it.
         source: Box<JointFileError>,
     },
+    /// The child process or its files cannot be made.
+    #[error(
+        "the FMU cannot be unpacked and run in a temporary folder: {0}; set TMPDIR to a folder with room, or leave the run out with --no-run"
+    )]
+    System(#[from] std::io::Error),
 }

@@ -9,7 +9,7 @@ use roxmltree::Document;
 
 use super::archive::Archive;
 use super::described::{Described, FILE};
-use super::{InspectError, attributes, parts, variables};
+use super::{CheckError, attributes, parts, variables};
 use bolted_joint_export::{Interface, StartFile, declared, laws_line, start_value, table_lines};
 use bolted_joint_joint::{JointFile, Passivity};
 
@@ -46,20 +46,20 @@ pub struct Inspection {
 ///
 /// # Errors
 ///
-/// [`InspectError`] if it is no FMU of this program at all; what is wrong with one of its own is in the findings.
-pub fn inspect(path: &Path) -> Result<Inspection, InspectError> {
+/// [`CheckError`] if it is no FMU of this program at all; what is wrong with one of its own is in the findings.
+pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
     let mut archive = Archive::open(path)?;
     let xml = archive.text(FILE)?;
     let start_text = archive.text("resources/start.txt")?;
     let joint_text = archive.text("resources/joint.json")?;
     let joint = JointFile::from_json(&joint_text, "resources/joint.json").map_err(|source| {
-        InspectError::JointFile {
+        CheckError::JointFile {
             path: path.to_owned(),
             source: Box::new(source),
         }
     })?;
     let Some(start) = StartFile::parse(&start_text) else {
-        return Err(InspectError::Entry {
+        return Err(CheckError::Entry {
             path: path.to_owned(),
             entry: "resources/start.txt",
         });

@@ -14,6 +14,6 @@ mod reference;
 mod run;
 mod variables;
 
-pub use error::InspectError;
+pub use error::CheckError;
 pub use inspect::{Inspection, inspect};
-pub use run::{BalanceReport, RunError, RunReport, RunVerdict, Runner, execute_script, run};
+pub use run::{BalanceReport, RunReport, RunVerdict, Runner, execute_script, run};

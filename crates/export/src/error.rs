@@ -6,17 +6,11 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use bolted_joint_files::DateError;
-use bolted_joint_joint::{LawError, MatrixPassivity, PreloadError, Problem};
+use bolted_joint_joint::{LawError, MatrixPassivity};
 
 /// Why a joint file cannot be exported.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    /// The joint file contradicts itself.
-    #[error("the joint file is not valid: {}", lines(problems))]
-    Invalid {
-        /// Everything that is wrong, at least one.
-        problems: Vec<Problem>,
-    },
     /// The joint can feed energy into a simulation.
     #[error(
         "{}; expected K and C positive semidefinite, or the joint can feed energy into a simulation that then blows up; \
@@ -27,7 +21,7 @@ pub enum ExportError {
         /// The matrices that are not positive semidefinite.
         matrices: Vec<MatrixPassivity>,
     },
-    /// The joint file does not give the equations of this FMU.
+    /// The joint file contradicts itself, has no such preload, or does not give the equations of this FMU.
     #[error(transparent)]
     Law(#[from] LawError),
     /// Extrapolation is asked for where there is no table in the FMU.
@@ -36,9 +30,6 @@ pub enum ExportError {
          leave --extrapolate out"
     )]
     NothingToExtrapolate,
-    /// The joint has no such preload.
-    #[error(transparent)]
-    Preload(#[from] PreloadError),
     /// A step size was given for the FMU that takes no steps.
     #[error(
         "step size: found {found_s:?} s for the element, expected none: the element has no states and takes no steps; \

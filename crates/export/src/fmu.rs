@@ -18,7 +18,7 @@ use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
 use bolted_joint_files::whole_file;
-use bolted_joint_joint::{JointFile, OverPreload, Passivity};
+use bolted_joint_joint::{JointFile, LawError, OverPreload, Passivity};
 
 /// What to export, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -129,7 +129,7 @@ pub fn fmu_bytes(
 ) -> Result<Exported, ExportError> {
     let problems = file.validate();
     if !problems.is_empty() {
-        return Err(ExportError::Invalid { problems });
+        return Err(LawError::Invalid { problems }.into());
     }
     if options.extrapolate && (file.joint.over_preload.is_none() || options.preload_n_m.is_some()) {
         return Err(ExportError::NothingToExtrapolate);
@@ -147,7 +147,7 @@ pub fn fmu_bytes(
         return fmu(&subject, vec![source], options);
     }
     let constant = file.at_preload(options.preload_n_m)?;
-    let text = constant.to_json().map_err(|_| ExportError::Invalid {
+    let text = constant.to_json().map_err(|_| LawError::Invalid {
         problems: constant.validate(),
     })?;
     let sources = vec![

@@ -16,4 +16,4 @@ pub use line_figure::{Line, LineFigure, Scale, Shape};
 pub use look::Look;
 pub use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
 pub use strip::{FAINT_TEXT, Strip, TEXT, VALUE_LABELS, draw_path};
-pub use svg::{PathData, Point, Svg};
+pub use svg::{Manner, PathData, Point, Svg};

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::curve;
 use super::strip::{Strip, TEXT, VALUE_LABELS};
-use super::svg::{PathData, Point, Svg};
+use super::svg::{Manner, PathData, Point, Svg};
 use super::text;
 
 const WIDTH: f64 = 640.0;
@@ -88,13 +88,7 @@ impl LineFigure<'_> {
         };
         let height = LEGEND + STRIP_HEIGHT + LABELS_BELOW;
         let mut svg = Svg::new(WIDTH, height, self.title);
-        svg.element("rect")
-            .number("width", WIDTH)
-            .number("height", height)
-            .number("rx", 6.0)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(WIDTH, height, Some(6.0), FONTS);
         self.draw_legend(&strip, &mut svg);
         strip.draw_grid(&mut svg);
         for (line, look) in self.lines.iter().zip(LOOKS) {
@@ -138,12 +132,7 @@ impl LineFigure<'_> {
                 ),
             }
             x += SAMPLE_WIDTH + 7.0;
-            svg.element("text")
-                .number("x", x)
-                .number("y", baseline)
-                .number("font-size", FONT)
-                .word("fill", TEXT)
-                .containing(&line.name);
+            svg.text(x, baseline, FONT, Manner::Plain, TEXT, &line.name);
             x += text::width(&line.name, FONT) + BETWEEN_ENTRIES;
         }
     }

@@ -5,7 +5,7 @@ use super::curve;
 use super::line_figure::{Scale, axis};
 use super::look::Look;
 use super::strip::{FAINT_TEXT, Strip, TEXT, VALUE_LABELS};
-use super::svg::{PathData, Point, Svg};
+use super::svg::{Manner, PathData, Point, Svg};
 use super::text;
 
 const WIDTH: f64 = 820.0;
@@ -100,12 +100,7 @@ impl ResponseFigure<'_> {
             return None;
         }
         let mut svg = Svg::new(WIDTH, top, self.title);
-        svg.element("rect")
-            .number("width", WIDTH)
-            .number("height", top)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(WIDTH, top, None, FONTS);
         self.draw_title(room, &mut svg);
         for (panel, strip, entries, begin, power) in &laid_out {
             panel.draw(strip, entries, *begin, *power, &mut svg);
@@ -117,21 +112,23 @@ impl ResponseFigure<'_> {
         let left = MARGIN + VALUE_LABELS;
         let note = self.note.unwrap_or_default();
         let for_note = text::width(note, FONT) + BETWEEN_ENTRIES;
-        svg.element("text")
-            .number("x", left)
-            .number("y", MARGIN + TITLE_FONT)
-            .number("font-size", TITLE_FONT)
-            .word("font-weight", "600")
-            .word("fill", TEXT)
-            .containing(&text::shortened(self.title, TITLE_FONT, room - for_note));
+        svg.text(
+            left,
+            MARGIN + TITLE_FONT,
+            TITLE_FONT,
+            Manner::Bold,
+            TEXT,
+            &text::shortened(self.title, TITLE_FONT, room - for_note),
+        );
         if !note.is_empty() {
-            svg.element("text")
-                .number("x", left + room)
-                .number("y", MARGIN + TITLE_FONT)
-                .number("font-size", FONT)
-                .word("text-anchor", "end")
-                .word("fill", FAINT_TEXT)
-                .containing(note);
+            svg.text(
+                left + room,
+                MARGIN + TITLE_FONT,
+                FONT,
+                Manner::End,
+                FAINT_TEXT,
+                note,
+            );
         }
     }
 }
@@ -196,13 +193,14 @@ impl ResponsePanel {
     fn draw(&self, strip: &Strip, entries: &[Entry<'_>], begin: f64, power: i32, svg: &mut Svg) {
         let mut key = begin;
         if !self.title.is_empty() {
-            svg.element("text")
-                .number("x", strip.left)
-                .number("y", key + LINE - 7.0)
-                .number("font-size", FONT)
-                .word("font-weight", "600")
-                .word("fill", TEXT)
-                .containing(&text::shortened(&self.title, FONT, strip.width));
+            svg.text(
+                strip.left,
+                key + LINE - 7.0,
+                FONT,
+                Manner::Bold,
+                TEXT,
+                &text::shortened(&self.title, FONT, strip.width),
+            );
             key += LINE;
         }
         for entry in entries {
@@ -212,12 +210,14 @@ impl ResponsePanel {
             let y = baseline - 0.36 * FONT;
             sample.polyline(&[left, left + SAMPLE_WIDTH].map(|x| Point { x, y }));
             Look::line(entry.colour, STROKE).draw(&sample, svg);
-            svg.element("text")
-                .number("x", left + SAMPLE_WIDTH + 7.0)
-                .number("y", baseline)
-                .number("font-size", FONT)
-                .word("fill", TEXT)
-                .containing(entry.name);
+            svg.text(
+                left + SAMPLE_WIDTH + 7.0,
+                baseline,
+                FONT,
+                Manner::Plain,
+                TEXT,
+                entry.name,
+            );
         }
         strip.draw_grid(svg);
         for (n, drawn) in self.curves.iter().enumerate() {

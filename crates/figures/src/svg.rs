@@ -17,6 +17,19 @@ pub struct Element<'svg> {
     name: &'static str,
 }
 
+/// How a line of text stands at its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Manner {
+    /// It begins there.
+    Plain,
+    /// It begins there, in bold.
+    Bold,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
 impl Svg {
     /// A document of the given size in pixels. `title` is read out to those who cannot see the picture.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
@@ -42,6 +55,31 @@ impl Svg {
     pub fn element(&mut self, name: &'static str) -> Element<'_> {
         let _ = write!(self.text, "<{name}");
         Element { svg: self, name }
+    }
+
+    /// White paper, with round corners of a radius if they are, and the fonts of everything on it.
+    pub fn paper(&mut self, width: f64, height: f64, radius: Option<f64>, fonts: &str) {
+        let sheet = self.element("rect").number("width", width);
+        let sheet = sheet.number("height", height);
+        let sheet = match radius {
+            Some(radius) => sheet.number("rx", radius),
+            None => sheet,
+        };
+        sheet.word("fill", "#ffffff").empty();
+        self.element("g").word("font-family", fonts).open();
+    }
+
+    /// A line of text at a place.
+    pub fn text(&mut self, x: f64, y: f64, font: f64, manner: Manner, fill: &str, text: &str) {
+        let line = self.element("text").number("x", x).number("y", y);
+        let line = line.number("font-size", font);
+        let line = match manner {
+            Manner::Plain => line,
+            Manner::Bold => line.word("font-weight", "600"),
+            Manner::Middle => line.word("text-anchor", "middle"),
+            Manner::End => line.word("text-anchor", "end"),
+        };
+        line.word("fill", fill).containing(text);
     }
 
     /// Escaped text inside the element that is open.

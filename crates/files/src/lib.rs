@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod text_file;
+pub mod text_table;
 mod timestamp;
 pub mod whole_file;
 

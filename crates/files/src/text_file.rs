@@ -46,7 +46,7 @@ pub enum TextFileError {
         expected: &'static str,
     },
     /// Something in a line.
-    #[error("{}: line {line}: found {found}, expected {expected}", path.display())]
+    #[error("{}, line {line}: found {found}, expected {expected}", path.display())]
     Line {
         /// The file.
         path: PathBuf,

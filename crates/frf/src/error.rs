@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use num_complex::Complex64;
 use thiserror::Error;
 
-use super::{CsvProblem, Dof, NpzProblem, UffProblem};
+use super::{Dof, TableProblem, UffProblem};
 
 /// How many pairs an error message lists before it only counts.
 const LISTED_PAIRS: usize = 12;
@@ -264,7 +264,7 @@ pub enum FrfError {
         line: usize,
         /// What is wrong there.
         #[source]
-        problem: Box<CsvProblem>,
+        problem: Box<TableProblem>,
     },
     /// A NumPy archive is not usable.
     #[error("{}: {problem}", path.display())]
@@ -273,7 +273,7 @@ pub enum FrfError {
         path: PathBuf,
         /// What is wrong with it.
         #[source]
-        problem: Box<NpzProblem>,
+        problem: Box<TableProblem>,
     },
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]

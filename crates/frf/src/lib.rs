@@ -21,17 +21,17 @@ mod shown;
 mod statement;
 pub mod structure;
 mod summary;
+mod table_problem;
 mod uff;
 mod unit_label;
 
 pub use coherence::{Coherence, relative_variance};
-pub use csv::Decimal;
-pub use csv::{CsvProblem, read_csv, read_csv_from};
+pub use csv::{Decimal, read_csv, read_csv_from};
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;
 pub use function::Frf;
 pub use noise::polluted;
-pub use npz::{NpzProblem, read_npz, read_npz_from};
+pub use npz::{read_npz, read_npz_from};
 pub use options::ReadOptions;
 pub use quantity::Quantity;
 pub use read::{read_frfs, read_frfs_watched};
@@ -40,8 +40,8 @@ pub use resonance::{Resonance, resonances};
 pub use selection::Selection;
 pub use set::{FrfSet, Receptance};
 pub use shown::shown;
-pub use statement::StatementProblem;
 pub use summary::{FileFormat, FileSummary, StatedBy, UnitStatement};
+pub use table_problem::TableProblem;
 pub use uff::{
     ByteOrder, UffProblem, UnitFactorError, UnitSystem, read_uff58, read_uff58_from, write_uff58,
     write_uff58_to, write_uff58b, write_uff58b_to,

@@ -8,7 +8,7 @@ use super::counted::Counted;
 use super::csv::read_csv_from;
 use super::npz::read_npz_from;
 use super::uff::read_uff58_of;
-use super::{FrfError, FrfReading, NpzProblem, ReadOptions};
+use super::{FrfError, FrfReading, ReadOptions, TableProblem};
 
 /// Bytes that are read at a time.
 const PIECE: usize = 1 << 16;
@@ -107,7 +107,11 @@ fn reading(
         Format::Archive => read_npz_from(reader, path, options),
         Format::SingleArray => Err(FrfError::Npz {
             path: path.to_owned(),
-            problem: Box::new(NpzProblem::SingleArray),
+            problem: Box::new(TableProblem::whole(
+                "one NumPy array (.npy)",
+                "an archive (.npz) that has its frequencies and names too; save it with numpy.savez(file, frequency=…, frf=…, response=…, \
+                 reference=…)",
+            )),
         }),
     };
     watch(of, of);

@@ -1,9 +1,7 @@
 //! What the header of a table or an array says of a function, made into a quantity and a factor to SI.
 
-use thiserror::Error;
-
 use super::unit_label::Unit;
-use super::{Dof, Quantity, ReadOptions, StatedBy, UnitStatement};
+use super::{Dof, Quantity, ReadOptions, StatedBy, TableProblem, UnitStatement};
 
 /// What is stated of one function.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,72 +21,14 @@ pub(super) struct Stated {
     pub(super) units: UnitStatement,
 }
 
-/// Why a statement does not say what a function is.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum StatementProblem {
-    /// Neither a quantity nor a unit.
-    #[error(
-        "function {response} / {reference}: found neither a quantity nor a unit, expected receptance, mobility or accelerance, \
-         or a unit such as [m/s^2/N]; state it in the file, or in the study, such as quantity = \"accelerance\" beside frf"
-    )]
-    UnknownQuantity {
-        /// Response.
-        response: Dof,
-        /// Reference.
-        reference: Dof,
-    },
-    /// The quantity and the unit disagree.
-    #[error(
-        "function {response} / {reference}: found the quantity {stated} and the unit \"{unit}\", which means {by_unit}; expected \
-         one quantity. Correct the file, or state the right one in the study, such as quantity = \"{stated}\" beside frf"
-    )]
-    ContradictingQuantities {
-        /// Response.
-        response: Dof,
-        /// Reference.
-        reference: Dof,
-        /// The quantity as it is stated.
-        stated: Quantity,
-        /// The unit.
-        unit: String,
-        /// The quantity that the unit belongs to.
-        by_unit: Quantity,
-    },
-    /// A unit that is not a motion per load.
-    #[error(
-        "function {response} / {reference}: found the unit \"{unit}\", expected a unit of motion per load such as m/N, \
-         (m/s^2)/N, 1/kg, g/lbf or rad/N·m; correct the file, or state units in the study, such as \
-         units = {{ length = \"mm\", force = \"N\" }} beside frf"
-    )]
-    Unit {
-        /// Response.
-        response: Dof,
-        /// Reference.
-        reference: Dof,
-        /// The unit.
-        unit: String,
-    },
-    /// A unit that does not fit the degrees of freedom.
-    #[error(
-        "function {response} / {reference}: found the unit \"{unit}\", which is not one of that response per that reference; \
-         expected metres or radians per newton or newton metre as their directions say. Correct the directions or the unit, or \
-         state units in the study, such as units = {{ length = \"mm\", force = \"N\" }} beside frf"
-    )]
-    UnitNotOfDirections {
-        /// Response.
-        response: Dof,
-        /// Reference.
-        reference: Dof,
-        /// The unit.
-        unit: String,
-    },
-}
+/// What the user can do about a unit.
+const STATE_UNITS: &str =
+    "state units in the study, such as units = { length = \"mm\", force = \"N\" } beside frf";
 
 impl Statement<'_> {
     /// Decides what the values are, the caller's word first.
-    pub(super) fn decide(self, options: &ReadOptions) -> Result<Stated, StatementProblem> {
+    pub(super) fn decide(self, options: &ReadOptions) -> Result<Stated, TableProblem> {
         let (response, reference) = (self.response, self.reference);
-        let owned = |unit: &str| unit.to_owned();
         let unit = match self.unit {
             None => None,
             Some(label) => {
@@ -97,11 +37,13 @@ impl Statement<'_> {
                 if read.is_none()
                     && (options.units.is_none() || options.quantity.or(self.quantity).is_none())
                 {
-                    return Err(StatementProblem::Unit {
-                        response,
-                        reference,
-                        unit: owned(label),
-                    });
+                    return Err(TableProblem::of_function(
+                        (response, reference),
+                        format_args!("the unit \"{label}\""),
+                        format_args!(
+                            "a unit of motion per load such as m/N, (m/s^2)/N, 1/kg, g/lbf or rad/N·m; correct the file, or {STATE_UNITS}"
+                        ),
+                    ));
                 }
                 read.map(|unit| (label, unit))
             }
@@ -111,22 +53,26 @@ impl Statement<'_> {
         let quantity = match (options.quantity, self.quantity, by_unit) {
             (Some(quantity), ..) => (quantity, StatedBy::Caller),
             (None, Some(stated), Some((label, by_unit))) if stated != by_unit => {
-                return Err(StatementProblem::ContradictingQuantities {
-                    response,
-                    reference,
-                    stated,
-                    unit: owned(label),
-                    by_unit,
-                });
+                return Err(TableProblem::of_function(
+                    (response, reference),
+                    format_args!(
+                        "the quantity {stated} and the unit \"{label}\", which means {by_unit}"
+                    ),
+                    format_args!(
+                        "one quantity. Correct the file, or state the right one in the study, such as quantity = \"{stated}\" beside frf"
+                    ),
+                ));
             }
             (None, Some(quantity), _) | (None, None, Some((_, quantity))) => {
                 (quantity, StatedBy::File)
             }
             (None, None, None) => {
-                return Err(StatementProblem::UnknownQuantity {
-                    response,
-                    reference,
-                });
+                return Err(TableProblem::of_function(
+                    (response, reference),
+                    "neither a quantity nor a unit",
+                    "receptance, mobility or accelerance, or a unit such as [m/s^2/N]; state it in the file, or in the study, such as \
+                     quantity = \"accelerance\" beside frf",
+                ));
             }
         };
         let (motion, load) = (motion_exponents(response), load_exponents(reference));
@@ -140,17 +86,21 @@ impl Statement<'_> {
         }
         match unit {
             Some((label, unit)) if unit.length != motion.0 - load.0 => {
-                Err(StatementProblem::UnitNotOfDirections {
-                    response,
-                    reference,
-                    unit: owned(label),
-                })
+                Err(TableProblem::of_function(
+                    (response, reference),
+                    format_args!(
+                        "the unit \"{label}\", which is not one of that response per that reference"
+                    ),
+                    format_args!(
+                        "metres or radians per newton or newton metre as their directions say. Correct the directions or the unit, or {STATE_UNITS}"
+                    ),
+                ))
             }
             _ => Ok(Stated {
                 quantity,
                 to_si: unit.map_or(1.0, |(_, unit)| unit.to_si),
                 units: unit.map_or(UnitStatement::Assumed, |(label, _)| {
-                    UnitStatement::Label(owned(label))
+                    UnitStatement::Label(label.to_owned())
                 }),
             }),
         }

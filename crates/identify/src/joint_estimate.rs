@@ -1,6 +1,6 @@
 //! The joint of one torque, or of all, with how sure it is.
 
-use bolted_joint_statistics::student_975;
+use bolted_joint_statistics::{quantile, student_975};
 use nalgebra::{DMatrix, DVector};
 
 use super::assessment;
@@ -253,12 +253,6 @@ impl BootstrapResult {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
             (squares / (values.len() as f64 - 1.0)).sqrt()
-        };
-        let quantile = |values: &[f64], level: f64| {
-            let place = level * (values.len() as f64 - 1.0);
-            let below = place.floor() as usize;
-            let above = (below + 1).min(values.len() - 1);
-            values[below] + (place - below as f64) * (values[above] - values[below])
         };
         let own = if draws.is_empty() { 0..0 } else { own };
         let unknowns: Vec<Vec<f64>> = own.map(sorted).collect();

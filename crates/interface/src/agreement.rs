@@ -1,15 +1,15 @@
 //! What the two model descriptions must have in common: one library stands behind both.
 
 use crate::{
-    error::AgreementProblem,
+    error::InterfaceProblem,
     interface::{Interface, float64_types},
     units::units,
 };
 
 /// Checks that `this` agrees with `other` in value references, types, units, log categories and library name.
-pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), AgreementProblem> {
+pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), InterfaceProblem> {
     check_references(this, other)?;
-    let differs = |what, name: &str| AgreementProblem::DefinitionDiffers {
+    let differs = |what, name: &str| InterfaceProblem::DefinitionDiffers {
         what,
         name: name.to_owned(),
         other: other.file.clone(),
@@ -49,12 +49,12 @@ pub(crate) fn check(this: &Interface, other: &Interface) -> Result<(), Agreement
     Ok(())
 }
 
-fn check_references(this: &Interface, other: &Interface) -> Result<(), AgreementProblem> {
+fn check_references(this: &Interface, other: &Interface) -> Result<(), InterfaceProblem> {
     for variable in &this.variables {
         if let Some(counterpart) = other.variable(&variable.name)
             && counterpart.reference != variable.reference
         {
-            return Err(AgreementProblem::ReferenceDiffers {
+            return Err(InterfaceProblem::ReferenceDiffers {
                 variable: variable.name.clone(),
                 reference: variable.reference,
                 other: other.file.clone(),
@@ -64,7 +64,7 @@ fn check_references(this: &Interface, other: &Interface) -> Result<(), Agreement
         if let Some(counterpart) = other.variables.iter().find(|counterpart| {
             counterpart.reference == variable.reference && counterpart.name != variable.name
         }) {
-            return Err(AgreementProblem::ReferenceReused {
+            return Err(InterfaceProblem::ReferenceReused {
                 reference: variable.reference,
                 variable: variable.name.clone(),
                 other: other.file.clone(),
@@ -85,7 +85,7 @@ fn check_references(this: &Interface, other: &Interface) -> Result<(), Agreement
         .max()
         .unwrap_or(0);
     match (0..=largest).find(|&reference| !used(reference)) {
-        Some(reference) => Err(AgreementProblem::Gap { reference }),
+        Some(reference) => Err(InterfaceProblem::Gap { reference }),
         None => Ok(()),
     }
 }

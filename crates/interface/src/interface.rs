@@ -7,7 +7,7 @@ use fmi_schema::{
 
 use crate::{
     agreement,
-    error::{InterfaceError, Problem, VariableProblem},
+    error::{DefinitionProblem, InterfaceError, InterfaceProblem},
     frame::{Expanded, Filling, Frames},
     scope::Joints,
     structure, units,
@@ -36,7 +36,7 @@ impl Interface {
     /// # Errors
     ///
     /// [`InterfaceError::Malformed`] if `xml` is no FMI 3.0 model description, [`InterfaceError::Inconsistent`] with
-    /// the first [`Problem`] found in it.
+    /// the first [`InterfaceProblem`] found in it.
     pub fn from_xml(file: &str, xml: &str) -> Result<Self, InterfaceError> {
         let description =
             Fmi3ModelDescription::deserialize(xml).map_err(|source| InterfaceError::Malformed {
@@ -67,7 +67,7 @@ impl Interface {
         })
     }
 
-    fn checked(file: &str, description: Fmi3ModelDescription) -> Result<Self, Problem> {
+    fn checked(file: &str, description: Fmi3ModelDescription) -> Result<Self, InterfaceProblem> {
         let model_identifier = check_header(&description)?;
         units::check_units(&description)?;
         let types = float64_types(&description);
@@ -79,7 +79,7 @@ impl Interface {
             .iter()
             .map(|declared| match declared {
                 Declared::Float64(declared) => Variable::new(declared, &types),
-                other => Err(VariableProblem::NotFloat64 {
+                other => Err(DefinitionProblem::NotFloat64 {
                     variable: name_of(other),
                 }),
             })
@@ -183,9 +183,9 @@ impl Interfaces {
     }
 }
 
-fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {
+fn check_header(description: &Fmi3ModelDescription) -> Result<String, InterfaceProblem> {
     if description.fmi_version != "3.0" {
-        return Err(Problem::Version {
+        return Err(InterfaceProblem::Version {
             found: description.fmi_version.clone(),
         });
     }
@@ -193,14 +193,14 @@ fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {
         .co_simulation
         .as_ref()
         .map(|co_simulation| co_simulation.model_identifier.clone())
-        .ok_or(Problem::NoCoSimulation)?;
+        .ok_or(InterfaceProblem::NoCoSimulation)?;
     let of_model_exchange = description
         .model_exchange
         .as_ref()
         .map(|model_exchange| &model_exchange.model_identifier)
-        .ok_or(Problem::NoModelExchange)?;
+        .ok_or(InterfaceProblem::NoModelExchange)?;
     if *of_model_exchange != identifier {
-        return Err(Problem::TwoModelIdentifiers {
+        return Err(InterfaceProblem::TwoModelIdentifiers {
             model_exchange: of_model_exchange.clone(),
             co_simulation: identifier,
         });
@@ -212,7 +212,7 @@ fn check_header(description: &Fmi3ModelDescription) -> Result<String, Problem> {
     if is_c_identifier {
         Ok(identifier)
     } else {
-        Err(Problem::ModelIdentifier { found: identifier })
+        Err(InterfaceProblem::ModelIdentifier { found: identifier })
     }
 }
 
@@ -228,7 +228,7 @@ pub(crate) fn float64_types(description: &Fmi3ModelDescription) -> Vec<&Float64T
         .collect()
 }
 
-fn log_categories(description: &Fmi3ModelDescription) -> Result<Vec<String>, Problem> {
+fn log_categories(description: &Fmi3ModelDescription) -> Result<Vec<String>, InterfaceProblem> {
     let mut names: Vec<String> = Vec::new();
     for category in description
         .log_categories
@@ -236,7 +236,7 @@ fn log_categories(description: &Fmi3ModelDescription) -> Result<Vec<String>, Pro
         .flat_map(|list| &list.categories)
     {
         if names.contains(&category.name) {
-            return Err(Problem::DuplicateDefinition {
+            return Err(InterfaceProblem::DuplicateDefinition {
                 list: "<LogCategories>",
                 name: category.name.clone(),
             });
@@ -267,27 +267,31 @@ fn name_of(declared: &Declared) -> String {
     .to_owned()
 }
 
-fn check_uniqueness(variables: &[Variable]) -> Result<(), Problem> {
+fn check_uniqueness(variables: &[Variable]) -> Result<(), InterfaceProblem> {
     for (index, second) in variables.iter().enumerate() {
         for first in &variables[..index] {
             if first.name == second.name {
-                return Err(Problem::Variable(VariableProblem::DuplicateName {
-                    variable: second.name.clone(),
-                }));
+                return Err(InterfaceProblem::Definition(
+                    DefinitionProblem::DuplicateName {
+                        variable: second.name.clone(),
+                    },
+                ));
             }
             if first.reference == second.reference {
-                return Err(Problem::Variable(VariableProblem::DuplicateReference {
-                    reference: second.reference,
-                    first: first.name.clone(),
-                    second: second.name.clone(),
-                }));
+                return Err(InterfaceProblem::Definition(
+                    DefinitionProblem::DuplicateReference {
+                        reference: second.reference,
+                        first: first.name.clone(),
+                        second: second.name.clone(),
+                    },
+                ));
             }
         }
     }
     Ok(())
 }
 
-fn check_independent(variables: &[Variable]) -> Result<(), Problem> {
+fn check_independent(variables: &[Variable]) -> Result<(), InterfaceProblem> {
     let found: Vec<(String, u32)> = variables
         .iter()
         .filter(|variable| variable.role == Role::Independent)
@@ -295,6 +299,8 @@ fn check_independent(variables: &[Variable]) -> Result<(), Problem> {
         .collect();
     match found.as_slice() {
         [(name, 0)] if name == "time" => Ok(()),
-        _ => Err(Problem::Variable(VariableProblem::Independent { found })),
+        _ => Err(InterfaceProblem::Definition(
+            DefinitionProblem::Independent { found },
+        )),
     }
 }

@@ -17,10 +17,7 @@ mod structure;
 mod units;
 mod variable;
 
-pub use error::{
-    AgreementProblem, FrameProblem, InterfaceError, Problem, StructureProblem, UnitProblem,
-    VariableProblem,
-};
+pub use error::{DefinitionProblem, InterfaceError, InterfaceProblem};
 pub use frame::{At, Expanded, Filling, Frames, LawParameter, law_parameters};
 pub use interface::{ContinuousState, Interface, Interfaces};
 pub use scope::{Joints, Rows, Scope};

@@ -3,7 +3,7 @@
 use fmi_schema::fmi3::{DependenciesKind, Fmi3Unknown, ModelStructure};
 
 use crate::{
-    error::StructureProblem,
+    error::InterfaceProblem,
     interface::ContinuousState,
     variable::{Role, Variable},
 };
@@ -12,7 +12,7 @@ use crate::{
 pub(crate) fn check(
     structure: &ModelStructure,
     variables: &[Variable],
-) -> Result<(), StructureProblem> {
+) -> Result<(), InterfaceProblem> {
     // Outputs: every output, each once
     let outputs = List {
         element: "Output",
@@ -49,7 +49,7 @@ pub(crate) fn check(
 pub(crate) fn continuous_states(
     structure: &ModelStructure,
     variables: &[Variable],
-) -> Result<Vec<ContinuousState>, StructureProblem> {
+) -> Result<Vec<ContinuousState>, InterfaceProblem> {
     let mut states = Vec::new();
     for entry in structure.continuous_state_derivatives() {
         let derivative = variables
@@ -72,7 +72,7 @@ pub(crate) fn continuous_states(
         .iter()
         .find(|variable| variable.role == Role::State && !is_listed(variable))
     {
-        Some(state) => Err(StructureProblem::NoDerivative {
+        Some(state) => Err(InterfaceProblem::NoDerivative {
             variable: state.name.clone(),
         }),
         None => Ok(states),
@@ -103,17 +103,17 @@ struct List<'a> {
 }
 
 impl List<'_> {
-    fn variable(&self, reference: u32) -> Result<&Variable, StructureProblem> {
+    fn variable(&self, reference: u32) -> Result<&Variable, InterfaceProblem> {
         self.variables
             .iter()
             .find(|variable| variable.reference == reference)
-            .ok_or(StructureProblem::UndefinedReference {
+            .ok_or(InterfaceProblem::UndefinedReference {
                 element: self.element,
                 reference,
             })
     }
 
-    fn check_entries(&self, belongs: impl Fn(&Variable) -> bool) -> Result<(), StructureProblem> {
+    fn check_entries(&self, belongs: impl Fn(&Variable) -> bool) -> Result<(), InterfaceProblem> {
         for (index, entry) in self.entries.iter().enumerate() {
             let variable = self.variable(entry.value_reference)?;
             let problem_here = || (self.element, variable.name.clone());
@@ -122,11 +122,11 @@ impl List<'_> {
                 .any(|earlier| earlier.value_reference == entry.value_reference)
             {
                 let (element, variable) = problem_here();
-                return Err(StructureProblem::DuplicateUnknown { element, variable });
+                return Err(InterfaceProblem::DuplicateUnknown { element, variable });
             }
             if !belongs(variable) {
                 let (element, variable) = problem_here();
-                return Err(StructureProblem::UnexpectedUnknown { element, variable });
+                return Err(InterfaceProblem::UnexpectedUnknown { element, variable });
             }
         }
         let missing = self.variables.iter().find(|variable| {
@@ -137,7 +137,7 @@ impl List<'_> {
                     .any(|entry| entry.value_reference == variable.reference)
         });
         match missing {
-            Some(variable) => Err(StructureProblem::MissingUnknown {
+            Some(variable) => Err(InterfaceProblem::MissingUnknown {
                 element: self.element,
                 variable: variable.name.clone(),
             }),
@@ -148,25 +148,25 @@ impl List<'_> {
     fn check_dependencies(
         &self,
         is_known: impl Fn(&Variable) -> bool,
-    ) -> Result<(), StructureProblem> {
+    ) -> Result<(), InterfaceProblem> {
         for entry in &self.entries {
             let variable = self.variable(entry.value_reference)?.name.clone();
             let element = self.element;
             let Some(dependencies) = entry.dependencies.as_deref() else {
-                return Err(StructureProblem::NoDependencies { element, variable });
+                return Err(InterfaceProblem::NoDependencies { element, variable });
             };
             for (index, &reference) in dependencies.iter().enumerate() {
                 let known = self.variable(reference)?;
                 let dependency = known.name.clone();
                 if !is_known(known) {
-                    return Err(StructureProblem::NotKnown {
+                    return Err(InterfaceProblem::NotKnown {
                         element,
                         variable,
                         dependency,
                     });
                 }
                 if dependencies[..index].contains(&reference) {
-                    return Err(StructureProblem::DuplicateDependency {
+                    return Err(InterfaceProblem::DuplicateDependency {
                         element,
                         variable,
                         dependency,
@@ -178,7 +178,7 @@ impl List<'_> {
                 .as_deref()
                 .map_or(dependencies.len(), <[_]>::len);
             if kinds != dependencies.len() {
-                return Err(StructureProblem::KindCount {
+                return Err(InterfaceProblem::KindCount {
                     element,
                     variable,
                     dependencies: dependencies.len(),
@@ -189,7 +189,7 @@ impl List<'_> {
         Ok(())
     }
 
-    fn check_initial_kinds(&self) -> Result<(), StructureProblem> {
+    fn check_initial_kinds(&self) -> Result<(), InterfaceProblem> {
         for entry in &self.entries {
             let kinds = entry.dependencies_kind.as_deref().unwrap_or_default();
             if kinds.iter().any(|kind| {
@@ -199,7 +199,7 @@ impl List<'_> {
                 )
             }) {
                 let variable = self.variable(entry.value_reference)?.name.clone();
-                return Err(StructureProblem::InitialKind { variable });
+                return Err(InterfaceProblem::InitialKind { variable });
             }
         }
         Ok(())

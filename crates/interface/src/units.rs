@@ -3,52 +3,56 @@
 use fmi_schema::fmi3::{BaseUnit, Float64Type, Fmi3ModelDescription, Fmi3Unit};
 
 use crate::{
-    error::{Problem, UnitProblem, VariableProblem},
+    error::{DefinitionProblem, InterfaceProblem},
     variable::Variable,
 };
 
 /// Checks that units are defined once, by SI exponents alone, and that their display units are of use.
-pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), Problem> {
+pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), InterfaceProblem> {
     let units = units(description);
     for (index, unit) in units.iter().enumerate() {
         if units[..index]
             .iter()
             .any(|earlier| earlier.name == unit.name)
         {
-            return Err(Problem::DuplicateDefinition {
+            return Err(InterfaceProblem::DuplicateDefinition {
                 list: "<UnitDefinitions>",
                 name: unit.name.clone(),
             });
         }
         let base = unit.base_unit.as_ref().ok_or_else(|| {
-            Problem::Unit(UnitProblem::NoBaseUnit {
+            InterfaceProblem::Definition(DefinitionProblem::NoBaseUnit {
                 unit: unit.name.clone(),
             })
         })?;
         if base.factor.is_some_and(|factor| factor != 1.0)
             || base.offset.is_some_and(|offset| offset != 0.0)
         {
-            return Err(Problem::Unit(UnitProblem::NotCoherent {
-                unit: unit.name.clone(),
-            }));
+            return Err(InterfaceProblem::Definition(
+                DefinitionProblem::NotCoherent {
+                    unit: unit.name.clone(),
+                },
+            ));
         }
         for (index, display) in unit.display_unit.iter().enumerate() {
             if unit.display_unit[..index]
                 .iter()
                 .any(|earlier| earlier.name == display.name)
             {
-                return Err(Problem::DuplicateDefinition {
+                return Err(InterfaceProblem::DuplicateDefinition {
                     list: "<Unit>",
                     name: display.name.clone(),
                 });
             }
             let factor = display.factor.unwrap_or(1.0);
             if !(factor.is_finite() && factor > 0.0) {
-                return Err(Problem::Unit(UnitProblem::DisplayFactor {
-                    unit: unit.name.clone(),
-                    display_unit: display.name.clone(),
-                    factor,
-                }));
+                return Err(InterfaceProblem::Definition(
+                    DefinitionProblem::DisplayFactor {
+                        unit: unit.name.clone(),
+                        display_unit: display.name.clone(),
+                        factor,
+                    },
+                ));
             }
         }
     }
@@ -59,7 +63,7 @@ pub(crate) fn check_units(description: &Fmi3ModelDescription) -> Result<(), Prob
 pub(crate) fn check_types(
     types: &[&Float64Type],
     description: &Fmi3ModelDescription,
-) -> Result<(), Problem> {
+) -> Result<(), InterfaceProblem> {
     let units = units(description);
     for (index, declared_type) in types.iter().enumerate() {
         let name = || declared_type.name.clone();
@@ -67,13 +71,13 @@ pub(crate) fn check_types(
             .iter()
             .any(|earlier| earlier.name == declared_type.name)
         {
-            return Err(Problem::DuplicateDefinition {
+            return Err(InterfaceProblem::DuplicateDefinition {
                 list: "<TypeDefinitions>",
                 name: name(),
             });
         }
         let unit_name = declared_type.unit.clone().ok_or_else(|| {
-            Problem::Unit(UnitProblem::NoUnit {
+            InterfaceProblem::Definition(DefinitionProblem::NoUnit {
                 declared_type: name(),
             })
         })?;
@@ -81,7 +85,7 @@ pub(crate) fn check_types(
             .iter()
             .find(|unit| unit.name == unit_name)
             .ok_or_else(|| {
-                Problem::Unit(UnitProblem::UndefinedUnit {
+                InterfaceProblem::Definition(DefinitionProblem::UndefinedUnit {
                     declared_type: name(),
                     unit: unit_name.clone(),
                 })
@@ -92,16 +96,18 @@ pub(crate) fn check_types(
                 .iter()
                 .any(|defined| defined.name == *display_unit)
         {
-            return Err(Problem::Unit(UnitProblem::UndefinedDisplayUnit {
-                declared_type: name(),
-                unit: unit_name,
-                display_unit: display_unit.clone(),
-            }));
+            return Err(InterfaceProblem::Definition(
+                DefinitionProblem::UndefinedDisplayUnit {
+                    declared_type: name(),
+                    unit: unit_name,
+                    display_unit: display_unit.clone(),
+                },
+            ));
         }
         if let Some(nominal) = declared_type.nominal
             && !(nominal.is_finite() && nominal > 0.0)
         {
-            return Err(Problem::Unit(UnitProblem::Nominal {
+            return Err(InterfaceProblem::Definition(DefinitionProblem::Nominal {
                 declared_type: name(),
                 nominal,
             }));
@@ -109,7 +115,7 @@ pub(crate) fn check_types(
         if let (Some(min), Some(max)) = (declared_type.min, declared_type.max)
             && (min.is_nan() || max.is_nan() || min > max)
         {
-            return Err(Problem::Unit(UnitProblem::Range {
+            return Err(InterfaceProblem::Definition(DefinitionProblem::Range {
                 declared_type: name(),
                 min,
                 max,
@@ -123,7 +129,7 @@ pub(crate) fn check_types(
 pub(crate) fn check_derivatives(
     variables: &[Variable],
     description: &Fmi3ModelDescription,
-) -> Result<(), Problem> {
+) -> Result<(), InterfaceProblem> {
     use crate::variable::Role;
     let units = units(description);
     let exponents = |name: &str| {
@@ -148,7 +154,7 @@ pub(crate) fn check_derivatives(
                     )
             })
             .ok_or_else(|| {
-                Problem::Variable(VariableProblem::UndefinedDerivative {
+                InterfaceProblem::Definition(DefinitionProblem::UndefinedDerivative {
                     variable: variable.name.clone(),
                     reference,
                 })
@@ -158,12 +164,14 @@ pub(crate) fn check_derivatives(
             exponents
         });
         if exponents(&variable.unit) != expected {
-            return Err(Problem::Unit(UnitProblem::DerivativeUnit {
-                variable: variable.name.clone(),
-                unit: variable.unit.clone(),
-                of: of.name.clone(),
-                of_unit: of.unit.clone(),
-            }));
+            return Err(InterfaceProblem::Definition(
+                DefinitionProblem::DerivativeUnit {
+                    variable: variable.name.clone(),
+                    unit: variable.unit.clone(),
+                    of: of.name.clone(),
+                    of_unit: of.unit.clone(),
+                },
+            ));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use fmi_schema::fmi3::{Causality, Float64Type, FmiFloat64, Initial, Variability}
 
 use crate::{
     combination::{effective_initial, is_allowed},
-    error::VariableProblem,
+    error::DefinitionProblem,
 };
 
 /// What a variable is to the library.
@@ -54,15 +54,15 @@ impl Variable {
     pub(crate) fn new(
         declared: &FmiFloat64,
         types: &[&Float64Type],
-    ) -> Result<Self, VariableProblem> {
+    ) -> Result<Self, DefinitionProblem> {
         let variable = || declared.name.clone();
         if !is_structured(&declared.name) {
-            return Err(VariableProblem::IllegalName {
+            return Err(DefinitionProblem::IllegalName {
                 variable: variable(),
             });
         }
         if !declared.dimensions.is_empty() {
-            return Err(VariableProblem::NotScalar {
+            return Err(DefinitionProblem::NotScalar {
                 variable: variable(),
             });
         }
@@ -70,20 +70,20 @@ impl Variable {
             .description
             .clone()
             .filter(|text| !text.trim().is_empty())
-            .ok_or_else(|| VariableProblem::NoDescription {
+            .ok_or_else(|| DefinitionProblem::NoDescription {
                 variable: variable(),
             })?;
         let type_name =
             declared
                 .declared_type
                 .as_deref()
-                .ok_or_else(|| VariableProblem::NoType {
+                .ok_or_else(|| DefinitionProblem::NoType {
                     variable: variable(),
                 })?;
         let declared_type = types
             .iter()
             .find(|candidate| candidate.name == type_name)
-            .ok_or_else(|| VariableProblem::UndefinedType {
+            .ok_or_else(|| DefinitionProblem::UndefinedType {
                 variable: variable(),
                 declared_type: type_name.to_owned(),
             })?;
@@ -111,13 +111,13 @@ fn is_structured(name: &str) -> bool {
     })
 }
 
-fn role(declared: &FmiFloat64) -> Result<Role, VariableProblem> {
+fn role(declared: &FmiFloat64) -> Result<Role, DefinitionProblem> {
     let causality = declared.causality.unwrap_or_default();
     let variability = declared
         .variability
         .unwrap_or(default_variability(causality));
     if !is_allowed(causality, variability) {
-        return Err(VariableProblem::Combination {
+        return Err(DefinitionProblem::Combination {
             variable: declared.name.clone(),
             causality,
             variability,
@@ -125,7 +125,7 @@ fn role(declared: &FmiFloat64) -> Result<Role, VariableProblem> {
     }
     let initial =
         effective_initial(causality, variability, declared.initial).map_err(|initial| {
-            VariableProblem::ForbiddenInitial {
+            DefinitionProblem::ForbiddenInitial {
                 variable: declared.name.clone(),
                 initial,
                 causality,
@@ -147,7 +147,7 @@ fn role(declared: &FmiFloat64) -> Result<Role, VariableProblem> {
             Ok(Role::Derivative)
         }
         // legal in FMI, but nothing that the library implements
-        _ => Err(VariableProblem::NoRole {
+        _ => Err(DefinitionProblem::NoRole {
             variable: declared.name.clone(),
             causality,
             variability,
@@ -168,11 +168,11 @@ fn default_variability(causality: Causality) -> Variability {
 
 /// FMI 3.0, 2.4.7: only continuous-time variables can have `intermediateUpdate`. Parameters are tunable here, and the
 /// time is told by the callback itself.
-fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, VariableProblem> {
+fn intermediate_update(declared: &FmiFloat64, role: Role) -> Result<bool, DefinitionProblem> {
     let found = declared.intermediate_update.unwrap_or(false);
     match role {
         Role::Independent | Role::Parameter | Role::CalculatedParameter if found => {
-            Err(VariableProblem::IntermediateUpdate {
+            Err(DefinitionProblem::IntermediateUpdate {
                 variable: declared.name.clone(),
             })
         }
@@ -184,12 +184,12 @@ fn start(
     declared: &FmiFloat64,
     declared_type: &Float64Type,
     role: Role,
-) -> Result<Option<f64>, VariableProblem> {
+) -> Result<Option<f64>, DefinitionProblem> {
     let variable = || declared.name.clone();
     let needed = matches!(role, Role::Input | Role::Parameter | Role::State);
     let Some(found) = declared.start.as_deref() else {
         return if needed {
-            Err(VariableProblem::NoStart {
+            Err(DefinitionProblem::NoStart {
                 variable: variable(),
             })
         } else {
@@ -197,18 +197,18 @@ fn start(
         };
     };
     if !needed {
-        return Err(VariableProblem::UnwantedStart {
+        return Err(DefinitionProblem::UnwantedStart {
             variable: variable(),
         });
     }
     let &[start] = found else {
-        return Err(VariableProblem::IllegalStart {
+        return Err(DefinitionProblem::IllegalStart {
             variable: variable(),
             found: found.to_vec(),
         });
     };
     if !start.is_finite() {
-        return Err(VariableProblem::IllegalStart {
+        return Err(DefinitionProblem::IllegalStart {
             variable: variable(),
             found: found.to_vec(),
         });
@@ -220,7 +220,7 @@ fn start(
         .unwrap_or(f64::NEG_INFINITY);
     let max = declared.max.or(declared_type.max).unwrap_or(f64::INFINITY);
     if !(min..=max).contains(&start) {
-        return Err(VariableProblem::StartOutOfRange {
+        return Err(DefinitionProblem::StartOutOfRange {
             variable: variable(),
             start,
             min,

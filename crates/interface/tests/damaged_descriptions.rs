@@ -9,8 +9,8 @@
 use std::sync::LazyLock;
 
 use bolted_joint_interface::{
-    AgreementProblem, Expanded, Interface, InterfaceError, Interfaces, Joints, Problem, Role, Rows,
-    StructureProblem, UnitProblem, VariableProblem,
+    DefinitionProblem, Expanded, Interface, InterfaceError, InterfaceProblem, Interfaces, Joints,
+    Role, Rows,
 };
 
 static DESCRIPTIONS: LazyLock<[Expanded; 2]> = LazyLock::new(|| Expanded::present().unwrap());
@@ -18,7 +18,7 @@ static ELEMENT: LazyLock<&str> = LazyLock::new(|| &DESCRIPTIONS[0].xml);
 static LAP: LazyLock<&str> = LazyLock::new(|| &DESCRIPTIONS[1].xml);
 
 /// Problem that `xml` is refused with after replacing the first `from` by `to`.
-fn problem(xml: &str, from: &str, to: &str) -> Problem {
+fn problem(xml: &str, from: &str, to: &str) -> InterfaceProblem {
     assert!(
         xml.contains(from),
         "the description does not contain {from}"
@@ -33,7 +33,7 @@ fn problem(xml: &str, from: &str, to: &str) -> Problem {
 }
 
 /// Problem that a damaged lap.xml is refused with beside an intact element.xml.
-fn disagreement(from: &str, to: &str) -> Problem {
+fn disagreement(from: &str, to: &str) -> InterfaceProblem {
     assert!(LAP.contains(from), "lap.xml does not contain {from}");
     let element = Interface::from_xml("element.xml", &ELEMENT).unwrap();
     let lap = Interface::from_xml("lap.xml", &LAP.replace(from, to)).unwrap();
@@ -56,136 +56,139 @@ macro_rules! refused {
     };
 }
 
-refused!(version: LAP, r#"fmiVersion="3.0""# => r#"fmiVersion="2.0""#, Problem::Version { found } if found == "2.0");
+refused!(version: LAP, r#"fmiVersion="3.0""# => r#"fmiVersion="2.0""#, InterfaceProblem::Version { found } if found == "2.0");
 #[test]
 fn model_identifier() {
     let xml = LAP.replace("\"bolted_joint\"", "\"bolted-joint\"");
     let found = "bolted-joint".to_owned();
-    assert_eq!(problem(&xml, "", ""), Problem::ModelIdentifier { found });
+    assert_eq!(
+        problem(&xml, "", ""),
+        InterfaceProblem::ModelIdentifier { found }
+    );
 }
 refused!(other_type: LAP, r#"<Float64 name="a.y" valueReference="1""# => r#"<Float32 name="x" valueReference="99"/><Float64 name="a.y" valueReference="1""#,
-    Problem::Variable(VariableProblem::NotFloat64 { variable }) if variable == "x");
+    InterfaceProblem::Definition(DefinitionProblem::NotFloat64 { variable }) if variable == "x");
 refused!(array: LAP, r#"start="2e-5" description="Longest Runge-Kutta step, greater than zero; a communication step takes as many equal steps as needed"/>"#
     => r#"start="2e-5" description="d"><Dimension start="2"/></Float64>"#,
-    Problem::Variable(VariableProblem::NotScalar { variable }) if variable == "step_size_max");
+    InterfaceProblem::Definition(DefinitionProblem::NotScalar { variable }) if variable == "step_size_max");
 refused!(intermediate_parameter: LAP, r#"<Float64 name="a.m""# => r#"<Float64 intermediateUpdate="true" name="a.m""#,
-    Problem::Variable(VariableProblem::IntermediateUpdate { variable }) if variable == "a.m");
-refused!(illegal_name: LAP, r#"name="a.y""# => r#"name="a.2y""#, Problem::Variable(VariableProblem::IllegalName { variable }) if variable == "a.2y");
-refused!(illegal_character: LAP, r#"name="a.y""# => r#"name="a y""#, Problem::Variable(VariableProblem::IllegalName { variable }) if variable == "a y");
-refused!(duplicate_name: LAP, r#"name="a.theta""# => r#"name="a.y""#, Problem::Variable(VariableProblem::DuplicateName { variable }) if variable == "a.y");
+    InterfaceProblem::Definition(DefinitionProblem::IntermediateUpdate { variable }) if variable == "a.m");
+refused!(illegal_name: LAP, r#"name="a.y""# => r#"name="a.2y""#, InterfaceProblem::Definition(DefinitionProblem::IllegalName { variable }) if variable == "a.2y");
+refused!(illegal_character: LAP, r#"name="a.y""# => r#"name="a y""#, InterfaceProblem::Definition(DefinitionProblem::IllegalName { variable }) if variable == "a y");
+refused!(duplicate_name: LAP, r#"name="a.theta""# => r#"name="a.y""#, InterfaceProblem::Definition(DefinitionProblem::DuplicateName { variable }) if variable == "a.y");
 refused!(duplicate_reference: LAP, r#"name="a.theta" valueReference="2""# => r#"name="a.theta" valueReference="1""#,
-    Problem::Variable(VariableProblem::DuplicateReference { reference: 1, first, second }) if first == "a.y" && second == "a.theta");
+    InterfaceProblem::Definition(DefinitionProblem::DuplicateReference { reference: 1, first, second }) if first == "a.y" && second == "a.theta");
 refused!(no_description: LAP, r#"description="Displacement of body a""# => r#"description=" ""#,
-    Problem::Variable(VariableProblem::NoDescription { variable }) if variable == "a.y");
-refused!(no_type: LAP, r#"declaredType="StepSize""# => "", Problem::Variable(VariableProblem::NoType { variable }) if variable == "step_size_max");
+    InterfaceProblem::Definition(DefinitionProblem::NoDescription { variable }) if variable == "a.y");
+refused!(no_type: LAP, r#"declaredType="StepSize""# => "", InterfaceProblem::Definition(DefinitionProblem::NoType { variable }) if variable == "step_size_max");
 refused!(undefined_type: LAP, r#"declaredType="StepSize""# => r#"declaredType="Step""#,
-    Problem::Variable(VariableProblem::UndefinedType { variable, declared_type }) if variable == "step_size_max" && declared_type == "Step");
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedType { variable, declared_type }) if variable == "step_size_max" && declared_type == "Step");
 refused!(duplicate_type: LAP, r#"<Float64Type name="Rotation""# => r#"<Float64Type name="Displacement""#,
-    Problem::DuplicateDefinition { list: "<TypeDefinitions>", name } if name == "Displacement");
+    InterfaceProblem::DuplicateDefinition { list: "<TypeDefinitions>", name } if name == "Displacement");
 refused!(duplicate_unit: LAP, r#"<Unit name="rad">"# => r#"<Unit name="m">"#,
-    Problem::DuplicateDefinition { list: "<UnitDefinitions>", name } if name == "m");
+    InterfaceProblem::DuplicateDefinition { list: "<UnitDefinitions>", name } if name == "m");
 refused!(duplicate_display_unit: LAP, r#"<DisplayUnit name="um""# => r#"<DisplayUnit name="mm""#,
-    Problem::DuplicateDefinition { list: "<Unit>", name } if name == "mm");
+    InterfaceProblem::DuplicateDefinition { list: "<Unit>", name } if name == "mm");
 refused!(duplicate_category: LAP, r#"<Category name="logStatusError""# => r#"<Category name="logEvents""#,
-    Problem::DuplicateDefinition { list: "<LogCategories>", name } if name == "logEvents");
+    InterfaceProblem::DuplicateDefinition { list: "<LogCategories>", name } if name == "logEvents");
 refused!(no_unit: LAP, r#"quantity="Force" unit="N""# => r#"quantity="Force""#,
-    Problem::Unit(UnitProblem::NoUnit { declared_type }) if declared_type == "Force");
+    InterfaceProblem::Definition(DefinitionProblem::NoUnit { declared_type }) if declared_type == "Force");
 refused!(undefined_unit: LAP, r#"quantity="Force" unit="N""# => r#"quantity="Force" unit="lbf""#,
-    Problem::Unit(UnitProblem::UndefinedUnit { declared_type, unit }) if declared_type == "Force" && unit == "lbf");
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedUnit { declared_type, unit }) if declared_type == "Force" && unit == "lbf");
 refused!(undefined_display_unit: LAP, r#"displayUnit="kN""# => r#"displayUnit="MN""#,
-    Problem::Unit(UnitProblem::UndefinedDisplayUnit { declared_type, unit, display_unit })
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedDisplayUnit { declared_type, unit, display_unit })
         if declared_type == "Force" && unit == "N" && display_unit == "MN");
-refused!(no_base_unit: LAP, r#"<BaseUnit s="1"/>"# => "", Problem::Unit(UnitProblem::NoBaseUnit { unit }) if unit == "s");
-refused!(factor_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" factor="60"/>"#, Problem::Unit(UnitProblem::NotCoherent { unit }) if unit == "s");
-refused!(offset_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" offset="1"/>"#, Problem::Unit(UnitProblem::NotCoherent { unit }) if unit == "s");
+refused!(no_base_unit: LAP, r#"<BaseUnit s="1"/>"# => "", InterfaceProblem::Definition(DefinitionProblem::NoBaseUnit { unit }) if unit == "s");
+refused!(factor_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" factor="60"/>"#, InterfaceProblem::Definition(DefinitionProblem::NotCoherent { unit }) if unit == "s");
+refused!(offset_in_unit: LAP, r#"<BaseUnit s="1"/>"# => r#"<BaseUnit s="1" offset="1"/>"#, InterfaceProblem::Definition(DefinitionProblem::NotCoherent { unit }) if unit == "s");
 refused!(display_factor: LAP, r#"name="mm" factor="1000""# => r#"name="mm" factor="0""#,
-    Problem::Unit(UnitProblem::DisplayFactor { unit, display_unit, factor: 0.0 }) if unit == "m" && display_unit == "mm");
+    InterfaceProblem::Definition(DefinitionProblem::DisplayFactor { unit, display_unit, factor: 0.0 }) if unit == "m" && display_unit == "mm");
 refused!(nominal: LAP, r#"nominal="100""# => r#"nominal="-100""#,
-    Problem::Unit(UnitProblem::Nominal { declared_type, nominal: -100.0 }) if declared_type == "Force");
-refused!(zero_nominal: LAP, r#"nominal="100""# => r#"nominal="0""#, Problem::Unit(UnitProblem::Nominal { nominal: 0.0, .. }));
+    InterfaceProblem::Definition(DefinitionProblem::Nominal { declared_type, nominal: -100.0 }) if declared_type == "Force");
+refused!(zero_nominal: LAP, r#"nominal="100""# => r#"nominal="0""#, InterfaceProblem::Definition(DefinitionProblem::Nominal { nominal: 0.0, .. }));
 refused!(range: LAP, r#"min="2.2250738585072014e-308" nominal="1e-5""# => r#"min="1" max="0" nominal="1e-5""#,
-    Problem::Unit(UnitProblem::Range { declared_type, min: 1.0, max: 0.0 }) if declared_type == "StepSize");
+    InterfaceProblem::Definition(DefinitionProblem::Range { declared_type, min: 1.0, max: 0.0 }) if declared_type == "StepSize");
 refused!(combination: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="continuous""#,
-    Problem::Variable(VariableProblem::Combination { variable, .. }) if variable == "joint.k_yy");
+    InterfaceProblem::Definition(DefinitionProblem::Combination { variable, .. }) if variable == "joint.k_yy");
 refused!(fixed_input: LAP, r#"causality="input" variability="continuous""# => r#"causality="input" variability="fixed""#,
-    Problem::Variable(VariableProblem::Combination { variable, .. }) if variable == "a.F");
+    InterfaceProblem::Definition(DefinitionProblem::Combination { variable, .. }) if variable == "a.F");
 refused!(forbidden_initial: LAP, r#"causality="parameter" variability="tunable" initial="exact""# => r#"causality="parameter" variability="tunable" initial="approx""#,
-    Problem::Variable(VariableProblem::ForbiddenInitial { variable, .. }) if variable == "joint.k_yy");
+    InterfaceProblem::Definition(DefinitionProblem::ForbiddenInitial { variable, .. }) if variable == "joint.k_yy");
 refused!(initial_of_time: LAP, r#"causality="independent" variability="continuous""# => r#"causality="independent" variability="continuous" initial="exact""#,
-    Problem::Variable(VariableProblem::ForbiddenInitial { variable, .. }) if variable == "time");
+    InterfaceProblem::Definition(DefinitionProblem::ForbiddenInitial { variable, .. }) if variable == "time");
 refused!(unimplemented_parameter: LAP, r#"causality="parameter" variability="tunable""# => r#"causality="parameter" variability="fixed""#,
-    Problem::Variable(VariableProblem::NoRole { variable, .. }) if variable == "joint.k_yy");
+    InterfaceProblem::Definition(DefinitionProblem::NoRole { variable, .. }) if variable == "joint.k_yy");
 refused!(guessed_state: LAP, r#"causality="output" variability="continuous" initial="exact""# => r#"causality="output" variability="continuous" initial="approx""#,
-    Problem::Variable(VariableProblem::NoRole { variable, .. }) if variable == "a.y");
+    InterfaceProblem::Definition(DefinitionProblem::NoRole { variable, .. }) if variable == "a.y");
 refused!(no_start_of_state: LAP, r#"declaredType="Displacement" start="0""# => r#"declaredType="Displacement""#,
-    Problem::Variable(VariableProblem::NoStart { variable }) if variable == "a.y");
+    InterfaceProblem::Definition(DefinitionProblem::NoStart { variable }) if variable == "a.y");
 refused!(no_start_of_input: ELEMENT, r#"declaredType="Displacement" start="0""# => r#"declaredType="Displacement""#,
-    Problem::Variable(VariableProblem::NoStart { variable }) if variable == "a.y");
-refused!(no_start_of_parameter: LAP, r#" start="1.41""# => "", Problem::Variable(VariableProblem::NoStart { variable }) if variable == "a.m");
+    InterfaceProblem::Definition(DefinitionProblem::NoStart { variable }) if variable == "a.y");
+refused!(no_start_of_parameter: LAP, r#" start="1.41""# => "", InterfaceProblem::Definition(DefinitionProblem::NoStart { variable }) if variable == "a.m");
 refused!(start_of_output: LAP, r#"declaredType="Energy""# => r#"declaredType="Energy" start="0""#,
-    Problem::Variable(VariableProblem::UnwantedStart { variable }) if variable == "energy.stored");
+    InterfaceProblem::Definition(DefinitionProblem::UnwantedStart { variable }) if variable == "energy.stored");
 refused!(start_of_time: LAP, r#"declaredType="Time""# => r#"declaredType="Time" start="0""#,
-    Problem::Variable(VariableProblem::UnwantedStart { variable }) if variable == "time");
+    InterfaceProblem::Definition(DefinitionProblem::UnwantedStart { variable }) if variable == "time");
 refused!(several_starts: LAP, r#"start="1.41""# => r#"start="1.41 1.42""#,
-    Problem::Variable(VariableProblem::IllegalStart { variable, found }) if variable == "a.m" && *found == [1.41, 1.42]);
-refused!(infinite_start: LAP, r#"start="1.41""# => r#"start="inf""#, Problem::Variable(VariableProblem::IllegalStart { variable, .. }) if variable == "a.m");
+    InterfaceProblem::Definition(DefinitionProblem::IllegalStart { variable, found }) if variable == "a.m" && *found == [1.41, 1.42]);
+refused!(infinite_start: LAP, r#"start="1.41""# => r#"start="inf""#, InterfaceProblem::Definition(DefinitionProblem::IllegalStart { variable, .. }) if variable == "a.m");
 refused!(start_out_of_range: LAP, r#"start="1.41""# => r#"start="-1.41""#,
-    Problem::Variable(VariableProblem::StartOutOfRange { variable, start: -1.41, min: f64::MIN_POSITIVE, .. }) if variable == "a.m");
+    InterfaceProblem::Definition(DefinitionProblem::StartOutOfRange { variable, start: -1.41, min: f64::MIN_POSITIVE, .. }) if variable == "a.m");
 refused!(no_independent: LAP, r#"causality="independent" variability="continuous" declaredType="Time""# => r#"causality="input" variability="continuous" declaredType="Time" start="0""#,
-    Problem::Variable(VariableProblem::Independent { found }) if found.is_empty());
-refused!(independent_name: LAP, r#"name="time""# => r#"name="t""#, Problem::Variable(VariableProblem::Independent { found }) if found[0].0 == "t");
+    InterfaceProblem::Definition(DefinitionProblem::Independent { found }) if found.is_empty());
+refused!(independent_name: LAP, r#"name="time""# => r#"name="t""#, InterfaceProblem::Definition(DefinitionProblem::Independent { found }) if found[0].0 == "t");
 refused!(derivative_of_nothing: LAP, r#"derivative="1""# => r#"derivative="77""#,
-    Problem::Variable(VariableProblem::UndefinedDerivative { variable, reference: 77 }) if variable == "a.v");
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedDerivative { variable, reference: 77 }) if variable == "a.v");
 refused!(derivative_of_itself: LAP, r#"derivative="1""# => r#"derivative="3""#,
-    Problem::Variable(VariableProblem::UndefinedDerivative { variable, reference: 3 }) if variable == "a.v");
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedDerivative { variable, reference: 3 }) if variable == "a.v");
 refused!(derivative_of_parameter: LAP, r#"derivative="1""# => r#"derivative="17""#,
-    Problem::Variable(VariableProblem::UndefinedDerivative { variable, reference: 17 }) if variable == "a.v");
+    InterfaceProblem::Definition(DefinitionProblem::UndefinedDerivative { variable, reference: 17 }) if variable == "a.v");
 refused!(derivative_of_another_unit: LAP, r#"derivative="1""# => r#"derivative="2""#,
-    Problem::Unit(UnitProblem::DerivativeUnit { variable, of, .. }) if variable == "a.v" && of == "a.theta");
+    InterfaceProblem::Definition(DefinitionProblem::DerivativeUnit { variable, of, .. }) if variable == "a.v" && of == "a.theta");
 refused!(output_of_nothing: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="77" "#,
-    Problem::Structure(StructureProblem::UndefinedReference { element: "Output", reference: 77 }));
+    InterfaceProblem::UndefinedReference { element: "Output", reference: 77 });
 refused!(output_twice: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="2" "#,
-    Problem::Structure(StructureProblem::DuplicateUnknown { element: "Output", variable }) if variable == "a.theta");
+    InterfaceProblem::DuplicateUnknown { element: "Output", variable } if variable == "a.theta");
 refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => "",
-    Problem::Structure(StructureProblem::MissingUnknown { element: "Output", variable }) if variable == "a.y");
+    InterfaceProblem::MissingUnknown { element: "Output", variable } if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
-    Problem::Structure(StructureProblem::UnexpectedUnknown { element: "Output", variable }) if variable == "a.F");
+    InterfaceProblem::UnexpectedUnknown { element: "Output", variable } if variable == "a.F");
 refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61"/>"# => "",
-    Problem::Structure(StructureProblem::MissingUnknown { element: "InitialUnknown", variable }) if variable == "power.dissipated");
+    InterfaceProblem::MissingUnknown { element: "InitialUnknown", variable } if variable == "power.dissipated");
 refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
-    Problem::Structure(StructureProblem::UnexpectedUnknown { element: "InitialUnknown", variable }) if variable == "a.y");
+    InterfaceProblem::UnexpectedUnknown { element: "InitialUnknown", variable } if variable == "a.y");
 refused!(state_derivative_without_state: LAP, r#"<InitialUnknown valueReference="13""# => r#"<ContinuousStateDerivative valueReference="1"/><InitialUnknown valueReference="13""#,
-    Problem::Structure(StructureProblem::UnexpectedUnknown { element: "ContinuousStateDerivative", variable }) if variable == "a.y");
+    InterfaceProblem::UnexpectedUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.y");
 refused!(no_dependencies: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1"/>"#,
-    Problem::Structure(StructureProblem::NoDependencies { element: "Output", variable }) if variable == "a.y");
+    InterfaceProblem::NoDependencies { element: "Output", variable } if variable == "a.y");
 refused!(dependency_on_nothing: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="77"/>"#,
-    Problem::Structure(StructureProblem::UndefinedReference { element: "Output", reference: 77 }));
+    InterfaceProblem::UndefinedReference { element: "Output", reference: 77 });
 refused!(dependency_on_output: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="13"/>"#,
-    Problem::Structure(StructureProblem::NotKnown { element: "Output", variable, dependency }) if variable == "a.y" && dependency == "joint.F");
+    InterfaceProblem::NotKnown { element: "Output", variable, dependency } if variable == "a.y" && dependency == "joint.F");
 refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" dependenciesKind="constant"/>"# => r#"<Output valueReference="1" dependencies="9 9"/>"#,
-    Problem::Structure(StructureProblem::DuplicateDependency { element: "Output", variable, dependency }) if variable == "a.y" && dependency == "a.F");
+    InterfaceProblem::DuplicateDependency { element: "Output", variable, dependency } if variable == "a.y" && dependency == "a.F");
 refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
-    Problem::Structure(StructureProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 }) if variable == "a.y");
+    InterfaceProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 } if variable == "a.y");
 refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61"/>"#
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
-    Problem::Structure(StructureProblem::InitialKind { variable }) if variable == "power.dissipated");
+    InterfaceProblem::InitialKind { variable } if variable == "power.dissipated");
 
 refused!(state_derivative_missing: LAP, r#"<ContinuousStateDerivative valueReference="3" dependencies="3" dependenciesKind="constant"/>"# => "",
-    Problem::Structure(StructureProblem::MissingUnknown { element: "ContinuousStateDerivative", variable }) if variable == "a.v");
+    InterfaceProblem::MissingUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.v");
 refused!(state_derivative_twice: LAP, r#"<ContinuousStateDerivative valueReference="3""# => r#"<ContinuousStateDerivative valueReference="4""#,
-    Problem::Structure(StructureProblem::DuplicateUnknown { element: "ContinuousStateDerivative", variable }) if variable == "a.omega");
+    InterfaceProblem::DuplicateUnknown { element: "ContinuousStateDerivative", variable } if variable == "a.omega");
 refused!(state_derivative_of_output: LAP, r#"<ContinuousStateDerivative valueReference="3" dependencies="3""# => r#"<ContinuousStateDerivative valueReference="3" dependencies="13""#,
-    Problem::Structure(StructureProblem::NotKnown { element: "ContinuousStateDerivative", variable, dependency }) if variable == "a.v" && dependency == "joint.F");
+    InterfaceProblem::NotKnown { element: "ContinuousStateDerivative", variable, dependency } if variable == "a.v" && dependency == "joint.F");
 refused!(local_that_is_no_derivative: LAP, r#"declaredType="Acceleration" derivative="3""# => r#"declaredType="Acceleration""#,
-    Problem::Variable(VariableProblem::NoRole { variable, .. }) if variable == "a.acceleration");
+    InterfaceProblem::Definition(DefinitionProblem::NoRole { variable, .. }) if variable == "a.acceleration");
 refused!(two_libraries: LAP, r#"<ModelExchange modelIdentifier="bolted_joint""# => r#"<ModelExchange modelIdentifier="lap""#,
-    Problem::TwoModelIdentifiers { model_exchange, co_simulation } if model_exchange == "lap" && co_simulation == "bolted_joint");
+    InterfaceProblem::TwoModelIdentifiers { model_exchange, co_simulation } if model_exchange == "lap" && co_simulation == "bolted_joint");
 
 #[test]
 fn an_interface_type_is_missing() {
     for (element, expected) in [
-        ("<CoSimulation", Problem::NoCoSimulation),
-        ("<ModelExchange", Problem::NoModelExchange),
+        ("<CoSimulation", InterfaceProblem::NoCoSimulation),
+        ("<ModelExchange", InterfaceProblem::NoModelExchange),
     ] {
         let start = LAP.find(element).unwrap();
         let end = start + LAP[start..].find("/>").unwrap() + 2;
@@ -211,9 +214,9 @@ fn a_state_without_a_derivative() {
     }
     assert_eq!(
         problem(&xml, "", ""),
-        Problem::Structure(StructureProblem::NoDerivative {
+        InterfaceProblem::NoDerivative {
             variable: "a.v".to_owned()
-        })
+        }
     );
 }
 
@@ -231,10 +234,7 @@ fn shared_names_have_shared_references() {
         r#"name="step_size_max" valueReference="37""#,
         r#"name="step_size_max" valueReference="64""#,
     );
-    assert_eq!(
-        problem,
-        Problem::Agreement(AgreementProblem::Gap { reference: 37 })
-    );
+    assert_eq!(problem, InterfaceProblem::Gap { reference: 37 });
     // swap two numbers that occur in declarations only
     let swapped = LAP
         .replace(
@@ -258,7 +258,7 @@ fn shared_names_have_shared_references() {
 fn references_are_not_reused() {
     let problem = disagreement(r#"name="joint.k_yy""#, r#"name="joint.stiffness""#);
     assert!(
-        matches!(&problem, Problem::Agreement(AgreementProblem::ReferenceReused { reference: 17, variable, other_variable, .. })
+        matches!(&problem, InterfaceProblem::ReferenceReused { reference: 17, variable, other_variable, .. }
             if variable == "joint.stiffness" && other_variable == "joint.k_yy"),
         "{problem}"
     );
@@ -291,7 +291,7 @@ fn shared_definitions_are_equal() {
     ] {
         let problem = disagreement(from, to);
         assert!(
-            matches!(&problem, Problem::Agreement(AgreementProblem::DefinitionDiffers { what: found, .. }) if *found == what),
+            matches!(&problem, InterfaceProblem::DefinitionDiffers { what: found, .. } if *found == what),
             "{problem}"
         );
     }

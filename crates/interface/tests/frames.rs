@@ -13,8 +13,8 @@ use bolted_joint_dynamics::{
     },
 };
 use bolted_joint_interface::{
-    Expanded, Filling, FrameProblem, Frames, Interface, InterfaceError, Interfaces, Joints,
-    Problem, Role, Rows,
+    Expanded, Filling, Frames, Interface, InterfaceError, InterfaceProblem, Interfaces, Joints,
+    Role, Rows,
 };
 
 /// A sum of spring and slider, with a spring of second order, which has a unit that nothing else has.
@@ -272,8 +272,8 @@ fn a_name_of_two_rows_is_one_variable_of_both() {
     });
 }
 
-/// Problem that the frames are refused with after replacing the first `from` of the lap's by `to`.
-fn problem(from: &str, to: &str) -> FrameProblem {
+/// InterfaceProblem that the frames are refused with after replacing the first `from` of the lap's by `to`.
+fn problem(from: &str, to: &str) -> InterfaceProblem {
     assert!(Frames::PRESENT.lap.contains(from), "{from}");
     let lap = Frames::PRESENT.lap.replacen(from, to, 1);
     let frames = Frames {
@@ -281,10 +281,7 @@ fn problem(from: &str, to: &str) -> FrameProblem {
         ..Frames::PRESENT
     };
     match Expanded::new(&frames, &Filling::PRESENT) {
-        Err(InterfaceError::Inconsistent {
-            file,
-            problem: Problem::Frame(problem),
-        }) => {
+        Err(InterfaceError::Inconsistent { file, problem }) => {
             assert_eq!(file, "lap.xml");
             problem
         }
@@ -302,22 +299,22 @@ macro_rules! refused {
     };
 }
 
-refused!(element_on_two_lines: r#"<Float64 name="time" "# => "<Float64 name=\"time\"\n", FrameProblem::NotALine { tag: "Float64", .. });
-refused!(no_name: r#"<Float64 name="time" "# => "<Float64 ", FrameProblem::NoName { .. });
-refused!(each_what: r#"each="memory""# => r#"each="law""#, FrameProblem::Word { attribute: "each", found, .. } if found == "law");
-refused!(only_what: r#"only="over_preload""# => r#"only="preload""#, FrameProblem::Word { attribute: "only", found, .. } if found == "preload");
-refused!(unknown_placeholder: "a.{rate}" => "a.{velocity}", FrameProblem::Placeholder { placeholder, .. } if placeholder == "velocity");
-refused!(placeholder_of_no_dof: r#"each="dof" name="a.{rate}""# => r#"name="a.{rate}""#, FrameProblem::Placeholder { placeholder, .. } if placeholder == "rate");
-refused!(placeholder_in_a_text: "{Rate} of body a" => "{Speed} of body a", FrameProblem::Placeholder { placeholder, .. } if placeholder == "Speed");
-refused!(placeholder_left_open: "{Rate} of body a" => "{Rate of body a", FrameProblem::Placeholder { .. });
-refused!(unknown_effect: "@dissipated_power" => "@heat", FrameProblem::Placeholder { placeholder, .. } if placeholder == "@heat");
-refused!(load_of_no_dof: "@dissipated_power" => "@load", FrameProblem::Placeholder { placeholder, .. } if placeholder == "@load");
-refused!(other_of_no_dof: "@dissipated_power" => "a.{rate:other}", FrameProblem::Placeholder { placeholder, .. } if placeholder == "rate:other");
-refused!(depends_on_nothing_declared: r#"constant="energy.supplied""# => r#"constant="energy.taken""#, FrameProblem::UndefinedName { name, .. } if name == "energy.taken");
-refused!(derivative_of_nothing_declared: r#"derivative="energy.supplied""# => r#"derivative="energy.taken""#, FrameProblem::UndefinedName { name, .. } if name == "energy.taken");
-refused!(unknown_without_dependencies: r#" constant="energy.supplied""# => "", FrameProblem::NoDependencies { name, .. } if name == "energy.supplied");
+refused!(element_on_two_lines: r#"<Float64 name="time" "# => "<Float64 name=\"time\"\n", InterfaceProblem::NotALine { tag: "Float64", .. });
+refused!(no_name: r#"<Float64 name="time" "# => "<Float64 ", InterfaceProblem::NoName { .. });
+refused!(each_what: r#"each="memory""# => r#"each="law""#, InterfaceProblem::Word { attribute: "each", found, .. } if found == "law");
+refused!(only_what: r#"only="over_preload""# => r#"only="preload""#, InterfaceProblem::Word { attribute: "only", found, .. } if found == "preload");
+refused!(unknown_placeholder: "a.{rate}" => "a.{velocity}", InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "velocity");
+refused!(placeholder_of_no_dof: r#"each="dof" name="a.{rate}""# => r#"name="a.{rate}""#, InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "rate");
+refused!(placeholder_in_a_text: "{Rate} of body a" => "{Speed} of body a", InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "Speed");
+refused!(placeholder_left_open: "{Rate} of body a" => "{Rate of body a", InterfaceProblem::Placeholder { .. });
+refused!(unknown_effect: "@dissipated_power" => "@heat", InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "@heat");
+refused!(load_of_no_dof: "@dissipated_power" => "@load", InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "@load");
+refused!(other_of_no_dof: "@dissipated_power" => "a.{rate:other}", InterfaceProblem::Placeholder { placeholder, .. } if placeholder == "rate:other");
+refused!(depends_on_nothing_declared: r#"constant="energy.supplied""# => r#"constant="energy.taken""#, InterfaceProblem::UndefinedName { name, .. } if name == "energy.taken");
+refused!(derivative_of_nothing_declared: r#"derivative="energy.supplied""# => r#"derivative="energy.taken""#, InterfaceProblem::UndefinedName { name, .. } if name == "energy.taken");
+refused!(unknown_without_dependencies: r#" constant="energy.supplied""# => "", InterfaceProblem::NothingDependedOn { name, .. } if name == "energy.supplied");
 refused!(type_of_another_unit: r#"quantity="CubicStiffness" unit="N/m3""# => r#"quantity="CubicStiffness" unit="N/m5""#,
-    FrameProblem::TypeUnit { declared_type, unit, of_law } if declared_type == "CubicStiffness" && unit == "N/m5" && of_law == "N/m3");
+    InterfaceProblem::TypeUnit { declared_type, unit, of_law } if declared_type == "CubicStiffness" && unit == "N/m5" && of_law == "N/m3");
 
 #[test]
 fn a_problem_tells_its_line() {

@@ -1,48 +1,11 @@
 //! A joint over the bolt's preload, taken at one preload.
 
 use bolted_joint_dynamics::{Beyond, law::Term, with_dofs};
-use thiserror::Error;
 
 use super::{
-    FreeEstimate, Intervals, Joint, JointFile, LawError, OverPreload, Problem, StandardDeviation,
-    Uncertainty, UncertaintyAtPreload,
+    FreeEstimate, Intervals, Joint, JointFile, JointProblem, LawError, OverPreload,
+    StandardDeviation, Uncertainty, UncertaintyAtPreload,
 };
-
-/// Why a joint cannot be taken at a preload.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum PreloadError {
-    /// The joint does not depend on the preload.
-    #[error(
-        "preload: found {found_n_m:?} N·m for a joint that does not depend on the preload, expected none; leave it out, or add \
-         joint.over_preload"
-    )]
-    Constant {
-        /// The preload asked for, N·m.
-        found_n_m: f64,
-    },
-    /// The preload is beyond those of the table.
-    #[error(
-        "preload: found {found_n_m:?} N·m, expected {first_n_m:?} to {last_n_m:?} N·m, the range of joint.over_preload.preload: \
-         beyond it nothing is known of the joint"
-    )]
-    Outside {
-        /// The preload asked for, N·m.
-        found_n_m: f64,
-        /// Lowest preload of the table, N·m.
-        first_n_m: f64,
-        /// Highest preload of the table, N·m.
-        last_n_m: f64,
-    },
-    /// The table gives no joint.
-    #[error(transparent)]
-    Law(#[from] LawError),
-    /// The joint file contradicts itself.
-    #[error("the joint file is not valid: {}", problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n  "))]
-    Invalid {
-        /// Everything that is wrong, at least one.
-        problems: Vec<Problem>,
-    },
-}
 
 /// Where a preload lies in a table: between `lower` and the entry after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,16 +16,16 @@ struct Place {
 }
 
 impl Place {
-    fn of(preload_n_m: f64, table: &OverPreload) -> Result<Self, PreloadError> {
+    fn of(preload_n_m: f64, table: &OverPreload) -> Result<Self, LawError> {
         let preloads = &table.preload;
         let (Some(&first_n_m), Some(&last_n_m)) = (preloads.first(), preloads.last()) else {
             let found = preloads.len();
-            return Err(PreloadError::Invalid {
-                problems: vec![Problem::TooFewPreloads { found }],
+            return Err(LawError::Invalid {
+                problems: vec![JointProblem::TooFewPreloads { found }],
             });
         };
         if !(first_n_m..=last_n_m).contains(&preload_n_m) {
-            return Err(PreloadError::Outside {
+            return Err(LawError::OutsideTable {
                 found_n_m: preload_n_m,
                 first_n_m,
                 last_n_m,
@@ -122,17 +85,17 @@ impl JointFile {
     ///
     /// # Errors
     ///
-    /// [`PreloadError`] where a preload is given that the joint does not have, or the file is not valid.
-    pub fn at_preload(&self, preload_n_m: Option<f64>) -> Result<Self, PreloadError> {
+    /// [`LawError`] where a preload is given that the joint does not have, or the file is not valid.
+    pub fn at_preload(&self, preload_n_m: Option<f64>) -> Result<Self, LawError> {
         let Some(table) = &self.joint.over_preload else {
             return match preload_n_m {
                 None => Ok(self.clone()),
-                Some(found_n_m) => Err(PreloadError::Constant { found_n_m }),
+                Some(found_n_m) => Err(LawError::ConstantJoint { found_n_m }),
             };
         };
         let problems = self.validate();
         if !problems.is_empty() {
-            return Err(PreloadError::Invalid { problems });
+            return Err(LawError::Invalid { problems });
         }
         let preload_n_m = preload_n_m.unwrap_or(table.nominal);
         let place = Place::of(preload_n_m, table)?;
@@ -179,7 +142,7 @@ impl JointFile {
     /// # Errors
     ///
     /// As [`JointFile::at_preload`].
-    pub fn over_its_preloads(&self) -> Result<Vec<Self>, PreloadError> {
+    pub fn over_its_preloads(&self) -> Result<Vec<Self>, LawError> {
         if self.joint.over_preload.is_none() {
             return Ok(vec![self.clone()]);
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{Format, Problem};
+use super::{Format, JointProblem};
 
 /// Why a joint file cannot be read or written.
 ///
@@ -179,12 +179,12 @@ pub enum JointFileError {
         path: String,
     },
     /// The file is well formed, but its contents do not fit together.
-    #[error("{origin}: {}", list(problems))]
+    #[error("{origin}: {}", JointProblem::list(problems))]
     Invalid {
         /// Origin.
         origin: String,
         /// Everything that is wrong, at least one.
-        problems: Vec<Problem>,
+        problems: Vec<JointProblem>,
     },
 }
 
@@ -194,9 +194,4 @@ fn place(path: &str) -> &str {
         "." => "the file as a whole",
         path => path,
     }
-}
-
-fn list(problems: &[Problem]) -> String {
-    let lines: Vec<String> = problems.iter().map(Problem::to_string).collect();
-    lines.join("\n  ")
 }

@@ -6,7 +6,7 @@ use bolted_joint_dynamics::{
 };
 use thiserror::Error;
 
-use super::{Body, DofSet, Friction, HigherTerms, Joint, JointFile};
+use super::{Body, DofSet, Friction, HigherTerms, Joint, JointFile, JointProblem};
 
 /// Why a joint file does not give the equations asked for.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -46,6 +46,34 @@ pub enum LawError {
         path: String,
         /// Number of DOFs.
         expected: usize,
+    },
+    /// A preload is given, but the joint does not depend on it.
+    #[error(
+        "preload: found {found_n_m:?} N·m for a joint that does not depend on the preload, expected none; leave it out, or add \
+         joint.over_preload"
+    )]
+    ConstantJoint {
+        /// The preload asked for, N·m.
+        found_n_m: f64,
+    },
+    /// The preload is beyond those of the table.
+    #[error(
+        "preload: found {found_n_m:?} N·m, expected {first_n_m:?} to {last_n_m:?} N·m, the range of joint.over_preload.preload: \
+         beyond it nothing is known of the joint"
+    )]
+    OutsideTable {
+        /// The preload asked for, N·m.
+        found_n_m: f64,
+        /// Lowest preload of the table, N·m.
+        first_n_m: f64,
+        /// Highest preload of the table, N·m.
+        last_n_m: f64,
+    },
+    /// The joint file contradicts itself.
+    #[error("the joint file is not valid: {}", JointProblem::list(problems))]
+    Invalid {
+        /// Everything that is wrong, at least one.
+        problems: Vec<JointProblem>,
     },
 }
 

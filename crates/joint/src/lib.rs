@@ -15,12 +15,12 @@ mod passivity;
 mod problem;
 mod read;
 mod record;
+#[cfg(test)]
 mod schema;
 mod units;
 mod validate;
 mod write;
 
-pub use at_preload::PreloadError;
 pub use dofs::{DofName, DofSet};
 pub use error::JointFileError;
 pub use friction::Friction;
@@ -28,7 +28,7 @@ pub use higher::HigherTerms;
 pub use law::LawError;
 pub use law::displacements;
 pub use passivity::{MatrixPassivity, Passivity};
-pub use problem::Problem;
+pub use problem::JointProblem;
 pub use record::{
     BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
     FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,

@@ -6,7 +6,7 @@ use super::DofSet;
 
 /// One thing that is wrong in a joint file, by the path of its key.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Problem {
+pub enum JointProblem {
     /// A key that is needed here is not there.
     #[error("{path}: not found, expected {expected}")]
     Missing {
@@ -195,4 +195,12 @@ pub enum Problem {
         /// What is there.
         found: String,
     },
+}
+
+impl JointProblem {
+    /// Each on a line of its own.
+    pub(super) fn list(problems: &[Self]) -> String {
+        let lines: Vec<String> = problems.iter().map(Self::to_string).collect();
+        lines.join("\n  ")
+    }
 }

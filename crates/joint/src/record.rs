@@ -1,23 +1,25 @@
 //! The records of the joint file, format "bolted-joint/1", as plain data.
 
+#[cfg(test)]
 use bolted_joint_dynamics::DOF_COUNT;
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    DofSet, Friction, HigherTerms,
-    schema::{entries_above_zero, with_friction},
-};
+#[cfg(test)]
+use super::schema::{entries_above_zero, with_friction};
+use super::{DofSet, Friction, HigherTerms};
 
 /// A bolted joint, with what is known about it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "Joint file of bolted-joint")]
+#[cfg_attr(test, schemars(title = "Joint file of bolted-joint"))]
 pub struct JointFile {
     /// Version of the format.
     pub format: Format,
     /// Name of the joint, one line.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub name: String,
     /// The joint itself: stiffness and damping, linear and beyond.
     pub joint: Joint,
@@ -39,7 +41,8 @@ pub struct JointFile {
 }
 
 /// Version of the joint file's format.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub enum Format {
     /// The first and only version.
     #[default]
@@ -57,31 +60,32 @@ impl Format {
 ///
 /// `stiffness` and `damping` are required unless `over_preload` is there, which replaces them and `cubic`; `higher` cannot
 /// be combined with it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }]))]
-#[schemars(transform = with_friction)]
+#[cfg_attr(test, schemars(extend("anyOf" = [{ "required": ["stiffness", "damping"] }, { "required": ["over_preload"] }])))]
+#[cfg_attr(test, schemars(transform = with_friction))]
 pub struct Joint {
     /// Relative motions that the joint resists.
     pub dofs: DofSet,
     /// K, symmetric: N/m, N/rad; N·m/m, N·m/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT))))]
     pub stiffness: Vec<Vec<f64>>,
     /// C, symmetric: N·s/m, N·s/rad; N·m·s/m, N·m·s/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT))))]
     pub damping: Vec<Vec<f64>>,
     /// k3 on each relative DOF, N/m³ and N·m/rad³: positive hardens, negative softens. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(min = 1, max = DOF_COUNT))]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT)))]
     pub cubic: Vec<f64>,
     /// Terms of higher order on each relative DOF. Left out, there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub higher: Option<HigherTerms>,
     /// Laws with parameters of their own, at most one of a kind on each relative DOF.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(skip)]
+    #[cfg_attr(test, schemars(skip))]
     pub friction: Vec<Friction>,
     /// Stiffness, damping and cubic stiffness over the bolt's preload, in their place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,20 +109,21 @@ impl Joint {
 }
 
 /// Stiffness, damping and cubic stiffness at several preloads of the bolt.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct OverPreload {
     /// Tightening torques, N·m, strictly increasing.
-    #[schemars(length(min = 2), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(range(min = 0))))]
     pub preload: Vec<f64>,
     /// Tightening torque at the start, N·m, within the range of `preload`.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub nominal: f64,
     /// K at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT))))]
     pub stiffness: Vec<Vec<Vec<f64>>>,
     /// C at each preload, in the units of the joint's own.
-    #[schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT)))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT))))]
     pub damping: Vec<Vec<Vec<f64>>>,
     /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -126,7 +131,8 @@ pub struct OverPreload {
 }
 
 /// The two bodies of a lap model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Bodies {
     /// Body on side a.
@@ -136,22 +142,24 @@ pub struct Bodies {
 }
 
 /// A rigid body on its own support, one entry for each DOF of the joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Mass in kg, moment of inertia in kg·m²; greater than zero.
-    #[schemars(length(min = 1, max = DOF_COUNT), transform = entries_above_zero)]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), transform = entries_above_zero))]
     pub inertia: Vec<f64>,
     /// Support stiffness in N/m, N·m/rad; zero for a free body.
-    #[schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0))))]
     pub stiffness: Vec<f64>,
     /// Support damping in N·s/m, N·m·s/rad.
-    #[schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0))))]
     pub damping: Vec<f64>,
 }
 
 /// How well the joint's parameters are known.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Uncertainty {
     /// One standard deviation of each entry of the joint's matrices.
@@ -166,7 +174,7 @@ pub struct Uncertainty {
     pub interval_95: Option<Intervals>,
     /// By how much the standard deviations were raised because the residual is not the assumed noise, at most of all unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub inflation: Option<f64>,
     /// Unknowns that the data do not determine: their values are not to be believed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -183,11 +191,12 @@ pub struct Uncertainty {
 }
 
 /// How well the joint's parameters are known over the bolt's preload.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintyOverPreload {
     /// One entry for each of `joint.over_preload.preload`, in its order.
-    #[schemars(length(min = 2))]
+    #[cfg_attr(test, schemars(length(min = 2)))]
     pub at: Vec<UncertaintyAtPreload>,
     /// Correlation of the unknowns of all preloads, which measured substructures in common bring about. Their names have the
     /// preload behind them, such as `k_yy@10`.
@@ -196,11 +205,12 @@ pub struct UncertaintyOverPreload {
 }
 
 /// How well the joint's parameters are known at one preload.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintyAtPreload {
     /// The preload as in `joint.over_preload.preload`, N·m.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub preload: f64,
     /// One standard deviation of each entry of the joint's matrices.
     pub standard_deviation: StandardDeviation,
@@ -219,18 +229,20 @@ pub struct UncertaintyAtPreload {
 }
 
 /// Correlation of the unknowns of a joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Correlation {
     /// Names of the unknowns, such as `k_yy`, in the order of the rows.
     pub unknowns: Vec<String>,
     /// The matrix, symmetric with a unit diagonal.
-    #[schemars(inner(inner(range(min = -1, max = 1))))]
+    #[cfg_attr(test, schemars(inner(inner(range(min = -1, max = 1)))))]
     pub matrix: Vec<Vec<f64>>,
 }
 
 /// Lower and upper end of an interval for each entry of the joint's matrices; entries that are no unknowns have `[0, 0]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Intervals {
     /// Of K, in its units.
@@ -240,7 +252,8 @@ pub struct Intervals {
 }
 
 /// Matrices of a joint that may be active.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FreeEstimate {
     /// K, in its units.
@@ -250,7 +263,8 @@ pub struct FreeEstimate {
 }
 
 /// A parametric bootstrap.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BootstrapRecord {
     /// Draws from the fitted model.
@@ -266,30 +280,32 @@ pub struct BootstrapRecord {
 }
 
 /// One standard deviation of each entry of the joint's matrices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StandardDeviation {
     /// Of K, in its units.
-    #[schemars(
+    #[cfg_attr(test, schemars(
         length(min = 1, max = DOF_COUNT),
         inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
-    )]
+    ))]
     pub stiffness: Vec<Vec<f64>>,
     /// Of C, in its units.
-    #[schemars(
+    #[cfg_attr(test, schemars(
         length(min = 1, max = DOF_COUNT),
         inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
-    )]
+    ))]
     pub damping: Vec<Vec<f64>>,
 }
 
 /// Where the joint's parameters hold.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Validity {
     /// Lowest and highest frequency that the parameters were determined from, Hz.
     #[serde(deserialize_with = "super::read::pair")]
-    #[schemars(inner(range(min = 0)))]
+    #[cfg_attr(test, schemars(inner(range(min = 0))))]
     pub frequency_hz: [f64; 2],
     /// Lowest and highest tightening torque of the assemblies measured, N·m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -300,11 +316,12 @@ pub struct Validity {
 }
 
 /// How far the model is from the measurement that it was identified from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Residual {
     /// Root mean square of |measured - computed| / |computed| over all lines and functions.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative_rms: f64,
     /// Number of spectral lines compared.
     pub lines: usize,
@@ -313,7 +330,7 @@ pub struct Residual {
     pub functions: Vec<FunctionResidual>,
     /// χ² over degrees of freedom, where the noise was stated or coherence told it: about 1 if the model fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub reduced_chi_squared: Option<f64>,
     /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -324,21 +341,23 @@ pub struct Residual {
 }
 
 /// Noise of measured functions: standard deviation √((relative·|H|)² + floor²) of the complex error.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct NoiseRecord {
     /// Fraction of the receptance.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative: f64,
     /// Part that does not depend on it, in its unit (m/N).
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub floor: f64,
     /// Whether the study stated it; else it was estimated from the residual.
     pub stated: bool,
 }
 
 /// How far the model is from one measured function.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FunctionResidual {
     /// Response DOF, such as `11:+Y`.
@@ -346,12 +365,13 @@ pub struct FunctionResidual {
     /// Reference DOF, such as `12:+Y`.
     pub reference: String,
     /// Root mean square of |measured - computed| / |computed| over the lines.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub relative_rms: f64,
 }
 
 /// Where the joint's parameters come from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// Program that wrote the file.
@@ -380,7 +400,8 @@ pub struct Provenance {
 }
 
 /// Bands over which the decoupled values of each entry were averaged.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BandsRecord {
     /// For k_yy and c_yy.
@@ -395,7 +416,8 @@ pub struct BandsRecord {
 }
 
 /// Bands of one entry.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BandRecord {
     /// Where they come from.
@@ -406,7 +428,8 @@ pub struct BandRecord {
 }
 
 /// Where the bands of an average come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum BandOriginRecord {
     /// The study gives them.
@@ -418,7 +441,8 @@ pub enum BandOriginRecord {
 }
 
 /// Receptances of a substructure that its modes supplied.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FromModesRecord {
     /// `a` or `b`.
@@ -430,7 +454,8 @@ pub struct FromModesRecord {
 }
 
 /// A file that the parameters were determined from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct InputFile {
     /// What the file was used for, such as `a.frf`.
@@ -438,6 +463,6 @@ pub struct InputFile {
     /// Its name, as the study gives it.
     pub file: String,
     /// SHA-256 of its contents, 64 lower-case hexadecimal digits.
-    #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
+    #[cfg_attr(test, schemars(regex(pattern = "^[0-9a-f]{64}$")))]
     pub sha256: String,
 }

@@ -1,7 +1,8 @@
 //! JSON Schema of what a joint file has by the declarations of its laws and by the table of DOFs, beside what follows from the
-//! records' own types.
+//! records' own types. Only a test needs it, which holds the schema in `docs` against the types.
 
 use std::borrow::Cow;
+use std::{env, fs, path::Path};
 
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, DofKind,
@@ -11,7 +12,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::{
-    DofSet, HigherTerms,
+    DofSet, HigherTerms, JointFile,
     friction::{self, Friction},
     higher,
     units::{description, unit},
@@ -170,4 +171,24 @@ fn load() -> String {
         each.collect::<Vec<String>>().join(" + ")
     };
     format!("{} + ({}) dr/dt", of(false), of(true))
+}
+
+#[test]
+fn the_schema_in_docs_is_that_of_the_types() {
+    let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let in_docs = folders.find_map(|folder| {
+        let path = folder.join("docs/joint-file.schema.json");
+        path.exists().then_some(path)
+    });
+    let path = in_docs.unwrap();
+    let schema = schemars::schema_for!(JointFile);
+    let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
+    if env::var_os("UPDATE_SCHEMA").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    let found = fs::read_to_string(&path).unwrap();
+    assert!(
+        found == text,
+        "docs/joint-file.schema.json is out of date: run UPDATE_SCHEMA=1 cargo test -p bolted-joint-joint"
+    );
 }

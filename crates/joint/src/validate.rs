@@ -3,7 +3,7 @@
 use bolted_joint_dynamics::law::Range;
 
 use super::{
-    Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, OverPreload, Problem,
+    Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, JointProblem, OverPreload,
     StandardDeviation, UncertaintyOverPreload,
 };
 
@@ -20,13 +20,13 @@ impl JointFile {
     ///
     /// Whether the joint is passive is not judged here: see [`JointFile::passivity`].
     #[must_use]
-    pub fn validate(&self) -> Vec<Problem> {
+    pub fn validate(&self) -> Vec<JointProblem> {
         let mut check = Check {
             dofs: self.joint.dofs,
             problems: Vec::new(),
         };
         if !is_one_line(&self.name) {
-            check.problems.push(Problem::Name {
+            check.problems.push(JointProblem::Name {
                 found: self.name.clone(),
             });
         }
@@ -76,7 +76,7 @@ impl JointFile {
 /// The problems found so far, and the DOFs that sizes are compared with.
 struct Check {
     dofs: DofSet,
-    problems: Vec<Problem>,
+    problems: Vec<JointProblem>,
 }
 
 impl Check {
@@ -89,7 +89,7 @@ impl Check {
             if !matrix.is_empty() {
                 self.matrix(path, matrix);
             } else if !replaced {
-                self.problems.push(Problem::Missing {
+                self.problems.push(JointProblem::Missing {
                     path: path.to_owned(),
                     expected: "a symmetric matrix with a row for each of joint.dofs",
                 });
@@ -114,7 +114,7 @@ impl Check {
     }
 
     fn beside_table(&mut self, path: &'static str, what: &'static str) {
-        self.problems.push(Problem::BesideTable { path, what });
+        self.problems.push(JointProblem::BesideTable { path, what });
     }
 
     fn friction(&mut self, laws: &[Friction]) {
@@ -122,7 +122,7 @@ impl Check {
             let path = format!("joint.friction[{i}]");
             let (dof, law) = (own.dof.name, own.law.name);
             if self.dofs.position(dof).is_none() {
-                self.problems.push(Problem::OtherDof {
+                self.problems.push(JointProblem::OtherDof {
                     path: format!("{path}.dof"),
                     found: dof,
                     dofs: self.dofs,
@@ -131,13 +131,14 @@ impl Check {
             let is_same = |other: &Friction| other.dof == own.dof && other.law == own.law;
             if laws[..i].iter().any(is_same) {
                 let path = format!("{path}.law");
-                self.problems.push(Problem::LawTwice { path, law, dof });
+                self.problems
+                    .push(JointProblem::LawTwice { path, law, dof });
             }
             for (parameter, &found) in own.law.parameters.iter().zip(&own.parameters) {
                 let path = format!("{path}.{}", parameter.key);
                 match parameter.range {
                     Range::Any if found.is_finite() => {}
-                    Range::Any => self.problems.push(Problem::NotFinite { path, found }),
+                    Range::Any => self.problems.push(JointProblem::NotFinite { path, found }),
                     Range::NotNegative => self.magnitude(&path, found, "a number"),
                 }
             }
@@ -153,7 +154,7 @@ impl Check {
         for (i, &found) in terms.amplitude.iter().enumerate() {
             if found <= 0.0 {
                 let path = format!("joint.higher.amplitude[{i}]");
-                self.problems.push(Problem::Amplitude { path, found });
+                self.problems.push(JointProblem::Amplitude { path, found });
             }
         }
     }
@@ -164,7 +165,7 @@ impl Check {
         let path = format!("{PATH}.preload");
         let preloads = &table.preload;
         if preloads.len() < 2 {
-            self.problems.push(Problem::TooFewPreloads {
+            self.problems.push(JointProblem::TooFewPreloads {
                 found: preloads.len(),
             });
         }
@@ -172,7 +173,7 @@ impl Check {
         self.not_negative(&path, preloads, "a preload");
         for (i, pair) in preloads.windows(2).enumerate() {
             if pair[1] <= pair[0] {
-                self.problems.push(Problem::PreloadNotIncreasing {
+                self.problems.push(JointProblem::PreloadNotIncreasing {
                     path: format!("{path}[{}]", i + 1),
                     found: pair[1],
                     previous: pair[0],
@@ -182,7 +183,7 @@ impl Check {
         if let (Some(&first), Some(&last)) = (preloads.first(), preloads.last())
             && !(first..=last).contains(&table.nominal)
         {
-            self.problems.push(Problem::NominalOutside {
+            self.problems.push(JointProblem::NominalOutside {
                 found: table.nominal,
                 first,
                 last,
@@ -219,7 +220,7 @@ impl Check {
             if let Some(&expected) = preloads.get(i)
                 && at.preload != expected
             {
-                self.problems.push(Problem::OtherPreload {
+                self.problems.push(JointProblem::OtherPreload {
                     path: format!("{path}.preload"),
                     found: at.preload,
                     expected,
@@ -270,7 +271,7 @@ impl Check {
         for (i, &found) in body.inertia.iter().enumerate() {
             if found <= 0.0 {
                 let path = format!("{inertia}[{i}]");
-                self.problems.push(Problem::Inertia { path, found });
+                self.problems.push(JointProblem::Inertia { path, found });
             }
         }
         for (key, list, what) in [
@@ -296,7 +297,7 @@ impl Check {
                     continue;
                 };
                 if upper != lower && upper.is_finite() && lower.is_finite() {
-                    self.problems.push(Problem::Asymmetric {
+                    self.problems.push(JointProblem::Asymmetric {
                         path: path.to_owned(),
                         row,
                         column,
@@ -317,7 +318,7 @@ impl Check {
     fn length(&mut self, path: &str, found: usize) -> bool {
         let fits = found == self.dofs.count();
         if !fits {
-            self.problems.push(Problem::Length {
+            self.problems.push(JointProblem::Length {
                 path: path.to_owned(),
                 found,
                 dofs: self.dofs,
@@ -329,7 +330,7 @@ impl Check {
     fn table_length(&mut self, path: &str, found: usize, expected: usize, of: &'static str) {
         if found != expected {
             let path = path.to_owned();
-            self.problems.push(Problem::TableLength {
+            self.problems.push(JointProblem::TableLength {
                 path,
                 found,
                 expected,
@@ -342,7 +343,7 @@ impl Check {
         for (i, &found) in entries.iter().enumerate() {
             if !found.is_finite() {
                 let path = format!("{path}[{i}]");
-                self.problems.push(Problem::NotFinite { path, found });
+                self.problems.push(JointProblem::NotFinite { path, found });
             }
         }
     }
@@ -351,7 +352,8 @@ impl Check {
         for (i, &found) in entries.iter().enumerate() {
             if found < 0.0 {
                 let path = format!("{path}[{i}]");
-                self.problems.push(Problem::Negative { path, found, what });
+                self.problems
+                    .push(JointProblem::Negative { path, found, what });
             }
         }
     }
@@ -359,9 +361,10 @@ impl Check {
     fn magnitude(&mut self, path: &str, found: f64, what: &'static str) {
         let path = path.to_owned();
         if !found.is_finite() {
-            self.problems.push(Problem::NotFinite { path, found });
+            self.problems.push(JointProblem::NotFinite { path, found });
         } else if found < 0.0 {
-            self.problems.push(Problem::Negative { path, found, what });
+            self.problems
+                .push(JointProblem::Negative { path, found, what });
         }
     }
 
@@ -370,14 +373,14 @@ impl Check {
         self.not_negative("validity.frequency_hz", frequency_hz, "a frequency");
         let [from_hz, to_hz] = *frequency_hz;
         if from_hz >= to_hz {
-            self.problems.push(Problem::Band { from_hz, to_hz });
+            self.problems.push(JointProblem::Band { from_hz, to_hz });
         }
     }
 
     fn hash(&mut self, path: &str, found: &str) {
         let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
         if found.len() != 64 || !found.chars().all(is_digit) {
-            self.problems.push(Problem::Hash {
+            self.problems.push(JointProblem::Hash {
                 path: path.to_owned(),
                 found: found.to_owned(),
             });

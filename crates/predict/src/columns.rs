@@ -2,31 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
 use bolted_joint_files::text_file::{self, TextFileError};
+use bolted_joint_files::text_table::{self, Cells};
 use bolted_joint_frf::{Decimal, shown};
-
-/// Why a table of numbers cannot be read.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ColumnsError {
-    /// The file itself.
-    #[error(transparent)]
-    File(#[from] TextFileError),
-    /// Something in a line.
-    #[error("{}, line {line}: found {found}; expected {expected}", path.display())]
-    Line {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// What is there.
-        found: String,
-        /// What should be there.
-        expected: String,
-    },
-}
 
 /// A column that a table must have.
 #[derive(Debug, Clone, Copy)]
@@ -62,22 +40,8 @@ impl<const N: usize> Rows<N> {
         line: usize,
         found: impl Into<String>,
         expected: impl Into<String>,
-    ) -> ColumnsError {
-        problem(&self.path, line, found, expected)
-    }
-}
-
-fn problem(
-    path: &Path,
-    line: usize,
-    found: impl Into<String>,
-    expected: impl Into<String>,
-) -> ColumnsError {
-    ColumnsError::Line {
-        path: path.to_owned(),
-        line,
-        found: found.into(),
-        expected: expected.into(),
+    ) -> TextFileError {
+        TextFileError::in_line(&self.path, line, found, expected)
     }
 }
 
@@ -89,22 +53,26 @@ pub(super) fn read<const N: usize>(
     path: &Path,
     what: &'static str,
     wanted: [Column; N],
-) -> Result<Rows<N>, ColumnsError> {
+) -> Result<Rows<N>, TextFileError> {
     let text = text_file::read(path, what)?;
-    let text = text.trim_start_matches('\u{feff}');
-    let mut lines = (1..)
-        .zip(text.lines())
-        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let mut lines = text_table::rows(&text);
     let example: Vec<String> = wanted.iter().map(Column::example).collect();
     let Some((header_line, header)) = lines.next() else {
         let expected = format!("the row of column names, such as {}", example.join(","));
-        return Err(problem(path, 1, "nothing but comments", expected));
+        return Err(TextFileError::in_line(
+            path,
+            1,
+            "nothing but comments",
+            expected,
+        ));
     };
-    let separator = [';', '\t']
+    let separator = text_table::separator(header);
+    let mut tokeniser = Cells::separated_by(separator);
+    let names: Vec<String> = tokeniser
+        .of(header)
         .into_iter()
-        .find(|&separator| header.contains(separator))
-        .unwrap_or(',');
-    let names: Vec<&str> = header.split(separator).map(unquoted).collect();
+        .map(str::to_owned)
+        .collect();
     let mut places = [(0, 1.0); N];
     for (place, column) in places.iter_mut().zip(wanted) {
         let mut matching = names
@@ -118,11 +86,16 @@ pub(super) fn read<const N: usize>(
                 column.example(),
                 units.join(", ")
             );
-            problem(path, header_line, shown(header.trim()), expected)
+            TextFileError::in_line(path, header_line, shown(header.trim()), expected)
         })?;
         if let Some((second, _)) = matching.next() {
-            let found = format!("a second column {}", shown(names[second]));
-            return Err(problem(path, header_line, found, "one of each quantity"));
+            let found = format!("a second column {}", shown(&names[second]));
+            return Err(TextFileError::in_line(
+                path,
+                header_line,
+                found,
+                "one of each quantity",
+            ));
         }
     }
     let mut decimal = match separator {
@@ -131,18 +104,18 @@ pub(super) fn read<const N: usize>(
     };
     let mut rows = Vec::new();
     for (line, text) in lines {
-        let cells: Vec<&str> = text.split(separator).map(unquoted).collect();
+        let cells = tokeniser.of(text);
         if cells.len() != names.len() {
             let found = format!("{} fields", cells.len());
             let expected = format!("{} as in the row of names", names.len());
-            return Err(problem(path, line, found, expected));
+            return Err(TextFileError::in_line(path, line, found, expected));
         }
         let mut values = [0.0; N];
         for (value, &(place, si)) in values.iter_mut().zip(&places) {
             let parsed = decimal.parse(cells[place]);
             let (number, used) = parsed.filter(|(n, _)| n.is_finite()).ok_or_else(|| {
                 let found = format!("\"{}\" as {}", shown(cells[place]), names[place]);
-                problem(path, line, found, "a finite number such as 1.25e-3")
+                TextFileError::in_line(path, line, found, "a finite number such as 1.25e-3")
             })?;
             decimal = used;
             *value = number * si;
@@ -172,11 +145,4 @@ impl Column {
         word.eq_ignore_ascii_case(self.name)
             .then(|| self.units.iter().find_map(known))?
     }
-}
-
-fn unquoted(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"')
-        .and_then(|cell| cell.strip_suffix('"'))
-        .map_or(cell, str::trim)
 }

@@ -19,7 +19,6 @@ pub mod surface;
 pub mod uncertain;
 pub mod virtual_material;
 
-pub use columns::ColumnsError;
 pub use contact_error::ContactError;
 pub use material::{Material, Pair};
 pub use number::NumberError;

@@ -4,11 +4,8 @@
 use super::frf_figure::FONTS;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
-use bolted_joint_figures::Axis;
-use bolted_joint_figures::Look;
 use bolted_joint_figures::curve::{self, Sample};
-use bolted_joint_figures::{FAINT_TEXT, Strip, VALUE_LABELS};
-use bolted_joint_figures::{PathData, Svg};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Look, Manner, PathData, Strip, Svg, VALUE_LABELS};
 use num_complex::Complex64;
 
 pub(super) const WIDTH: f64 = 960.0;
@@ -107,12 +104,7 @@ impl Chart<'_> {
     pub(super) fn to_svg(&self) -> String {
         let (strips, height) = self.laid_out();
         let mut svg = Svg::new(WIDTH, height, &self.title);
-        svg.element("rect")
-            .number("width", WIDTH)
-            .number("height", height)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(WIDTH, height, None, FONTS);
         let mut marks = Vec::new();
         if let (Some(function), Some(strip)) = (self.resonating, strips.first()) {
             marks = draw_resonance_labels(self.frequency_hz, function, strip, &mut svg);
@@ -129,13 +121,14 @@ impl Chart<'_> {
                 curve.look.draw(&self.path(curve, strip), &mut svg);
             }
             if strip.value.is_none() {
-                svg.element("text")
-                    .number("x", 0.5 * strip.width)
-                    .number("y", 0.5 * strip.height)
-                    .number("font-size", NO_DATA_FONT)
-                    .word("text-anchor", "middle")
-                    .word("fill", FAINT_TEXT)
-                    .containing("no data");
+                svg.text(
+                    0.5 * strip.width,
+                    0.5 * strip.height,
+                    NO_DATA_FONT,
+                    Manner::Middle,
+                    FAINT_TEXT,
+                    "no data",
+                );
             }
             strip.draw_frame(&mut svg);
             strip.draw_value_labels(&shown.label(), &mut svg);

@@ -5,11 +5,8 @@ use num_complex::Complex64;
 use super::frf_figure::FrfPanel;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
-use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
-use bolted_joint_figures::text;
-use bolted_joint_figures::{FAINT_TEXT, Strip, TEXT};
-use bolted_joint_figures::{PathData, Svg};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, PathData, Strip, Svg, TEXT, text};
 use bolted_joint_frf::Resonance;
 
 // Heights of what stands in a column, from the top.
@@ -131,20 +128,22 @@ impl<'a> Column<'a> {
             .map(|percent| format!("median residual {}", percentage(percent)))
             .unwrap_or_default();
         let room = strip.width - text::width(&note, NOTE_FONT);
-        svg.element("text")
-            .number("x", strip.left)
-            .number("y", baseline)
-            .number("font-size", PANEL_FONT)
-            .word("font-weight", "600")
-            .word("fill", TEXT)
-            .containing(&text::shortened(&self.panel.label, PANEL_FONT, room));
-        svg.element("text")
-            .number("x", strip.left + strip.width)
-            .number("y", baseline)
-            .number("font-size", NOTE_FONT)
-            .word("text-anchor", "end")
-            .word("fill", FAINT_TEXT)
-            .containing(&note);
+        svg.text(
+            strip.left,
+            baseline,
+            PANEL_FONT,
+            Manner::Bold,
+            TEXT,
+            &text::shortened(&self.panel.label, PANEL_FONT, room),
+        );
+        svg.text(
+            strip.left + strip.width,
+            baseline,
+            NOTE_FONT,
+            Manner::End,
+            FAINT_TEXT,
+            &note,
+        );
     }
 
     fn draw_magnitude(&self, marked: &[Resonance], svg: &mut Svg) {
@@ -155,13 +154,14 @@ impl<'a> Column<'a> {
         Key::Measured.draw(&dots(&samples(self.panel.measured), strip), svg);
         self.draw_lines(|function| line(&[samples(function)], strip), svg);
         if strip.value.is_none() {
-            svg.element("text")
-                .number("x", 0.5 * strip.width)
-                .number("y", 0.5 * strip.height)
-                .number("font-size", PANEL_FONT)
-                .word("text-anchor", "middle")
-                .word("fill", FAINT_TEXT)
-                .containing("no data");
+            svg.text(
+                0.5 * strip.width,
+                0.5 * strip.height,
+                PANEL_FONT,
+                Manner::Middle,
+                FAINT_TEXT,
+                "no data",
+            );
         }
         strip.draw_frame(svg);
     }

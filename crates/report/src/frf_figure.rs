@@ -4,11 +4,9 @@ use num_complex::Complex64;
 
 use super::frf_column::{self, Column, ColumnAxes};
 use super::legend::{Key, draw_legend};
-use bolted_joint_figures::Axis;
-use bolted_joint_figures::Svg;
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::text::wrapped;
-use bolted_joint_figures::{FAINT_TEXT, TEXT, VALUE_LABELS};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, Svg, TEXT, VALUE_LABELS};
 use bolted_joint_frf::resonances;
 
 pub(super) const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
@@ -88,25 +86,20 @@ impl FrfFigure<'_> {
         let height = head + row_height * length(rows);
 
         let mut svg = Svg::new(PAGE_WIDTH, height, self.title);
-        svg.element("rect")
-            .number("width", PAGE_WIDTH)
-            .number("height", height)
-            .number("rx", 6.0)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(PAGE_WIDTH, height, Some(6.0), FONTS);
         self.draw_head(&title, &subtitle, &mut svg);
         for (row, panels) in self.panels.chunks(columns).enumerate() {
             self.draw_row(panels, columns, head + row_height * length(row), &mut svg);
         }
         if self.panels.is_empty() {
-            svg.element("text")
-                .number("x", 0.5 * PAGE_WIDTH)
-                .number("y", head + 0.5 * row_height)
-                .number("font-size", SUBTITLE_FONT)
-                .word("text-anchor", "middle")
-                .word("fill", FAINT_TEXT)
-                .containing("no functions");
+            svg.text(
+                0.5 * PAGE_WIDTH,
+                head + 0.5 * row_height,
+                SUBTITLE_FONT,
+                Manner::Middle,
+                FAINT_TEXT,
+                "no functions",
+            );
         }
         svg.finish()
     }
@@ -115,22 +108,18 @@ impl FrfFigure<'_> {
         let mut baseline = MARGIN - 6.0;
         for line in title {
             baseline += TITLE_LINE;
-            svg.element("text")
-                .number("x", MARGIN)
-                .number("y", baseline)
-                .number("font-size", TITLE_FONT)
-                .word("font-weight", "600")
-                .word("fill", TEXT)
-                .containing(line);
+            svg.text(MARGIN, baseline, TITLE_FONT, Manner::Bold, TEXT, line);
         }
         for line in subtitle {
             baseline += SUBTITLE_LINE;
-            svg.element("text")
-                .number("x", MARGIN)
-                .number("y", baseline)
-                .number("font-size", SUBTITLE_FONT)
-                .word("fill", FAINT_TEXT)
-                .containing(line);
+            svg.text(
+                MARGIN,
+                baseline,
+                SUBTITLE_FONT,
+                Manner::Plain,
+                FAINT_TEXT,
+                line,
+            );
         }
         draw_legend(&self.keys(), MARGIN, baseline + 24.0, svg);
     }

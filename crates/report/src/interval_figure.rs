@@ -1,10 +1,7 @@
 //! Values with their intervals over a quantity of which there are a few: stiffness and damping over the torque.
 
 use super::chart_data::scaled_unit;
-use bolted_joint_figures::Axis;
-use bolted_joint_figures::Look;
-use bolted_joint_figures::{PathData, Point, Svg};
-use bolted_joint_figures::{Strip, TEXT, VALUE_LABELS};
+use bolted_joint_figures::{Axis, Look, Manner, PathData, Point, Strip, Svg, TEXT, VALUE_LABELS};
 
 const WIDTH: f64 = 960.0;
 const COLUMNS: usize = 2;
@@ -58,13 +55,7 @@ impl IntervalFigure<'_> {
         let height = MARGIN + rows as f64 * row_height;
         let column_width = (WIDTH - MARGIN) / COLUMNS as f64;
         let mut svg = Svg::new(WIDTH, height, self.title);
-        svg.element("rect")
-            .number("width", WIDTH)
-            .number("height", height)
-            .number("rx", 6.0)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(WIDTH, height, Some(6.0), FONTS);
         let places = self.panels.iter().flat_map(|panel| &panel.values);
         let across = roomy(places.map(|value| value.at));
         for (number, panel) in self.panels.iter().enumerate() {
@@ -84,13 +75,14 @@ impl IntervalFigure<'_> {
                 frequency: across,
                 value: Some(roomy(ends.map(|end| end / factor))),
             };
-            svg.element("text")
-                .number("x", strip.left)
-                .number("y", strip.top - 8.0)
-                .number("font-size", TITLE_FONT)
-                .word("font-weight", "600")
-                .word("fill", TEXT)
-                .containing(&panel.name);
+            svg.text(
+                strip.left,
+                strip.top - 8.0,
+                TITLE_FONT,
+                Manner::Bold,
+                TEXT,
+                &panel.name,
+            );
             strip.draw_grid(&mut svg);
             panel.draw(&strip, factor, &mut svg);
             strip.draw_frame(&mut svg);

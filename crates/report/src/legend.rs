@@ -1,6 +1,6 @@
 //! The look of the curves, and the key that explains it.
 
-use bolted_joint_figures::{Look, PathData, Point, Svg, TEXT, text};
+use bolted_joint_figures::{Look, Manner, PathData, Point, Svg, TEXT, text};
 
 // Blue and vermilion from the palette of Okabe and Ito, which the colour-blind can tell apart.
 pub(super) const REGENERATED_COLOUR: &str = "#0072b2";
@@ -81,12 +81,7 @@ pub(super) fn draw_legend(keys: &[Key], left: f64, baseline: f64, svg: &mut Svg)
     for key in keys {
         key.draw(&key.sample(x, baseline - 0.36 * FONT), svg);
         x += SAMPLE_WIDTH + 7.0;
-        svg.element("text")
-            .number("x", x)
-            .number("y", baseline)
-            .number("font-size", FONT)
-            .word("fill", TEXT)
-            .containing(key.name());
+        svg.text(x, baseline, FONT, Manner::Plain, TEXT, key.name());
         x += text::width(key.name(), FONT) + BETWEEN_ENTRIES;
     }
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use bolted_joint_figures::{Axis, TickLabel};
-use bolted_joint_figures::{PathData, Point, Svg};
-use bolted_joint_figures::{Strip, TEXT, VALUE_LABELS};
+use bolted_joint_figures::{
+    Axis, Manner, PathData, Point, Strip, Svg, TEXT, TickLabel, VALUE_LABELS,
+};
 use bolted_joint_predict::pressure::{Bolt, PressureField, Rectangle};
 
 /// Largest width and height of the plate on the page, pixels.
@@ -90,13 +90,7 @@ impl PressureFigure<'_> {
         let width = strip.left + strip.width + BAR_DISTANCE + BAR + BAR_LABELS + MARGIN;
         let height = strip.top + strip.height + LABELS_BELOW;
         let mut svg = Svg::new(width, height, self.title);
-        svg.element("rect")
-            .number("width", width)
-            .number("height", height)
-            .number("rx", 6.0)
-            .word("fill", "#ffffff")
-            .empty();
-        svg.element("g").word("font-family", FONTS).open();
+        svg.paper(width, height, Some(6.0), FONTS);
         strip.draw_grid(&mut svg);
         svg.element("rect")
             .number("width", strip.width)
@@ -291,12 +285,14 @@ fn draw_scale(strip: &Strip, highest: f64, unit: &str, svg: &mut Svg) {
             },
         ]);
         bolted_joint_figures::draw_path(svg, &mark, "#6e7781", 1.0);
-        svg.element("text")
-            .number("x", left + BAR + 7.0)
-            .number("y", y + 0.36 * FONT)
-            .number("font-size", FONT)
-            .word("fill", TEXT)
-            .containing(&label);
+        svg.text(
+            left + BAR + 7.0,
+            y + 0.36 * FONT,
+            FONT,
+            Manner::Plain,
+            TEXT,
+            &label,
+        );
     }
     let (x, y) = (left + BAR + 46.0, top + 0.5 * height);
     svg.element("text")

@@ -3,9 +3,7 @@
 use num_complex::Complex64;
 
 use super::legend::REGENERATED_COLOUR;
-use bolted_joint_figures::Strip;
-use bolted_joint_figures::Svg;
-use bolted_joint_figures::text;
+use bolted_joint_figures::{Manner, Strip, Svg, text};
 use bolted_joint_frf::{Resonance, resonances};
 
 /// Room that the labels take above the strip (pixels).
@@ -37,13 +35,14 @@ pub(super) fn draw_resonance_labels(
             return false;
         }
         taken.push((start, end));
-        svg.element("text")
-            .number("x", strip.left + middle)
-            .number("y", strip.top - 6.0)
-            .number("font-size", FONT)
-            .word("text-anchor", "middle")
-            .word("fill", REGENERATED_COLOUR)
-            .containing(&label);
+        svg.text(
+            strip.left + middle,
+            strip.top - 6.0,
+            FONT,
+            Manner::Middle,
+            REGENERATED_COLOUR,
+            &label,
+        );
         true
     });
     found

@@ -85,6 +85,7 @@ pub(super) fn history<const D: usize>(
     drive: Option<Drive>,
     times: Times,
     motions: &[Observed],
+    progress: &dyn Fn(f64),
 ) -> Result<Vec<Vec<f64>>, Ended> {
     let stepper = LapStepper::new(lap);
     let mut state = LapState::REST;
@@ -150,6 +151,7 @@ pub(super) fn history<const D: usize>(
             return Err(Ended::Escaped(time));
         }
         rows.push(row(time, &moment.state));
+        progress((n + 1) as f64 / count);
     }
     Ok(rows)
 }
@@ -169,7 +171,11 @@ pub(super) struct SteppedSine<'a> {
 impl SteppedSine<'_> {
     /// Rows of frequency and, of each motion, amplitude and phase of the fundamental of the last period at that frequency. The
     /// motion goes on from one frequency to the next.
-    pub(super) fn rows<const D: usize>(&self, lap: &Lap<D>) -> Result<Vec<Vec<f64>>, Ended> {
+    pub(super) fn rows<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        progress: &dyn Fn(f64),
+    ) -> Result<Vec<Vec<f64>>, Ended> {
         let stepper = LapStepper::new(lap);
         let loads = unit_load::<D>(self.place).scaled(self.level);
         let slowest_s = match self.settle {
@@ -216,6 +222,7 @@ impl SteppedSine<'_> {
                 row.extend([amplitude.norm(), amplitude.arg().to_degrees()]);
             }
             rows.push(row);
+            progress(rows.len() as f64 / self.lines as f64);
         }
         Ok(rows)
     }

@@ -35,31 +35,38 @@ impl From<Ended> for Failure {
 }
 
 impl RespondStudy {
-    /// Computes the response.
+    /// Computes the response. `progress` is told again and again which part of the work is done, from 0 to 1.
     ///
     /// # Errors
     /// [`RespondError`] that names lap and level.
-    pub fn run(&self) -> Result<ResponseTable, RespondError> {
-        with_dofs!(self.dofs().size(), D => self.run_with::<D>())
+    pub fn run(&self, progress: &dyn Fn(f64)) -> Result<ResponseTable, RespondError> {
+        with_dofs!(self.dofs().size(), D => self.run_with::<D>(progress))
     }
 
     fn dofs(&self) -> DofSet {
         self.laps[0].file.joint.dofs
     }
 
-    fn run_with<const D: usize>(&self) -> Result<ResponseTable, RespondError> {
+    fn run_with<const D: usize>(
+        &self,
+        progress: &dyn Fn(f64),
+    ) -> Result<ResponseTable, RespondError> {
         let motions = self.seen();
         let (columns, level_unit) = self.columns(&motions);
         let levels: Vec<Option<f64>> = match self.levels() {
             Some(levels) => levels.iter().map(|&level| Some(level)).collect(),
             None => vec![None],
         };
+        let all = (self.laps.len() * levels.len()) as f64;
         let mut series = Vec::new();
         for lap in &self.laps {
             let model = lap.file.lap::<D>();
             let model = model.map_err(|source| StudyError::model(&lap.path, None, source))?;
             for &level in &levels {
-                let rows = self.rows(&model, &motions, level.unwrap_or(0.0));
+                let done = series.len() as f64;
+                let of_series = |share: f64| progress((done + share) / all);
+                let rows = self.rows(&model, &motions, level.unwrap_or(0.0), &of_series);
+                of_series(1.0);
                 let refuse = |failure| self.failed(lap, level, level_unit, failure);
                 series.push(Series {
                     lap: lap.name.clone(),
@@ -189,7 +196,13 @@ impl RespondStudy {
         }
     }
 
-    fn rows<const D: usize>(&self, lap: &Lap<D>, motions: &[Observed], level: f64) -> Rows {
+    fn rows<const D: usize>(
+        &self,
+        lap: &Lap<D>,
+        motions: &[Observed],
+        level: f64,
+        progress: &dyn Fn(f64),
+    ) -> Rows {
         let target = |of: Observed, amplitude: f64| Target {
             observed: of,
             derivative: self.quantity,
@@ -208,7 +221,7 @@ impl RespondStudy {
                 to_hz,
                 duration_s: times.duration_s,
             };
-            history(lap, &[], Some(drive), times, motions)
+            history(lap, &[], Some(drive), times, motions, progress)
         };
         Ok(match &self.test {
             Test::Linear { span, lines, load } => receptances(
@@ -266,7 +279,7 @@ impl RespondStudy {
                 motions,
                 quantity: self.quantity,
             }
-            .rows(lap)?,
+            .rows(lap, progress)?,
             Test::Sweep {
                 span, load, times, ..
             } => driven(*load, span.ends_hz, *times)?,
@@ -276,7 +289,9 @@ impl RespondStudy {
                 times,
                 ..
             } => driven(*load, [*frequency_hz; 2], *times)?,
-            Test::FreeDecay { start, times } => history(lap, start, None, *times, motions)?,
+            Test::FreeDecay { start, times } => {
+                history(lap, start, None, *times, motions, progress)?
+            }
         })
     }
 

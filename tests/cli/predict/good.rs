@@ -1,5 +1,6 @@
 //! Predictions whose result is known from elsewhere, and what follows them: export, check, files for other programs.
 
+use bolted_joint_testing::{has, near};
 use std::fs;
 
 use serde_json::Value;
@@ -82,11 +83,7 @@ fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
     let bench = bench(&over_torque());
     let outcome = bench.done(&PREDICT);
     assert!(outcome.stdout.contains("at 25 N·m"), "{}", outcome.stdout);
-    assert!(
-        outcome.stdout.contains("imbalance +0.00 %"),
-        "{}",
-        outcome.stdout
-    );
+    has(&outcome.stdout, &["imbalance +0.00 %"]);
     let file = bench.json("j.joint.json");
     let table = &file["joint"]["over_preload"];
     assert_eq!(table["nominal"], 20.0);
@@ -128,11 +125,7 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     ) + "\n[uncertainty]\ndraws = 20000\nseed = 7\n";
     let bench_of_draws = bench(&uncertain);
     let outcome = bench_of_draws.done(&PREDICT);
-    assert!(
-        outcome.stdout.contains("k_yy scatters with nut factor"),
-        "{}",
-        outcome.stdout
-    );
+    has(&outcome.stdout, &["k_yy scatters with nut factor"]);
     let file = bench_of_draws.json("j.joint.json");
     let variance = 1.01_f64.ln();
     for (place, score) in [(0, 1.959_964), (1, -1.959_964)] {
@@ -155,9 +148,7 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     exact.done(&PREDICT);
     assert_eq!(file["joint"], exact.json("j.joint.json")["joint"]);
     let basis = file["uncertainty"]["basis"].as_str().unwrap();
-    assert!(
-        basis.contains("nut factor") && basis.contains("20000 draws") && basis.contains("seed 7")
-    );
+    has(&basis, &["nut factor", "20000 draws", "seed 7"]);
 }
 
 #[test]
@@ -180,10 +171,7 @@ fn bolts_that_scatter_each_on_their_own_scatter_less_together() {
     };
     let (each, common) = (deviation("each-bolt"), deviation("common"));
     // four independent bolts: half the deviation, and the coupling that they have in common is none
-    assert!(
-        (common.0 / each.0 - 2.0).abs() < 0.15,
-        "{each:?} {common:?}"
-    );
+    near(common.0 / each.0, 2.0, 0.15);
     assert!(
         each.1 > 0.0 && common.1 < 1e-6 * each.1,
         "{each:?} {common:?}"
@@ -210,10 +198,7 @@ fn the_same_seed_gives_the_same_file_and_refused_draws_are_told() {
     let (file, warnings) = run(1, "1");
     assert_eq!(run(1, "3").0, file);
     assert_ne!(run(2, "3").0, file);
-    assert!(
-        warnings.contains("draws refused: q = T/(μP) beyond the model"),
-        "{warnings}"
-    );
+    has(&warnings, &["draws refused: q = T/(μP) beyond the model"]);
     assert!(file.contains("of them refused"));
 }
 
@@ -300,11 +285,7 @@ fn a_virtual_layer_is_the_joint_of_its_material() {
         &["`layer`", "Poisson's ratio", "isotropic"],
     );
     let outcome = soft.done(&PREDICT);
-    assert!(
-        outcome.stderr.contains("no isotropic material"),
-        "{}",
-        outcome.stderr
-    );
+    has(&outcome.stderr, &["no isotropic material"]);
     soft.done(&["check", "j.joint.json"]);
 
     let bench = bench(&replaced(&with_layer(), "1.96e9", "6e9"));
@@ -349,11 +330,7 @@ fn the_example_goes_from_profiles_to_an_fmu() {
     }
     let outputs = ["--report", "r.html", "--matrix27", "k.mac"];
     let outcome = bench.done(&[&PREDICT[..], &outputs].concat());
-    assert!(
-        outcome.stdout.contains("5000 draws, seed 1, 0 refused"),
-        "{}",
-        outcome.stdout
-    );
+    has(&outcome.stdout, &["5000 draws, seed 1, 0 refused"]);
     assert_eq!(outcome.stderr, "");
     let file = bench.json("j.joint.json");
     // the study, three profiles of each surface

@@ -2,6 +2,7 @@
 
 use bolted_joint::predict::layered_beam::{BeamMode, ModeShape, Route, StoredEnergy, root};
 use bolted_joint::structure::Boundary;
+use bolted_joint_testing::near;
 
 use super::{BOUNDARIES, close, references, rivets, specimen};
 
@@ -96,10 +97,7 @@ fn shapes_are_orthogonal_and_bend_as_their_roots_say() {
             // ∫φ_i″φ_j″ dξ = λ⁴ δ_ij
             let scale = (first.lambda() * second.lambda()).powi(2);
             let bending = integral(b, |xi| first.curvature(xi) * second.curvature(xi)) / scale;
-            assert!(
-                (bending - same).abs() < 1e-12,
-                "{boundary:?} {a} {b}: {bending}"
-            );
+            near(bending, same, 1e-12);
         }
     }
 }

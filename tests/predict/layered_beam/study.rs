@@ -1,5 +1,6 @@
 //! Studies as files: what is read, and what comes out.
 
+use bolted_joint_testing::has;
 use std::path::Path;
 
 use bolted_joint::joint::JointFile;
@@ -203,9 +204,9 @@ fn standard_deviations_become_intervals_of_the_joint() {
         uncertainty.standard_deviation.damping[0][0],
         damping.standard_deviation
     );
-    assert!(
-        uncertainty.basis.contains("friction.alpha_mu")
-            && uncertainty.basis.contains("fasteners.preload")
+    has(
+        &uncertainty.basis,
+        &["friction.alpha_mu", "fasteners.preload"],
     );
     JointFile::from_json(&found.joint_file().to_json().unwrap(), "again").unwrap();
     // the same seed, the same draws

@@ -3,6 +3,7 @@
 use bolted_joint::predict::ContactError;
 use bolted_joint::predict::virtual_material::{Loading, Magnitudes, Moduli, Observation, fit};
 use bolted_joint::predict::{Material, Pair};
+use bolted_joint_testing::near;
 use proptest::prelude::*;
 
 use super::{FRICTION_RATIO, HARDNESS_PA, contact, pair};
@@ -92,10 +93,7 @@ fn table_1_is_fitted_as_by_scipy() {
             "{found:?} {expected:?}"
         );
         let dimension = found.roughness.fractal_dimension();
-        assert!(
-            (dimension - expected[1]).abs() < 1e-5,
-            "{found:?} {expected:?}"
-        );
+        near(dimension, expected[1], 1e-5);
         assert_eq!(found.is_at_bound, magnitudes == Magnitudes::Stated);
     }
 }

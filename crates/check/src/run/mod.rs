@@ -10,11 +10,9 @@ mod plan;
 mod script;
 mod supervisor;
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use bolted_joint_importer::FmiVersion;
-use thiserror::Error;
 
 pub use balance::BalanceReport;
 pub use child::execute_script;
@@ -23,26 +21,13 @@ pub use supervisor::Runner;
 use super::archive::Archive;
 use super::described::Described;
 use super::reference::ReferenceRun;
-use super::{InspectError, Inspection};
+use super::{CheckError, Inspection};
 use bolted_joint_export::{self as export, EMBEDDED_PLATFORM};
 use comparison::Comparison;
 use excitation::Excitation;
 use names::References;
 use plan::Plan;
 use script::{Action, Script};
-
-/// Why the run could not even be tried.
-#[derive(Debug, Error)]
-pub enum RunError {
-    /// The FMU is no longer what was inspected.
-    #[error(transparent)]
-    Inspect(#[from] InspectError),
-    /// The child process or its files cannot be made.
-    #[error(
-        "the FMU cannot be unpacked and run in a temporary folder: {0}; set TMPDIR to a folder with room, or leave the run out with --no-run"
-    )]
-    System(#[from] io::Error),
-}
 
 /// Whether the library was run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,8 +76,8 @@ impl RunReport {
 ///
 /// # Errors
 ///
-/// [`RunError`] if the run cannot be tried; what the FMU does wrong is in the findings.
-pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunReport, RunError> {
+/// [`CheckError`] if the run cannot be tried; what the FMU does wrong is in the findings.
+pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunReport, CheckError> {
     // a joint over the preload is run at its nominal one
     let Ok(constant) = inspection.joint.at_preload(None) else {
         return Ok(RunReport::without_run(RunVerdict::NoVariables));

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::CsvProblem;
-use crate::{Dof, Quantity};
+use crate::{Dof, Quantity, TableProblem};
+use bolted_joint_files::text_table::{Cells, separator};
 
 /// What comments of the form `# key = value` say of all functions.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,17 +16,14 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Takes in a comment; one without a known key is for people.
-    pub(super) fn read(&mut self, comment: &str) -> Result<(), CsvProblem> {
+    pub(super) fn read(&mut self, comment: &str) -> Result<(), TableProblem> {
         let text = comment.trim_start_matches('#');
         let Some((key, value)) = text.split_once(['=', ':']) else {
             return Ok(());
         };
         let value = value.trim().trim_matches('"');
-        let refused = |key, expected| CsvProblem::Key {
-            key,
-            found: value.to_owned(),
-            expected,
-        };
+        let refused =
+            |key, expected| TableProblem::whole(format_args!("{key} = \"{value}\""), expected);
         match key.trim().to_lowercase().as_str() {
             "quantity" => {
                 let expected = "receptance, mobility or accelerance";
@@ -133,13 +130,11 @@ pub(super) struct Header {
 }
 
 impl Header {
-    pub(super) fn read(row: &str) -> Result<Self, CsvProblem> {
-        let separator = [';', '\t']
-            .into_iter()
-            .find(|&c| row.contains(c))
-            .unwrap_or(',');
-        let names: Vec<&str> = row.split(separator).map(unquoted).collect();
-        check_frequency(names[0])?;
+    pub(super) fn read(row: &str) -> Result<Self, TableProblem> {
+        let separator = separator(row);
+        let mut cells = Cells::separated_by(separator);
+        let names = cells.of(row);
+        check_frequency(names.first().copied().unwrap_or_default())?;
         let mut order = Vec::new();
         let mut parts: BTreeMap<(Dof, Dof), BTreeMap<Part, (usize, Column)>> = BTreeMap::new();
         for (index, name) in names.iter().enumerate().skip(1) {
@@ -155,12 +150,11 @@ impl Header {
                 .insert(part, (index, column))
                 .is_some()
             {
-                return Err(CsvProblem::Twice {
-                    column: index + 1,
-                    part: part.name(),
-                    response: pair.0,
-                    reference: pair.1,
-                });
+                return Err(TableProblem::at(
+                    format_args!("column {}", index + 1),
+                    format_args!("a second {} of {} / {}", part.name(), pair.0, pair.1),
+                    "one; remove the one that is not wanted",
+                ));
             }
         }
         let functions = order
@@ -175,14 +169,6 @@ impl Header {
     }
 }
 
-/// A cell without blanks and quotation marks around it.
-pub(super) fn unquoted(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"')
-        .and_then(|cell| cell.strip_suffix('"'))
-        .map_or(cell, str::trim)
-}
-
 /// A name without its unit, which stands in brackets at the end.
 fn split_unit(name: &str) -> (&str, Option<&str>) {
     match (name.find('['), name.strip_suffix(']')) {
@@ -191,7 +177,7 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-fn check_frequency(name: &str) -> Result<(), CsvProblem> {
+fn check_frequency(name: &str) -> Result<(), TableProblem> {
     let (word, unit) = split_unit(name);
     let is_frequency = ["frequency", "freq", "f"]
         .iter()
@@ -199,17 +185,24 @@ fn check_frequency(name: &str) -> Result<(), CsvProblem> {
     let is_hertz = unit.is_none_or(|unit| unit.eq_ignore_ascii_case("hz"));
     match is_frequency && is_hertz {
         true => Ok(()),
-        false => Err(CsvProblem::NotFrequency {
-            found: crate::shown(name),
-        }),
+        false => Err(TableProblem::at(
+            "column 1",
+            format_args!("\"{}\"", crate::shown(name)),
+            "\"frequency [Hz]\" as the first column's name; write a header row, and frequencies in Hz",
+        )),
     }
 }
 
 impl Column {
-    fn read(name: &str, column: usize) -> Result<Self, CsvProblem> {
-        let no_name = || CsvProblem::ColumnName {
-            column,
-            found: crate::shown(name),
+    fn read(name: &str, column: usize) -> Result<Self, TableProblem> {
+        let at = || format!("column {column}");
+        let no_name = || {
+            TableProblem::at(
+                at(),
+                format_args!("the name \"{}\"", crate::shown(name)),
+                "RESPONSE/REFERENCE, one of real, imaginary, magnitude, phase and coherence, and perhaps a quantity and a [unit], such as \
+                 \"11:+Y/2:+Y accelerance real [m/s^2/N]\"",
+            )
         };
         let (text, unit) = split_unit(name);
         let mut words = text.split_whitespace();
@@ -219,7 +212,7 @@ impl Column {
             .ok_or_else(no_name)?;
         let dof = |text: &str| {
             text.parse::<Dof>()
-                .map_err(|source| CsvProblem::Dof { column, source })
+                .map_err(|source| TableProblem::Dof { at: at(), source })
         };
         let (response, reference) = (dof(response)?, dof(reference)?);
         let (mut part, mut stated) = (None, None);
@@ -240,23 +233,24 @@ impl Column {
     }
 
     /// Radians in one unit of a phase.
-    fn radians(&self, index: usize) -> Result<f64, CsvProblem> {
+    fn radians(&self, index: usize) -> Result<f64, TableProblem> {
         match self.unit.as_deref() {
             Some("rad") => Ok(1.0),
             Some("deg" | "°") => Ok(PI / 180.0),
-            other => Err(CsvProblem::PhaseUnit {
-                column: index + 1,
-                found: other.unwrap_or("no unit").to_owned(),
-            }),
+            other => Err(TableProblem::at(
+                format_args!("column {}", index + 1),
+                format_args!("a phase in \"{}\"", other.unwrap_or("no unit")),
+                "[deg] or [rad] after its name",
+            )),
         }
     }
 }
 
 impl Columns {
     fn from_parts(
-        (response, reference): (Dof, Dof),
+        pair: (Dof, Dof),
         mut parts: BTreeMap<Part, (usize, Column)>,
-    ) -> Result<Self, CsvProblem> {
+    ) -> Result<Self, TableProblem> {
         let coherence = parts.remove(&Part::Coherence).map(|(index, _)| index);
         let found: Vec<&str> = parts.keys().map(|part| part.name()).collect();
         let found = match found.is_empty() {
@@ -284,18 +278,13 @@ impl Columns {
                 )
             }
             _ => {
-                return Err(CsvProblem::Parts {
-                    response,
-                    reference,
-                    found,
-                });
+                let expected = "columns for real and imaginary part, or for magnitude and phase";
+                return Err(TableProblem::of_function(pair, found, expected));
             }
         };
-        let differing = |first: String, second: String| CsvProblem::Differing {
-            response,
-            reference,
-            first,
-            second,
+        let differing = |first: String, second: String| {
+            let found = format!("\"{first}\" in one column and \"{second}\" in another");
+            TableProblem::of_function(pair, found, "the same in both")
         };
         let unit = match (first.unit, second.unit) {
             (Some(first), Some(second)) if first != second => return Err(differing(first, second)),
@@ -308,8 +297,8 @@ impl Columns {
             (first, second) => first.or(second),
         };
         Ok(Self {
-            response,
-            reference,
+            response: pair.0,
+            reference: pair.1,
             quantity,
             unit,
             form,

@@ -5,9 +5,7 @@
 
 mod header;
 mod number;
-mod problem;
 mod read;
 
 pub use number::Decimal;
-pub use problem::CsvProblem;
 pub use read::{read_csv, read_csv_from};

@@ -5,15 +5,15 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use bolted_joint_files::text_table::Cells;
 use num_complex::Complex64;
 
-use super::CsvProblem;
-use super::header::{Columns, Form, Header, Keys, unquoted};
+use super::header::{Columns, Form, Header, Keys};
 use super::number::Decimal;
 use crate::gathered::Gathered;
 use crate::statement::{Stated, Statement};
 use crate::summary::Statements;
-use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions};
+use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
 
 /// The longest line that is still taken for a table, bytes.
 const LONGEST_LINE: usize = 1 << 20;
@@ -55,7 +55,10 @@ pub fn read_csv_from(
     let mut keys = Keys::default();
     let header = loop {
         if !rows.advance()? {
-            return Err(rows.problem(CsvProblem::NoHeader));
+            return Err(rows.problem(TableProblem::whole(
+                "no header row",
+                "column names such as \"frequency [Hz]\" and \"11:+Y/2:+Y real [m/N]\"; write them above the numbers",
+            )));
         }
         let text = rows.text();
         match text.trim() {
@@ -87,9 +90,7 @@ pub fn read_csv_from(
             quantity: columns.quantity.or(keys.quantity),
             unit: columns.unit.as_deref().or(keys.unit.as_deref()),
         };
-        let stated = statement
-            .decide(options)
-            .map_err(|problem| at_header(CsvProblem::Statement(problem)))?;
+        let stated = statement.decide(options).map_err(at_header)?;
         wanted.push(Wanted {
             columns,
             stated,
@@ -104,7 +105,7 @@ pub fn read_csv_from(
             path: path.to_owned(),
             source: Box::new(source),
         },
-        source => at_header(CsvProblem::Function(Box::new(source))),
+        source => at_header(TableProblem::Function(Box::new(source))),
     };
     let (mut functions, mut coherences) = (Vec::new(), Vec::new());
     let mut statements = Statements::default();
@@ -170,12 +171,15 @@ impl<R: BufRead> Rows<'_, R> {
                 source,
             })?;
         if self.line.len() > LONGEST_LINE {
-            let limit = LONGEST_LINE;
-            return Err(self.problem(CsvProblem::LineTooLong { limit }));
+            return Err(self.problem(TableProblem::whole(
+                format_args!("a line of more than {LONGEST_LINE} bytes"),
+                "a table; is this another format?",
+            )));
         }
         if self.number == 1 {
             if self.line.starts_with(b"\xFF\xFE") || self.line.starts_with(b"\xFE\xFF") {
-                return Err(self.problem(CsvProblem::Utf16));
+                let expected = "UTF-8; save the table as \"CSV UTF-8\"";
+                return Err(self.problem(TableProblem::whole("UTF-16 text", expected)));
             }
             if self.line.starts_with(b"\xEF\xBB\xBF") {
                 self.line.drain(..3);
@@ -192,7 +196,7 @@ impl<R: BufRead> Rows<'_, R> {
         }
     }
 
-    fn problem(&self, problem: CsvProblem) -> FrfError {
+    fn problem(&self, problem: TableProblem) -> FrfError {
         FrfError::Csv {
             path: self.path.to_owned(),
             line: self.number,
@@ -210,29 +214,33 @@ impl<R: BufRead> Rows<'_, R> {
             ',' => Decimal::Point,
             _ => Decimal::Either,
         };
+        let mut tokeniser = Cells::separated_by(header.separator);
         while self.advance()? {
             let text = self.text();
             if text.trim().is_empty() || text.starts_with('#') {
                 continue;
             }
-            let cells: Vec<&str> = text
-                .trim_end_matches(['\n', '\r'])
-                .split(header.separator)
-                .map(unquoted)
-                .collect();
+            let cells = tokeniser.of(text.trim_end_matches(['\n', '\r']));
             if cells.len() != header.column_count {
-                return Err(self.problem(CsvProblem::Fields {
-                    found: cells.len(),
-                    expected: header.column_count,
-                }));
+                return Err(self.problem(TableProblem::whole(
+                    format_args!("{} fields", cells.len()),
+                    format_args!(
+                        "{} as in the header row; with decimal commas, separate the columns by semicolons",
+                        header.column_count
+                    ),
+                )));
             }
             let mut number = |index: usize| {
                 let (number, used) = decimal.parse(cells[index]).ok_or_else(|| {
-                    self.problem(CsvProblem::NotANumber {
-                        column: index + 1,
-                        found: crate::shown(cells[index]),
-                        comma_used: cells[index].contains(',') || decimal == Decimal::Comma,
-                    })
+                    let more = match cells[index].contains(',') || decimal == Decimal::Comma {
+                        true => "; commas and points for decimals in one file are not read, nor are separators of thousands",
+                        false => "",
+                    };
+                    self.problem(TableProblem::at(
+                        format_args!("column {}", index + 1),
+                        format_args!("\"{}\"", crate::shown(cells[index])),
+                        format_args!("a number such as 1.25e-3{more}"),
+                    ))
                 })?;
                 decimal = used;
                 Ok::<f64, FrfError>(number)
@@ -250,10 +258,11 @@ impl<R: BufRead> Rows<'_, R> {
                     } => {
                         let found = number(magnitude)?;
                         if found < 0.0 {
-                            let column = magnitude + 1;
-                            return Err(
-                                self.problem(CsvProblem::NegativeMagnitude { column, found })
-                            );
+                            return Err(self.problem(TableProblem::at(
+                                format_args!("column {}", magnitude + 1),
+                                format_args!("magnitude {found}"),
+                                "a number that is not negative; decibels are not read",
+                            )));
                         }
                         Complex64::from_polar(found, number(phase)? * radians)
                     }

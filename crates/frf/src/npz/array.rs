@@ -7,7 +7,7 @@ use std::io::Read;
 
 use num_complex::Complex64;
 
-use super::NpzProblem;
+use crate::TableProblem;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// A header longer than this belongs to no array of numbers.
@@ -132,12 +132,8 @@ pub(super) struct Array<R> {
 
 impl<R: Read> Array<R> {
     /// Reads the header of the member `name`, which has `member_bytes` bytes in all.
-    pub(super) fn open(name: &str, mut reader: R, member_bytes: u64) -> Result<Self, NpzProblem> {
-        let problem = |found: String, expected| NpzProblem::Header {
-            array: name.to_owned(),
-            found,
-            expected,
-        };
+    pub(super) fn open(name: &str, mut reader: R, member_bytes: u64) -> Result<Self, TableProblem> {
+        let problem = |found: String, expected| bad_header(name, &found, expected);
         let mut fixed = [0; 8];
         let magic = "a NumPy array (.npy)";
         let read = |reader: &mut R, bytes: &mut [u8]| {
@@ -174,11 +170,7 @@ impl<R: Read> Array<R> {
             });
         let found = member_bytes.saturating_sub((fixed.len() + length_bytes + length) as u64);
         if expected != Some(found) {
-            return Err(NpzProblem::Length {
-                array: name.to_owned(),
-                found,
-                expected: expected.unwrap_or(u64::MAX),
-            });
+            return Err(cut_short(name, found, expected.unwrap_or(u64::MAX)));
         }
         Ok(Self {
             name: name.to_owned(),
@@ -199,18 +191,15 @@ impl<R: Read> Array<R> {
 
     fn each(
         &mut self,
-        mut take: impl FnMut(&Type, &[u8]) -> Result<(), NpzProblem>,
-    ) -> Result<(), NpzProblem> {
+        mut take: impl FnMut(&Type, &[u8]) -> Result<(), TableProblem>,
+    ) -> Result<(), TableProblem> {
         let size = self.header.array_type.size;
         let mut element = vec![0; size];
         for index in 0..self.len() {
-            self.reader
-                .read_exact(&mut element)
-                .map_err(|_| NpzProblem::Length {
-                    array: self.name.clone(),
-                    found: (index * size) as u64,
-                    expected: (self.len() * size) as u64,
-                })?;
+            self.reader.read_exact(&mut element).map_err(|_| {
+                let expected = (self.len() * size) as u64;
+                cut_short(&self.name, (index * size) as u64, expected)
+            })?;
             take(&self.header.array_type, &element)?;
         }
         Ok(())
@@ -219,8 +208,8 @@ impl<R: Read> Array<R> {
     /// Hands every element, in the order of the file, to `take`.
     pub(super) fn each_complex(
         mut self,
-        mut take: impl FnMut(Complex64) -> Result<(), NpzProblem>,
-    ) -> Result<(), NpzProblem> {
+        mut take: impl FnMut(Complex64) -> Result<(), TableProblem>,
+    ) -> Result<(), TableProblem> {
         self.refuse_unless(self.is_numeric(), "numbers, such as complex128")?;
         self.each(|array_type, bytes| take(array_type.complex(bytes)))
     }
@@ -228,8 +217,8 @@ impl<R: Read> Array<R> {
     /// All elements as real numbers, as long as `good` holds for each and the one before it.
     pub(super) fn reals(
         mut self,
-        mut good: impl FnMut(Option<f64>, f64) -> Result<(), NpzProblem>,
-    ) -> Result<Vec<f64>, NpzProblem> {
+        mut good: impl FnMut(Option<f64>, f64) -> Result<(), TableProblem>,
+    ) -> Result<Vec<f64>, TableProblem> {
         let is_real = self.is_numeric() && self.header.array_type.kind != Kind::Complex;
         self.refuse_unless(is_real, "real numbers, such as float64")?;
         let mut numbers: Vec<f64> = Vec::new();
@@ -245,8 +234,8 @@ impl<R: Read> Array<R> {
     /// All elements as texts, as long as `good` holds for each.
     pub(super) fn texts(
         mut self,
-        mut good: impl FnMut(&str) -> Result<(), NpzProblem>,
-    ) -> Result<Vec<String>, NpzProblem> {
+        mut good: impl FnMut(&str) -> Result<(), TableProblem>,
+    ) -> Result<Vec<String>, TableProblem> {
         self.refuse_unless(!self.is_numeric(), "texts such as \"11:+Y\"")?;
         let mut texts = Vec::new();
         self.each(|array_type, bytes| {
@@ -258,35 +247,54 @@ impl<R: Read> Array<R> {
         Ok(texts)
     }
 
-    fn refuse_unless(&self, good: bool, expected: &'static str) -> Result<(), NpzProblem> {
+    fn refuse_unless(&self, good: bool, expected: &'static str) -> Result<(), TableProblem> {
         match good {
             true => Ok(()),
-            false => Err(NpzProblem::Type {
-                array: self.name.clone(),
-                found: format!("{:?}", self.header.array_type.kind).to_lowercase(),
-                expected,
-            }),
+            false => {
+                let kind = format!("{:?}", self.header.array_type.kind).to_lowercase();
+                Err(wrong_type(&self.name, &kind, expected))
+            }
         }
     }
 }
 
+/// A header that cannot be read.
+fn bad_header(array: &str, found: &str, expected: &str) -> TableProblem {
+    let expected = format!("{expected}; save it again with numpy.savez");
+    TableProblem::at(format_args!("array {array}"), found, expected)
+}
+
+/// Elements of a type that is not usable.
+fn wrong_type(array: &str, found: &str, expected: &str) -> TableProblem {
+    let expected = format!("{expected}; convert it with astype before saving");
+    TableProblem::at(
+        format_args!("array {array}"),
+        format_args!("type \"{found}\""),
+        expected,
+    )
+}
+
+/// More or less bytes than the header says.
+pub(super) fn cut_short(array: &str, found: u64, expected: u64) -> TableProblem {
+    TableProblem::at(
+        format_args!("array {array}"),
+        format_args!("{found} bytes"),
+        format_args!("{expected} by its header; the file is cut short or damaged, save it again"),
+    )
+}
+
 impl Header {
     /// From a dictionary such as `{'descr': '<c16', 'fortran_order': False, 'shape': (3, 3, 2048), }`.
-    fn from_text(array: &str, text: &str) -> Result<Self, NpzProblem> {
+    fn from_text(array: &str, text: &str) -> Result<Self, TableProblem> {
         let value = |key: &str| {
             let (_, after) = text.split_once(&format!("'{key}'"))?;
             Some(after.trim_start().strip_prefix(':')?.trim_start())
         };
-        let problem = |expected| NpzProblem::Header {
-            array: array.to_owned(),
-            found: crate::shown(text),
-            expected,
-        };
+        let problem = |expected| bad_header(array, &crate::shown(text), expected);
         let descr = value("descr").ok_or_else(|| problem("a key 'descr'"))?;
-        let type_problem = |found: &str| NpzProblem::Type {
-            array: array.to_owned(),
-            found: crate::shown(found),
-            expected: "float32 or 64, complex64 or 128, integers, or texts; no Python objects and no records",
+        let type_problem = |found: &str| {
+            let expected = "float32 or 64, complex64 or 128, integers, or texts; no Python objects and no records";
+            wrong_type(array, &crate::shown(found), expected)
         };
         let name = descr
             .strip_prefix('\'')
@@ -322,7 +330,7 @@ impl Header {
 mod tests {
     use super::*;
 
-    fn header(text: &str) -> Result<Header, NpzProblem> {
+    fn header(text: &str) -> Result<Header, TableProblem> {
         Header::from_text("frf", text)
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::NpzProblem;
+use crate::TableProblem;
 
 /// What an axis of the matrix runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +53,7 @@ const ORDERS: [[Over; 3]; 6] = {
 };
 
 /// The order that a text such as `frequency,response,reference` names.
-pub(super) fn named(text: &str) -> Result<Vec<Over>, NpzProblem> {
+pub(super) fn named(text: &str) -> Result<Vec<Over>, TableProblem> {
     let order: Option<Vec<Over>> = text
         .split(|c: char| !c.is_alphabetic())
         .filter(|word| !word.is_empty())
@@ -66,8 +66,13 @@ pub(super) fn named(text: &str) -> Result<Vec<Over>, NpzProblem> {
     let distinct = |order: &Vec<Over>| (1..order.len()).all(|i| !order[..i].contains(&order[i]));
     order
         .filter(|order| order.contains(&Over::Frequency) && distinct(order))
-        .ok_or_else(|| NpzProblem::Axes {
-            found: crate::shown(text),
+        .ok_or_else(|| {
+            TableProblem::at(
+                "array axes",
+                format_args!("\"{}\"", crate::shown(text)),
+                "the words response, reference and frequency, each once, in the order of the matrix's axes, such as \
+                 \"frequency,response,reference\"",
+            )
         })
 }
 
@@ -79,7 +84,7 @@ pub(super) fn order(
     shape: &[usize],
     counts: Counts,
     stated: Option<&[Over]>,
-) -> Result<Vec<Over>, NpzProblem> {
+) -> Result<Vec<Over>, TableProblem> {
     let fits = |order: &[Over]| {
         order.len() == shape.len()
             && order
@@ -96,10 +101,10 @@ pub(super) fn order(
             references,
             frequencies,
         } = counts;
-        NpzProblem::Shape {
-            array: array.to_owned(),
-            found: format!("{shape:?}"),
-            expected: format!(
+        TableProblem::at(
+            format_args!("array {array}"),
+            format_args!("shape {shape:?}"),
+            format_args!(
                 "{responses} responses, {references} references and {frequencies} frequencies in any order, \
                  as the arrays with their names have them{}",
                 if stated.is_some() {
@@ -108,7 +113,7 @@ pub(super) fn order(
                     ""
                 }
             ),
-        }
+        )
     };
     if let Some(stated) = stated {
         return match fits(stated) {
@@ -137,12 +142,16 @@ pub(super) fn order(
     match found.as_slice() {
         [] => Err(wrong_shape()),
         [one] => Ok(one.clone()),
-        [first, second, ..] => Err(NpzProblem::Ambiguous {
-            array: array.to_owned(),
-            found: format!("{shape:?}"),
-            first: list(first),
-            second: list(second),
-        }),
+        [first, second, ..] => {
+            let [first, second] = [list(first), list(second)];
+            Err(TableProblem::at(
+                format_args!("array {array}"),
+                format_args!("shape {shape:?}, which is either ({first}) or ({second})"),
+                format_args!(
+                    "one reading. Add the order of its axes when saving, such as axes=\"{first}\""
+                ),
+            ))
+        }
     }
 }
 
@@ -192,10 +201,8 @@ mod tests {
             [Reference, Frequency, Response]
         );
         for shape in [[3, 3, 100].as_slice(), &[3, 100], &[100], &[6, 100], &[]] {
-            assert!(
-                matches!(found(shape), Err(NpzProblem::Shape { .. })),
-                "{shape:?}"
-            );
+            let refused = found(shape).unwrap_err().to_string();
+            assert!(refused.contains("in any order"), "{shape:?}: {refused}");
         }
     }
 
@@ -233,20 +240,16 @@ mod tests {
             stated
         );
         assert!(order("frf", &[3, 3, 100], square, Some(&stated)).is_err());
-        assert!(matches!(
-            order("frf", &[3, 3], counts(3, 1, 3), None),
-            Err(NpzProblem::Ambiguous { .. })
-        ));
+        let refused = order("frf", &[3, 3], counts(3, 1, 3), None).unwrap_err();
+        assert!(refused.to_string().contains("which is either"), "{refused}");
         for text in [
             "",
             "response,reference",
             "frequency,response,response",
             "frequency,node",
         ] {
-            assert!(
-                matches!(named(text), Err(NpzProblem::Axes { .. })),
-                "{text}"
-            );
+            let refused = named(text).unwrap_err().to_string();
+            assert!(refused.starts_with("array axes: "), "{text}: {refused}");
         }
     }
 }

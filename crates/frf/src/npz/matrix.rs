@@ -6,13 +6,12 @@ use std::path::Path;
 
 use num_complex::Complex64;
 
-use super::NpzProblem;
 use super::array::Array;
 use super::axes::Over;
 use crate::gathered::Gathered;
 use crate::statement::{Stated, Statement};
 use crate::summary::Statements;
-use crate::{Coherence, Dof, FileFormat, FrfReading, Quantity, ReadOptions};
+use crate::{Coherence, Dof, FileFormat, FrfReading, Quantity, ReadOptions, TableProblem};
 
 /// How the elements of a matrix lie.
 pub(super) struct Place {
@@ -71,7 +70,7 @@ impl Functions<'_> {
         &self,
         quantity: Option<Quantity>,
         unit: Option<&str>,
-    ) -> Result<Vec<Option<Stated>>, NpzProblem> {
+    ) -> Result<Vec<Option<Stated>>, TableProblem> {
         self.pairs
             .iter()
             .map(|&(response, reference)| {
@@ -82,11 +81,7 @@ impl Functions<'_> {
                     unit,
                 };
                 self.wants((response, reference))
-                    .then(|| {
-                        statement
-                            .decide(self.options)
-                            .map_err(NpzProblem::Statement)
-                    })
+                    .then(|| statement.decide(self.options))
                     .transpose()
             })
             .collect()
@@ -97,7 +92,7 @@ impl Functions<'_> {
         &self,
         array: Array<impl Read>,
         place: &Place,
-    ) -> Result<Vec<Vec<Complex64>>, NpzProblem> {
+    ) -> Result<Vec<Vec<Complex64>>, TableProblem> {
         let first = self
             .frequency_hz
             .partition_point(|&hz| self.before_band(hz));
@@ -146,8 +141,8 @@ impl Functions<'_> {
         lines: Vec<Vec<Complex64>>,
         coherence: Option<Vec<Vec<Complex64>>>,
         averages: Option<f64>,
-    ) -> Result<FrfReading, NpzProblem> {
-        let function = |source| NpzProblem::Function(Box::new(source));
+    ) -> Result<FrfReading, TableProblem> {
+        let function = |source| TableProblem::Function(Box::new(source));
         let kept_hz: Vec<f64> = self
             .frequency_hz
             .iter()

@@ -4,8 +4,6 @@ mod array;
 mod axes;
 mod matrix;
 mod members;
-mod problem;
 mod read;
 
-pub use problem::NpzProblem;
 pub use read::{read_npz, read_npz_from};

@@ -4,12 +4,11 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-use super::NpzProblem;
 use super::array::Header;
 use super::axes::{Counts, named, order};
 use super::matrix::{Functions, Place};
 use super::members::{Archive, by_name, dofs, frequencies, quantity};
-use crate::{FrfError, FrfReading, ReadOptions};
+use crate::{FrfError, FrfReading, ReadOptions, TableProblem};
 
 const FREQUENCY: &[&str] = &["frequency", "frequency_hz", "freq", "freqs", "f"];
 const MATRIX: &[&str] = &[
@@ -65,7 +64,7 @@ fn read(
     reader: impl Read + Seek,
     path: &Path,
     options: &ReadOptions,
-) -> Result<FrfReading, NpzProblem> {
+) -> Result<FrfReading, TableProblem> {
     let mut archive = Archive::open(reader)?;
     let frequency = archive.required(FREQUENCY, "frequency (Hz)")?;
     let matrix = archive.required(MATRIX, "frf, the matrix of functions")?;
@@ -99,11 +98,13 @@ fn read(
     // swollen matrix takes next to no room there.
     let matrix_place = place(&matrix, &array.header)?;
     if responses.len().saturating_mul(references.len()) > MOST_FUNCTIONS {
-        return Err(NpzProblem::TooMany {
-            responses: responses.len(),
-            references: references.len(),
-            limit: MOST_FUNCTIONS,
-        });
+        let (responses, references) = (responses.len(), references.len());
+        return Err(TableProblem::whole(
+            format_args!("the names of {responses} responses and {references} references"),
+            format_args!(
+                "at most {MOST_FUNCTIONS} functions between them; save only those that are needed"
+            ),
+        ));
     }
     let functions = Functions {
         pairs: (0..responses.len() * references.len())

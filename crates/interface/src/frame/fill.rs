@@ -11,7 +11,7 @@ use super::{
     words::{self, Quantity},
 };
 use crate::{
-    error::FrameProblem,
+    error::InterfaceProblem,
     scope::{Joints, Rows, Scope},
 };
 
@@ -41,7 +41,7 @@ impl Filled {
         file: &'static str,
         frame: &str,
         filling: &Filling<'_>,
-    ) -> Result<Self, FrameProblem> {
+    ) -> Result<Self, InterfaceProblem> {
         let parameters = law_parameters(filling);
         let memory = law_memory(filling);
         let types: Vec<_> = parameters
@@ -76,7 +76,7 @@ impl Filled {
     pub(super) fn expanded(
         self,
         references: &HashMap<String, u32>,
-    ) -> Result<Expanded, FrameProblem> {
+    ) -> Result<Expanded, InterfaceProblem> {
         let mut xml = String::new();
         for part in &self.parts {
             match part {
@@ -111,7 +111,7 @@ impl Filled {
     }
 
     /// Adds an unknown, or what it depends on to the same one for another DOF.
-    fn add_unknown(&mut self, mut unknown: Unknown) -> Result<(), FrameProblem> {
+    fn add_unknown(&mut self, mut unknown: Unknown) -> Result<(), InterfaceProblem> {
         unknown.complete(&self.unknowns)?;
         let mut unknowns = self.unknowns.iter_mut();
         match unknowns.find(|other| other.is_same_as(&unknown)) {
@@ -131,14 +131,14 @@ impl Declared {
     }
 
     /// The element of FMI.
-    fn element(&self, references: &HashMap<String, u32>) -> Result<String, FrameProblem> {
+    fn element(&self, references: &HashMap<String, u32>) -> Result<String, InterfaceProblem> {
         let reference = |name: &str| {
-            let undefined = || FrameProblem::UndefinedName {
+            let undefined = || InterfaceProblem::UndefinedName {
                 line: self.number,
                 name: name.to_owned(),
             };
-            let number = references.get(name).ok_or_else(undefined)?;
-            Ok(number.to_string())
+            let number = references.get(name).ok_or_else(undefined);
+            number.map(u32::to_string)
         };
         let mut element = Line::new(VARIABLE);
         element.push("name", self.name.clone());
@@ -169,7 +169,7 @@ impl<'a> Filler<'a> {
             .extend(lines.iter().cloned().map(Part::Text));
     }
 
-    fn line(&mut self, text: &str, number: usize) -> Result<(), FrameProblem> {
+    fn line(&mut self, text: &str, number: usize) -> Result<(), InterfaceProblem> {
         let starts_with = |tag: &&&str| {
             let element = text.trim_start().strip_prefix('<');
             element
@@ -183,7 +183,7 @@ impl<'a> Filler<'a> {
             self.filled.parts.push(Part::Text(text.to_owned()));
             return Ok(());
         };
-        let mut line = Line::parse(text).ok_or(FrameProblem::NotALine { line: number, tag })?;
+        let mut line = Line::parse(text).ok_or(InterfaceProblem::NotALine { line: number, tag })?;
         let each = line.take("each");
         let only = line.take("only");
         for instance in self.instances(each, number)? {
@@ -203,14 +203,14 @@ impl<'a> Filler<'a> {
         &self,
         each: Option<String>,
         number: usize,
-    ) -> Result<Vec<Instance<'a>>, FrameProblem> {
+    ) -> Result<Vec<Instance<'a>>, InterfaceProblem> {
         Ok(match each.as_deref() {
             None => vec![Instance::Alone],
             Some("dof") => (0..self.filling.dofs.len()).map(Instance::Dof).collect(),
             Some("parameter") => self.parameters.iter().map(Instance::Parameter).collect(),
             Some("memory") => self.memory.iter().map(Instance::Memory).collect(),
             Some(found) => {
-                return Err(FrameProblem::Word {
+                return Err(InterfaceProblem::Word {
                     line: number,
                     attribute: "each",
                     found: found.to_owned(),
@@ -226,7 +226,7 @@ impl<'a> Filler<'a> {
         only: Option<&str>,
         instance: &Instance<'_>,
         number: usize,
-    ) -> Result<Declared, FrameProblem> {
+    ) -> Result<Declared, InterfaceProblem> {
         let mut line = line.clone();
         let pattern = line.get("name").unwrap_or_default().to_owned();
         for (attribute, value) in &mut line.attributes {
@@ -235,7 +235,7 @@ impl<'a> Filler<'a> {
                 "declaredType" => self.declared_type(placeholder, instance),
                 _ => self.word(placeholder, instance),
             });
-            *value = filled.map_err(|placeholder| FrameProblem::Placeholder {
+            *value = filled.map_err(|placeholder| InterfaceProblem::Placeholder {
                 line: number,
                 placeholder,
             })?;
@@ -263,12 +263,12 @@ impl<'a> Filler<'a> {
         line: &Line,
         instance: &Instance<'_>,
         number: usize,
-    ) -> Result<Unknown, FrameProblem> {
+    ) -> Result<Unknown, InterfaceProblem> {
         let mut line = line.clone();
         for (attribute, value) in &mut line.attributes {
             if attribute == "name" {
                 *value = words::filled(value, |placeholder| self.name(placeholder, instance))
-                    .map_err(|placeholder| FrameProblem::Placeholder {
+                    .map_err(|placeholder| InterfaceProblem::Placeholder {
                         line: number,
                         placeholder,
                     })?;
@@ -282,9 +282,9 @@ impl<'a> Filler<'a> {
         Unknown::new(&line, number, name, instance, &laws)
     }
 
-    fn checked_name(&self, line: &Line, number: usize) -> Result<String, FrameProblem> {
+    fn checked_name(&self, line: &Line, number: usize) -> Result<String, InterfaceProblem> {
         let name = line.get("name").map(str::to_owned);
-        name.ok_or(FrameProblem::NoName { line: number })
+        name.ok_or(InterfaceProblem::NoName { line: number })
     }
 
     /// A placeholder in a variable's name.
@@ -323,7 +323,7 @@ impl<'a> Filler<'a> {
         only: Option<&str>,
         instance: &Instance<'_>,
         number: usize,
-    ) -> Result<Scope, FrameProblem> {
+    ) -> Result<Scope, InterfaceProblem> {
         let joints = |default: Joints| match only {
             None => Ok(default),
             Some(words) => self.joints(words, number),
@@ -342,7 +342,7 @@ impl<'a> Filler<'a> {
     }
 
     /// The joints that an attribute `only` names.
-    fn joints(&self, only: &str, number: usize) -> Result<Joints, FrameProblem> {
+    fn joints(&self, only: &str, number: usize) -> Result<Joints, InterfaceProblem> {
         let mut joints = Joints::NONE;
         for word in only.split_whitespace() {
             joints = joints.with(match word {
@@ -350,7 +350,7 @@ impl<'a> Filler<'a> {
                 "over_preload" => Joints::OVER_PRELOAD,
                 "memory" => Joints::MEMORY,
                 found => {
-                    return Err(FrameProblem::Word {
+                    return Err(InterfaceProblem::Word {
                         line: number,
                         attribute: "only",
                         found: found.to_owned(),

@@ -25,7 +25,7 @@ use bolted_joint_dynamics::{
 pub use laws::{At, LawParameter, law_parameters};
 
 use crate::{
-    error::{FrameProblem, InterfaceError},
+    error::{InterfaceError, InterfaceProblem},
     scope::Scope,
 };
 use fill::Filled;
@@ -111,7 +111,7 @@ impl Expanded {
     /// [`InterfaceError::Inconsistent`] with what is wrong in a frame.
     pub fn new(frames: &Frames<'_>, filling: &Filling<'_>) -> Result<[Self; 2], InterfaceError> {
         let inconsistent = |file: &'static str| {
-            move |problem: FrameProblem| InterfaceError::Inconsistent {
+            move |problem: InterfaceProblem| InterfaceError::Inconsistent {
                 file: file.to_owned(),
                 problem: problem.into(),
             }

@@ -2,18 +2,18 @@
 
 use std::collections::HashMap;
 
-use crate::error::FrameProblem;
+use crate::error::InterfaceProblem;
 
 /// Value reference of each name: those of `list`, a name on each line, are counted from 0; the other names follow in their order.
 pub(super) fn references<'n>(
     list: &'n str,
     names: impl Iterator<Item = &'n str>,
-) -> Result<HashMap<String, u32>, FrameProblem> {
+) -> Result<HashMap<String, u32>, InterfaceProblem> {
     let mut references = HashMap::new();
     for name in list.lines() {
         let number = references.len() as u32;
         if references.insert(name.to_owned(), number).is_some() {
-            return Err(FrameProblem::ReferenceTwice {
+            return Err(InterfaceProblem::ReferenceTwice {
                 name: name.to_owned(),
             });
         }
@@ -43,6 +43,6 @@ mod tests {
     fn a_name_has_one_reference() {
         let problem = references("time\na.y\ntime\n", [].into_iter()).unwrap_err();
         let name = "time".to_owned();
-        assert_eq!(problem, FrameProblem::ReferenceTwice { name });
+        assert_eq!(problem, InterfaceProblem::ReferenceTwice { name });
     }
 }

@@ -6,7 +6,7 @@ use bolted_joint_dynamics::{
 };
 
 use super::{laws::Place, line::Line, words};
-use crate::error::FrameProblem;
+use crate::error::InterfaceProblem;
 
 /// A type that a law needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +109,7 @@ fn power(exponent: u8) -> String {
 
 /// Lines to put at the end of the frame's list of units and at the end of that of types, for those of `types` that `frame`
 /// does not define.
-pub(super) fn missing(frame: &str, types: &[&Type]) -> Result<[Vec<String>; 2], FrameProblem> {
+pub(super) fn missing(frame: &str, types: &[&Type]) -> Result<[Vec<String>; 2], InterfaceProblem> {
     let mut defined = Defined::of(frame);
     let [mut units, mut definitions] = [Vec::new(), Vec::new()];
     for of_law in types {
@@ -117,7 +117,7 @@ pub(super) fn missing(frame: &str, types: &[&Type]) -> Result<[Vec<String>; 2], 
         match defined.types.iter().find(|(name, _)| *name == of_law.name) {
             Some((_, found)) if *found == unit.name => continue,
             Some((name, found)) => {
-                return Err(FrameProblem::TypeUnit {
+                return Err(InterfaceProblem::TypeUnit {
                     declared_type: name.clone(),
                     unit: found.clone(),
                     of_law: unit.name.clone(),

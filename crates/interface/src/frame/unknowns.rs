@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use super::{Filling, Instance, laws::LawParameter, line::Line, words::Quantity};
-use crate::error::FrameProblem;
+use crate::error::InterfaceProblem;
 
 /// Kinds of dependencies, as attributes of an unknown in a frame.
 const KINDS: [&str; 3] = ["dependent", "tunable", "constant"];
@@ -33,7 +33,7 @@ impl Unknown {
         name: String,
         instance: &Instance<'_>,
         laws: &Laws<'_>,
-    ) -> Result<Self, FrameProblem> {
+    ) -> Result<Self, InterfaceProblem> {
         let mut known: Option<Vec<(String, &'static str)>> = None;
         for kind in KINDS {
             let Some(tokens) = line.get(kind) else {
@@ -42,7 +42,7 @@ impl Unknown {
             let known = known.get_or_insert_default();
             for token in tokens.split_whitespace() {
                 let names = laws.names(token, instance).map_err(|placeholder| {
-                    FrameProblem::Placeholder {
+                    InterfaceProblem::Placeholder {
                         line: number,
                         placeholder,
                     }
@@ -63,10 +63,10 @@ impl Unknown {
     }
 
     /// Takes over what an earlier line says of the same unknown.
-    pub(super) fn complete(&mut self, earlier: &[Self]) -> Result<(), FrameProblem> {
+    pub(super) fn complete(&mut self, earlier: &[Self]) -> Result<(), InterfaceProblem> {
         if self.known.is_none() {
             let same = earlier.iter().find(|other| other.name == self.name);
-            let same = same.ok_or_else(|| FrameProblem::NoDependencies {
+            let same = same.ok_or_else(|| InterfaceProblem::NothingDependedOn {
                 line: self.line,
                 name: self.name.clone(),
             })?;
@@ -94,12 +94,12 @@ impl Unknown {
     pub(super) fn element(
         &self,
         references: &HashMap<String, u32>,
-    ) -> Result<String, FrameProblem> {
+    ) -> Result<String, InterfaceProblem> {
         let reference = |name: &String| {
             references
                 .get(name.as_str())
                 .copied()
-                .ok_or_else(|| FrameProblem::UndefinedName {
+                .ok_or_else(|| InterfaceProblem::UndefinedName {
                     line: self.line,
                     name: name.clone(),
                 })
@@ -108,7 +108,7 @@ impl Unknown {
             .known
             .iter()
             .flatten()
-            .map(|(name, kind)| Ok((reference(name)?, *kind)))
+            .map(|(name, kind)| reference(name).map(|number| (number, *kind)))
             .collect::<Result<Vec<_>, _>>()?;
         known.sort_unstable();
         let numbers: Vec<String> = known.iter().map(|(number, _)| number.to_string()).collect();

@@ -1,5 +1,6 @@
 //! The identified lap model: its unknowns with intervals, which of them the data determine, and how it does on every run.
 
+use bolted_joint_statistics::{NORMAL_975, student_975};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use serde::Serialize;
@@ -15,7 +16,6 @@ use crate::error::LapError;
 use bolted_joint_identify::Watch;
 use bolted_joint_identify::unit_covariance;
 use bolted_joint_joint::Provenance;
-use bolted_joint_statistics::student_975;
 use bolted_joint_study::Method;
 
 /// Share of the linear stiffness or damping that a term's standard deviation may be at the largest amplitude for the term to count as
@@ -94,7 +94,7 @@ impl LapResponse {
             .chain(of_backbone)
             .fold(0.0, f64::max);
         let quantile = if study.noise.is_stated {
-            student_975(usize::MAX)
+            NORMAL_975
         } else {
             student_975(fit.degrees_of_freedom)
         };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use bolted_joint_files::text_file::{self, TextFileError};
+use bolted_joint_files::text_table::{self, Cells};
 
 /// A table of numbers.
 pub(super) struct NumberTable {
@@ -18,11 +19,7 @@ impl NumberTable {
         let problem = |line, found: String, expected: &str| {
             TextFileError::in_line(path, line, found, expected)
         };
-        let lines = text.lines().enumerate();
-        let mut lines = lines.filter(|(_, line)| {
-            let line = line.trim_start_matches('\u{feff}').trim();
-            !line.is_empty() && !line.starts_with('#')
-        });
+        let mut lines = text_table::rows(&text);
         let Some((header_line, header)) = lines.next() else {
             return Err(problem(
                 1,
@@ -30,27 +27,28 @@ impl NumberTable {
                 "a header and rows of numbers",
             ));
         };
-        let header = header.trim_start_matches('\u{feff}');
-        let names: Vec<String> = header
-            .split(',')
-            .map(|name| name.trim().to_owned())
+        let mut tokeniser = Cells::separated_by(',');
+        let names: Vec<String> = tokeniser
+            .of(header)
+            .into_iter()
+            .map(str::to_owned)
             .collect();
         if let Some(name) = names
             .iter()
             .find(|name| names.iter().filter(|n| n == name).count() > 1)
         {
             return Err(problem(
-                header_line + 1,
+                header_line,
                 format!("the column {name:?} twice"),
                 "every column once",
             ));
         }
         let mut rows = Vec::new();
-        for (place, line) in lines {
-            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        for (line, text) in lines {
+            let cells = tokeniser.of(text);
             if cells.len() != names.len() {
                 return Err(problem(
-                    place + 1,
+                    line,
                     format!("{} cells", cells.len()),
                     &format!("{} as in the header", names.len()),
                 ));
@@ -59,11 +57,11 @@ impl NumberTable {
                 "" => Ok(None),
                 text => match text.parse::<f64>() {
                     Ok(value) if value.is_finite() => Ok(Some(value)),
-                    _ => Err(problem(place + 1, format!("{text:?}"), "a finite number")),
+                    _ => Err(problem(line, format!("{text:?}"), "a finite number")),
                 },
             };
             let values = cells.iter().map(number).collect::<Result<_, _>>()?;
-            rows.push((place + 1, values));
+            rows.push((line, values));
         }
         Ok(Self { names, rows })
     }

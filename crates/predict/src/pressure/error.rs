@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::NumberError;
-use crate::columns::ColumnsError;
+use bolted_joint_files::text_file::TextFileError;
 
 /// Why there is no pressure field.
 #[derive(Debug, Error)]
@@ -136,7 +136,7 @@ pub enum PressureError {
     Apart,
     /// A field's table, or a number in it.
     #[error(transparent)]
-    Table(#[from] ColumnsError),
+    Table(#[from] TextFileError),
     /// The field in a file.
     #[error("{}: {reason}", path.display())]
     InFile {

@@ -16,7 +16,6 @@ mod joint_file;
 mod law;
 mod model;
 mod prediction;
-mod refusal;
 mod results;
 mod tables;
 mod warnings;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::NumberError;
-use crate::columns::ColumnsError;
+use bolted_joint_files::text_file::TextFileError;
 
 /// Why there is no profile or no fit of it. Points count from 1.
 #[derive(Debug, Error)]
@@ -148,7 +148,7 @@ pub enum SurfaceError {
     },
     /// A profile's table.
     #[error(transparent)]
-    Table(#[from] ColumnsError),
+    Table(#[from] TextFileError),
     /// The numbers of a table.
     #[error("{}, line {line}: {reason}", path.display())]
     InFile {

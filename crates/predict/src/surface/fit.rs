@@ -1,12 +1,12 @@
 //! Fractal dimension and roughness from the spectrum of profiles: a straight line on logarithmic scales.
 
+use bolted_joint_statistics::{NORMAL_975, chi_squared_95, student_975};
+
 use super::bands::Bands;
 use super::fractal::Fractal;
 use super::line::Line;
-use super::special::{NORMAL_975, chi_squared_95};
 use super::{Detrend, FitWarning, Profile, Roughness, Spectrum, SurfaceError, Welch, Window};
 use crate::number::check;
-use bolted_joint_statistics::student_975;
 
 /// How profiles are fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,7 +137,7 @@ impl ProfileFit {
         )?;
         let degrees_of_freedom = bands.count() - 2;
         let freedom = degrees_of_freedom as f64;
-        let inflated = line.chi_squared > chi_squared_95(freedom);
+        let inflated = line.chi_squared > chi_squared_95(degrees_of_freedom);
         // With known variances the normal distribution; where χ² says that the line does not fit, the scatter about it and Student's.
         let (scale, quantile) = match inflated {
             true => (line.chi_squared / freedom, student_975(degrees_of_freedom)),

@@ -1,9 +1,9 @@
 //! A straight line through the logarithms of a spectrum's band means, by generalised least squares.
 
+use bolted_joint_statistics::{digamma_less_log, trigamma};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::bands::Bands;
-use super::special::{digamma_less_log, trigamma};
 use super::{Spectrum, Welch};
 
 /// A straight line through the logarithms of band means.

@@ -8,7 +8,6 @@ mod fractal;
 mod line;
 mod profile;
 mod roughness;
-mod special;
 mod synthetic;
 mod warning;
 mod welch;

@@ -1,5 +1,7 @@
 //! What a Monte Carlo run came to.
 
+use bolted_joint_statistics::quantile;
+
 use super::inputs::Inputs;
 use super::monte_carlo::{MonteCarlo, Taken};
 
@@ -80,42 +82,5 @@ impl Outcome {
     #[must_use]
     pub fn estimate(&self, name: &str) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
-    }
-}
-
-/// Quantile of ascending values, linear between order statistics (type 7 of Hyndman and Fan, as NumPy has it).
-fn quantile(ascending: &[f64], share: f64) -> f64 {
-    let last = ascending.len().saturating_sub(1);
-    // h = (n − 1) p
-    let place = share * last as f64;
-    let low = place.floor() as usize;
-    match (ascending.get(low), ascending.get((low + 1).min(last))) {
-        (Some(low_value), Some(high_value)) => {
-            low_value + (place - low as f64) * (high_value - low_value)
-        }
-        _ => f64::NAN,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quantile;
-
-    #[test]
-    fn quantiles_are_those_of_numpy() {
-        // numpy.quantile([1, 2, 4, 8, 16], q)
-        let ascending = [1.0, 2.0, 4.0, 8.0, 16.0];
-        for (share, expected) in [
-            (0.0, 1.0),
-            (0.025, 1.1),
-            (0.5, 4.0),
-            (0.975, 15.2),
-            (1.0, 16.0),
-        ] {
-            assert!(
-                (quantile(&ascending, share) - expected).abs() < 1e-14,
-                "{share}"
-            );
-        }
     }
 }

@@ -7,9 +7,8 @@ use super::super::chart_data::scaled_unit;
 use super::IdentificationReport;
 use super::figure::figure;
 use super::parameters::interval;
-use bolted_joint_figures::Axis;
-use bolted_joint_figures::Look;
 use bolted_joint_figures::html::{beside, percent, quantity};
+use bolted_joint_figures::{Axis, Look};
 use bolted_joint_frf::structure::ComplexMatrix;
 use bolted_joint_identify::{JointMatrices, Unknown};
 

@@ -6,9 +6,8 @@ use super::super::chart::{Chart, ChartStrip, Curve};
 use super::figure::figure;
 use super::functions::shares;
 use super::{Assembly, IdentificationReport};
-use bolted_joint_figures::Axis;
-use bolted_joint_figures::Look;
 use bolted_joint_figures::html::{cell, escaped, number_cell, shown, table};
+use bolted_joint_figures::{Axis, Look};
 use bolted_joint_identify::{JointMatrices, Sensitivity, Unknown};
 
 /// Functions of one assembly whose sensitivities are drawn at most, and of all; but one of each.

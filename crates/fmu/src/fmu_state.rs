@@ -15,7 +15,7 @@
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
-//! | 4 + 8 n | number of values, and the values by value reference, then what is remembered beside the variables: all of [`Values`] |
+//! | 4 + 8 n | number of values, and all of [`Values`]: by value reference, then what is remembered beside them |
 //! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 

@@ -90,7 +90,7 @@ enum Partial {
 ///
 /// # Safety
 ///
-/// As for [`array`] and [`array_mut`].
+/// As for [`array()`] and [`array_mut`].
 unsafe fn partial(
     instance: &Instance,
     partial: Partial,

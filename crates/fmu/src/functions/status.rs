@@ -36,11 +36,14 @@ functions! {
     };
 
     /// Answers `fmi2Discard`: there is no such status, because no step is ever pending.
-    fmi2GetStatus(kind: c_int, value: *mut c_int) for STEPPING => |instance| nothing_to_tell(instance, kind, value);
+    fmi2GetStatus(kind: c_int, value: *mut c_int) for STEPPING =>
+        |instance| nothing_to_tell(instance, kind, value);
     /// Answers `fmi2Discard`: there is no such status, because no step is ever pending.
-    fmi2GetIntegerStatus(kind: c_int, value: *mut Fmi2Integer) for STEPPING => |instance| nothing_to_tell(instance, kind, value);
+    fmi2GetIntegerStatus(kind: c_int, value: *mut Fmi2Integer) for STEPPING =>
+        |instance| nothing_to_tell(instance, kind, value);
     /// Answers `fmi2Discard`: there is no such status, because no step is ever pending.
-    fmi2GetStringStatus(kind: c_int, value: *mut Text) for STEPPING => |instance| nothing_to_tell(instance, kind, value);
+    fmi2GetStringStatus(kind: c_int, value: *mut Text) for STEPPING =>
+        |instance| nothing_to_tell(instance, kind, value);
 
     /// Refuses: there is never a step under way that could be cancelled.
     fmi2CancelStep() for STEPPING => |instance| Err::<(), _>(Refusal::NoStepUnderWay { mode: instance.mode() });

@@ -53,3 +53,53 @@ impl Instance {
         Ok(Snapshot::deserialize(bytes, &self.identity)?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Instance;
+    use crate::{
+        interface::{InterfaceType, REFERENCE_COUNT},
+        mode::Mode,
+        start_file::StartFile,
+        version::Abi,
+    };
+
+    const START: &str = "bolted-joint-start/1\nmodel element\ndofs 1\ntoken {memory}\njoint.k_yy 4e6\njoint.c_yy 8\n\
+                         joint.k3_y 0\njoint.k5_y 0\njoint.k7_y 0\njoint.c2_y 0\njoint.c4_y 0\n";
+
+    fn instance() -> Instance {
+        let file = StartFile::parse("start.txt", START);
+        file.ok()
+            .and_then(|file| {
+                Instance::new(file, "{memory}", Abi::Fmi3, InterfaceType::CoSimulation).ok()
+            })
+            .unwrap_or_else(|| unreachable!("the start file is right"))
+    }
+
+    #[test]
+    fn all_that_stands_beside_the_variables_is_remembered() {
+        let mut instance = instance();
+        let fresh = instance.snapshot();
+        // whatever it is, and however many numbers it takes
+        for (index, number) in instance.values[REFERENCE_COUNT..].iter_mut().enumerate() {
+            *number = 1.5 + index as f64;
+        }
+        let remembered = instance.values;
+        let saved = instance.snapshot();
+        assert_eq!(
+            saved.values[REFERENCE_COUNT..],
+            remembered[REFERENCE_COUNT..]
+        );
+        let loaded = instance.deserialize(&saved.serialize());
+        assert_eq!(loaded.as_ref(), Ok(&saved));
+        instance.mode = Mode::Terminated;
+        instance.reset();
+        assert_eq!(instance.snapshot(), fresh);
+        assert_eq!(loaded.and_then(|state| instance.restore(&state)), Ok(()));
+        assert_eq!(instance.snapshot(), saved);
+        assert_eq!(
+            instance.values[REFERENCE_COUNT..],
+            remembered[REFERENCE_COUNT..]
+        );
+    }
+}

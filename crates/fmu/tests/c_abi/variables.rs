@@ -108,3 +108,15 @@ fn an_element_at_rest_has_no_negative_zeros() {
     let loads = instance.get([vr::A_F, vr::A_M, vr::B_F, vr::B_M, vr::JOINT_F, vr::JOINT_M]);
     assert_eq!(loads.map(f64::to_bits), [0; 6]);
 }
+
+#[test]
+fn outputs_of_an_element_follow_its_inputs_at_once() {
+    for version in BOTH {
+        let instance = version.stepping(Kind::Element, 1, &[]);
+        assert_eq!(instance.set(&[vr::A_Y, vr::B_V], &[1e-4, 0.5]), c::OK);
+        assert_eq!(
+            instance.get([vr::B_F, vr::A_F]),
+            [4e6 * 1e-4 - 8.0 * 0.5, 8.0 * 0.5 - 4e6 * 1e-4]
+        );
+    }
+}

@@ -1,6 +1,6 @@
 //! The C functions of both versions under one name each, with slices in place of pointers: what the test programs share.
 //!
-//! The functions come from the library's symbols, which each test program links. A [`Raw`] instance frees nothing by itself.
+//! The functions come from the library's symbols, which each test program links. A [`Raw`] instance frees nothing.
 #![allow(dead_code, unused_imports, reason = "each test program uses a part")]
 
 pub(crate) mod request;

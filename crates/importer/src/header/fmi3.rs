@@ -25,8 +25,8 @@ declare! {
         Option<IntermediateUpdateCallback>,
     ) -> Opaque;
     fmi3InstantiateScheduledExecution(
-        Text, Text, Text, Boolean, Boolean, Opaque, Option<LogMessageCallback>, Option<OtherCallback>, Option<OtherCallback>,
-        Option<OtherCallback>,
+        Text, Text, Text, Boolean, Boolean, Opaque, Option<LogMessageCallback>, Option<OtherCallback>,
+        Option<OtherCallback>, Option<OtherCallback>,
     ) -> Opaque;
     fmi3FreeInstance(Opaque);
     fmi3EnterInitializationMode(Opaque, Boolean, f64, f64, Boolean, f64) -> StatusCode;

@@ -138,15 +138,14 @@ impl Dof {
     /// From a universal file's node number and direction code: 0 scalar, ±1 to ±3 translations, ±4 to ±6 rotations.
     ///
     /// # Errors
-    /// [`DofError`] for any other code.
+    /// [`DofError::UffDirection`] for any other code.
     pub fn from_uff(node: u32, direction_code: i32) -> Result<Self, DofError> {
         let direction = usize::try_from(direction_code.unsigned_abs())
             .ok()
             .and_then(|code| BY_UFF_CODE.get(code))
             .map(|(direction, _)| *direction)
-            .ok_or_else(|| DofError {
-                found: format!("direction code {direction_code}"),
-                expected: "0 (scalar), ±1 to ±3 (x, y, z) or ±4 to ±6 (rotations)",
+            .ok_or(DofError::UffDirection {
+                found: direction_code,
             })?;
         let sign = if direction_code < 0 {
             Sign::Minus
@@ -202,37 +201,66 @@ impl fmt::Display for Dof {
     }
 }
 
-/// A text or a code that does not name a degree of freedom.
+/// Why a text or a code does not name a degree of freedom.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("found {found}, expected {expected}")]
-pub struct DofError {
-    /// What was found.
-    pub found: String,
-    /// What was expected.
-    pub expected: &'static str,
+pub enum DofError {
+    /// No colon between node and direction.
+    #[error(
+        "found \"{found}\" as a degree of freedom, expected NODE:DIRECTION such as \"11:+Y\" or \"2:-RZ\""
+    )]
+    MissingColon {
+        /// The whole text.
+        found: String,
+    },
+    /// The part before the colon is no node number.
+    #[error(
+        "found node \"{node}\" in the degree of freedom \"{found}\", expected a whole number from 0 to {max}",
+        max = u32::MAX
+    )]
+    Node {
+        /// The whole text.
+        found: String,
+        /// The part before the colon.
+        node: String,
+    },
+    /// The part after the colon is no direction.
+    #[error(
+        "found direction \"{direction}\" in the degree of freedom \"{found}\", \
+         expected X, Y, Z, RX, RY or RZ with + or - before it (or 0 for a scalar point)"
+    )]
+    Direction {
+        /// The whole text.
+        found: String,
+        /// The part after the colon.
+        direction: String,
+    },
+    /// A universal file's direction code that the format does not know.
+    #[error(
+        "found direction code {found}, expected 0 (scalar), ±1 to ±3 (x, y, z) or ±4 to ±6 (rotations)"
+    )]
+    UffDirection {
+        /// The code.
+        found: i32,
+    },
 }
 
 impl FromStr for Dof {
     type Err = DofError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let error = |found, expected| DofError { found, expected };
-        let (node, signed) = text.trim().split_once(':').ok_or_else(|| {
-            error(
-                format!("\"{text}\" as a degree of freedom"),
-                "NODE:DIRECTION such as \"11:+Y\" or \"2:-RZ\"",
-            )
-        })?;
+        let found = || text.to_owned();
+        let (node, signed) = text
+            .trim()
+            .split_once(':')
+            .ok_or_else(|| DofError::MissingColon { found: found() })?;
         // `u32::from_str` takes a leading plus; a node number has none.
         let number = match node.bytes().all(|byte| byte.is_ascii_digit()) {
             true => node.parse().ok(),
             false => None,
         };
-        let number = number.ok_or_else(|| {
-            error(
-                format!("node \"{node}\" in the degree of freedom \"{text}\""),
-                "a whole number from 0 to 4294967295",
-            )
+        let number = number.ok_or_else(|| DofError::Node {
+            found: found(),
+            node: node.to_owned(),
         })?;
         let (sign, symbol) = match (signed.strip_prefix('+'), signed.strip_prefix('-')) {
             (Some(symbol), _) => (Some(Sign::Plus), symbol),
@@ -245,11 +273,9 @@ impl FromStr for Dof {
             .map(|(direction, _)| *direction)
             .filter(|direction| *direction != Direction::Scalar || sign.is_none())
             .map(|direction| Self::new(number, direction, sign.unwrap_or(Sign::Plus)))
-            .ok_or_else(|| {
-                error(
-                    format!("direction \"{signed}\" in the degree of freedom \"{text}\""),
-                    "X, Y, Z, RX, RY or RZ with + or - before it (or 0 for a scalar point)",
-                )
+            .ok_or_else(|| DofError::Direction {
+                found: found(),
+                direction: signed.to_owned(),
             })
     }
 }
@@ -297,8 +323,8 @@ mod tests {
     #[test]
     fn each_mistake_has_its_own_error() {
         let error = |text: &str| text.parse::<Dof>().unwrap_err();
-        assert_eq!(error("11Y").found, "\"11Y\" as a degree of freedom");
-        assert_eq!(error("").found, "\"\" as a degree of freedom");
+        assert!(matches!(error("11Y"), DofError::MissingColon { .. }));
+        assert!(matches!(error(""), DofError::MissingColon { .. }));
         for text in ["-1:Y", "+1:Y", ":Y", "a:Y", "4294967296:Y", "1 :Y"] {
             assert!(matches!(error(text), DofError::Node { .. }), "{text}");
         }

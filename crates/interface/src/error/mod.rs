@@ -8,10 +8,23 @@ pub use problem::InterfaceProblem;
 
 /// A model description that the library must not be built from.
 #[derive(Debug, thiserror::Error)]
-#[error("{file}: {problem}")]
-pub struct InterfaceError {
-    /// File name.
-    pub file: String,
-    /// What is wrong, and how to mend it.
-    pub problem: InterfaceProblem,
+pub enum InterfaceError {
+    /// The file is not an FMI 3.0 model description.
+    #[error(
+        "{file}: is not an FMI 3.0 model description: {source}; compare it with fmi3ModelDescription.xsd"
+    )]
+    Malformed {
+        /// File name.
+        file: String,
+        /// What the parser said.
+        source: fmi_schema::Error,
+    },
+    /// The file contradicts itself, the FMI standard or this project's rules.
+    #[error("{file}: {problem}")]
+    Inconsistent {
+        /// File name.
+        file: String,
+        /// What is wrong, and how to mend it.
+        problem: InterfaceProblem,
+    },
 }

@@ -5,12 +5,6 @@ use super::DefinitionProblem;
 /// What is wrong inside one model description or its frame, or between two.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InterfaceProblem {
-    /// The file is not an FMI 3.0 model description.
-    #[error("is not an FMI 3.0 model description: {reason}; compare it with fmi3ModelDescription.xsd")]
-    Malformed {
-        /// What the parser said.
-        reason: String,
-    },
     /// `fmiVersion` is not 3.0.
     #[error("fmiVersion is \"{found}\", expected \"3.0\"")]
     Version {

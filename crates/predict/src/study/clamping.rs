@@ -68,8 +68,7 @@ impl Wrench {
             }),
         };
         let preload_n = tightening.preload_n(torque_n_m);
-        let in_short = "no preload follows from the torque";
-        preload_n.map_err(ModelError::about("tightening", in_short))
+        preload_n.map_err(ModelError::Tightening)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The elements of an interface and what presses on them, computed once: every draw only scales it.
 
 use crate::pressure::{
-    Balance, Bolt, BoltShare, BoltedField, BoltedInterface, Element, PressureError, PressureField, Reach,
+    Balance, Bolt, BoltShare, BoltedField, BoltedInterface, Element, PressureField, Reach,
     Rectangle, ThicknessRatio, Zone, ZoneForce, with_preloads,
 };
 
@@ -76,7 +76,7 @@ impl Geometry {
             zone,
         }
         .field()?;
-        let field = found.field().scaled(0.0).map_err(field())?;
+        let field = found.field().scaled(0.0).map_err(ModelError::Field)?;
         Ok(Self {
             elements: field.elements().to_vec(),
             plate: Some(Plate::of(&found, outline, clearance_m)),
@@ -118,7 +118,7 @@ impl Geometry {
             if place == 0 {
                 elements = field
                     .scaled(0.0)
-                    .map_err(field())?
+                    .map_err(ModelError::Field)?
                     .elements()
                     .to_vec();
                 plate = Some(Plate::of(&found, outline, clearance_m));
@@ -139,7 +139,7 @@ impl Geometry {
         Ok(Self {
             elements: field
                 .scaled(0.0)
-                .map_err(field())?
+                .map_err(ModelError::Field)?
                 .elements()
                 .to_vec(),
             plate: None,
@@ -229,13 +229,8 @@ impl Geometry {
             pressure_pa,
             ..*element
         });
-        let field = PressureField::new(elements.collect()).map_err(field())?;
+        let field = PressureField::new(elements.collect()).map_err(ModelError::Field)?;
         let balance = (!bolts.is_empty()).then(|| Balance::of(&field, bolts));
         Ok((field, balance))
     }
-}
-
-/// What is wrong with a field from elsewhere.
-fn field() -> impl FnOnce(PressureError) -> ModelError {
-    ModelError::about("interface.field", "outside the model")
 }

@@ -16,6 +16,7 @@ mod joint_file;
 mod law;
 mod model;
 mod prediction;
+mod refusal;
 mod results;
 mod tables;
 mod warnings;

@@ -6,7 +6,7 @@ use crate::pressure::{Balance, Bolt, PressureField};
 use crate::surface::Roughness;
 use crate::uncertain::{Drawn, InputPlace};
 use crate::virtual_material::LayerContact;
-use crate::{Material, NumberError, Pair};
+use crate::{Material, Pair};
 
 use super::both_surfaces::both;
 use super::check::{ContactInputs, InterfaceStudy, MaterialInputs, SurfaceInput, SurfaceInputs};
@@ -82,7 +82,7 @@ impl InterfaceStudy {
         let of = |place: InputPlace| values.of(place);
         let material = |inputs: &MaterialInputs| {
             let material = Material::new(of(inputs.youngs_modulus), of(inputs.poissons_ratio));
-            material.map_err(ModelError::about("materials", "no elastic material"))
+            material.map_err(ModelError::Material)
         };
         let [a, b] = &self.materials;
         let pair = Pair {
@@ -133,7 +133,7 @@ impl InterfaceStudy {
             SurfaceInputs::Together(surface) => of(surface),
             SurfaceInputs::Each([a, b], band_m) => of(a).and_then(|a| both(a, of(b)?, *band_m)),
         };
-        roughness.map_err(ModelError::about("surface", "no fractal surface"))
+        roughness.map_err(ModelError::Roughness)
     }
 
     /// All that follows from these values at a torque, every element computed on its own.
@@ -152,9 +152,9 @@ impl InterfaceStudy {
         } = law.over(&field)?;
         let parts = field.elements().iter().zip(contacts.iter().copied());
         let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
-            .map_err(damping())?;
+            .map_err(ModelError::Damping)?;
         let planar = self.planar.of(&interface, self.frequency_hz);
-        let planar = planar.map_err(damping())?;
+        let planar = planar.map_err(ModelError::Damping)?;
         Ok(State {
             torque_n_m,
             bolts,
@@ -182,14 +182,9 @@ impl InterfaceStudy {
         let contacts = law.drawn(&pressures_pa, force_n)?;
         let parts = self.geometry.elements().iter().zip(contacts);
         let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
-            .map_err(damping())?;
+            .map_err(ModelError::Damping)?;
         let planar = self.planar.of(&interface, self.frequency_hz);
-        let planar = planar.map_err(damping())?;
+        let planar = planar.map_err(ModelError::Damping)?;
         Ok((interface, planar))
     }
-}
-
-/// What is wrong with the frequency or the mass of the damping.
-fn damping() -> impl FnOnce(NumberError) -> ModelError {
-    ModelError::about("damping", "outside the model")
 }

@@ -30,7 +30,8 @@ impl<'s> Prediction<'s> {
     /// [`StudyError::Model`] where the values given are outside the model, or hardly any draw is inside.
     pub fn of(study: &'s InterfaceStudy, progress: &(dyn Fn() + Sync)) -> Result<Self, StudyError> {
         let refused = |reason: ModelError| {
-            StudyError::model(&study.path, Some(reason.key), reason)
+            let key = key_of(&reason);
+            StudyError::model(&study.path, Some(key), reason)
         };
         let torques = study.torques();
         let nominal = study.inputs.nominal();
@@ -87,19 +88,13 @@ impl<'s> Prediction<'s> {
     /// # Errors
     /// [`StudyError::Model`] where the model has no layer, or its moduli are those of no isotropic material.
     pub fn material(&self) -> Result<VirtualMaterial, StudyError> {
+        let layer = self.nominal().layer.as_ref();
+        let material = match layer {
+            Some(layer) => layer.material.clone().map_err(ModelError::from),
+            None => Err(ModelError::NoLayer),
+        };
         let path = &self.study.path;
-        match &self.nominal().layer {
-            Some(layer) => {
-                let refused = |reason| StudyError::model(path, Some("layer"), reason);
-                layer.material.clone().map_err(refused)
-            }
-            None => Err(StudyError::value(
-                path,
-                "method",
-                format_args!("\"{}\"", self.study.method),
-                "\"virtual-material\", which has a layer and its material",
-            )),
-        }
+        material.map_err(|reason| StudyError::model(path, Some("layer"), reason))
     }
 
     /// What the draws say of a result, such as `k_yy`, at a torque.
@@ -107,5 +102,20 @@ impl<'s> Prediction<'s> {
     pub fn estimate(&self, name: &str, torque_n_m: Option<f64>) -> Option<&Estimate> {
         let outcome = self.outcome.as_ref()?;
         outcome.estimate(&results::at(name, torque_n_m))
+    }
+}
+
+/// The key of the study that an error is about.
+fn key_of(error: &ModelError) -> &'static str {
+    match error {
+        ModelError::Material(_) => "materials",
+        ModelError::Roughness(_) | ModelError::Surface(_) => "surface",
+        ModelError::Contact(_) | ModelError::NoLayer => "contact",
+        ModelError::Pressure(_) => "pressure",
+        ModelError::Tightening(_) => "tightening",
+        ModelError::Field(_) => "interface.field",
+        ModelError::Damping(_) => "damping",
+        ModelError::Planar(_) => "joint",
+        ModelError::Correlation(_) | ModelError::MonteCarlo(_) => "uncertainty",
     }
 }

@@ -28,19 +28,30 @@ pub struct Refusal {
     pub reason: String,
 }
 
-/// Nothing follows from the draws: fewer than two gave a result.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "of {draws} draws {accepted} gave a joint, at least 2 are needed; refused: {reasons}; narrow the standard deviations or \
-     check the values"
-)]
-pub struct MonteCarloError {
-    /// Draws taken.
-    pub draws: u64,
-    /// Draws that gave a result.
-    pub accepted: u64,
-    /// What the others were refused for, with their numbers.
-    pub reasons: String,
+/// Why nothing follows from the draws.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MonteCarloError {
+    /// Fewer than two draws gave a result.
+    #[error(
+        "of {draws} draws {accepted} gave a joint, at least 2 are needed; refused: {reasons}; narrow the standard deviations or \
+         check the values"
+    )]
+    TooFew {
+        /// Draws taken.
+        draws: u64,
+        /// Draws that gave a result.
+        accepted: u64,
+        /// What the others were refused for, with their numbers.
+        reasons: String,
+    },
+    /// Draws gave results of different length.
+    #[error("a draw gave {found} results, expected {expected}")]
+    Length {
+        /// Results of that draw.
+        found: usize,
+        /// Names of results.
+        expected: usize,
+    },
 }
 
 impl MonteCarlo {
@@ -85,12 +96,12 @@ impl MonteCarlo {
             let numbers = first..self.draws.min(first + BATCH);
             let batch: Vec<_> = numbers.into_par_iter().map(one).collect();
             for draw in batch {
-                taken.take(draw);
+                taken.take(draw)?;
             }
         }
         let accepted = taken.moments.count() as u64;
         if accepted < 2 {
-            return Err(MonteCarloError {
+            return Err(MonteCarloError::TooFew {
                 draws: self.draws,
                 accepted,
                 reasons: taken.reasons(),
@@ -115,27 +126,29 @@ pub(super) struct Taken<'a> {
 }
 
 impl Taken<'_> {
-    fn take(&mut self, draw: Result<(Vec<f64>, Vec<f64>), Refusal>) {
+    fn take(&mut self, draw: Result<(Vec<f64>, Vec<f64>), Refusal>) -> Result<(), MonteCarloError> {
         let (scores, mut vector) = match draw {
-            Ok((_, vector)) if vector.len() != self.results => {
-                let (found, expected) = (vector.len(), self.results);
-                return self.refuse(format!("{found} results in place of {expected}"));
-            }
             Ok(draw) => draw,
-            Err(Refusal { reason }) => return self.refuse(reason),
+            Err(Refusal { reason }) => {
+                match self.refused.iter_mut().find(|(known, _)| *known == reason) {
+                    Some((_, count)) => *count += 1,
+                    None => self.refused.push((reason, 1)),
+                }
+                return Ok(());
+            }
         };
+        if vector.len() != self.results {
+            return Err(MonteCarloError::Length {
+                found: vector.len(),
+                expected: self.results,
+            });
+        }
         for (samples, &value) in self.samples.iter_mut().zip(&vector) {
             samples.push(value);
         }
         vector.extend(self.varying.iter().map(|&place| scores[place]));
         self.moments.add(&vector);
-    }
-
-    fn refuse(&mut self, reason: String) {
-        match self.refused.iter_mut().find(|(known, _)| *known == reason) {
-            Some((_, count)) => *count += 1,
-            None => self.refused.push((reason, 1)),
-        }
+        Ok(())
     }
 
     fn reasons(&self) -> String {

@@ -266,9 +266,9 @@ pub enum FrfError {
         #[source]
         problem: Box<TableProblem>,
     },
-    /// A NumPy archive is not usable.
+    /// A file of arrays is not usable.
     #[error("{}: {problem}", path.display())]
-    Npz {
+    Arrays {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.

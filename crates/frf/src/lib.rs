@@ -1,6 +1,7 @@
 //! Frequency response functions: what was measured, between which degrees of freedom, in which units.
 #![forbid(unsafe_code)]
 
+mod arrays;
 mod coherence;
 mod counted;
 mod csv;

@@ -61,7 +61,7 @@ impl Format {
 /// units; see [`read_uff58`](super::read_uff58), [`read_csv`](super::read_csv) and [`read_npz`](super::read_npz).
 ///
 /// # Errors
-/// [`FrfError::Read`], [`FrfError::Uff`], [`FrfError::Csv`] or [`FrfError::Npz`].
+/// [`FrfError::Read`], [`FrfError::Uff`], [`FrfError::Csv`] or [`FrfError::Arrays`].
 pub fn read_frfs(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     read_frfs_watched(path, options, &|_, _| ())
 }
@@ -105,7 +105,7 @@ fn reading(
         Format::Universal => read_uff58_of(&mut reader as &mut dyn BufRead, path, length, options),
         Format::Table => read_csv_from(&mut reader as &mut dyn BufRead, path, options),
         Format::Archive => read_npz_from(reader, path, options),
-        Format::SingleArray => Err(FrfError::Npz {
+        Format::SingleArray => Err(FrfError::Arrays {
             path: path.to_owned(),
             problem: Box::new(TableProblem::whole(
                 "one NumPy array (.npy)",

@@ -1,5 +1,6 @@
 //! What a file of functions says of itself, what the caller says in its place, and what nobody says.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use super::{ByteOrder, Coherence, Quantity, UnitSystem, relative_variance};
@@ -18,6 +19,20 @@ pub enum FileFormat {
     Table,
     /// NumPy archive (npz).
     Archive,
+}
+
+impl fmt::Display for FileFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::UniversalText => "universal file, 58 (ASCII)",
+            Self::UniversalBinary(ByteOrder::Little) => {
+                "universal file, 58b (binary, little endian)"
+            }
+            Self::UniversalBinary(ByteOrder::Big) => "universal file, 58b (binary, big endian)",
+            Self::Table => "table (CSV)",
+            Self::Archive => "NumPy archive (npz)",
+        })
+    }
 }
 
 /// Who said something.

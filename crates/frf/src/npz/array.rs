@@ -8,6 +8,7 @@ use std::io::Read;
 use num_complex::Complex64;
 
 use crate::TableProblem;
+use crate::arrays::{self, Element};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// A header longer than this belongs to no array of numbers.
@@ -17,7 +18,7 @@ const LONGEST_TEXT: usize = 1 << 12;
 
 /// What the elements are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+enum Kind {
     Float,
     Complex,
     Signed,
@@ -29,8 +30,8 @@ pub(super) enum Kind {
 
 /// Type of the elements.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Type {
-    pub(super) kind: Kind,
+struct Type {
+    kind: Kind,
     big_endian: bool,
     /// Bytes of one element.
     size: usize,
@@ -117,16 +118,16 @@ impl Type {
 
 /// The header of an array.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Header {
-    pub(super) array_type: Type,
-    pub(super) fortran_order: bool,
-    pub(super) shape: Vec<usize>,
+struct Header {
+    array_type: Type,
+    fortran_order: bool,
+    shape: Vec<usize>,
 }
 
 /// An array whose elements are still to be read.
 pub(super) struct Array<R> {
     name: String,
-    pub(super) header: Header,
+    header: Header,
     reader: R,
 }
 
@@ -178,83 +179,43 @@ impl<R: Read> Array<R> {
             reader,
         })
     }
+}
 
-    /// Elements of the array.
-    pub(super) fn len(&self) -> usize {
-        self.header.shape.iter().product()
+impl<R: Read> arrays::Array for Array<R> {
+    fn kind(&self) -> arrays::Kind {
+        match self.header.array_type.kind {
+            Kind::Text | Kind::Bytes => arrays::Kind::Text,
+            Kind::Complex => arrays::Kind::Complex,
+            Kind::Float | Kind::Signed | Kind::Unsigned => arrays::Kind::Real,
+        }
     }
 
-    /// Whether its elements are numbers.
-    pub(super) fn is_numeric(&self) -> bool {
-        !matches!(self.header.array_type.kind, Kind::Text | Kind::Bytes)
+    fn shape(&self) -> &[usize] {
+        &self.header.shape
+    }
+
+    fn fortran_order(&self) -> bool {
+        self.header.fortran_order
     }
 
     fn each(
-        &mut self,
-        mut take: impl FnMut(&Type, &[u8]) -> Result<(), TableProblem>,
+        mut self,
+        mut take: impl FnMut(Element) -> Result<(), TableProblem>,
     ) -> Result<(), TableProblem> {
-        let size = self.header.array_type.size;
-        let mut element = vec![0; size];
-        for index in 0..self.len() {
+        let array_type = &self.header.array_type;
+        let count: usize = self.header.shape.iter().product();
+        let mut element = vec![0; array_type.size];
+        for index in 0..count {
             self.reader.read_exact(&mut element).map_err(|_| {
-                let expected = (self.len() * size) as u64;
-                cut_short(&self.name, (index * size) as u64, expected)
+                let [found, expected] = [index, count].map(|n| (n * array_type.size) as u64);
+                cut_short(&self.name, found, expected)
             })?;
-            take(&self.header.array_type, &element)?;
+            take(match array_type.kind {
+                Kind::Text | Kind::Bytes => Element::Text(array_type.text(&element)),
+                _ => Element::Number(array_type.complex(&element)),
+            })?;
         }
         Ok(())
-    }
-
-    /// Hands every element, in the order of the file, to `take`.
-    pub(super) fn each_complex(
-        mut self,
-        mut take: impl FnMut(Complex64) -> Result<(), TableProblem>,
-    ) -> Result<(), TableProblem> {
-        self.refuse_unless(self.is_numeric(), "numbers, such as complex128")?;
-        self.each(|array_type, bytes| take(array_type.complex(bytes)))
-    }
-
-    /// All elements as real numbers, as long as `good` holds for each and the one before it.
-    pub(super) fn reals(
-        mut self,
-        mut good: impl FnMut(Option<f64>, f64) -> Result<(), TableProblem>,
-    ) -> Result<Vec<f64>, TableProblem> {
-        let is_real = self.is_numeric() && self.header.array_type.kind != Kind::Complex;
-        self.refuse_unless(is_real, "real numbers, such as float64")?;
-        let mut numbers: Vec<f64> = Vec::new();
-        self.each(|array_type, bytes| {
-            let number = array_type.complex(bytes).re;
-            good(numbers.last().copied(), number)?;
-            numbers.push(number);
-            Ok(())
-        })?;
-        Ok(numbers)
-    }
-
-    /// All elements as texts, as long as `good` holds for each.
-    pub(super) fn texts(
-        mut self,
-        mut good: impl FnMut(&str) -> Result<(), TableProblem>,
-    ) -> Result<Vec<String>, TableProblem> {
-        self.refuse_unless(!self.is_numeric(), "texts such as \"11:+Y\"")?;
-        let mut texts = Vec::new();
-        self.each(|array_type, bytes| {
-            let text = array_type.text(bytes);
-            good(&text)?;
-            texts.push(text);
-            Ok(())
-        })?;
-        Ok(texts)
-    }
-
-    fn refuse_unless(&self, good: bool, expected: &'static str) -> Result<(), TableProblem> {
-        match good {
-            true => Ok(()),
-            false => {
-                let kind = format!("{:?}", self.header.array_type.kind).to_lowercase();
-                Err(wrong_type(&self.name, &kind, expected))
-            }
-        }
     }
 }
 

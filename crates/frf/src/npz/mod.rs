@@ -1,9 +1,49 @@
-//! Functions as NumPy arrays: an archive of a frequency axis, a matrix of functions and the names of its rows and columns.
+//! Functions as NumPy arrays: an archive (`.npz`) of named arrays.
 
+mod archive;
 mod array;
-mod axes;
-mod matrix;
-mod members;
-mod read;
 
-pub use read::{read_npz, read_npz_from};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
+use std::path::Path;
+
+use crate::arrays::functions;
+use crate::{FrfError, FrfReading, ReadOptions};
+
+use archive::Archive;
+
+/// Reads the functions of a NumPy archive (`.npz`), stored or deflated.
+///
+/// Its arrays are `frequency` (Hz), `frf` (real or complex, with one axis for responses, one for references, one for
+/// frequencies; axes of length one may be missing), `response` and `reference` (degrees of freedom such as `11:+Y`), and if need be
+/// `axes` (such as `frequency,response,reference`), `quantity`, `unit`, `coherence` (as `frf`) and `averages`. Where lengths are
+/// equal and `axes` is not there, the file is refused. Values become receptances in SI units.
+///
+/// # Errors
+/// [`FrfError::Read`] if the file cannot be read, [`FrfError::Arrays`] with the cause if it cannot be used.
+pub fn read_npz(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+    let path = path.as_ref();
+    let file = File::open(path).map_err(|source| FrfError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    read_npz_from(BufReader::new(file), path, options)
+}
+
+/// As [`read_npz`], from any reader; `name` stands for the path in messages.
+///
+/// # Errors
+/// As [`read_npz`].
+pub fn read_npz_from(
+    reader: impl Read + Seek,
+    name: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    let path = name.as_ref();
+    Archive::open(reader)
+        .and_then(|mut archive| functions(&mut archive, path, options))
+        .map_err(|problem| FrfError::Arrays {
+            path: path.to_owned(),
+            problem: Box::new(problem),
+        })
+}

@@ -2,7 +2,7 @@
 
 use super::{IdentificationReport, counted};
 use bolted_joint_figures::html::{cell, escaped, number, percent, table};
-use bolted_joint_frf::{ByteOrder, FileFormat, FileSummary, StatedBy, UnitStatement, UnitSystem};
+use bolted_joint_frf::{FileSummary, StatedBy, UnitStatement, UnitSystem};
 
 /// Units of length and force that have a name, with how many make one SI unit.
 const LENGTHS: [(&str, f64); 6] = [
@@ -56,7 +56,7 @@ fn row(file: &FileSummary) -> String {
         .map(|(quantity, by)| format!("{quantity} ({})", who(*by)));
     [
         format!("<code>{}</code>", escaped(&name.to_string_lossy())),
-        joined(file.formats.iter().map(|format| self::format(*format))),
+        joined(file.formats.iter().map(|format| format.to_string())),
         functions,
         joined(quantities),
         joined(file.units.iter().map(units)),
@@ -76,19 +76,6 @@ fn who(by: StatedBy) -> &'static str {
         StatedBy::File => "file",
         StatedBy::Caller => "study",
     }
-}
-
-fn format(format: FileFormat) -> String {
-    match format {
-        FileFormat::UniversalText => "universal file, 58 (ASCII)",
-        FileFormat::UniversalBinary(ByteOrder::Little) => {
-            "universal file, 58b (binary, little endian)"
-        }
-        FileFormat::UniversalBinary(ByteOrder::Big) => "universal file, 58b (binary, big endian)",
-        FileFormat::Table => "table (CSV)",
-        FileFormat::Archive => "NumPy archive (npz)",
-    }
-    .to_owned()
 }
 
 fn units(statement: &UnitStatement) -> String {

@@ -1,13 +1,12 @@
-//! The matrix of an archive, made into functions; only those and only the lines that are asked for are kept.
+//! The matrix of a file of arrays, made into functions; only those and only the lines that are asked for are kept.
 
 use std::collections::BTreeSet;
-use std::io::Read;
 use std::path::Path;
 
 use num_complex::Complex64;
 
-use super::array::Array;
 use super::axes::Over;
+use super::{Array, Element};
 use crate::gathered::Gathered;
 use crate::statement::{Stated, Statement};
 use crate::summary::Statements;
@@ -52,7 +51,7 @@ impl Place {
     }
 }
 
-/// The functions that the names of an archive make.
+/// The functions that the names of a file of arrays make.
 pub(super) struct Functions<'options> {
     pub(super) pairs: Vec<(Dof, Dof)>,
     pub(super) references: usize,
@@ -90,7 +89,7 @@ impl Functions<'_> {
     /// The wanted lines of each wanted function, nothing of the others.
     pub(super) fn gather(
         &self,
-        array: Array<impl Read>,
+        array: impl Array,
         place: &Place,
     ) -> Result<Vec<Vec<Complex64>>, TableProblem> {
         let first = self
@@ -108,8 +107,10 @@ impl Functions<'_> {
             })
             .collect();
         let mut places = place.each();
-        array.each_complex(|value| {
-            if let Some([response, reference, line]) = places.next() {
+        array.each(|element| {
+            if let (Element::Number(value), Some([response, reference, line])) =
+                (element, places.next())
+            {
                 let function = &mut lines[response * self.references + reference];
                 if let Some(kept) = line
                     .checked_sub(first)
@@ -136,6 +137,7 @@ impl Functions<'_> {
 
     pub(super) fn reading(
         self,
+        format: FileFormat,
         path: &Path,
         stated: &[Option<Stated>],
         lines: Vec<Vec<Complex64>>,
@@ -169,9 +171,7 @@ impl Functions<'_> {
             let frf = gathered.into_frf(pair, stated.quantity.0, stated.to_si, selection);
             reading.functions.push(frf.map_err(function)?);
             let units = stated.units.clone();
-            reading
-                .statements
-                .add(FileFormat::Archive, stated.quantity, units);
+            reading.statements.add(format, stated.quantity, units);
         }
         for (&pair, values) in self.pairs.iter().zip(coherence.unwrap_or_default()) {
             if self.wants(pair) {

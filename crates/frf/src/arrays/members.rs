@@ -1,0 +1,207 @@
+//! The members of a file of arrays that hold names, frequencies or one word.
+
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+use super::{Array, ArrayFile, Element, Kind};
+use crate::{Dof, Quantity, TableProblem};
+
+/// A file of arrays, asked for what functions need.
+pub(super) struct Members<'file, F>(pub(super) &'file mut F);
+
+impl<F: ArrayFile> Members<'_, F> {
+    /// The one array that has one of these names.
+    pub(super) fn find(&self, wanted: &[&str]) -> Result<Option<String>, TableProblem> {
+        let names = self.0.names().iter();
+        let mut found = names.filter(|name| wanted.contains(&name.as_str()));
+        match (found.next(), found.next()) {
+            (Some(first), Some(second)) => Err(TableProblem::whole(
+                format_args!("both {first} and {second}"),
+                "one of them; save only the one that is meant",
+            )),
+            (first, _) => Ok(first.cloned()),
+        }
+    }
+
+    pub(super) fn required(
+        &self,
+        names: &[&str],
+        wanted: &'static str,
+    ) -> Result<String, TableProblem> {
+        self.find(names)?.ok_or_else(|| {
+            let there = match self.0.names() {
+                [] => "of no name at all".to_owned(),
+                names => crate::shown(&names.join(", ")),
+            };
+            let found = format!("the arrays {there}");
+            TableProblem::whole(found, format_args!("{wanted}; save them with {}", F::SAVE))
+        })
+    }
+
+    /// The one text of an array, if it is there.
+    pub(super) fn text(&mut self, name: &str) -> Result<Option<String>, TableProblem> {
+        if self.find(&[name])?.is_none() {
+            return Ok(None);
+        }
+        let array = self.array(name)?;
+        one(name, &array)?;
+        Ok(texts::<F>(name, array, |_| Ok(()))?.pop())
+    }
+
+    pub(super) fn averages(&mut self) -> Result<Option<f64>, TableProblem> {
+        let name = "averages";
+        if self.find(&[name])?.is_none() {
+            return Ok(None);
+        }
+        let array = self.array(name)?;
+        one(name, &array)?;
+        let good = |_, number: f64| match number.is_finite() && number >= 1.0 {
+            true => Ok(()),
+            false => Err(value(name, number, "a number of at least 1")),
+        };
+        Ok(reals::<F>(name, array, good)?.pop())
+    }
+
+    /// Strictly increasing frequencies, Hz; met early, since a swollen array would have to repeat itself.
+    pub(super) fn frequencies(&mut self, name: &str) -> Result<Vec<f64>, TableProblem> {
+        let array = self.array(name)?;
+        one_axis(name, &array)?;
+        let frequencies = reals::<F>(name, array, |before, hz| {
+            let good = hz.is_finite() && hz >= 0.0 && before.is_none_or(|before| before < hz);
+            let expected =
+                "finite frequencies in Hz, not negative and strictly increasing; sort the lines";
+            good.then_some(()).ok_or_else(|| value(name, hz, expected))
+        })?;
+        match frequencies.is_empty() {
+            true => Err(value(name, "no entry", "at least one frequency in Hz")),
+            false => Ok(frequencies),
+        }
+    }
+
+    pub(super) fn dofs(&mut self, name: &str) -> Result<Vec<Dof>, TableProblem> {
+        let array = self.array(name)?;
+        one_axis(name, &array)?;
+        let mut known = BTreeSet::new();
+        let mut dofs = Vec::new();
+        texts::<F>(name, array, |text| {
+            let dof: Dof = text.parse().map_err(|source| TableProblem::Dof {
+                at: format!("array {name}, entry {}", dofs.len() + 1),
+                source,
+            })?;
+            if !known.insert(dof) {
+                let found = format!("\"{text}\" twice");
+                return Err(value(name, found, "every degree of freedom once"));
+            }
+            dofs.push(dof);
+            Ok(())
+        })?;
+        Ok(dofs)
+    }
+
+    /// An array of numbers.
+    pub(super) fn numbers(&mut self, name: &str) -> Result<F::Array<'_>, TableProblem> {
+        let array = self.array(name)?;
+        match array.kind() {
+            Kind::Text => Err(wrong_kind::<F>(
+                name,
+                Kind::Text,
+                "numbers, such as complex ones",
+            )),
+            Kind::Real | Kind::Complex => Ok(array),
+        }
+    }
+
+    fn array(&mut self, name: &str) -> Result<F::Array<'_>, TableProblem> {
+        self.0.array(name)
+    }
+}
+
+/// All elements as real numbers, as long as `good` holds for each and the one before it.
+fn reals<F: ArrayFile>(
+    name: &str,
+    array: impl Array,
+    mut good: impl FnMut(Option<f64>, f64) -> Result<(), TableProblem>,
+) -> Result<Vec<f64>, TableProblem> {
+    let kind = array.kind();
+    let mut numbers: Vec<f64> = Vec::new();
+    if kind != Kind::Real {
+        return Err(wrong_kind::<F>(name, kind, "real numbers"));
+    }
+    array.each(|element| {
+        if let Element::Number(number) = element {
+            good(numbers.last().copied(), number.re)?;
+            numbers.push(number.re);
+        }
+        Ok(())
+    })?;
+    Ok(numbers)
+}
+
+/// All elements as texts, as long as `good` holds for each.
+fn texts<F: ArrayFile>(
+    name: &str,
+    array: impl Array,
+    mut good: impl FnMut(&str) -> Result<(), TableProblem>,
+) -> Result<Vec<String>, TableProblem> {
+    let kind = array.kind();
+    if kind != Kind::Text {
+        return Err(wrong_kind::<F>(name, kind, "texts such as \"11:+Y\""));
+    }
+    let mut texts = Vec::new();
+    array.each(|element| {
+        if let Element::Text(text) = element {
+            good(&text)?;
+            texts.push(text);
+        }
+        Ok(())
+    })?;
+    Ok(texts)
+}
+
+/// Elements that cannot be used where they stand.
+fn wrong_kind<F: ArrayFile>(name: &str, found: Kind, expected: &'static str) -> TableProblem {
+    let found = match found {
+        Kind::Real => "real numbers",
+        Kind::Complex => "complex numbers",
+        Kind::Text => "texts",
+    };
+    value(name, found, format_args!("{expected}; {}", F::CONVERT))
+}
+
+fn value(array: &str, found: impl Display, expected: impl Display) -> TableProblem {
+    TableProblem::at(format_args!("array {array}"), found, expected)
+}
+
+fn one(name: &str, array: &impl Array) -> Result<(), TableProblem> {
+    match array.shape().iter().all(|&length| length == 1) {
+        true => Ok(()),
+        false => Err(wrong_shape(name, array, "one entry")),
+    }
+}
+
+fn wrong_shape(name: &str, array: &impl Array, expected: &'static str) -> TableProblem {
+    value(name, format_args!("shape {:?}", array.shape()), expected)
+}
+
+fn one_axis(name: &str, array: &impl Array) -> Result<(), TableProblem> {
+    match array.shape().iter().filter(|&&length| length != 1).count() {
+        0 | 1 => Ok(()),
+        _ => Err(wrong_shape(name, array, "one axis")),
+    }
+}
+
+pub(super) fn quantity(text: &str) -> Result<Quantity, TableProblem> {
+    let expected = "receptance, mobility or accelerance";
+    by_name(&text.to_lowercase())
+        .ok_or_else(|| value("quantity", format!("\"{}\"", crate::shown(text)), expected))
+}
+
+pub(super) fn by_name(name: &str) -> Option<Quantity> {
+    [
+        Quantity::Receptance,
+        Quantity::Mobility,
+        Quantity::Accelerance,
+    ]
+    .into_iter()
+    .find(|quantity| quantity.to_string() == name)
+}

@@ -98,7 +98,7 @@ impl Bench {
         assert_eq!(outcome.stdout, "", "{command:?}");
         assert!(stderr.starts_with("error: "), "{command:?}: {stderr}");
         for fragment in fragments {
-            has(&stderr, &[fragment]);
+            has(stderr, &[fragment]);
         }
         // Messages are for people: no bytes of a binary file, no hundreds of digits.
         let printable = |c: char| !c.is_control() || c == '\n';

@@ -88,7 +88,7 @@ impl Coherence {
 ///
 /// ```
 /// // Ten averages at γ² = 0.9: 10.5 % in all, 7.5 % along the magnitude and as much across it.
-/// let variance = bolted_joint::frf::relative_variance(0.9, 10.0);
+/// let variance = bolted_joint_frf::relative_variance(0.9, 10.0);
 /// assert!((variance.sqrt() - 0.10541).abs() < 1e-5);
 /// ```
 #[must_use]

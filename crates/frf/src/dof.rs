@@ -107,7 +107,7 @@ impl Sign {
 /// Serde reads and writes the same text. The order is by node, direction, sign.
 ///
 /// ```
-/// use bolted_joint::frf::Dof;
+/// use bolted_joint_frf::Dof;
 /// let tip: Dof = "11:Y".parse()?;
 /// assert_eq!(tip.to_string(), "11:+Y");
 /// # Ok::<(), bolted_joint::frf::DofError>(())

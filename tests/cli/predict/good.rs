@@ -148,7 +148,7 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     exact.done(&PREDICT);
     assert_eq!(file["joint"], exact.json("j.joint.json")["joint"]);
     let basis = file["uncertainty"]["basis"].as_str().unwrap();
-    has(&basis, &["nut factor", "20000 draws", "seed 7"]);
+    has(basis, &["nut factor", "20000 draws", "seed 7"]);
 }
 
 #[test]

@@ -3,7 +3,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use bolted_joint::frf::{ReadOptions, read_csv_from, read_npz_from, read_uff58_from};
+use bolted_joint::frf::{
+    ReadOptions, read_csv_from, read_mat_from, read_npz_from, read_uff58_from,
+};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
@@ -18,6 +20,7 @@ fn read_all(bytes: &[u8]) {
     let _ = set(read_uff58_from(bytes, name, &options));
     let _ = set(read_csv_from(bytes, name, &options));
     let _ = set(read_npz_from(Cursor::new(bytes), name, &options));
+    let _ = set(read_mat_from(Cursor::new(bytes), name, &options));
 }
 
 /// Good files that the damage starts from.
@@ -27,6 +30,9 @@ fn seeds() -> Vec<Vec<u8>> {
         "stored.npz",
         "frequency_first.npz",
         "fortran_big_endian.npz",
+        "cells.mat",
+        "single.mat",
+        "big_endian.mat",
         "table.csv",
     ]
     .iter()

@@ -1,4 +1,4 @@
-//! Tables and NumPy archives: those of NumPy, every fault by its place, and none that panics.
+//! Tables, NumPy archives and MATLAB files: those of NumPy and SciPy, every fault by its place, and none that panics.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -7,6 +7,7 @@
 
 mod archive;
 mod junk;
+mod matlab;
 mod table;
 
 use bolted_joint_testing::near;

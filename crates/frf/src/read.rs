@@ -1,4 +1,4 @@
-//! Functions from a file of any format that is known: universal file, table or NumPy archive.
+//! Functions from a file of any format that is known: universal file, table, NumPy archive or MATLAB file.
 
 use std::fs::{File, Metadata};
 use std::io::{BufRead, BufReader, Read, Seek};
@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::counted::Counted;
 use super::csv::read_csv_from;
+use super::mat::read_mat_from;
 use super::npz::read_npz_from;
 use super::uff::read_uff58_of;
 use super::{FrfError, FrfReading, ReadOptions, TableProblem};
@@ -22,6 +23,7 @@ enum Format {
     Table,
     Archive,
     SingleArray,
+    Matlab,
 }
 
 impl Format {
@@ -40,6 +42,8 @@ impl Format {
             Self::Archive
         } else if beginning.starts_with(b"\x93NUMPY") {
             Self::SingleArray
+        } else if beginning.starts_with(b"MATLAB") || named(&["mat"]) {
+            Self::Matlab
         } else if first == "-1" {
             Self::Universal
         } else if named(&["npz"]) {
@@ -55,10 +59,12 @@ impl Format {
     }
 }
 
-/// Reads the frequency response functions of a universal file (58 or 58b), a table (CSV) or a NumPy archive (npz).
+/// Reads the frequency response functions of a universal file (58 or 58b), a table (CSV), a NumPy archive (npz) or a MATLAB
+/// file (mat).
 ///
 /// What the file is, is told by how it begins, and by its extension where that leaves it open. Values become receptances in SI
-/// units; see [`read_uff58`](super::read_uff58), [`read_csv`](super::read_csv) and [`read_npz`](super::read_npz).
+/// units; see [`read_uff58`](super::read_uff58), [`read_csv`](super::read_csv), [`read_npz`](super::read_npz) and
+/// [`read_mat`](super::read_mat).
 ///
 /// # Errors
 /// [`FrfError::Read`], [`FrfError::Uff`], [`FrfError::Csv`] or [`FrfError::Arrays`].
@@ -105,6 +111,7 @@ fn reading(
         Format::Universal => read_uff58_of(&mut reader as &mut dyn BufRead, path, length, options),
         Format::Table => read_csv_from(&mut reader as &mut dyn BufRead, path, options),
         Format::Archive => read_npz_from(reader, path, options),
+        Format::Matlab => read_mat_from(reader, path, options),
         Format::SingleArray => Err(FrfError::Arrays {
             path: path.to_owned(),
             problem: Box::new(TableProblem::whole(

@@ -19,6 +19,8 @@ pub enum FileFormat {
     Table,
     /// NumPy archive (npz).
     Archive,
+    /// MATLAB file (mat).
+    Matlab,
 }
 
 impl fmt::Display for FileFormat {
@@ -31,6 +33,7 @@ impl fmt::Display for FileFormat {
             Self::UniversalBinary(ByteOrder::Big) => "universal file, 58b (binary, big endian)",
             Self::Table => "table (CSV)",
             Self::Archive => "NumPy archive (npz)",
+            Self::Matlab => "MATLAB file (mat)",
         })
     }
 }

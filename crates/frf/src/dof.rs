@@ -110,7 +110,7 @@ impl Sign {
 /// use bolted_joint_frf::Dof;
 /// let tip: Dof = "11:Y".parse()?;
 /// assert_eq!(tip.to_string(), "11:+Y");
-/// # Ok::<(), bolted_joint::frf::DofError>(())
+/// # Ok::<(), bolted_joint_frf::DofError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]

@@ -6,6 +6,7 @@
 )]
 
 mod contents;
+mod friction;
 mod higher;
 mod preload;
 mod text;

@@ -111,7 +111,7 @@ fn entry(law: &Declaration) -> Value {
         let mut number = json!({
             "description": format!(
                 "{}, {}.",
-                kinds().map(|kind| description(parameter, kind)).join(" / "),
+                description(parameter, &kinds()),
                 units(parameter)
             ),
             "type": "number",

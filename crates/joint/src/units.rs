@@ -40,14 +40,18 @@ pub fn with_symbols(name: &str) -> String {
     })
 }
 
-/// What a parameter is on a DOF of this kind.
+/// What a parameter is on a DOF of one of these kinds.
 #[must_use]
-pub fn description(parameter: &Parameter, kind: DofKind) -> String {
+pub fn description(parameter: &Parameter, kinds: &[DofKind]) -> String {
+    let words = |of: fn(DofKind) -> &'static str| {
+        let words: Vec<&str> = kinds.iter().map(|&kind| of(kind)).collect();
+        words.join(" or ")
+    };
     parameter
         .description
-        .replace("{load}", kind.load())
-        .replace("{motion}", kind.motion())
-        .replace("{rate}", kind.rate())
+        .replace("{load}", &words(DofKind::load))
+        .replace("{motion}", &words(DofKind::motion))
+        .replace("{rate}", &words(DofKind::rate))
 }
 
 /// A power, none where it is 1.

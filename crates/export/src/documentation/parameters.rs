@@ -218,7 +218,7 @@ fn friction(joint: &Joint) -> String {
                     own.dof.load,
                     cell(own.law.name),
                     number_cell(&format!("{} {unit}", number(value))),
-                    cell(&description(parameter, kind))
+                    cell(&description(parameter, &[kind]))
                 )
             })
         })

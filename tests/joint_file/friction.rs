@@ -1,0 +1,133 @@
+//! Laws with parameters of their own: read, written, refused where they do not fit.
+
+use bolted_joint::joint::{JointFile, Problem};
+
+use crate::{GOOD, refusal};
+
+const DAMPING: &str = "\"damping\": [[10.83, -0.83], [-0.83, 0.083]]\n";
+
+/// `GOOD` with this text as `joint.friction`.
+fn with(friction: &str) -> Result<JointFile, String> {
+    assert!(GOOD.contains(DAMPING));
+    let text = GOOD.replacen(
+        DAMPING,
+        &format!("{},\n\"friction\": {friction}\n", DAMPING.trim_end()),
+        1,
+    );
+    JointFile::from_json(&text, "m10.joint.json").map_err(|refused| refused.to_string())
+}
+
+const ON_Y: &str = r#"{ "dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": 300.0 }"#;
+
+#[test]
+fn a_law_on_a_dof_is_part_of_the_joint() {
+    let file = with(&format!("[{ON_Y}]")).unwrap();
+    let law = file.joint.law::<2>().unwrap();
+    assert!(law.has_memory() && law.on[0].have_memory() && !law.on[1].have_memory());
+    assert!(!law.is_linear() && !file.joint.is_linear());
+    // its keys may stand in any order
+    let turned = r#"[{ "slip_force": 300, "stiffness": 1e6, "law": "jenkins", "dof": "y" }]"#;
+    assert_eq!(with(turned).unwrap(), file);
+    let written = file.to_json().unwrap();
+    assert_eq!(JointFile::from_json(&written, "").unwrap(), file);
+    let lines: Vec<&str> = written.lines().map(str::trim).collect();
+    let place = lines.iter().position(|line| *line == "\"dof\": \"y\",");
+    let entry = &lines[place.unwrap()..][..4];
+    assert_eq!(
+        entry[1..],
+        [
+            "\"law\": \"jenkins\",",
+            "\"stiffness\": 1000000.0,",
+            "\"slip_force\": 300.0"
+        ]
+    );
+    // without any of them
+    assert!(with("[]").unwrap().joint.is_linear());
+    assert!(!with("[]").unwrap().to_json().unwrap().contains("friction"));
+}
+
+#[test]
+fn laws_that_do_not_fit_are_refused_by_their_key() {
+    for (friction, fragments) in [
+        (
+            r#"[{ "dof": "y", "law": "iwan", "stiffness": 1e6, "slip_force": 300 }]"#,
+            [
+                "joint.friction[0].law: found \"iwan\"",
+                "expected one of jenkins",
+            ],
+        ),
+        (
+            r#"[{ "dof": "z", "law": "jenkins", "stiffness": 1e6, "slip_force": 300 }]"#,
+            ["joint.friction[0].dof", "`z`, expected `y` or `theta`"],
+        ),
+        (
+            r#"[{ "dof": "y", "law": "jenkins", "stifness": 1e6, "slip_force": 300 }]"#,
+            [
+                "joint.friction[0].stifness: unknown key, did you mean \"stiffness\"?",
+                "expected one of dof, law, stiffness, slip_force",
+            ],
+        ),
+        (
+            r#"[{ "dof": "y", "law": "jenkins", "stiffness": 1e6 }]"#,
+            ["joint.friction[0].slip_force: not found", "add it"],
+        ),
+        (
+            r#"[{ "law": "jenkins", "stiffness": 1e6, "slip_force": 300 }]"#,
+            ["joint.friction[0].dof: not found", "add it"],
+        ),
+        (
+            r#"[{ "dof": "y", "law": "jenkins", "stiffness": "1e6", "slip_force": 300 }]"#,
+            ["joint.friction[0].stiffness", "expected a number"],
+        ),
+        (
+            r#"[{ "dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": -3 }]"#,
+            ["joint.friction[0].slip_force: found -3.0", "zero or more"],
+        ),
+        (
+            r#"[{ "dof": "y", "dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": 3 }]"#,
+            ["joint.friction[0]", "duplicate field `dof`"],
+        ),
+        (r#"{ "dof": "y" }"#, ["joint.friction", "expected a list"]),
+        (r#"["y"]"#, ["joint.friction[0]", "expected an object"]),
+    ] {
+        let message = with(friction).unwrap_err();
+        for fragment in fragments {
+            assert!(message.contains(fragment), "{fragment}: {message}");
+        }
+    }
+}
+
+#[test]
+fn a_law_stands_once_on_a_dof_of_the_joint() {
+    let message = with(&format!("[{ON_Y}, {ON_Y}]")).unwrap_err();
+    assert!(
+        message.contains("joint.friction[1].law: found a second \"jenkins\" on \"y\"")
+            && message.contains("take one of them out"),
+        "{message}"
+    );
+    let on_theta = ON_Y.replace("\"y\"", "\"theta\"");
+    assert!(with(&format!("[{ON_Y}, {on_theta}]")).is_ok());
+    let mut alone = with(&format!("[{on_theta}]")).unwrap();
+    alone.joint.dofs = bolted_joint::joint::DofSet::TRANSLATION;
+    assert!(alone.validate().iter().any(|problem| matches!(
+        problem,
+        Problem::OtherDof { path, found: "theta", .. } if path == "joint.friction[0].dof"
+    )));
+}
+
+#[test]
+fn a_table_over_the_preload_has_no_friction() {
+    let message = refusal(
+        "\"stiffness\"",
+        &format!(
+            r#""friction": [{ON_Y}], "over_preload": {{ "preload": [1, 2], "nominal": 1,
+           "stiffness": [[[1, 0], [0, 1]], [[1, 0], [0, 1]]], "damping": [[[1, 0], [0, 1]], [[1, 0], [0, 1]]] }},
+           "stiffness""#
+        ),
+    );
+    assert!(
+        message.contains("joint.friction: found beside joint.over_preload")
+            && message.contains("take one of them out"),
+        "{message}"
+    );
+}

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 
 use super::{
-    Declared, Expanded, Filling, Instance, Origin,
+    Declared, Expanded, Origin,
+    filling::Filling,
+    instance::Instance,
     laws::{LawMemory, LawParameter, law_memory, law_parameters},
     line::Line,
     types,

@@ -7,7 +7,7 @@ use bolted_joint_dynamics::{
 };
 
 use super::{
-    Filling,
+    filling::Filling,
     types::{Type, of_memory, of_parameter},
     words,
 };

@@ -10,6 +10,8 @@
 //! - value references are not written, but found in `value-references.txt`, and `derivative` and the model structure go by names.
 
 mod fill;
+mod filling;
+mod instance;
 mod laws;
 mod line;
 mod references;
@@ -17,11 +19,7 @@ mod types;
 mod unknowns;
 mod words;
 
-use bolted_joint_dynamics::{
-    DOF_SETS, DOFS, Dof,
-    law::{DECLARATIONS, Declaration},
-};
-
+pub use filling::Filling;
 pub use laws::{At, LawParameter, law_parameters};
 
 use crate::{
@@ -29,36 +27,7 @@ use crate::{
     scope::Scope,
 };
 use fill::Filled;
-use laws::LawMemory;
 use line::Line;
-
-/// What frames are filled with.
-#[derive(Clone, Copy, Debug)]
-pub struct Filling<'a> {
-    /// Table of DOFs.
-    pub dofs: &'a [Dof],
-    /// Sets of DOFs that a joint can have, by rows of the table.
-    pub dof_sets: &'a [&'a [usize]],
-    /// What the laws say of themselves.
-    pub laws: &'a [Declaration],
-}
-
-impl Filling<'static> {
-    /// The project's own DOFs and laws.
-    pub const PRESENT: Self = Self {
-        dofs: &DOFS,
-        dof_sets: DOF_SETS,
-        laws: DECLARATIONS,
-    };
-}
-
-impl Filling<'_> {
-    /// Whether a joint can have both DOFs.
-    fn are_together(&self, one: usize, other: usize) -> bool {
-        let mut sets = self.dof_sets.iter();
-        sets.any(|set| set.contains(&one) && set.contains(&other))
-    }
-}
 
 const ELEMENT: &str = "element.xml";
 const LAP: &str = "lap.xml";
@@ -182,30 +151,4 @@ pub(crate) enum Origin {
     },
     /// What a law remembers: place of the law, of the number, and row of the table of DOFs.
     Memory([usize; 3]),
-}
-
-/// One of those that a line is written for.
-enum Instance<'a> {
-    Alone,
-    Dof(usize),
-    Parameter(&'a LawParameter),
-    Memory(&'a LawMemory),
-}
-
-impl Instance<'_> {
-    fn row(&self) -> Option<usize> {
-        match self {
-            Self::Alone | Self::Parameter(_) => None,
-            Self::Dof(row) => Some(*row),
-            Self::Memory(memory) => Some(memory.row),
-        }
-    }
-
-    fn law(&self) -> Option<usize> {
-        match self {
-            Self::Alone | Self::Dof(_) => None,
-            Self::Parameter(parameter) => Some(parameter.law),
-            Self::Memory(memory) => Some(memory.law),
-        }
-    }
 }

@@ -6,7 +6,9 @@
 
 use std::collections::HashMap;
 
-use super::{Filling, Instance, laws::LawParameter, line::Line, words::Quantity};
+use super::{
+    filling::Filling, instance::Instance, laws::LawParameter, line::Line, words::Quantity,
+};
 use crate::error::InterfaceProblem;
 
 /// Kinds of dependencies, as attributes of an unknown in a frame.

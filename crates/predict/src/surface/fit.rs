@@ -5,6 +5,7 @@ use bolted_joint_statistics::{NORMAL_975, chi_squared_95, student_975};
 use super::bands::Bands;
 use super::fractal::Fractal;
 use super::line::Line;
+use super::warning::{DEFAULT_STEPS, DEFAULT_WAVES};
 use super::{Detrend, FitWarning, Profile, Roughness, Spectrum, SurfaceError, Welch, Window};
 use crate::number::check;
 
@@ -43,10 +44,6 @@ impl Default for FitSettings {
     }
 }
 
-/// Steps in the shortest wavelength of the default band: there the folded spectrum is a few per cent.
-pub(super) const DEFAULT_STEPS: f64 = 8.0;
-/// Waves in a segment at the longest wavelength of the default band.
-pub(super) const DEFAULT_WAVES: f64 = 6.0;
 /// Fewer steps in a wave than this are worth a warning.
 const WARN_STEPS: f64 = 4.0;
 /// Fewer waves in a segment than this are worth a warning.

@@ -2,7 +2,10 @@
 
 use std::fmt;
 
-use super::fit::{DEFAULT_STEPS, DEFAULT_WAVES};
+/// Steps in the shortest wavelength of the default band: there the folded spectrum is a few per cent.
+pub(super) const DEFAULT_STEPS: f64 = 8.0;
+/// Waves in a segment at the longest wavelength of the default band.
+pub(super) const DEFAULT_WAVES: f64 = 6.0;
 
 /// What is doubtful about a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]

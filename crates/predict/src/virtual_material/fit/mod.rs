@@ -1,14 +1,13 @@
 //! Which surface would give moduli that are known of a layer.
 
 use super::{Loading, Moduli};
-use crate::ContactError;
-use crate::Pair;
 use crate::surface::Roughness;
-use problem::Problem;
 
 mod problem;
 mod result;
 mod search;
+
+pub use result::fit;
 
 /// A layer whose moduli are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,35 +53,4 @@ pub struct FittedLayer {
     pub moduli: Moduli,
     /// Real over critical real area, A_t/A_rc; more than 1.
     pub area_ratio: f64,
-}
-
-/// Finds D and G by least squares on the logarithms of both moduli, for a pair of materials of a hardness (Pa) under β/f times the friction force.
-///
-/// All surfaces with elastic contacts in every layer are searched on a grid; the best minima of it are refined by the method of
-/// Levenberg and Marquardt.
-///
-/// # Errors
-/// Too few layers, or numbers that are not positive.
-pub fn fit(
-    observations: &[Observation],
-    pair: &Pair,
-    hardness_pa: f64,
-    friction_ratio: f64,
-    magnitudes: Magnitudes,
-) -> Result<Fit, ContactError> {
-    let problem = Problem {
-        observations,
-        pair,
-        hardness_pa,
-        friction_ratio,
-        magnitudes,
-    };
-    problem.check()?;
-    let best = problem
-        .starts()
-        .into_iter()
-        .map(|start| problem.refined(start))
-        .min_by(|one, other| one.1.total_cmp(&other.1))
-        .ok_or(ContactError::NothingFits)?;
-    problem.result(best.0)
 }

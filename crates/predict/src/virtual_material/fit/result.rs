@@ -2,10 +2,41 @@
 
 use super::problem::{Problem, Unknowns};
 use super::search::{bounds, solved};
-use super::{Fit, FittedLayer, Magnitudes};
-use crate::ContactError;
+use super::{Fit, FittedLayer, Magnitudes, Observation};
 use crate::surface::Roughness;
 use crate::virtual_material::{LayerContact, Moduli};
+use crate::{ContactError, Pair};
+
+/// Finds D and G by least squares on the logarithms of both moduli, for a pair of materials of a hardness (Pa) under β/f times the friction force.
+///
+/// All surfaces with elastic contacts in every layer are searched on a grid; the best minima of it are refined by the method of
+/// Levenberg and Marquardt.
+///
+/// # Errors
+/// Too few layers, or numbers that are not positive.
+pub fn fit(
+    observations: &[Observation],
+    pair: &Pair,
+    hardness_pa: f64,
+    friction_ratio: f64,
+    magnitudes: Magnitudes,
+) -> Result<Fit, ContactError> {
+    let problem = Problem {
+        observations,
+        pair,
+        hardness_pa,
+        friction_ratio,
+        magnitudes,
+    };
+    problem.check()?;
+    let best = problem
+        .starts()
+        .into_iter()
+        .map(|start| problem.refined(start))
+        .min_by(|one, other| one.1.total_cmp(&other.1))
+        .ok_or(ContactError::NothingFits)?;
+    problem.result(best.0)
+}
 
 impl Problem<'_> {
     pub(super) fn result(&self, at: Unknowns) -> Result<Fit, ContactError> {

@@ -1,0 +1,29 @@
+//! What a line of a frame is written for: itself, a DOF, or what a law declares.
+
+use super::laws::{LawMemory, LawParameter};
+
+/// One of those that a line is written for.
+pub(super) enum Instance<'a> {
+    Alone,
+    Dof(usize),
+    Parameter(&'a LawParameter),
+    Memory(&'a LawMemory),
+}
+
+impl Instance<'_> {
+    pub(super) fn row(&self) -> Option<usize> {
+        match self {
+            Self::Alone | Self::Parameter(_) => None,
+            Self::Dof(row) => Some(*row),
+            Self::Memory(memory) => Some(memory.row),
+        }
+    }
+
+    pub(super) fn law(&self) -> Option<usize> {
+        match self {
+            Self::Alone | Self::Dof(_) => None,
+            Self::Parameter(parameter) => Some(parameter.law),
+            Self::Memory(memory) => Some(memory.law),
+        }
+    }
+}

@@ -1,8 +1,46 @@
 //! Turns measurements of a bolted joint into an FMU that any FMI tool can run.
 //!
 //! The way of the data: [`frf`] and [`structure`] give receptances, [`identify`] finds the joint that couples them,
-//! [`predict`] finds one from physics alone, [`joint`] is the file that holds it, [`export`] packs it into an FMU, [`check`] tries that FMU, [`report`] draws
-//! what was found. [`respond`] computes what a test would measure, [`reproduce`] repeats the published case studies.
+//! [`predict`] finds one from physics alone, [`joint`] is the file that holds it, [`export`] packs it into an FMU,
+//! [`check`] tries that FMU, [`report`] draws what was found. [`respond`] computes what a test would measure,
+//! [`reproduce`] repeats the published case studies.
+//!
+//! From measured functions to an FMU:
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use bolted_joint::check::inspect;
+//! use bolted_joint::export::{ExportOptions, FmiVersion, Interface, Timestamp, fmu_bytes};
+//! use bolted_joint::identify::{Study, identify};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // Two beams, one by its modes and one by its dimensions, and the functions of both with the bolt between them.
+//! let study = Study::read(Path::new("examples/tol-m10x16/study.toml"))?;
+//! let found = identify(&study)?;
+//! // The functions were made with 5.73e5 N/m (Tol, Table 5.3) and 1 % noise.
+//! let k_yy = found.estimate.joint().stiffness[(0, 0)];
+//! assert!((k_yy / 5.73e5 - 1.0).abs() < 0.02, "{k_yy}");
+//!
+//! let file = &found.joint_files()[0].1;
+//! let options = ExportOptions {
+//!     interface: Interface::Element,
+//!     version: FmiVersion::V3,
+//!     step_size_max_s: None,
+//!     platforms: None,
+//!     preload_n_m: None,
+//!     extrapolate: false,
+//!     allow_active: false,
+//!     date: Timestamp::from_environment()?,
+//! };
+//! let exported = fmu_bytes(file, &file.to_json()?, &options)?;
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("joint.fmu");
+//! exported.write(&path)?;
+//! assert_eq!(inspect(&path)?.findings, Vec::<String>::new());
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! Each of these is a crate of its own; this one gives them one name.
 #![forbid(unsafe_code)]

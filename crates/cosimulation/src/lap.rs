@@ -24,6 +24,20 @@ pub struct Restraint {
 /// The lap is stepped as the FMU does it, by Runge–Kutta steps of at most `step_size_max_s` (s). Loads that do not depend
 /// on its motion need no bound. For `amplitude` see [`super::element_bound`].
 ///
+/// ```
+/// use std::path::Path;
+///
+/// use bolted_joint_cosimulation::{Restraint, StepBound, lap_bound};
+/// use bolted_joint_joint::JointFile;
+///
+/// let file = JointFile::read(Path::new("../../examples/pirdayr/ex01.joint.json"))?;
+/// let free = Restraint { stiffness: vec![0.0], damping: vec![0.0] };
+/// assert_eq!(lap_bound::<1>(&file, [&free, &free], 1e-5, None)?, StepBound::Nothing);
+/// let spring = Restraint { stiffness: vec![1e6], ..free.clone() };
+/// assert!(lap_bound::<1>(&file, [&spring, &free], 1e-5, None)?.seconds() < 1e-2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 ///
 /// [`CouplingError`].

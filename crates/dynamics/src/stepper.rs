@@ -27,6 +27,25 @@ impl<const D: usize> From<LapState<D>> for LapMoment<D> {
 }
 
 /// A lap made ready for steps.
+///
+/// A body on a spring, beside the cosine that it follows:
+///
+/// ```
+/// use bolted_joint_dynamics::{Body, JointLaw, Lap, LapLoads, LapMoment, LapState, LapStepper, Motion};
+///
+/// let body = |stiffness| Body { inertia: [2.0], stiffness: [stiffness], damping: [0.0] };
+/// let lap = Lap { joint: JointLaw::NONE, a: body(8e4), b: body(0.0) };
+/// let at = |displacement| Motion { displacement: [displacement], velocity: [0.0] };
+/// let mut moment = LapMoment::from(LapState { a: at(1e-3), b: at(0.0) });
+/// let stepper = LapStepper::new(&lap);
+/// let (step_s, steps) = (1e-5, 1000);
+/// for _ in 0..steps {
+///     moment = stepper.step(&moment, &[LapLoads { a: [0.0], b: [0.0] }; 3], step_s);
+/// }
+/// // ω = √(k/m)
+/// let expected = 1e-3 * (200.0 * step_s * f64::from(steps)).cos();
+/// assert!((moment.state.a.displacement[0] - expected).abs() < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct LapStepper<const D: usize> {
     lap: Lap<D>,

@@ -61,6 +61,22 @@ pub struct Line {
 }
 
 /// Curves in one strip.
+///
+/// ```
+/// use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+///
+/// let figure = LineFigure {
+///     title: "hardening spring",
+///     across: ("displacement / µm", Scale::Linear),
+///     up: ("load / N", Scale::Linear),
+///     lines: vec![Line {
+///         name: "cubic".to_owned(),
+///         shape: Shape::Curve,
+///         points: (0..=50).map(f64::from).map(|r| (r, r + 1e-3 * r.powi(3))).collect(),
+///     }],
+/// };
+/// assert!(figure.to_svg().is_some_and(|svg| svg.contains("hardening spring")));
+/// ```
 #[derive(Debug)]
 pub struct LineFigure<'a> {
     /// Read out to those who cannot see the picture.

@@ -130,6 +130,15 @@ pub struct Interfaces {
 impl Interfaces {
     /// The interfaces with the project's own frames, DOFs and laws.
     ///
+    /// ```
+    /// use bolted_joint_interface::{Interfaces, Role};
+    ///
+    /// let interfaces = Interfaces::present()?;
+    /// let load = interfaces.element.variable("a.F").expect("the element's load on side a");
+    /// assert_eq!(load.role, Role::Output);
+    /// # Ok::<(), bolted_joint_interface::InterfaceError>(())
+    /// ```
+    ///
     /// # Errors
     ///
     /// As [`Interfaces::new`].

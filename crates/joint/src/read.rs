@@ -51,6 +51,21 @@ impl JointFile {
 
     /// Reads and checks the text of a joint file; `origin` names it in messages.
     ///
+    /// ```
+    /// use bolted_joint_joint::JointFile;
+    ///
+    /// let text = r#"{
+    ///     "format": "bolted-joint/1",
+    ///     "name": "one bolt",
+    ///     "joint": { "dofs": ["y"], "stiffness": [[1.87e8]], "damping": [[120.0]] }
+    /// }"#;
+    /// let file = JointFile::from_json(text, "one-bolt.joint.json")?;
+    /// assert!(file.passivity().is_passive());
+    /// let error = JointFile::from_json(&text.replace("120.0", "-1"), "x").map(|file| file.passivity().is_passive());
+    /// assert!(!error?);
+    /// # Ok::<(), bolted_joint_joint::JointFileError>(())
+    /// ```
+    ///
     /// # Errors
     ///
     /// As [`JointFile::read`].

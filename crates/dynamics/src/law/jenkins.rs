@@ -35,6 +35,20 @@ const PARAMETER: Parameter = Parameter {
 const ROUNDING: f64 = 1e-9;
 
 /// A spring and a slider in series on one relative DOF.
+///
+/// Its load depends on where it slipped, and a closed loop leaves heat:
+///
+/// ```
+/// use bolted_joint_dynamics::law::{Jenkins, Law};
+///
+/// let element = Jenkins { stiffness: 1e6, slip_force: 100.0 };
+/// let mut slider = [0.0];
+/// let mut heat = element.commit(&mut slider, 3e-4);
+/// assert!((element.load(&slider, 3e-4, 0.0) - 100.0).abs() < 1e-9);
+/// heat += element.commit(&mut slider, -3e-4) + element.commit(&mut slider, 3e-4);
+/// // h(X − h/k) on the first way, twice that on each from end to end: h = 100 N, X = 0.3 mm, h/k = 0.1 mm
+/// assert!((heat - 5.0 * 100.0 * 2e-4).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jenkins<N = f64> {
     /// k: N/m, N·m/rad.

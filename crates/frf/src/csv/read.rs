@@ -38,6 +38,18 @@ pub fn read_csv(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfRead
 
 /// As [`read_csv`], from any reader; `name` stands for the path in messages.
 ///
+/// ```
+/// use bolted_joint_frf::{ReadOptions, read_csv_from};
+///
+/// let table = "frequency [Hz],1:+Y/2:+Y real [mm/s^2/N],1:+Y/2:+Y imaginary\n\
+///              10,-3947.8418,0\n20,-15791.367,0\n";
+/// let set = read_csv_from(table.as_bytes(), "tap.csv", &ReadOptions::default())?.into_set()?;
+/// // What was measured becomes receptances in SI: x/F = a/(−ω² F)
+/// let receptance = set.receptance("1:Y".parse()?, "2:Y".parse()?)?;
+/// assert!((receptance.values()[1].re - 1e-3).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// As [`read_csv`].
 pub fn read_csv_from(

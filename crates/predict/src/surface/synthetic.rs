@@ -11,6 +11,22 @@ use rustfft::num_complex::Complex64;
 use super::{Profile, Roughness, SurfaceError};
 
 /// A profile to be made.
+///
+/// ```
+/// use bolted_joint_predict::surface::{FitSettings, ProfileFit, Roughness, Synthetic};
+///
+/// let surface = Synthetic {
+///     roughness: Roughness::new(1.4, 1e-11)?,
+///     points: 4000,
+///     step_m: 1e-6,
+///     gamma: 1.5,
+/// };
+/// let profiles = [1, 2, 3].map(|seed| surface.gaussian(seed)).into_iter().collect::<Result<Vec<_>, _>>()?;
+/// let fit = ProfileFit::new(&profiles, &FitSettings::default())?;
+/// let [low, high] = fit.dimension_interval();
+/// assert!(low < 1.4 && 1.4 < high);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Synthetic {
     /// D and G.

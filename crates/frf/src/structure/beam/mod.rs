@@ -39,6 +39,27 @@ pub enum Damping {
 }
 
 /// A uniform beam of rectangular cross-section that bends about its width.
+///
+/// ```
+/// use bolted_joint_frf::structure::{Beam, BeamPoint, Boundary, Damping, Motion};
+///
+/// let beam = Beam {
+///     length_m: 0.4,
+///     width_m: 0.04,
+///     height_m: 0.01,
+///     youngs_modulus_pa: 210e9,
+///     density_kg_per_m3: 7850.0,
+///     boundary: Boundary::FixedFree,
+///     damping: Damping::LossFactor(1e-3),
+/// };
+/// // f₁ = (1.8751)²/(2π L²) √(EI/ρA)
+/// assert!((beam.natural_frequencies_hz()?[0] - 52.22).abs() < 0.01);
+/// let tip = BeamPoint { position_m: 0.4, motion: Motion::Translation };
+/// let static_receptance = beam.receptances(&[tip], &[1e-3])?[0][(0, 0)];
+/// // L³/3EI
+/// assert!((static_receptance.re / 3.0476e-5 - 1.0).abs() < 1e-4);
+/// # Ok::<(), bolted_joint_frf::structure::StructureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     /// Length, m.

@@ -42,7 +42,7 @@ const DAMPER: Parameter = Parameter {
 };
 
 /// The springs k3 r³, k5 r⁵, …: the one at index j has the power 2j + 3.
-const SPRINGS: [Parameter; 4] = [
+const SPRINGS: [Parameter; 3] = [
     Parameter {
         symbol: "k3",
         key: "cubic",
@@ -86,21 +86,6 @@ const SPRINGS: [Parameter; 4] = [
             ..SPRING.quantity
         },
         description: "Stiffness of seventh order of the joint in {motion}",
-        ..SPRING
-    },
-    Parameter {
-        symbol: "k9",
-        key: "nonic",
-        unit: UnitRule {
-            displacement: 9,
-            seconds: 0,
-        },
-        quantity: Quantity {
-            name: "NonicStiffness",
-            nominal: [1e30, 1e23, 1e15],
-            ..SPRING.quantity
-        },
-        description: "Stiffness of ninth order of the joint in {motion}",
         ..SPRING
     },
 ];

@@ -1,6 +1,6 @@
 //! Laws with parameters of their own: read, written, refused where they do not fit.
 
-use bolted_joint::joint::{JointFile, Problem};
+use bolted_joint::joint::{JointFile, JointProblem};
 
 use crate::{GOOD, refusal};
 
@@ -111,7 +111,7 @@ fn a_law_stands_once_on_a_dof_of_the_joint() {
     alone.joint.dofs = bolted_joint::joint::DofSet::TRANSLATION;
     assert!(alone.validate().iter().any(|problem| matches!(
         problem,
-        Problem::OtherDof { path, found: "theta", .. } if path == "joint.friction[0].dof"
+        JointProblem::OtherDof { path, found: "theta", .. } if path == "joint.friction[0].dof"
     )));
 }
 

@@ -80,7 +80,7 @@ fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
         let mut instance = lap(&[vr::A_F], allowed);
         instance.on_update(move |i, update| {
             assert_eq!(update.can_return_early, allowed);
-            assert_eq!(i.set(&[vr::A_F], &[77.0]), c::OK);
+            c::ok(i.set(&[vr::A_F], &[77.0]));
             (update.time > 3e-4).then_some(at)
         });
         let message = instance.refused(|i| {
@@ -119,7 +119,7 @@ fn a_step_that_fails_goes_back_to_its_beginning_with_its_inputs() {
     let seen = Rc::clone(&last);
     instance.on_update(move |i, update| {
         *seen.borrow_mut() = update.time;
-        assert_eq!(i.set(&[vr::B_F], &[1e9 * update.time]), c::OK);
+        c::ok(i.set(&[vr::B_F], &[1e9 * update.time]));
         None
     });
     assert_eq!(instance.step_to(0.0, 1e-2), (c::ERROR, 0.0));
@@ -140,6 +140,6 @@ fn refused_steps_do_not_call_back() {
     for (t, h) in [(0.0, 0.0), (0.0, f64::NAN), (1.0, 1e-3), (0.0, 1e9)] {
         instance.refused(|i| i.do_step(t, h).status);
     }
-    assert_eq!(instance.set(&[vr::A_MASS], &[-1.0]), c::OK);
+    c::ok(instance.set(&[vr::A_MASS], &[-1.0]));
     instance.refused(|i| i.do_step(0.0, 1e-3).status);
 }

@@ -27,12 +27,12 @@ pub(crate) fn taking_part(
         ..Request::default()
     };
     let mut instance = request.instantiate().unwrap();
-    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    c::ok(instance.enter_initialization(0.0, None));
     if kind == Kind::Lap {
-        assert_eq!(instance.set(&STATES, &START), c::OK);
-        assert_eq!(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
+        c::ok(instance.set(&STATES, &START));
+        c::ok(instance.set(&[vr::A_F, vr::B_F], &EQUATIONS.force));
     }
-    assert_eq!(instance.exit_initialization(), c::OK);
+    c::ok(instance.exit_initialization());
     instance.take_log();
     instance
 }
@@ -76,11 +76,10 @@ fn the_importer_sees_every_internal_step() {
             1,
             &[("joint.k3_y", 5e12), ("step_size_max", 2e-4)],
         );
-        assert_eq!(alone.set(&STATES, &START), c::OK);
-        assert_eq!(alone.set(&[vr::A_F, vr::B_F], &EQUATIONS.force), c::OK);
-        assert_eq!(alone.enter_initialization(0.0, None), c::OK);
-        assert_eq!(alone.exit_initialization(), c::OK);
-        assert_eq!(alone.step(0.0, 1e-3), c::OK);
+        c::ok(alone.set(&STATES, &START));
+        c::ok(alone.set(&[vr::A_F, vr::B_F], &EQUATIONS.force));
+        alone.initialize(0.0, None);
+        c::ok(alone.step(0.0, 1e-3));
         assert_eq!(
             instance.get(STATES).map(f64::to_bits),
             alone.get(STATES).map(f64::to_bits)
@@ -105,15 +104,14 @@ fn inputs_that_the_importer_knows_between_the_points_are_followed_with_fourth_or
             ("step_size_max", duration / f64::from(count)),
         ];
         let mut instance = taking_part(Kind::Lap, &changes, &[vr::A_F, vr::B_F], false);
-        assert_eq!(instance.reset(), c::OK);
-        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
+        c::ok(instance.reset());
+        instance.initialize(0.0, None);
         let calls = Rc::new(RefCell::new(0));
         let counted = Rc::clone(&calls);
         instance.on_update(move |i, update| {
             assert!(update.set);
             *counted.borrow_mut() += 1;
-            assert_eq!(i.set(&[vr::A_F, vr::B_F], &[load(update.time); 2]), c::OK);
+            c::ok(i.set(&[vr::A_F, vr::B_F], &[load(update.time); 2]));
             None
         });
         assert_eq!(instance.step_to(0.0, duration), (c::OK, duration));
@@ -135,7 +133,7 @@ fn inputs_that_are_set_after_an_internal_step_act_from_there_on() {
     let mut instance = lap(&[vr::A_F], false);
     instance.on_update(|i, update| {
         if update.finished {
-            assert_eq!(i.set(&[vr::A_F], &[1e5 * update.time]), c::OK);
+            c::ok(i.set(&[vr::A_F], &[1e5 * update.time]));
         }
         None
     });
@@ -163,7 +161,7 @@ fn derivatives_of_outputs_know_how_the_inputs_go() {
     // F_b = k (y_a − y_b) + c (v_a − v_b), with v_a a polynomial in time and v_b held
     let mut instance = taking_part(Kind::Element, &[], &[vr::A_V, vr::B_F, vr::JOINT_F], false);
     let velocity = |t: f64| 3.0 + 2e3 * t + 1e6 * t * t;
-    assert_eq!(instance.set(&[vr::A_V], &[velocity(0.0)]), c::OK);
+    c::ok(instance.set(&[vr::A_V], &[velocity(0.0)]));
     let seen = Rc::new(RefCell::new(Vec::new()));
     let log = Rc::clone(&seen);
     instance.on_update(move |i, update| {
@@ -172,12 +170,12 @@ fn derivatives_of_outputs_know_how_the_inputs_go() {
             log.borrow_mut()
                 .push((update.time, i.get([vr::A_V]), rates));
         } else {
-            assert_eq!(i.set(&[vr::A_V], &[velocity(update.time)]), c::OK);
+            c::ok(i.set(&[vr::A_V], &[velocity(update.time)]));
         }
         None
     });
     for n in 0..3 {
-        assert_eq!(instance.step(1e-3 * f64::from(n), 1e-3), c::OK);
+        c::ok(instance.step(1e-3 * f64::from(n), 1e-3));
     }
     let seen = seen.take();
     assert_eq!(seen.len(), 3);
@@ -191,7 +189,7 @@ fn derivatives_of_outputs_know_how_the_inputs_go() {
     let last = velocity(3e-3);
     let rates = instance.output_derivatives(&[vr::B_F]).unwrap();
     assert_close(&rates, &[4e6 * last + 8.0 * (2e3 + 2e6 * 3e-3)], 1e-12);
-    assert_eq!(instance.set(&[vr::A_V], &[1.0]), c::OK);
+    c::ok(instance.set(&[vr::A_V], &[1.0]));
     let rates = instance.output_derivatives(&[vr::B_F]).unwrap();
     assert_eq!(rates, [4e6]);
 }
@@ -205,7 +203,7 @@ fn an_element_is_asked_once() {
         if update.finished {
             assert_eq!(i.get([vr::A_F]), [-4e6 * 1e-3]);
         } else {
-            assert_eq!(i.set(&[vr::A_Y], &[update.time]), c::OK);
+            c::ok(i.set(&[vr::A_Y], &[update.time]));
         }
         log.borrow_mut().push((update.time, update.set, update.get));
         None
@@ -305,7 +303,7 @@ fn only_what_the_standard_allows_reaches_the_instance() {
             // what is allowed at one time is not at another
             let allowed = if update.finished {
                 assert_eq!(i.get([vr::A_F]), [30.0]);
-                assert_eq!(status_of(i.output_derivatives(&[vr::JOINT_F])), c::OK);
+                c::ok(status_of(i.output_derivatives(&[vr::JOINT_F])));
                 i.set(&[vr::A_F], &[30.0])
             } else {
                 assert_eq!(status_of(i.try_get(&[vr::JOINT_F])), c::ERROR);
@@ -316,8 +314,8 @@ fn only_what_the_standard_allows_reaches_the_instance() {
                 );
                 i.set(&[vr::A_F], &[30.0])
             };
-            assert_eq!(allowed, c::OK);
-            assert_eq!(i.switch_logging(true, &[]), c::OK);
+            c::ok(allowed);
+            c::ok(i.switch_logging(true, &[]));
             if update.finished {
                 assert_eq!(call(i.raw), c::ERROR, "{function}");
                 log.borrow_mut().push(i.error());

@@ -63,7 +63,7 @@ impl Interface {
     pub fn check_against(&self, other: &Self) -> Result<(), InterfaceError> {
         agreement::check(self, other).map_err(|problem| InterfaceError::Inconsistent {
             file: self.file.clone(),
-            problem: problem.into(),
+            problem,
         })
     }
 

@@ -113,7 +113,7 @@ impl Expanded {
         let inconsistent = |file: &'static str| {
             move |problem: InterfaceProblem| InterfaceError::Inconsistent {
                 file: file.to_owned(),
-                problem: problem.into(),
+                problem,
             }
         };
         let filled = |file, text| Filled::new(file, text, filling).map_err(inconsistent(file));

@@ -13,7 +13,7 @@ use crate::{
         memory, reference as vr,
     },
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         sides::{A, B, is_active, joint_law, joint_memory, set_joint_memory},
         watch::{Watch, finite},
     },
@@ -91,16 +91,11 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
         }
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         Ok(self.look(values, values[vr::TIME]))
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        _: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, _: &InputCourse) -> Outcome {
         if REMEMBERS {
             values[vr::TIME] = step.time_s;
             self.commit(values);

@@ -13,11 +13,11 @@ use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         sides::{A, B, is_active, joint_memory},
         watch::{Watch, finite},
     },
-    refusal::{Active, Reached, Refusal},
+    refusal::{Active, Refusal},
 };
 use faults::{check_held, check_parameters, check_step};
 use way::{Way, lap, loads, state};
@@ -61,7 +61,7 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         W::commit(values);
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         let way = self.way.as_mut().ok_or(Refusal::NotUsable)?;
         let (state, time_s) = (state(values), values[vr::TIME]);
         check_held(&state, way.hold(), time_s)?;
@@ -73,12 +73,7 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         way.internal_steps(interval_s)
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         let way = self.way.as_mut().ok_or(Refusal::NotUsable)?;
         way.advance(&mut self.watch, values, step, inputs)
     }

@@ -44,7 +44,7 @@ pub(crate) trait Model: Send {
 
     /// Whether the states in `values` are such that the simulation can go on, and whether they have reached what the user
     /// should know of.
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal>;
+    fn check_states(&mut self, values: &Values) -> Outcome;
 
     /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
     fn internal_steps(&self, _interval_s: f64) -> Result<NonZeroU32, Refusal> {
@@ -55,12 +55,7 @@ pub(crate) trait Model: Send {
     ///
     /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls, but for what the user was
     /// told already. The inputs in `values` stay those at the step's beginning.
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal>;
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome;
 
     /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
     /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
@@ -92,9 +87,12 @@ pub(crate) trait Model: Send {
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
+/// What a step, or a look at the states, has come to: what there is to tell the user, or why nothing has moved.
+pub(crate) type Outcome = Result<Option<Reached>, Refusal>;
+
 /// One communication step, or one internal step of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CommunicationStep {
+pub(crate) struct Step {
     /// Time at its start, s.
     pub(crate) time_s: f64,
     /// Its length, s.

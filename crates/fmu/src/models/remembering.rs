@@ -9,7 +9,7 @@ use crate::{
     input_course::InputCourse,
     interface::{Values, reference as vr},
     models::{
-        CommunicationStep,
+        Outcome, Step,
         lap::{
             faults::check_held,
             loads::Loads,
@@ -64,9 +64,9 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
         &mut self,
         watch: &mut Watch<D>,
         values: &mut Values,
-        step: CommunicationStep,
+        step: Step,
         inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    ) -> Outcome {
         let loads: Loads<'_, D> = Loads {
             start: loads(values),
             course: inputs,

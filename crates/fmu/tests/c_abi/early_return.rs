@@ -8,6 +8,7 @@ use crate::{
     importer::{Kind, vr},
     intermediate_update::{lap, taking_part},
     raw::Stepped,
+    rows::{number, rows},
 };
 
 #[test]
@@ -62,21 +63,15 @@ fn an_early_return_ends_exactly_where_it_was_asked_for() {
 
 #[test]
 fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
-    for (allowed, at, expected) in [
-        (
-            false,
-            4e-4,
-            "earlyReturnRequested was set by the callback though canReturnEarly was fmi3False",
-        ),
-        (
-            true,
-            2e-3,
-            "earlyReturnTime is 0.002 s, expected a time within the step from 0 s to 0.001 s",
-        ),
-        (true, -1e-3, "earlyReturnTime is -0.001 s"),
-        (true, f64::NAN, "earlyReturnTime is NaN s"),
-        (true, f64::INFINITY, "earlyReturnTime is inf s"),
-    ] {
+    const REFUSED: &str = "
+        false | 4e-4  | earlyReturnRequested was set by the callback though canReturnEarly was fmi3False
+        true  | 2e-3  | earlyReturnTime is 0.002 s, expected a time within the step from 0 s to 0.001 s
+        true  | -1e-3 | earlyReturnTime is -0.001 s
+        true  | NaN   | earlyReturnTime is NaN s
+        true  | inf   | earlyReturnTime is inf s
+    ";
+    for [allowed, at, expected] in rows(REFUSED) {
+        let (allowed, at) = (allowed == "true", number(at));
         let mut instance = lap(&[vr::A_F], allowed);
         instance.on_update(move |i, update| {
             assert_eq!(update.can_return_early, allowed);
@@ -88,17 +83,11 @@ fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
             assert_eq!((stepped.early, stepped.last), (false, 0.0));
             stepped.status
         });
-        assert!(
-            message.starts_with("fmi3DoStep: ") && message.contains(expected),
-            "{message}"
-        );
+        c::tells(&message, "fmi3DoStep: ", expected);
         instance.on_update(|_, _| None);
         assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
-        assert_close(
-            &instance.get(STATES),
-            &EQUATIONS.runge_kutta(START, 2e-4, 5),
-            1e-12,
-        );
+        let expected = EQUATIONS.runge_kutta(START, 2e-4, 5);
+        assert_close(&instance.get(STATES), &expected, 1e-12);
     }
 }
 

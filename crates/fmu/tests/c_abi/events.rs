@@ -10,9 +10,8 @@ use crate::{
 fn handling_events(kind: Kind, changes: &[(&str, f64)]) -> Instance {
     let folder = Folder::with_start(&start_text(kind, 1, changes));
     let request = Request {
-        resources: folder.0.to_str(),
         event_mode: true,
-        ..Request::default()
+        ..Request::of(&folder)
     };
     request.instantiate().unwrap()
 }
@@ -38,10 +37,7 @@ fn parameters_are_tuned_at_events() {
     // checked when they take effect; until then they can be mended
     c::ok(instance.set(&[vr::A_MASS], &[-3.0]));
     let message = instance.refused(Raw::enter_step);
-    assert!(
-        message.starts_with("fmi3EnterStepMode: ") && message.contains("parameter a.m is -3 kg"),
-        "{message}"
-    );
+    c::tells(&message, "fmi3EnterStepMode: ", "parameter a.m is -3 kg");
     c::ok(instance.set(&[vr::A_MASS], &[3.0]));
     c::ok(instance.enter_step());
     c::ok(instance.enter_event());

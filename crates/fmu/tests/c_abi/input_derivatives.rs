@@ -128,10 +128,7 @@ fn a_load_that_would_overflow_is_refused_and_nothing_moves() {
     assert_eq!(instance.step(0.0, 1e4), c::ERROR);
     assert_eq!(instance.get([vr::TIME, vr::A_F, vr::A_Y]), [0.0; 3]);
     let message = instance.message(c::ERROR);
-    assert!(
-        message.contains("input a.F overflows before t = 10000 s"),
-        "{message}"
-    );
+    c::tells(&message, "", "input a.F overflows before t = 10000 s");
     c::ok(instance.set_input_derivatives(&[vr::A_F], &[3], &[0.0]));
     c::ok(instance.step(0.0, 1e-3));
 }

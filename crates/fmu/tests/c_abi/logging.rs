@@ -26,8 +26,7 @@ fn messages_have_name_category_and_status() {
         let request = Request {
             version,
             name: Some("Fuge 50 % – #7"),
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
         let mut instance = request.instantiate().unwrap();
         c::ok(instance.enter_initialization(0.25, None));
@@ -70,25 +69,16 @@ fn percent_signs_are_no_conversions() {
         let folder = Folder::with_start("no start file");
         let request = Request {
             version,
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
-        let message = request.refusal();
-        assert!(
-            message.contains("Prüfung 100% ##1/start.txt, line 1"),
-            "{message}"
-        );
+        request.refuses("Prüfung 100% ##1/start.txt, line 1");
         let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[]));
         let request = Request {
             token: Some("%s%n%1000000d%%"),
             resources: folder.0.to_str(),
             ..request
         };
-        let message = request.refusal();
-        assert!(
-            message.contains(" is \"%s%n%1000000d%%\", but"),
-            "{message}"
-        );
+        request.refuses(" is \"%s%n%1000000d%%\", but");
     }
 }
 
@@ -167,9 +157,8 @@ fn errors_are_told_from_the_start() {
         let silent = |token| Request {
             version,
             token: Some(token),
-            resources: folder.0.to_str(),
             logging: false,
-            ..Request::default()
+            ..Request::of(&folder)
         };
         silent("other").refusal();
         let mut instance = silent(TOKEN).instantiate().unwrap();

@@ -27,10 +27,7 @@ fn parameters_are_checked_when_they_take_effect() {
             c::ok(instance.enter_initialization(0.0, None));
             let message = instance.refused(Raw::exit_initialization);
             let function = format!("{prefix}ExitInitializationMode: ");
-            assert!(
-                message.starts_with(&function) && message.contains(expected),
-                "{message}"
-            );
+            c::tells(&message, &function, expected);
 
             let mut instance = version.stepping(Kind::Lap, 1, &[]);
             let [good] = instance.get([reference]);
@@ -42,10 +39,7 @@ fn parameters_are_checked_when_they_take_effect() {
                 status
             });
             let function = format!("{prefix}DoStep: ");
-            assert!(
-                message.starts_with(&function) && message.contains(expected),
-                "{message}"
-            );
+            c::tells(&message, &function, expected);
             // with the parameter as it was, the simulation goes on as if nothing had been
             c::ok(instance.set(&[reference], &[good]));
             assert_eq!(instance.step_to(1e-3, 1e-3), (c::OK, 2e-3));

@@ -6,7 +6,7 @@ use crate::{
     raw::{
         BOTH, Fmi2, Fmi3, FmiVersion,
         Interface::{self, CoSimulation, ModelExchange},
-        Raw, status_of,
+        Raw, seal, status_of,
     },
 };
 
@@ -249,8 +249,7 @@ fn states_of_another_fmu_are_refused() {
             version,
             interface,
             token: Some("another"),
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
         let expected = format!(
             "the FMU state is that of \"lap with 1 DOF a side for {name} of FMI {}.0, token",
@@ -314,13 +313,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let forge = |position: usize, content: &[u8]| {
         let mut forged = bytes.clone();
         forged[position..position + content.len()].copy_from_slice(content);
-        let end = forged.len() - 8;
-        let hash = forged[..end]
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
-                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-            });
-        forged[end..].copy_from_slice(&hash.to_le_bytes());
+        seal(&mut forged);
         forged
     };
     // mark, layout, length of the token, token, and what makes an FMU; mode, stop time, pace, values, inputs, checksum
@@ -335,51 +328,30 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let loaded = instance.deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()));
     instance.free_state(loaded.unwrap());
     let nan = f64::NAN.to_le_bytes();
-    let course = "its course of the inputs is impossible";
-    let of_another_build = |found: u32| {
-        format!(
-            "it has {found} values, this library remembers {values}: another build of the library wrote it"
-        )
-    };
-    for (position, content, expected) in [
-        (
-            step_size_max,
-            &nan[..],
-            "its value of step_size_max is impossible",
-        ),
-        (
-            inputs - 8,
-            &f64::INFINITY.to_le_bytes(),
-            "of what it remembers beside the variables is impossible",
-        ),
-        (mode, &[9], "its mode is impossible"),
-        (mode, &[7], "its mode is impossible"),
-        (
-            steps_in_a_row,
-            &[u8::MAX],
-            "its communication step is impossible",
-        ),
-        // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
-        (inputs, &[0x00, 0x80], course),
-        (inputs + 2, &[3], course),
-        (inputs + 3 + 8, &1.0_f64.to_le_bytes(), course),
-        (inputs, &[&[0, 0, 1], &nan[..]].concat(), course),
-        // more or fewer numbers than this build remembers
-        (
-            count,
-            &(values + 1).to_le_bytes(),
-            &of_another_build(values + 1),
-        ),
-        (
-            count,
-            &(values - 1).to_le_bytes(),
-            &of_another_build(values - 1),
-        ),
-        (count, &0_u32.to_le_bytes(), &of_another_build(0)),
-        (count, &u32::MAX.to_le_bytes(), &of_another_build(u32::MAX)),
-    ] {
+    let mut refused = |position, content: &[u8], expected: &str| {
         let forged = forge(position, content);
         instance.refuses(|i| status_of(i.deserialize(&forged)), expected);
+    };
+    let value = "its value of step_size_max is impossible";
+    refused(step_size_max, &nan, value);
+    let beside = "of what it remembers beside the variables is impossible";
+    refused(inputs - 8, &f64::INFINITY.to_le_bytes(), beside);
+    refused(mode, &[9], "its mode is impossible");
+    refused(mode, &[7], "its mode is impossible");
+    let step = "its communication step is impossible";
+    refused(steps_in_a_row, &[u8::MAX], step);
+    // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
+    let course = "its course of the inputs is impossible";
+    refused(inputs, &[0x00, 0x80], course);
+    refused(inputs + 2, &[3], course);
+    refused(inputs + 3 + 8, &1.0_f64.to_le_bytes(), course);
+    refused(inputs, &[&[0, 0, 1], &nan[..]].concat(), course);
+    // more or fewer numbers than this build remembers
+    for found in [values + 1, values - 1, 0, u32::MAX] {
+        let expected = format!(
+            "it has {found} values, this library remembers {values}: another build of the library wrote it"
+        );
+        refused(count, &found.to_le_bytes(), &expected);
     }
 }
 

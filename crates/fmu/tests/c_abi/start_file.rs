@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::{
+    c,
     importer::{Folder, Kind, Request, start_text, vr},
     raw::BOTH,
     rows::rows,
@@ -17,8 +18,7 @@ fn refusal(folder: &Folder) -> String {
     let [fmi2, fmi3] = BOTH.map(|version| {
         let request = Request {
             version,
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(folder)
         };
         let message = request.refusal();
         let (_, reason) = message.split_once(": ").unwrap();
@@ -38,10 +38,7 @@ fn refusal_of_start(start: &str) -> String {
 #[test]
 fn carriage_returns_are_accepted() {
     let folder = Folder::with_start(&lap().replace('\n', "\r\n"));
-    let request = Request {
-        resources: folder.0.to_str(),
-        ..Request::default()
-    };
+    let request = Request::of(&folder);
     assert_eq!(request.instantiate().unwrap().get([vr::A_MASS]), [2.0]);
 }
 
@@ -83,10 +80,7 @@ fn start_files_with_a_fault_are_refused_by_line() {
         let [start, from, to] = [&lap(), from, to].map(|text| text.replace("\\n", "\n"));
         assert!(start.contains(&from), "{from} in {start}");
         let message = refusal_of_start(&start.replacen(&from, &to, 1));
-        assert!(
-            message.contains(&format!("line {line}: {expected}")),
-            "{message}"
-        );
+        c::tells(&message, "", &format!("line {line}: {expected}"));
     }
     let message = refusal_of_start("");
     assert!(message.contains("line 1: found \"\""), "{message}");
@@ -95,14 +89,16 @@ fn start_files_with_a_fault_are_refused_by_line() {
 #[test]
 fn rotational_parameters_belong_to_two_degrees_of_freedom_only() {
     let message = refusal_of_start(&lap().replace("dofs 2", "dofs 1"));
-    assert!(
-        message.contains("line 6: \"joint.k_ytheta\" is not a parameter"),
-        "{message}"
+    c::tells(
+        &message,
+        "",
+        "line 6: \"joint.k_ytheta\" is not a parameter",
     );
     let message = refusal_of_start(&start_text(Kind::Lap, 1, &[]).replace("dofs 1", "dofs 2"));
-    assert!(
-        message.contains("the file ends without parameter joint.k_ytheta"),
-        "{message}"
+    c::tells(
+        &message,
+        "",
+        "the file ends without parameter joint.k_ytheta",
     );
     let message = refusal_of_start(&lap().replace("model lap", "model element"));
     assert!(message.contains("\"a.m\" is not a parameter"), "{message}");

@@ -192,8 +192,7 @@ fn one_start_file_serves_both() {
     let stiffness = BOTH.map(|version| {
         let request = Request {
             version,
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
         let mut instance = request.instantiate().unwrap();
         instance.go_to(State::Step);

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     models::{
-        CommunicationStep,
+        Step,
         sides::{A, B, name, unit},
     },
     refusal::Refusal,
@@ -59,12 +59,7 @@ pub(in crate::models) fn check_step<const D: usize>(
 impl<const D: usize> Prepared<D> {
     /// Goes through a failed step again, one Runge–Kutta step at a time, to say what failed first, and when.
     #[cold]
-    pub(super) fn explain(
-        &self,
-        start: &LapState<D>,
-        loads: &Loads<'_, D>,
-        step: CommunicationStep,
-    ) -> Refusal {
+    pub(super) fn explain(&self, start: &LapState<D>, loads: &Loads<'_, D>, step: Step) -> Refusal {
         let count = self
             .internal_steps(step.interval_s)
             .map_or(1, NonZeroU32::get);

@@ -12,7 +12,7 @@ use crate::{
     input_course::InputCourse,
     interface::Values,
     models::{
-        CommunicationStep,
+        Outcome, Step,
         watch::{Watch, finite},
     },
     refusal::{Reached, Refusal},
@@ -100,9 +100,9 @@ impl<const D: usize> Way<D> for Prepared<D> {
         &mut self,
         watch: &mut Watch<D>,
         values: &mut Values,
-        step: CommunicationStep,
+        step: Step,
         inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    ) -> Outcome {
         let start = state::<D>(values);
         let loads = Loads {
             start: loads(values),
@@ -145,7 +145,7 @@ impl<const D: usize> Prepared<D> {
         &mut self,
         start: &LapState<D>,
         loads: &LapLoads<D>,
-        step: CommunicationStep,
+        step: Step,
     ) -> Result<LapState<D>, Refusal> {
         let length_s = step.interval_s;
         let interval = match &mut self.interval {
@@ -244,7 +244,7 @@ impl<const D: usize> Prepared<D> {
         &self,
         start: &LapState<D>,
         loads: &Loads<'_, D>,
-        step: CommunicationStep,
+        step: Step,
     ) -> Result<LapState<D>, Refusal> {
         let count = self.internal_steps(step.interval_s)?.get();
         let length_s = step.interval_s / f64::from(count);

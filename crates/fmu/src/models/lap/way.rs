@@ -8,7 +8,7 @@ use crate::{
     input_course::InputCourse,
     interface::Values,
     models::{
-        CommunicationStep,
+        Outcome, Step,
         sides::{A, B, joint_law},
         watch::Watch,
     },
@@ -34,9 +34,9 @@ pub(in crate::models) trait Way<const D: usize>: Sized + Send {
         &mut self,
         watch: &mut Watch<D>,
         values: &mut Values,
-        step: CommunicationStep,
+        step: Step,
         inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal>;
+    ) -> Outcome;
 
     fn advance_steadily(&self, _values: &mut Values, _interval_s: f64) -> bool {
         false

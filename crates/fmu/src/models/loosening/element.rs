@@ -12,7 +12,7 @@ use crate::{
         reference as vr,
     },
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         element::{differentiate, rates, relative, set_outputs},
         watch::{Watch, finite},
     },
@@ -68,16 +68,11 @@ impl<const D: usize> Model for LooseningElement<D> {
         }
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         Ok(self.look(values, values[vr::TIME]))
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         if !inputs.is_held() {
             let end_n_m = inputs.value(vr::PRELOAD, values[vr::PRELOAD], step.interval_s);
             check_preload(&self.table, end_n_m, Some(step.time_s + step.interval_s))?;

@@ -23,7 +23,7 @@ use crate::{
         reference as vr,
     },
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         lap::{
             differentiate,
             faults::{check_held, check_parameters, check_step},
@@ -101,7 +101,7 @@ impl<const D: usize> LooseningLap<D> {
     fn steps(
         &self,
         start: &CountedState<D>,
-        step: CommunicationStep,
+        step: Step,
         mut hold: [f64; D],
         conditions_at: &dyn Fn(f64) -> Result<LapConditions<D>, Refusal>,
         is_held: bool,
@@ -210,7 +210,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         }
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         let (state, lap) = (state(values), self.lap(values));
         let hold = finite(lap.escape_amplitude());
         check_held(&state, &hold, values[vr::TIME])?;
@@ -222,12 +222,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         count(interval_s, step_size_max_s)
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         let preload_n_m = values[vr::PRELOAD];
         let latest = match self.latest {
             Some(latest) if latest.preload_n_m.to_bits() == preload_n_m.to_bits() => latest,

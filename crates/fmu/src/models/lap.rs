@@ -79,8 +79,10 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
     }
 
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
-        let way = self.way.as_ref();
-        way.is_some_and(|way| way.advance_steadily(values, interval_s))
+        match &self.way {
+            Some(way) => way.advance_steadily(values, interval_s),
+            None => false,
+        }
     }
 
     fn reset(&mut self) {

@@ -124,11 +124,13 @@ impl<const D: usize> Way<D> for Prepared<D> {
         Ok(reached)
     }
 
+    #[inline(always)]
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
         if D > 1 && self.takes_single_steps(interval_s) {
             return take_single_step(self, values, interval_s);
         }
-        match self.steady_end(&state(values), &loads(values), interval_s) {
+        let (start, loads) = (state(values), loads(values));
+        match self.steady_end(&start, &loads, interval_s) {
             Some(end) if self.holds_quietly(&end) => {
                 set_state(values, &end);
                 true

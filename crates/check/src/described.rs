@@ -99,20 +99,13 @@ impl Described {
 
 /// The variables of FMI 3.0: one element each, of the name of its type.
 fn variables_of_fmi3(root: Node<'_, '_>) -> Result<Vec<DescribedVariable>, String> {
-    let types = child(root, "TypeDefinitions");
     elements(child(root, "ModelVariables"))
-        .map(|element| {
-            let declared = attribute(element, "declaredType").and_then(|name| {
-                elements(types).find(|found| attribute(*found, "name").as_deref() == Some(&name))
-            });
-            described(element, element, declared)
-        })
+        .map(|element| described(element, element, type_of(element, root)))
         .collect()
 }
 
 /// The variables of FMI 2.0: `<ScalarVariable>` with an element of the name of its type.
 fn variables_of_fmi2(root: Node<'_, '_>) -> Result<Vec<DescribedVariable>, String> {
-    let types = child(root, "TypeDefinitions");
     elements(child(root, "ModelVariables"))
         .map(|scalar| {
             let real = child(scalar, "Real").ok_or_else(|| {
@@ -121,15 +114,19 @@ fn variables_of_fmi2(root: Node<'_, '_>) -> Result<Vec<DescribedVariable>, Strin
                     attribute(scalar, "name").unwrap_or_default()
                 )
             })?;
-            let declared = attribute(real, "declaredType")
-                .and_then(|name| {
-                    elements(types)
-                        .find(|found| attribute(*found, "name").as_deref() == Some(&name))
-                })
-                .and_then(|simple| child(simple, "Real"));
+            let declared = type_of(real, root).and_then(|simple| child(simple, "Real"));
             described(scalar, real, declared)
         })
         .collect()
+}
+
+/// The definition of the type that an element names.
+fn type_of<'a, 'input>(
+    element: Node<'a, 'input>,
+    root: Node<'a, 'input>,
+) -> Option<Node<'a, 'input>> {
+    let name = element.attribute("declaredType")?;
+    elements(child(root, "TypeDefinitions")).find(|found| found.attribute("name") == Some(name))
 }
 
 /// `general` has name and causality, `typed` what is a number; `declared` fills the gaps.

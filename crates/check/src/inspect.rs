@@ -109,20 +109,15 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
         facts = found;
         findings.extend(wrong);
     }
+    let seen = described.as_ref();
     Ok(Inspection {
-        version: described
-            .as_ref()
-            .map_or(FmiVersion::Three, |described| described.version),
+        version: seen.map_or(FmiVersion::Three, |described| described.version),
         interface: start.interface,
-        model_name: described
-            .as_ref()
-            .map_or_else(String::new, |described| described.model_name.clone()),
+        model_name: seen.map_or_else(String::new, |described| described.model_name.clone()),
         platforms,
         passivity,
         step_size_max_s,
-        suggested_step_s: described
-            .as_ref()
-            .and_then(|described| described.step_size_s),
+        suggested_step_s: seen.and_then(|described| described.step_size_s),
         parts: facts,
         findings,
         joint,

@@ -86,10 +86,8 @@ impl Description {
         value_of: impl Fn(&str) -> Option<f64>,
     ) -> Result<Vec<(String, f64)>, ExportError> {
         let mut parameters = Vec::new();
-        for variable in &mut self.tree.model_variables.variables {
-            if let Variable::Float64(float64) = variable
-                && float64.causality == Some(Causality::Parameter)
-            {
+        for float64 in floats_mut(&mut self.tree) {
+            if float64.causality == Some(Causality::Parameter) {
                 let value = value_of(&float64.name).ok_or_else(|| ExportError::NoValue {
                     variable: float64.name.clone(),
                 })?;
@@ -102,10 +100,8 @@ impl Description {
 
     /// Gives the preload of a joint over the preload its start value and, where its table ends, its range; N·m.
     pub(super) fn set_preload(&mut self, nominal_n_m: f64, range_n_m: Option<[f64; 2]>) {
-        for variable in &mut self.tree.model_variables.variables {
-            if let Variable::Float64(float64) = variable
-                && is_preload(float64, &self.expanded)
-            {
+        for float64 in floats_mut(&mut self.tree) {
+            if is_preload(float64, &self.expanded) {
                 float64.start = Some(AttrList(vec![nominal_n_m]));
                 if let Some([first, last]) = range_n_m {
                     (float64.min, float64.max) = (Some(first), Some(last));
@@ -154,6 +150,23 @@ pub(super) fn generation_tool() -> String {
     format!("bolted-joint {}", bolted_joint_files::VERSION)
 }
 
+/// The variables.
+pub(super) fn floats(tree: &Fmi3ModelDescription) -> impl Iterator<Item = &FmiFloat64> {
+    let variables = tree.model_variables.variables.iter();
+    variables.filter_map(|variable| match variable {
+        Variable::Float64(float64) => Some(float64),
+        _ => None,
+    })
+}
+
+fn floats_mut(tree: &mut Fmi3ModelDescription) -> impl Iterator<Item = &mut FmiFloat64> {
+    let variables = tree.model_variables.variables.iter_mut();
+    variables.filter_map(|variable| match variable {
+        Variable::Float64(float64) => Some(float64),
+        _ => None,
+    })
+}
+
 /// Takes out every variable whose name is told to go, and every mention of one.
 fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) {
     let mut dropped = Vec::new();
@@ -169,12 +182,8 @@ fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) 
     });
     // what was the derivative of a state that went is no derivative any more
     let mut no_derivatives = Vec::new();
-    for variable in &mut tree.model_variables.variables {
-        if let Variable::Float64(float64) = variable
-            && float64
-                .derivative
-                .is_some_and(|state| dropped.contains(&state))
-        {
+    for float64 in floats_mut(tree) {
+        if (float64.derivative).is_some_and(|state| dropped.contains(&state)) {
             float64.derivative = None;
             no_derivatives.push(float64.value_reference);
         }
@@ -206,16 +215,9 @@ fn drop_variables(tree: &mut Fmi3ModelDescription, goes: impl Fn(&str) -> bool) 
 
 /// What is linear in a known with a factor that only parameters change is no longer so where the preload changes that factor.
 fn make_factors_change(tree: &mut Fmi3ModelDescription, expanded: &Expanded) {
-    let inputs: Vec<u32> = tree
-        .model_variables
-        .variables
-        .iter()
-        .filter_map(|variable| match variable {
-            Variable::Float64(float64) => {
-                is_preload(float64, expanded).then_some(float64.value_reference)
-            }
-            _ => None,
-        })
+    let inputs: Vec<u32> = floats(tree)
+        .filter(|float64| is_preload(float64, expanded))
+        .map(|float64| float64.value_reference)
         .collect();
     for unknown in &mut tree.model_structure.unknowns {
         let unknown = inner(unknown);
@@ -249,14 +251,8 @@ fn inner(unknown: &mut VariableDependency) -> &mut Fmi3Unknown {
 
 /// Takes out the types that no variable is declared with, then the units that no type has.
 fn drop_unused_types(tree: &mut Fmi3ModelDescription) {
-    let used: Vec<&str> = tree
-        .model_variables
-        .variables
-        .iter()
-        .filter_map(|variable| match variable {
-            Variable::Float64(float64) => float64.declared_type.as_deref(),
-            _ => None,
-        })
+    let used: Vec<String> = floats(tree)
+        .filter_map(|float64| float64.declared_type.clone())
         .collect();
     let mut units = Vec::new();
     if let Some(types) = &mut tree.type_definitions {
@@ -264,7 +260,7 @@ fn drop_unused_types(tree: &mut Fmi3ModelDescription) {
             .type_definitions
             .retain(|definition| match definition {
                 TypeDefinition::Float64(float64) => {
-                    let stays = used.contains(&float64.name.as_str());
+                    let stays = used.contains(&float64.name);
                     if stays {
                         units.extend(float64.unit.clone());
                     }
@@ -279,18 +275,7 @@ fn drop_unused_types(tree: &mut Fmi3ModelDescription) {
 }
 
 /// Attributes whose value is one floating-point number.
-const NUMBERS: [&str; 10] = [
-    "start",
-    "min",
-    "max",
-    "nominal",
-    "factor",
-    "offset",
-    "startTime",
-    "stopTime",
-    "tolerance",
-    "stepSize",
-];
+const NUMBERS: &str = "start min max nominal factor offset startTime stopTime tolerance stepSize";
 
 /// One element on each line, indented by its depth, under the XML declaration.
 ///
@@ -321,7 +306,8 @@ fn push_tag(text: &mut String, tag: &str) {
     {
         text.push_str(name);
         text.push_str("=\"");
-        let is_number = NUMBERS.contains(&name.rsplit(' ').next().unwrap_or(name));
+        let attribute = name.rsplit(' ').next().unwrap_or(name);
+        let is_number = NUMBERS.split(' ').any(|number| number == attribute);
         match value.parse() {
             Ok(parsed) if is_number => text.push_str(&xml::number(parsed)),
             _ => text.push_str(value),
@@ -394,19 +380,10 @@ mod tests {
                 .unwrap()
                 .text()
                 .unwrap();
-            for word in [
-                "theta", "omega", ".M\"", ".J\"", "rad", "Rotation", "Moment",
-            ] {
+            for word in "theta omega .M\" .J\" rad Rotation Moment".split(' ') {
                 assert!(!text.contains(word), "{interface}: {word}");
             }
-            for word in [
-                "joint.k_yy",
-                "joint.c_yy",
-                "joint.k3_y",
-                "a.y",
-                "b.v",
-                "N/m3",
-            ] {
+            for word in "joint.k_yy joint.c_yy joint.k3_y a.y b.v N/m3".split(' ') {
                 assert!(text.contains(word), "{interface}: {word}");
             }
         }

@@ -5,10 +5,11 @@
 
 use fmi_schema::fmi3::{
     Causality, DependenciesKind, Float64Type, Fmi3CoSimulation, Fmi3ModelDescription,
-    Fmi3ModelExchange, Fmi3Unit, Fmi3Unknown, FmiFloat64, TypeDefinition, Variable,
+    Fmi3ModelExchange, Fmi3Unit, Fmi3Unknown, FmiFloat64, TypeDefinition,
 };
 
 use super::FmiVersion;
+use super::description::floats;
 use super::xml::{Attributes, Document};
 
 /// The text of `modelDescription.xml`.
@@ -67,27 +68,35 @@ pub(super) fn model_description(tree: &Fmi3ModelDescription) -> String {
     document.finish()
 }
 
+/// Adds the capabilities that are the last ones of either interface type.
+macro_rules! with_common {
+    ($attributes:expr, $declared:expr) => {
+        $attributes
+            .maybe(
+                "canBeInstantiatedOnlyOncePerProcess",
+                $declared.can_be_instantiated_only_once_per_process,
+            )
+            .with("canNotUseMemoryManagementFunctions", true)
+            .maybe("canGetAndSetFMUstate", $declared.can_get_and_set_fmu_state)
+            .maybe("canSerializeFMUstate", $declared.can_serialize_fmu_state)
+            .maybe(
+                "providesDirectionalDerivative",
+                $declared.provides_directional_derivatives,
+            )
+    };
+}
+
 fn model_exchange(declared: &Fmi3ModelExchange) -> Attributes {
     let needs_completed_step = declared.needs_completed_integrator_step == Some(true);
-    Attributes::new()
+    let own = Attributes::new()
         .with("modelIdentifier", &declared.model_identifier)
         .maybe("needsExecutionTool", declared.needs_execution_tool)
-        .with("completedIntegratorStepNotNeeded", !needs_completed_step)
-        .maybe(
-            "canBeInstantiatedOnlyOncePerProcess",
-            declared.can_be_instantiated_only_once_per_process,
-        )
-        .with("canNotUseMemoryManagementFunctions", true)
-        .maybe("canGetAndSetFMUstate", declared.can_get_and_set_fmu_state)
-        .maybe("canSerializeFMUstate", declared.can_serialize_fmu_state)
-        .maybe(
-            "providesDirectionalDerivative",
-            declared.provides_directional_derivatives,
-        )
+        .with("completedIntegratorStepNotNeeded", !needs_completed_step);
+    with_common!(own, declared)
 }
 
 fn co_simulation(declared: &Fmi3CoSimulation) -> Attributes {
-    Attributes::new()
+    let own = Attributes::new()
         .with("modelIdentifier", &declared.model_identifier)
         .maybe("needsExecutionTool", declared.needs_execution_tool)
         .maybe(
@@ -103,18 +112,8 @@ fn co_simulation(declared: &Fmi3CoSimulation) -> Attributes {
             "maxOutputDerivativeOrder",
             declared.max_output_derivative_order,
         )
-        .with("canRunAsynchronuously", false)
-        .maybe(
-            "canBeInstantiatedOnlyOncePerProcess",
-            declared.can_be_instantiated_only_once_per_process,
-        )
-        .with("canNotUseMemoryManagementFunctions", true)
-        .maybe("canGetAndSetFMUstate", declared.can_get_and_set_fmu_state)
-        .maybe("canSerializeFMUstate", declared.can_serialize_fmu_state)
-        .maybe(
-            "providesDirectionalDerivative",
-            declared.provides_directional_derivatives,
-        )
+        .with("canRunAsynchronuously", false);
+    with_common!(own, declared)
 }
 
 fn units(document: &mut Document, tree: &Fmi3ModelDescription) {
@@ -204,15 +203,7 @@ struct Variables<'a>(Vec<&'a FmiFloat64>);
 
 impl<'a> Variables<'a> {
     fn of(tree: &'a Fmi3ModelDescription) -> Self {
-        let declared = tree.model_variables.variables.iter();
-        Self(
-            declared
-                .filter_map(|variable| match variable {
-                    Variable::Float64(float64) => Some(float64),
-                    _ => None,
-                })
-                .collect(),
-        )
+        Self(floats(tree).collect())
     }
 
     fn index(&self, reference: u32) -> Option<usize> {

@@ -168,36 +168,19 @@ impl Logger {
         }
     }
 
-    /// Reports an error of `function`, unless errors were switched off.
-    pub(crate) fn error(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.is_on(Category::Error.bit()) {
-            self.send(Status::Error, Category::Error, function, reason);
+    /// Reports what `function` did, or why it did it with a warning or not at all, if messages of this status are on;
+    /// returns the status.
+    pub(crate) fn tell(&self, status: Status, function: &str, text: &dyn fmt::Display) -> Status {
+        let (category, bit) = match status {
+            Status::Ok => (Category::Events, Category::Events.bit()),
+            Status::Warning => (Category::Warning, Category::Warning.bit()),
+            Status::Discard => (Category::Error, DISCARDS),
+            Status::Error => (Category::Error, Category::Error.bit()),
+        };
+        if self.enabled & bit != 0 {
+            self.send(status, category, function, text);
         }
-    }
-
-    /// Reports why `function` asks for a shorter step, if errors were switched on.
-    pub(crate) fn discard(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.is_on(DISCARDS) {
-            self.send(Status::Discard, Category::Error, function, reason);
-        }
-    }
-
-    /// Reports a warning of `function`, if warnings are on.
-    pub(crate) fn warning(&self, function: &str, reason: &dyn fmt::Display) {
-        if self.is_on(Category::Warning.bit()) {
-            self.send(Status::Warning, Category::Warning, function, reason);
-        }
-    }
-
-    /// Reports what `function` did, if events are on.
-    pub(crate) fn event(&self, function: &str, event: &dyn fmt::Display) {
-        if self.is_on(Category::Events.bit()) {
-            self.send(Status::Ok, Category::Events, function, event);
-        }
-    }
-
-    const fn is_on(&self, bit: u8) -> bool {
-        self.enabled & bit != 0
+        status
     }
 
     fn send(&self, status: Status, category: Category, function: &str, text: &dyn fmt::Display) {

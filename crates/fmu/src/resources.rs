@@ -240,19 +240,14 @@ mod tests {
             let expected = "C:/Users/Müller";
             assert!(standard == expected || lenient == expected, "{location}");
         }
-        assert_eq!(
-            standard("file://server/share/a%20b", true).as_deref(),
-            Some("//server/share/a b")
-        );
-        assert_eq!(
-            standard("C:\\Users\\a", true).as_deref(),
-            Some("C:\\Users\\a")
-        );
-        // elsewhere a colon is a character like any other
-        assert_eq!(
-            standard("file:///C:/resources", false).as_deref(),
-            Some("/C:/resources")
-        );
+        for (location, windows, expected) in [
+            ("file://server/share/a%20b", true, "//server/share/a b"),
+            ("C:\\Users\\a", true, "C:\\Users\\a"),
+            // elsewhere a colon is a character like any other
+            ("file:///C:/resources", false, "/C:/resources"),
+        ] {
+            assert_eq!(standard(location, windows).as_deref(), Some(expected));
+        }
     }
 
     #[test]

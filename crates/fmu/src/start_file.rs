@@ -149,15 +149,12 @@ impl StartFile {
             && !table.covers(values[reference::PRELOAD])
         {
             let [first_n_m, last_n_m] = table.range_n_m();
-            return Err(StartFileError {
-                path: path.to_owned(),
-                line: last + 1,
-                fault: Fault::Preload {
-                    found_n_m: values[reference::PRELOAD],
-                    first_n_m,
-                    last_n_m,
-                },
-            });
+            let fault = Fault::Preload {
+                found_n_m: values[reference::PRELOAD],
+                first_n_m,
+                last_n_m,
+            };
+            return Err(refuse(path, last + 1, fault));
         }
         Ok(Self {
             variables,
@@ -184,25 +181,22 @@ impl Header<'_> {
     ) -> Result<T, StartFileError> {
         self.line += 1;
         let found = self.lines.next().unwrap_or("");
-        found
-            .strip_prefix(prefix)
-            .and_then(read)
-            .ok_or_else(|| StartFileError {
-                path: self.path.to_owned(),
-                line: self.line,
-                fault: Fault::Unexpected {
-                    found: shortened(found),
-                    expected,
-                },
-            })
+        let value = found.strip_prefix(prefix).and_then(read);
+        value.ok_or_else(|| {
+            let found = shortened(found);
+            self.refuse(self.line, Fault::Unexpected { found, expected })
+        })
     }
-}
 
-impl Header<'_> {
+    /// Whether the line that comes next begins like this.
+    fn goes_on_with(&self, prefix: &str) -> bool {
+        let next = self.lines.clone().next();
+        next.is_some_and(|line| line.starts_with(prefix))
+    }
+
     /// The line with the joint's laws that remember the motion, if there is one.
     fn laws(&mut self) -> Result<Option<Dependence>, StartFileError> {
-        let is_there = self.lines.clone().next();
-        if !is_there.is_some_and(|line| line.starts_with("laws ")) {
+        if !self.goes_on_with("laws ") {
             return Ok(None);
         }
         let expected = "\"laws\" and names of laws with memory that this library has";
@@ -213,8 +207,7 @@ impl Header<'_> {
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, and the lines.
     fn table(&mut self, dofs: Dofs) -> Result<Option<PreloadTable>, StartFileError> {
         const EXPECTED: &str = "\"table\", the number of its lines, and \"refused\" or \"held\"";
-        let is_there = self.lines.clone().next();
-        if !is_there.is_some_and(|line| line.starts_with("table ")) {
+        if !self.goes_on_with("table ") {
             return Ok(None);
         }
         let (count, beyond) = self.next("table ", EXPECTED, |found| {
@@ -251,11 +244,15 @@ impl Header<'_> {
     }
 
     fn refuse(&self, line: usize, fault: Fault) -> StartFileError {
-        StartFileError {
-            path: self.path.to_owned(),
-            line,
-            fault,
-        }
+        refuse(self.path, line, fault)
+    }
+}
+
+fn refuse(path: &str, line: usize, fault: Fault) -> StartFileError {
+    StartFileError {
+        path: path.to_owned(),
+        line,
+        fault,
     }
 }
 
@@ -265,11 +262,7 @@ fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, 
         lines,
         mut line,
     } = header;
-    let refuse = |line: usize, fault: Fault| StartFileError {
-        path: path.to_owned(),
-        line,
-        fault,
-    };
+    let refuse = |line: usize, fault: Fault| refuse(path, line, fault);
     let parameters: Vec<(usize, &'static str)> = variables
         .iter()
         .filter(|(index, variable)| {
@@ -282,33 +275,20 @@ fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, 
     for text in lines {
         line += 1;
         let Some((found, number)) = text.split_once(' ') else {
-            return Err(refuse(
-                line,
-                Fault::NotAPair {
-                    found: shortened(text),
-                },
-            ));
+            let found = shortened(text);
+            return Err(refuse(line, Fault::NotAPair { found }));
         };
         let Some(&(reference, name)) = parameters.iter().find(|(_, name)| *name == found) else {
-            return Err(refuse(
-                line,
-                Fault::UnknownName {
-                    found: shortened(found),
-                },
-            ));
+            let found = shortened(found);
+            return Err(refuse(line, Fault::UnknownName { found }));
         };
         if given.contains(&reference) {
             return Err(refuse(line, Fault::Duplicate { name }));
         }
         let value = number.parse().ok().filter(|value: &f64| value.is_finite());
         let Some((slot, value)) = values.get_mut(reference).zip(value) else {
-            return Err(refuse(
-                line,
-                Fault::NotFinite {
-                    name,
-                    found: shortened(number),
-                },
-            ));
+            let found = shortened(number);
+            return Err(refuse(line, Fault::NotFinite { name, found }));
         };
         *slot = value;
         given.push(reference);

@@ -20,7 +20,7 @@ extern crate bolted_joint as _;
 
 mod raw;
 
-use raw::request::Request;
+use raw::{request::Request, start_text};
 
 /// Counts the bytes that are allocated at present. The library is linked into this program and allocates here too.
 struct Counting;
@@ -50,10 +50,6 @@ unsafe extern "C" fn count(environment: *mut c_void, _: c_int, _: *const c_char,
     // SAFETY: the environment is a number that outlives the instance
     unsafe { *environment.cast::<u64>() += 1 };
 }
-
-const START: &str = "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken {endurance}\njoint.k_yy 4e6\njoint.c_yy 8\n\
-                     joint.k3_y 1e11\njoint.k5_y 0\njoint.k7_y 0\njoint.c2_y 0\njoint.c4_y 0\n\
-                     a.m 2\na.k_y 8e5\na.c_y 1\nb.m 2\nb.k_y 8e5\nb.c_y 1\nstep_size_max 2e-5\n";
 
 /// An instance from its beginning to its end, with a step, a saved state, and a refused step.
 fn live(resources: &CString) {
@@ -98,7 +94,8 @@ fn a_hundred_thousand_instances_leave_nothing_behind() {
     let cycles: u32 = env::var("BOLTED_JOINT_CYCLES").map_or(100_000, |text| text.parse().unwrap());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("endurance");
     fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("start.txt"), START).unwrap();
+    let start = start_text(true, 1, "{endurance}", &[("joint.k3_y", 1e11)]);
+    fs::write(folder.join("start.txt"), start).unwrap();
     let resources = CString::new(folder.to_str().unwrap()).unwrap();
     // what is made once in a process is made now
     for _ in 0..100 {

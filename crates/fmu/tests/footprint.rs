@@ -18,7 +18,7 @@ extern crate bolted_joint as _;
 
 mod raw;
 
-use raw::request::Request;
+use raw::{request::Request, start_text};
 
 /// Bytes that an instance of any FMU may hold.
 const LIMIT: isize = 4096;
@@ -51,27 +51,6 @@ unsafe impl GlobalAlloc for Counting {
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-fn start_text(model: &str, dofs: u8, k3: f64) -> String {
-    let mut text = format!(
-        "bolted-joint-start/1\nmodel {model}\ndofs {dofs}\ntoken {{footprint}}\njoint.k_yy 4e6\njoint.c_yy 8\n\
-         joint.k3_y {k3:e}\njoint.k5_y 0\njoint.k7_y 0\njoint.c2_y 0\njoint.c4_y 0\n"
-    );
-    if dofs == 2 {
-        text += "joint.k_ytheta 1e4\njoint.k_thetatheta 2e3\njoint.c_ytheta 0.5\njoint.c_thetatheta 0.25\n\
-                 joint.k3_theta 0\njoint.k5_theta 0\njoint.k7_theta 0\njoint.c2_theta 0\njoint.c4_theta 0\n";
-    }
-    if model == "lap" {
-        for side in ["a", "b"] {
-            text += &format!("{side}.m 2\n{side}.k_y 8e5\n{side}.c_y 1\n");
-            if dofs == 2 {
-                text += &format!("{side}.J 1e-3\n{side}.k_theta 1e3\n{side}.c_theta 1e-3\n");
-            }
-        }
-        text += "step_size_max 2e-5\n";
-    }
-    text
-}
 
 /// Bytes held by an instance with these resources after instantiation, and after steps and a look at an output.
 fn held(resources: &CString) -> [isize; 2] {
@@ -112,7 +91,8 @@ fn an_instance_takes_four_kibibytes_at_most() {
         ("lap", 2, 0.0),
         ("lap", 2, 1e11),
     ] {
-        fs::write(folder.join("start.txt"), start_text(model, dofs, k3)).unwrap();
+        let start = start_text(model == "lap", dofs, "{footprint}", &[("joint.k3_y", k3)]);
+        fs::write(folder.join("start.txt"), start).unwrap();
         // what the first one allocates for good is no part of an instance
         held(&resources);
         let [made, used] = held(&resources);

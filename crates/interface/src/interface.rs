@@ -238,20 +238,10 @@ pub(crate) fn float64_types(description: &Fmi3ModelDescription) -> Vec<&Float64T
 }
 
 fn log_categories(description: &Fmi3ModelDescription) -> Result<Vec<String>, InterfaceProblem> {
-    let mut names: Vec<String> = Vec::new();
-    for category in description
-        .log_categories
-        .iter()
-        .flat_map(|list| &list.categories)
-    {
-        if names.contains(&category.name) {
-            return Err(InterfaceProblem::DuplicateDefinition {
-                list: "<LogCategories>",
-                name: category.name.clone(),
-            });
-        }
-        names.push(category.name.clone());
-    }
+    let lists = description.log_categories.iter();
+    let categories = lists.flat_map(|list| &list.categories);
+    let names: Vec<String> = categories.map(|category| category.name.clone()).collect();
+    units::check_names("<LogCategories>", names.iter())?;
     Ok(names)
 }
 
@@ -276,31 +266,26 @@ fn name_of(declared: &Declared) -> String {
     .to_owned()
 }
 
-fn check_uniqueness(variables: &[Variable]) -> Result<(), InterfaceProblem> {
+fn check_uniqueness(variables: &[Variable]) -> Result<(), DefinitionProblem> {
     for (index, second) in variables.iter().enumerate() {
         for first in &variables[..index] {
             if first.name == second.name {
-                return Err(InterfaceProblem::Definition(
-                    DefinitionProblem::DuplicateName {
-                        variable: second.name.clone(),
-                    },
-                ));
+                let variable = second.name.clone();
+                return Err(DefinitionProblem::DuplicateName { variable });
             }
             if first.reference == second.reference {
-                return Err(InterfaceProblem::Definition(
-                    DefinitionProblem::DuplicateReference {
-                        reference: second.reference,
-                        first: first.name.clone(),
-                        second: second.name.clone(),
-                    },
-                ));
+                return Err(DefinitionProblem::DuplicateReference {
+                    reference: second.reference,
+                    first: first.name.clone(),
+                    second: second.name.clone(),
+                });
             }
         }
     }
     Ok(())
 }
 
-fn check_independent(variables: &[Variable]) -> Result<(), InterfaceProblem> {
+fn check_independent(variables: &[Variable]) -> Result<(), DefinitionProblem> {
     let found: Vec<(String, u32)> = variables
         .iter()
         .filter(|variable| variable.role == Role::Independent)
@@ -308,8 +293,6 @@ fn check_independent(variables: &[Variable]) -> Result<(), InterfaceProblem> {
         .collect();
     match found.as_slice() {
         [(name, 0)] if name == "time" => Ok(()),
-        _ => Err(InterfaceProblem::Definition(
-            DefinitionProblem::Independent { found },
-        )),
+        _ => Err(DefinitionProblem::Independent { found }),
     }
 }

@@ -13,36 +13,30 @@ pub(crate) fn check(
     structure: &ModelStructure,
     variables: &[Variable],
 ) -> Result<(), InterfaceProblem> {
+    let list = |element, entries| List {
+        element,
+        entries,
+        variables,
+    };
     // Outputs: every output, each once
-    let outputs = List {
-        element: "Output",
-        entries: structure.outputs().collect(),
-        variables,
-    };
+    let outputs = list("Output", structure.outputs().collect());
     outputs.check_entries(|variable| matches!(variable.role, Role::Output | Role::State))?;
-    outputs.check_dependencies(is_known)?;
+    outputs.check_dependencies()?;
     // Initial unknowns: every output and every derivative that is not given exactly, and every calculated parameter
-    let initial = List {
-        element: "InitialUnknown",
-        entries: structure.initial_unknowns().collect(),
-        variables,
-    };
+    let initial = list("InitialUnknown", structure.initial_unknowns().collect());
     initial.check_entries(|variable| {
         matches!(
             variable.role,
             Role::Output | Role::Derivative | Role::CalculatedParameter
         )
     })?;
-    initial.check_dependencies(is_known)?;
+    initial.check_dependencies()?;
     initial.check_initial_kinds()?;
     // State derivatives: that of every state, each once
-    let derivatives = List {
-        element: "ContinuousStateDerivative",
-        entries: structure.continuous_state_derivatives().collect(),
-        variables,
-    };
+    let entries = structure.continuous_state_derivatives().collect();
+    let derivatives = list("ContinuousStateDerivative", entries);
     derivatives.check_entries(|variable| state_of(variable, variables).is_some())?;
-    derivatives.check_dependencies(is_known)
+    derivatives.check_dependencies()
 }
 
 /// The continuous states, in the order of their derivatives.
@@ -115,17 +109,13 @@ impl List<'_> {
 
     fn check_entries(&self, belongs: impl Fn(&Variable) -> bool) -> Result<(), InterfaceProblem> {
         for (index, entry) in self.entries.iter().enumerate() {
-            let variable = self.variable(entry.value_reference)?;
-            let problem_here = || (self.element, variable.name.clone());
-            if self.entries[..index]
-                .iter()
-                .any(|earlier| earlier.value_reference == entry.value_reference)
-            {
-                let (element, variable) = problem_here();
+            let found = self.variable(entry.value_reference)?;
+            let (element, variable) = (self.element, found.name.clone());
+            let mut earlier = self.entries[..index].iter();
+            if earlier.any(|earlier| earlier.value_reference == entry.value_reference) {
                 return Err(InterfaceProblem::DuplicateUnknown { element, variable });
             }
-            if !belongs(variable) {
-                let (element, variable) = problem_here();
+            if !belongs(found) {
                 return Err(InterfaceProblem::UnexpectedUnknown { element, variable });
             }
         }
@@ -145,10 +135,7 @@ impl List<'_> {
         }
     }
 
-    fn check_dependencies(
-        &self,
-        is_known: impl Fn(&Variable) -> bool,
-    ) -> Result<(), InterfaceProblem> {
+    fn check_dependencies(&self) -> Result<(), InterfaceProblem> {
         for entry in &self.entries {
             let variable = self.variable(entry.value_reference)?.name.clone();
             let element = self.element;

@@ -55,42 +55,31 @@ impl Variable {
         declared: &FmiFloat64,
         types: &[&Float64Type],
     ) -> Result<Self, DefinitionProblem> {
-        let variable = || declared.name.clone();
-        if !is_structured(&declared.name) {
-            return Err(DefinitionProblem::IllegalName {
-                variable: variable(),
-            });
+        let variable = declared.name.clone();
+        if !is_structured(&variable) {
+            return Err(DefinitionProblem::IllegalName { variable });
         }
         if !declared.dimensions.is_empty() {
-            return Err(DefinitionProblem::NotScalar {
-                variable: variable(),
-            });
+            return Err(DefinitionProblem::NotScalar { variable });
         }
-        let description = declared
-            .description
-            .clone()
-            .filter(|text| !text.trim().is_empty())
-            .ok_or_else(|| DefinitionProblem::NoDescription {
-                variable: variable(),
-            })?;
-        let type_name =
-            declared
-                .declared_type
-                .as_deref()
-                .ok_or_else(|| DefinitionProblem::NoType {
-                    variable: variable(),
-                })?;
-        let declared_type = types
-            .iter()
-            .find(|candidate| candidate.name == type_name)
-            .ok_or_else(|| DefinitionProblem::UndefinedType {
-                variable: variable(),
-                declared_type: type_name.to_owned(),
-            })?;
+        let description = declared.description.clone();
+        let Some(description) = description.filter(|text| !text.trim().is_empty()) else {
+            return Err(DefinitionProblem::NoDescription { variable });
+        };
+        let Some(declared_type) = declared.declared_type.clone() else {
+            return Err(DefinitionProblem::NoType { variable });
+        };
+        let mut types = types.iter();
+        let Some(declared_type) = types.find(|candidate| candidate.name == declared_type) else {
+            return Err(DefinitionProblem::UndefinedType {
+                variable,
+                declared_type,
+            });
+        };
         let role = role(declared)?;
         let start = start(declared, declared_type, role)?;
         Ok(Self {
-            name: variable(),
+            name: variable,
             reference: declared.value_reference,
             role,
             start,
@@ -112,26 +101,29 @@ fn is_structured(name: &str) -> bool {
 }
 
 fn role(declared: &FmiFloat64) -> Result<Role, DefinitionProblem> {
+    let variable = declared.name.clone();
     let causality = declared.causality.unwrap_or_default();
     let variability = declared
         .variability
         .unwrap_or(default_variability(causality));
     if !is_allowed(causality, variability) {
         return Err(DefinitionProblem::Combination {
-            variable: declared.name.clone(),
+            variable,
             causality,
             variability,
         });
     }
-    let initial =
-        effective_initial(causality, variability, declared.initial).map_err(|initial| {
-            DefinitionProblem::ForbiddenInitial {
-                variable: declared.name.clone(),
+    let initial = match effective_initial(causality, variability, declared.initial) {
+        Ok(initial) => initial,
+        Err(initial) => {
+            return Err(DefinitionProblem::ForbiddenInitial {
+                variable,
                 initial,
                 causality,
                 variability,
-            }
-        })?;
+            });
+        }
+    };
     match (causality, variability, initial) {
         (Causality::Independent, ..) => Ok(Role::Independent),
         (Causality::Parameter, Variability::Tunable, _) => Ok(Role::Parameter),
@@ -148,7 +140,7 @@ fn role(declared: &FmiFloat64) -> Result<Role, DefinitionProblem> {
         }
         // legal in FMI, but nothing that the library implements
         _ => Err(DefinitionProblem::NoRole {
-            variable: declared.name.clone(),
+            variable,
             causality,
             variability,
             initial,
@@ -185,34 +177,25 @@ fn start(
     declared_type: &Float64Type,
     role: Role,
 ) -> Result<Option<f64>, DefinitionProblem> {
-    let variable = || declared.name.clone();
+    let variable = declared.name.clone();
     let needed = matches!(role, Role::Input | Role::Parameter | Role::State);
     let Some(found) = declared.start.as_deref() else {
         return if needed {
-            Err(DefinitionProblem::NoStart {
-                variable: variable(),
-            })
+            Err(DefinitionProblem::NoStart { variable })
         } else {
             Ok(None)
         };
     };
     if !needed {
-        return Err(DefinitionProblem::UnwantedStart {
-            variable: variable(),
-        });
+        return Err(DefinitionProblem::UnwantedStart { variable });
     }
-    let &[start] = found else {
-        return Err(DefinitionProblem::IllegalStart {
-            variable: variable(),
-            found: found.to_vec(),
-        });
+    let start = match *found {
+        [start] if start.is_finite() => start,
+        _ => {
+            let found = found.to_vec();
+            return Err(DefinitionProblem::IllegalStart { variable, found });
+        }
     };
-    if !start.is_finite() {
-        return Err(DefinitionProblem::IllegalStart {
-            variable: variable(),
-            found: found.to_vec(),
-        });
-    }
     // a variable may narrow its type's range
     let min = declared
         .min
@@ -221,7 +204,7 @@ fn start(
     let max = declared.max.or(declared_type.max).unwrap_or(f64::INFINITY);
     if !(min..=max).contains(&start) {
         return Err(DefinitionProblem::StartOutOfRange {
-            variable: variable(),
+            variable,
             start,
             min,
             max,

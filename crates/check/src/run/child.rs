@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use bolted_joint_importer::{FmiVersion, ImportError, Instance, Library, SavedState, Setup};
+use bolted_joint_importer::{ImportError, Instance, Library, SavedState, Setup};
 
 use super::script::{Action, Entry, Script};
 
@@ -20,7 +20,7 @@ pub fn execute_script(script: &Path, journal: &Path) -> io::Result<()> {
     let script: Script = serde_json::from_slice(&fs::read(script)?)?;
     let journal = Journal(Arc::new(Mutex::new(File::create(journal)?)));
     journal.add(&Entry::Loading)?;
-    let outcome = match Library::load(&script.library, FmiVersion::from(script.version)) {
+    let outcome = match Library::load(&script.library, script.version) {
         Ok(library) => perform(&library, &script, &journal),
         Err(refused) => Err(Stopped::Refused(refused)),
     };
@@ -32,21 +32,12 @@ pub fn execute_script(script: &Path, journal: &Path) -> io::Result<()> {
 }
 
 /// Why the script was not carried out to its end.
+#[derive(Debug, thiserror::Error)]
 enum Stopped {
-    Refused(ImportError),
-    Journal(io::Error),
-}
-
-impl From<ImportError> for Stopped {
-    fn from(refused: ImportError) -> Self {
-        Self::Refused(refused)
-    }
-}
-
-impl From<io::Error> for Stopped {
-    fn from(failed: io::Error) -> Self {
-        Self::Journal(failed)
-    }
+    #[error(transparent)]
+    Refused(#[from] ImportError),
+    #[error(transparent)]
+    Journal(#[from] io::Error),
 }
 
 /// The file that outlives the process, one entry a line, each written at once.

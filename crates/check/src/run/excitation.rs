@@ -11,27 +11,12 @@ use bolted_joint_joint::JointFile;
 
 /// Spans of the quadrature in a run.
 const SPANS: usize = 200;
-/// Displacement (m) or rotation (rad) of a linear joint: usual magnitudes, the scale does not matter.
-fn linear_amplitude(kind: DofKind) -> f64 {
-    match kind {
-        DofKind::Translation => 1e-5,
-        DofKind::Rotation => 1e-4,
-    }
-}
-/// Largest displacement (m) or rotation (rad) of a cubic joint.
-fn largest_amplitude(kind: DofKind) -> f64 {
-    match kind {
-        DofKind::Translation => 1e-3,
-        DofKind::Rotation => 1e-2,
-    }
-}
+/// Displacement (m) and rotation (rad) of a linear joint: usual magnitudes, the scale does not matter.
+const LINEAR_AMPLITUDE: [f64; 2] = [1e-5, 1e-4];
+/// Largest displacement (m) and rotation (rad) of a cubic joint.
+const LARGEST_AMPLITUDE: [f64; 2] = [1e-3, 1e-2];
 /// What a joint without stiffness is loaded by, because it is usual: N, N·m.
-fn usual_load(kind: DofKind) -> f64 {
-    match kind {
-        DofKind::Translation => 1.0,
-        DofKind::Rotation => 1e-2,
-    }
-}
+const USUAL_LOAD: [f64; 2] = [1.0, 1e-2];
 /// Amplitude of a cubic joint by √(k/|k3|), where the cubic load would be as large as the linear one.
 const CUBIC_AMPLITUDE: f64 = 0.02;
 /// Amplitude of a joint with terms of higher order, by that at which the first of them is as large as the linear one, and by
@@ -41,6 +26,13 @@ const HIGHER_AMPLITUDE: f64 = 0.1;
 const PERIOD_BY_RELAXATION: f64 = 20.0;
 /// Period (s) where the joint has no damping.
 const UNDAMPED_PERIOD_S: f64 = 1e-2;
+
+fn of_kind([translation, rotation]: [f64; 2], kind: DofKind) -> f64 {
+    match kind {
+        DofKind::Translation => translation,
+        DofKind::Rotation => rotation,
+    }
+}
 
 /// Steps and inputs of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +64,7 @@ impl Excitation {
                 if stiffness > 0.0 {
                     stiffness * amplitude
                 } else {
-                    usual_load(joint.dofs.row(i).kind)
+                    of_kind(USUAL_LOAD, joint.dofs.row(i).kind)
                 }
             })
             .collect();
@@ -226,9 +218,9 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
             let nonlinear = nonlinear.get(i).copied().unwrap_or(f64::INFINITY);
             let by_terms = match k {
                 Some(&k) if k > 0.0 && nonlinear > 0.0 && nonlinear.is_finite() => {
-                    (part * nonlinear).min(largest_amplitude(dof.kind))
+                    (part * nonlinear).min(of_kind(LARGEST_AMPLITUDE, dof.kind))
                 }
-                _ => linear_amplitude(dof.kind),
+                _ => of_kind(LINEAR_AMPLITUDE, dof.kind),
             };
             let escape = escape.get(i).copied().flatten();
             escape.map_or(by_terms, |escape| by_terms.min(part * escape))

@@ -119,7 +119,7 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
     let plan = Plan::new(excitation, references, described, comparison);
     let script = Script {
         library: unpacked.join(library),
-        version: described.version.into(),
+        version: described.version,
         token: described.token.clone(),
         resources: unpacked.join("resources"),
         actions: plan.actions.clone(),

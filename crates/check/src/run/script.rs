@@ -10,35 +10,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Script {
     pub(super) library: PathBuf,
-    pub(super) version: Version,
+    #[serde(with = "Version")]
+    pub(super) version: FmiVersion,
     pub(super) token: String,
     pub(super) resources: PathBuf,
     pub(super) actions: Vec<Action>,
 }
 
-/// [`FmiVersion`], as JSON.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Version {
+/// How [`FmiVersion`] is written as JSON.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "FmiVersion")]
+enum Version {
     Two,
     Three,
-}
-
-impl From<FmiVersion> for Version {
-    fn from(version: FmiVersion) -> Self {
-        match version {
-            FmiVersion::Two => Self::Two,
-            FmiVersion::Three => Self::Three,
-        }
-    }
-}
-
-impl From<Version> for FmiVersion {
-    fn from(version: Version) -> Self {
-        match version {
-            Version::Two => Self::Two,
-            Version::Three => Self::Three,
-        }
-    }
 }
 
 /// One thing to do with an instance.

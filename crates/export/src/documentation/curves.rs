@@ -128,16 +128,13 @@ fn receptances<const D: usize>(
         .rows()
         .enumerate()
         .map(|(i, dof)| {
-            let line = |side: &str, row: usize| Line {
-                name: format!("{} of body {side}", dof.symbol),
-                shape: Shape::Curve,
-                points: solved
-                    .iter()
-                    .map(|(frequency, receptance)| {
-                        let value = receptance.as_ref().map_or(f64::NAN, |h| h[(row, i)].norm());
-                        (*frequency, value)
-                    })
-                    .collect(),
+            let line = |side: &str, row: usize| {
+                let name = format!("{} of body {side}", dof.symbol);
+                let points = solved.iter().map(|(frequency, receptance)| {
+                    let value = receptance.as_ref().map_or(f64::NAN, |h| h[(row, i)].norm());
+                    (*frequency, value)
+                });
+                curve(&name, points)
             };
             let figure = LineFigure {
                 title: "Receptances of both bodies over frequency",
@@ -194,13 +191,9 @@ fn dynamic_stiffness<const D: usize>(
         .enumerate()
         .map(|(i, dof)| {
             let (stiffness, damping) = (law.linear.stiffness[i][i], law.linear.damping[i][i]);
-            let line = |name: &str, value: &dyn Fn(f64) -> f64| Line {
-                name: name.to_owned(),
-                shape: Shape::Curve,
-                points: frequencies
-                    .iter()
-                    .map(|&frequency| (frequency, value(std::f64::consts::TAU * frequency)))
-                    .collect(),
+            let line = |name: &str, value: &dyn Fn(f64) -> f64| {
+                let at = |&frequency| (frequency, value(std::f64::consts::TAU * frequency));
+                curve(name, frequencies.iter().map(at))
             };
             let figure = LineFigure {
                 title: "Dynamic stiffness of the joint over frequency",
@@ -257,15 +250,12 @@ fn load_curve<const D: usize>(
         return None;
     }
     let (unit, per_si) = axes.motion_unit;
-    let line = |name: &str, load: &dyn Fn(f64) -> f64| Line {
-        name: name.to_owned(),
-        shape: Shape::Curve,
-        points: (-LOAD_POINTS / 2..=LOAD_POINTS / 2)
-            .map(|k| {
-                let x = reach * f64::from(k) / f64::from(LOAD_POINTS / 2);
-                (per_si * x, load(x))
-            })
-            .collect(),
+    let line = |name: &str, load: &dyn Fn(f64) -> f64| {
+        let points = (-LOAD_POINTS / 2..=LOAD_POINTS / 2).map(|k| {
+            let x = reach * f64::from(k) / f64::from(LOAD_POINTS / 2);
+            (per_si * x, load(x))
+        });
+        curve(name, points)
     };
     let load = |x: f64| {
         let mut relative = Motion::REST;
@@ -301,6 +291,14 @@ fn load_curve<const D: usize>(
     let caption =
         format!("Static load of the joint over the relative motion <i>{motion}</i>. {part}");
     Some((figure, caption))
+}
+
+fn curve(name: &str, points: impl Iterator<Item = (f64, f64)>) -> Line {
+    Line {
+        name: name.to_owned(),
+        shape: Shape::Curve,
+        points: points.collect(),
+    }
 }
 
 fn three_digits(value: f64) -> f64 {

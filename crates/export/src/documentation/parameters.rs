@@ -18,20 +18,10 @@ pub(super) fn section(page: &Page<'_>) -> String {
         .uncertainty
         .as_ref()
         .map(|uncertainty| &uncertainty.standard_deviation);
-    let stiffness = matrix(
-        "",
-        &joint.stiffness,
-        deviation.map(|deviation| deviation.stiffness.as_slice()),
-        STIFFNESS,
-        joint.dofs,
-    );
-    let damping = matrix(
-        "̇",
-        &joint.damping,
-        deviation.map(|deviation| deviation.damping.as_slice()),
-        DAMPING,
-        joint.dofs,
-    );
+    let of_stiffness = deviation.map(|deviation| deviation.stiffness.as_slice());
+    let stiffness = matrix("", &joint.stiffness, of_stiffness, STIFFNESS, joint.dofs);
+    let of_damping = deviation.map(|deviation| deviation.damping.as_slice());
+    let damping = matrix("̇", &joint.damping, of_damping, DAMPING, joint.dofs);
     let basis = match &page.file.uncertainty {
         Some(uncertainty) => format!(
             "<p>± one standard deviation: {}.</p>\n",

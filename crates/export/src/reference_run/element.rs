@@ -2,9 +2,7 @@
 
 use bolted_joint_dynamics::{JointMemory, Motion};
 
-use super::{
-    DISPLACEMENT, LOAD, Laws, Names, RATE, ReferenceRun, entry, remembered, stimulus, table,
-};
+use super::{LOAD, Laws, Names, ReferenceRun, entry, of_motions, remembered, stimulus, table};
 use crate::ExportError;
 
 /// Communication step (s) where nothing says what frequencies matter.
@@ -43,21 +41,12 @@ pub(super) fn run<const D: usize>(
     let sides: Vec<[Motion<D>; 2]> = (0..LEVELS)
         .map(|level| [motion(false, level), motion(true, level)])
         .collect();
-    let input = |[a, b]: &[Motion<D>; 2], name: &str| {
-        [("a", a), ("b", b)].iter().find_map(|(side, motion)| {
-            let quantities: [(_, &[f64]); 2] = [
-                (DISPLACEMENT, &motion.displacement),
-                (RATE, &motion.velocity),
-            ];
-            entry(name, side, dofs, &quantities)
-        })
-    };
     let inputs = sides.iter().enumerate().flat_map(|(level, sides)| {
         // Constant from one level's beginning to the next.
         [level, level + 1].map(move |edge| {
             (time(STEPS_A_LEVEL * edge), move |name: &str| match name {
                 "preload" => Some(laws.preload_n_m(level)),
-                _ => input(sides, name),
+                _ => of_motions(name, dofs, sides.each_ref()),
             })
         })
     });

@@ -10,9 +10,7 @@ use bolted_joint_joint::DofSet;
 
 use super::super::fmu::LapFacts;
 use super::super::step::rounded_down;
-use super::{
-    DISPLACEMENT, LOAD, Laws, Names, RATE, ReferenceRun, entry, remembered, stimulus, table,
-};
+use super::{LOAD, Laws, Names, ReferenceRun, entry, of_motions, remembered, stimulus, table};
 use crate::ExportError;
 
 const COMMUNICATION_STEPS: usize = 200;
@@ -317,15 +315,7 @@ fn output<const D: usize>(
         "power.supplied" => Some(conditions.powers(state).supplied),
         // the preload is held
         "power.preload" => Some(0.0),
-        _ => [("a", &state.a), ("b", &state.b)]
-            .into_iter()
-            .find_map(|(side, motion)| {
-                let quantities: [(_, &[f64]); 2] = [
-                    (DISPLACEMENT, &motion.displacement),
-                    (RATE, &motion.velocity),
-                ];
-                entry(name, side, dofs, &quantities)
-            })
+        _ => of_motions(name, dofs, [&state.a, &state.b])
             .or_else(|| entry(name, "joint", dofs, &[(LOAD, &on_b)]))
             .or_else(|| remembered(name, dofs, memory)),
     }

@@ -9,7 +9,7 @@ mod lap;
 mod stimulus;
 
 use bolted_joint_dynamics::{
-    Beyond, Dof, JointLaw, JointMemory, JointOverPreload, law::DECLARATIONS, with_dofs,
+    Beyond, Dof, JointLaw, JointMemory, JointOverPreload, Motion, law::DECLARATIONS, with_dofs,
 };
 use bolted_joint_interface::{Interface as Declared, Role};
 
@@ -194,6 +194,20 @@ fn remembered<const D: usize>(name: &str, dofs: DofSet, memory: &JointMemory<D>)
             .position(|number| name == format!("joint.{}_{}", number.symbol, dof.name))?;
         own.numbers().get(place).copied()
     })
+}
+
+/// The entry of a side's motion that `name` stands for, or `None` if it is none of them.
+fn of_motions<const D: usize>(name: &str, dofs: DofSet, sides: [&Motion<D>; 2]) -> Option<f64> {
+    ["a", "b"]
+        .into_iter()
+        .zip(sides)
+        .find_map(|(side, motion)| {
+            let quantities: [(_, &[f64]); 2] = [
+                (DISPLACEMENT, &motion.displacement),
+                (RATE, &motion.velocity),
+            ];
+            entry(name, side, dofs, &quantities)
+        })
 }
 
 /// The entry that `name` stands for, such as `a.theta`, of quantities by DOF, or `None` if it is none of them.

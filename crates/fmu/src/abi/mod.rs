@@ -219,7 +219,7 @@ pub(crate) unsafe fn refuse_handle(function: Function, handle: Opaque) -> Status
             Refusal::OtherAbi { found, expected }
         };
         let logger = handle.logger.clone();
-        logger.error(function.name, &refusal);
+        logger.tell(Status::Error, function.name, &refusal);
     }
     Status::Error
 }
@@ -239,21 +239,11 @@ pub(crate) fn conclude(
     let logger = handle.logger.clone();
     match outcome {
         Ok(Done::Silently) => Status::Ok,
-        Ok(Done::Event(event)) => {
-            logger.event(function.name, &event);
-            Status::Ok
-        }
-        Ok(Done::Warning(warning)) => {
-            logger.warning(function.name, &warning);
-            Status::Warning
-        }
+        Ok(Done::Event(event)) => logger.tell(Status::Ok, function.name, &event),
+        Ok(Done::Warning(warning)) => logger.tell(Status::Warning, function.name, &warning),
         Err(refusal) if refusal.is_discarded(solver_at_work) => {
-            logger.discard(function.name, &refusal);
-            Status::Discard
+            logger.tell(Status::Discard, function.name, &refusal)
         }
-        Err(refusal) => {
-            logger.error(function.name, &refusal);
-            Status::Error
-        }
+        Err(refusal) => logger.tell(Status::Error, function.name, &refusal),
     }
 }

@@ -180,10 +180,8 @@ unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     let logger = Logger::fmi3(log_message, environment, logging_on != 0);
     let reason =
         "modelDescription.xml has no <ScheduledExecution>; use Co-Simulation or Model Exchange";
-    logger.error(
-        "fmi3InstantiateScheduledExecution",
-        &Refusal::NotProvided { reason },
-    );
+    let refusal = Refusal::NotProvided { reason };
+    logger.tell(Status::Error, "fmi3InstantiateScheduledExecution", &refusal);
     std::ptr::null_mut()
 }
 
@@ -236,7 +234,7 @@ unsafe fn instantiate(
     match instance {
         Ok(instance) => handle::to_c(function.abi, instance, logger),
         Err(refusal) => {
-            logger.error(function.name, &refusal);
+            logger.tell(Status::Error, function.name, &refusal);
             std::ptr::null_mut()
         }
     }

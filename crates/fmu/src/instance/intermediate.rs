@@ -9,7 +9,7 @@ use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, REFERENCE_COUNT, Role, Values, reference::TIME},
     mode::Mode,
-    models::CommunicationStep,
+    models::Step,
     refusal::{Active, NotIntermediate, Reached, Refusal, Warning},
 };
 
@@ -248,7 +248,7 @@ impl Instance {
     fn take_internal_step(&mut self, step: &mut IntermediateStep) -> Result<(), Refusal> {
         let now_s = self.time_s();
         let (length_s, reached_s) = step.internal_step(now_s);
-        let reached = self.advance(CommunicationStep {
+        let reached = self.advance(Step {
             time_s: now_s,
             interval_s: length_s,
             is_steady: step.is_steady && length_s == step.length_s,

@@ -4,7 +4,7 @@ use super::Instance;
 use crate::{
     interface::{InterfaceType, Role, Values, reference::TIME},
     mode::Mode,
-    models::CommunicationStep,
+    models::Step,
     refusal::{Reached, Refusal, Warning},
 };
 
@@ -22,7 +22,7 @@ impl Instance {
             None
         };
         let pace = self.pace.followed_by(interval_s);
-        let reached = self.advance(CommunicationStep {
+        let reached = self.advance(Step {
             time_s: current_s,
             interval_s,
             is_steady: pace.is_steady(),
@@ -64,7 +64,7 @@ impl Instance {
 
     /// Advances states and inputs, but not the time; on refusal nothing moves.
     #[inline]
-    pub(super) fn advance(&mut self, step: CommunicationStep) -> Result<Option<Reached>, Refusal> {
+    pub(super) fn advance(&mut self, step: Step) -> Result<Option<Reached>, Refusal> {
         let reached = if self.inputs.is_held() {
             self.model.advance(&mut self.values, step, &self.inputs)?
         } else {
@@ -75,7 +75,7 @@ impl Instance {
     }
 
     #[cold]
-    fn advance_along(&mut self, step: CommunicationStep) -> Result<Option<Reached>, Refusal> {
+    fn advance_along(&mut self, step: Step) -> Result<Option<Reached>, Refusal> {
         let end = self.inputs_after(step)?;
         let reached = self.model.advance(&mut self.values, step, &self.inputs)?;
         self.set_inputs(&end);
@@ -84,7 +84,7 @@ impl Instance {
     }
 
     /// The inputs at the end of the step.
-    fn inputs_after(&self, step: CommunicationStep) -> Result<Values, Refusal> {
+    fn inputs_after(&self, step: Step) -> Result<Values, Refusal> {
         let mut values = self.values;
         for (index, variable) in self.identity.variables.iter() {
             if variable.role == Role::Input {

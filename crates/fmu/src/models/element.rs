@@ -1,25 +1,28 @@
 //! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
-
-use std::num::NonZeroU32;
+//!
+//! Of a joint with memory, the motion between two points at which the importer has completed a step is taken as going
+//! straight from one to the next: the joint moves on to the motion that is put in where the next step begins, because only
+//! then is it known to stay.
 
 use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, Number};
 
 use crate::{
     input_course::InputCourse,
     interface::{
-        ElementCalculatedParameters, ElementOutputs, InterfaceType, Values, reference as vr,
+        ElementCalculatedParameters, ElementMemoryOutputs, ElementOutputs, InterfaceType, Values,
+        memory, reference as vr,
     },
     models::{
-        CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, joint_memory},
+        Model, Outcome, Step,
+        sides::{A, B, is_active, joint_law, joint_memory, set_joint_memory},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
 };
 
-/// The joint alone, with `D` degrees of freedom.
+/// The joint alone, with `D` degrees of freedom, and with laws that remember the motion or without.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Element<const D: usize> {
+pub(super) struct Element<const D: usize, const REMEMBERS: bool> {
     watch: Watch<D>,
     /// Relative displacement up to which there is nothing to tell the user.
     quiet: Quiet<D>,
@@ -35,12 +38,12 @@ impl<const D: usize> Default for Quiet<D> {
     }
 }
 
-impl<const D: usize> Element<D> {
+impl<const D: usize, const REMEMBERS: bool> Element<D, REMEMBERS> {
     /// Whether there is nothing to tell the user of the inputs.
     #[inline]
     fn is_quiet(&self, values: &Values) -> bool {
-        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
-        (0..D).all(|dof| relative.displacement[dof].abs() <= self.quiet.0[dof])
+        let displacement = relative::<D>(values).displacement;
+        (0..D).all(|dof| displacement[dof].abs() <= self.quiet.0[dof])
     }
 
     /// What there is to tell of the inputs at `time_s` (s): nothing is integrated here that could run away, so that the
@@ -49,46 +52,59 @@ impl<const D: usize> Element<D> {
         if self.is_quiet(values) {
             return None;
         }
-        let relative = A.motion::<D>(values).relative_to(&B.motion(values));
-        let reached = self.watch.look(&relative.displacement, time_s);
+        let reached = self.watch.look(&relative(values).displacement, time_s);
         self.quiet = Quiet(self.watch.quiet());
         reached
     }
 }
 
-impl<const D: usize> Model for Element<D> {
+impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
         let law = joint_law::<D>(values);
         self.watch.set(&law, finite(law.escape_amplitude()));
         self.quiet = Quiet(self.watch.quiet());
-        let [joint_stiffness, joint_damping] = is_active(&law);
-        Ok(Active {
-            joint_stiffness,
-            joint_damping,
-            supports: false,
-        }
-        .warning())
+        Ok(Active::of(is_active(&law), false))
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn begin(&self, values: &mut Values) {
+        if REMEMBERS {
+            let relative = relative::<D>(values);
+            values[vr::ENERGY_DISSIPATED] = 0.0;
+            values[memory::COMMITTED_TIME] = values[vr::TIME];
+            values[memory::COMMITTED_POWER] = joint_law::<D>(values).viscous_power(&relative);
+        }
+    }
+
+    fn commit(&self, values: &mut Values) {
+        if REMEMBERS {
+            let (law, relative): (JointLaw<D>, _) = (joint_law(values), relative(values));
+            let mut remembered = joint_memory(values);
+            let slid_j = law.commit(&mut remembered, &relative.displacement);
+            // the dampers' heat by the trapezoidal rule
+            let power = law.viscous_power(&relative);
+            let since_s = values[vr::TIME] - values[memory::COMMITTED_TIME];
+            let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
+            set_joint_memory(values, &remembered);
+            values[vr::ENERGY_DISSIPATED] += slid_j + damped_j;
+            values[memory::COMMITTED_TIME] = values[vr::TIME];
+            values[memory::COMMITTED_POWER] = power;
+        }
+    }
+
+    fn check_states(&mut self, values: &Values) -> Outcome {
         Ok(self.look(values, values[vr::TIME]))
     }
 
-    fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
-        Ok(NonZeroU32::MIN)
-    }
-
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        _: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, _: &InputCourse) -> Outcome {
+        if REMEMBERS {
+            values[vr::TIME] = step.time_s;
+            self.commit(values);
+        }
         Ok(self.look(values, step.time_s))
     }
 
     fn advance_steadily(&self, values: &mut Values, _: f64) -> bool {
-        self.is_quiet(values)
+        !REMEMBERS && self.is_quiet(values)
     }
 
     fn reset(&mut self) {
@@ -118,11 +134,20 @@ impl<const D: usize> Model for Element<D> {
     fn calculate_outputs(&self, values: &mut Values) {
         let law = joint_law::<D>(values);
         set_outputs(values, &law);
+        if REMEMBERS {
+            // as of the last step
+            let energy_dissipated = values[vr::ENERGY_DISSIPATED];
+            ElementMemoryOutputs { energy_dissipated }.write(values);
+        }
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let [law, law_change] = [values, &*change].map(joint_law::<D>);
         differentiate([&law, &law_change], values, change);
+        if REMEMBERS {
+            let energy_dissipated = 0.0;
+            ElementMemoryOutputs { energy_dissipated }.write(change);
+        }
     }
 }
 

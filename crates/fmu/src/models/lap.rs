@@ -3,6 +3,7 @@
 pub(super) mod faults;
 pub(super) mod loads;
 pub(super) mod prepared;
+pub(super) mod way;
 
 use std::num::NonZeroU32;
 
@@ -12,25 +13,33 @@ use crate::{
     input_course::InputCourse,
     interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
     models::{
-        CommunicationStep, Model,
-        sides::{A, B, is_active, joint_law, joint_memory},
+        Model, Outcome, Step,
+        sides::{A, B, is_active, joint_memory},
         watch::{Watch, finite},
     },
-    refusal::{Active, Reached, Refusal},
+    refusal::{Active, Refusal},
 };
-use faults::{check_parameters, check_step};
-use loads::Loads;
-use prepared::Prepared;
+use faults::{check_held, check_parameters, check_step};
+use way::{Way, lap, loads, state};
 
-/// Two bodies and the joint between them, with `D` degrees of freedom a side.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LapModel<const D: usize> {
+/// Two bodies and the joint between them, with `D` degrees of freedom a side, that go their `Way` through a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LapModel<const D: usize, W> {
     /// What the parameters give; `None` before they are first taken into use.
-    prepared: Option<Prepared<D>>,
+    way: Option<W>,
     watch: Watch<D>,
 }
 
-impl<const D: usize> Model for LapModel<D> {
+impl<const D: usize, W> Default for LapModel<D, W> {
+    fn default() -> Self {
+        Self {
+            way: None,
+            watch: Watch::default(),
+        }
+    }
+}
+
+impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
     fn prepare(
         &mut self,
         values: &Values,
@@ -44,79 +53,35 @@ impl<const D: usize> Model for LapModel<D> {
         }
         let escape = lap.escape_amplitude();
         self.watch.set(&lap.joint, finite(escape));
-        self.prepared = Some(Prepared::new(
-            &lap,
-            step_size_max_s,
-            escape,
-            self.watch.quiet(),
-        ));
-        let [joint_stiffness, joint_damping] = is_active(&lap.joint);
-        Ok(Active {
-            joint_stiffness,
-            joint_damping,
-            supports: lap.has_active_support(),
-        }
-        .warning())
+        self.way = Some(W::new(&lap, step_size_max_s, escape, self.watch.quiet()));
+        Ok(Active::of(is_active(&lap.joint), lap.has_active_support()))
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
-        let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
-        let state = state(values);
-        if !prepared.holds(&state) {
-            return Err(prepared.fault(&state, values[vr::TIME]));
-        }
-        Ok(prepared.look(&mut self.watch, &state, values[vr::TIME]))
+    fn commit(&self, values: &mut Values) {
+        W::commit(values);
+    }
+
+    fn check_states(&mut self, values: &Values) -> Outcome {
+        let way = self.way.as_mut().ok_or(Refusal::NotUsable)?;
+        let (state, time_s) = (state(values), values[vr::TIME]);
+        check_held(&state, way.hold(), time_s)?;
+        Ok(way.look(&mut self.watch, &state, time_s))
     }
 
     fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
-        let prepared = self.prepared.as_ref().ok_or(Refusal::NotUsable)?;
-        prepared.internal_steps(interval_s)
+        let way = self.way.as_ref().ok_or(Refusal::NotUsable)?;
+        way.internal_steps(interval_s)
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
-        let prepared = self.prepared.as_mut().ok_or(Refusal::NotUsable)?;
-        let start = state::<D>(values);
-        let loads = Loads {
-            start: loads(values),
-            course: inputs,
-        };
-        let end = if inputs.is_held() {
-            prepared.advance(&start, &loads.start, step)?
-        } else {
-            prepared.advance_along(&start, &loads, step)?
-        };
-        let mut reached = None;
-        if !prepared.holds_quietly(&end) {
-            if !prepared.holds(&end) {
-                return Err(prepared.explain(&start, &loads, step));
-            }
-            reached = prepared.look(&mut self.watch, &end, step.time_s + step.interval_s);
-        }
-        A.set_motion(values, &end.a);
-        B.set_motion(values, &end.b);
-        Ok(reached)
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
+        let way = self.way.as_mut().ok_or(Refusal::NotUsable)?;
+        way.advance(&mut self.watch, values, step, inputs)
     }
 
     fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
-        let Some(prepared) = &self.prepared else {
-            return false;
-        };
-        if D > 1 && prepared.takes_single_steps(interval_s) {
-            return take_single_step(prepared, values, interval_s);
-        }
-        let (start, loads) = (state(values), loads(values));
-        match prepared.steady_end(&start, &loads, interval_s) {
-            Some(end) if prepared.holds_quietly(&end) => {
-                A.set_motion(values, &end.a);
-                B.set_motion(values, &end.b);
-                true
-            }
-            _ => false,
+        match &self.way {
+            Some(way) => way.advance_steadily(values, interval_s),
+            None => false,
         }
     }
 
@@ -142,6 +107,7 @@ impl<const D: usize> Model for LapModel<D> {
 
     fn rates(&self, values: &Values, inputs: &InputCourse, change: &mut Values) {
         rates::<D>(values, inputs, change);
+        W::add_rates(values, change);
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
@@ -218,50 +184,5 @@ fn outputs<const D: usize, N: Number>(
         power_dissipated: of(lap.dissipated_power(memory, state)),
         a_acceleration,
         b_acceleration,
-    }
-}
-
-/// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.
-#[inline(never)]
-fn take_single_step<const D: usize>(
-    prepared: &Prepared<D>,
-    values: &mut Values,
-    interval_s: f64,
-) -> bool {
-    let end = prepared.integrator.advance_without_higher(
-        &state(values),
-        &loads(values),
-        interval_s,
-        NonZeroU32::MIN,
-    );
-    let holds = prepared.holds_quietly(&end);
-    if holds {
-        A.set_motion(values, &end.a);
-        B.set_motion(values, &end.b);
-    }
-    holds
-}
-
-pub(super) fn lap<const D: usize>(values: &Values) -> Lap<D> {
-    Lap {
-        joint: joint_law(values),
-        a: A.body(values),
-        b: B.body(values),
-    }
-}
-
-#[inline]
-pub(super) fn state<const D: usize>(values: &Values) -> LapState<D> {
-    LapState {
-        a: A.motion(values),
-        b: B.motion(values),
-    }
-}
-
-#[inline]
-pub(super) fn loads<const D: usize>(values: &Values) -> LapLoads<D> {
-    LapLoads {
-        a: A.load(values),
-        b: B.load(values),
     }
 }

@@ -7,8 +7,10 @@ mod remembering;
 mod sides;
 mod watch;
 
+use element::Element;
+use lap::{LapModel, prepared::Prepared};
 use loosening::{LooseningElement, LooseningLap};
-use remembering::{RememberingElement, RememberingLap};
+use remembering::RememberingLap;
 
 use std::num::NonZeroU32;
 
@@ -42,25 +44,24 @@ pub(crate) trait Model: Send {
 
     /// Whether the states in `values` are such that the simulation can go on, and whether they have reached what the user
     /// should know of.
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal>;
+    fn check_states(&mut self, values: &Values) -> Outcome;
 
     /// Number of equal internal steps that a communication step of `interval_s` (s) takes.
-    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal>;
+    fn internal_steps(&self, _interval_s: f64) -> Result<NonZeroU32, Refusal> {
+        Ok(NonZeroU32::MIN)
+    }
 
     /// Advances the states over `step`, in which the inputs take the course `inputs`; on refusal `values` are untouched.
     ///
     /// The result depends on parameters, inputs, states and `step` alone, not on earlier calls, but for what the user was
     /// told already. The inputs in `values` stay those at the step's beginning.
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal>;
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome;
 
     /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
     /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
-    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool;
+    fn advance_steadily(&self, _values: &mut Values, _interval_s: f64) -> bool {
+        false
+    }
 
     /// Forgets what the user was told.
     fn reset(&mut self);
@@ -86,9 +87,12 @@ pub(crate) trait Model: Send {
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
 }
 
+/// What a step, or a look at the states, has come to: what there is to tell the user, or why nothing has moved.
+pub(crate) type Outcome = Result<Option<Reached>, Refusal>;
+
 /// One communication step, or one internal step of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CommunicationStep {
+pub(crate) struct Step {
     /// Time at its start, s.
     pub(crate) time_s: f64,
     /// Its length, s.
@@ -100,7 +104,7 @@ pub(crate) struct CommunicationStep {
 /// Most bytes that a model takes, whatever is prepared for it.
 pub(crate) const MODEL_SIZE_MAX: usize = 2048;
 
-const _: () = assert!(size_of::<lap::LapModel<2>>() <= MODEL_SIZE_MAX);
+const _: () = assert!(size_of::<LapModel<2, Prepared<2>>>() <= MODEL_SIZE_MAX);
 
 /// The model of an FMU, with the table that it has if its joint is one over the preload.
 pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
@@ -109,19 +113,20 @@ pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dy
         (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(table)),
         (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
         (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
-        (kind, None) if matches!(variables.dependence, Dependence::Memory(_)) => {
-            match (kind, variables.dofs) {
-                (Kind::Element, Dofs::One) => Box::new(RememberingElement::<1>::default()),
-                (Kind::Element, Dofs::Two) => Box::new(RememberingElement::<2>::default()),
-                (Kind::Lap, Dofs::One) => Box::new(RememberingLap::<1>::default()),
-                (Kind::Lap, Dofs::Two) => Box::new(RememberingLap::<2>::default()),
-            }
-        }
-        (kind, None) => match (kind, variables.dofs) {
-            (Kind::Element, Dofs::One) => Box::new(element::Element::<1>::default()),
-            (Kind::Element, Dofs::Two) => Box::new(element::Element::<2>::default()),
-            (Kind::Lap, Dofs::One) => Box::new(lap::LapModel::<1>::default()),
-            (Kind::Lap, Dofs::Two) => Box::new(lap::LapModel::<2>::default()),
+        (kind, None) => match variables.dofs {
+            Dofs::One => model_of::<1>(kind, variables.dependence),
+            Dofs::Two => model_of::<2>(kind, variables.dependence),
         },
+    }
+}
+
+/// The model of a joint with `D` degrees of freedom whose law is given by parameters.
+fn model_of<const D: usize>(kind: Kind, dependence: Dependence) -> Box<dyn Model> {
+    let remembers = matches!(dependence, Dependence::Memory(_));
+    match (kind, remembers) {
+        (Kind::Element, false) => Box::new(Element::<D, false>::default()),
+        (Kind::Element, true) => Box::new(Element::<D, true>::default()),
+        (Kind::Lap, false) => Box::new(LapModel::<D, Prepared<D>>::default()),
+        (Kind::Lap, true) => Box::new(LapModel::<D, RememberingLap<D>>::default()),
     }
 }

@@ -47,9 +47,13 @@ pub(crate) struct Active {
 }
 
 impl Active {
-    /// The warning, if there is anything to warn of.
-    pub(crate) fn warning(self) -> Option<Self> {
-        (self.joint_stiffness || self.joint_damping || self.supports).then_some(self)
+    /// The warning, if there is anything to warn of: stiffness and damping of the joint, and the supports.
+    pub(crate) fn of([joint_stiffness, joint_damping]: [bool; 2], supports: bool) -> Option<Self> {
+        (joint_stiffness || joint_damping || supports).then_some(Self {
+            joint_stiffness,
+            joint_damping,
+            supports,
+        })
     }
 }
 

@@ -11,6 +11,7 @@ use crate::{
     c,
     importer::{Instance, Kind, Make as _, State, vr},
     raw::{BOTH, Fmi2, Fmi3, Interface::CoSimulation, Raw, call, status_of},
+    rows::{number, reference, rows},
 };
 
 const HUGE: usize = usize::MAX / 2;
@@ -66,7 +67,7 @@ fn bad_arrays_are_refused() {
                 (&bad_references, &|i| access(i, vr, usize::MAX / 6, values)),
             ]);
             // nothing is behind an array of length zero
-            assert_eq!(access(instance.raw, ptr::null(), 0, null), c::OK);
+            c::ok(access(instance.raw, ptr::null(), 0, null));
         }
         instance.refused_all(&[
             (&no_references, &|i| {
@@ -148,23 +149,17 @@ fn bad_arrays_are_refused() {
         }
         assert_eq!(value, [0.0; 2]);
         let (none, nothing) = (ptr::null(), ptr::null_mut());
-        assert_eq!(
-            call!(
-                instance,
-                fmi2GetString(none, 0, nothing),
-                fmi3GetString(none, 0, nothing, 0)
-            ),
-            c::OK
-        );
+        c::ok(call!(
+            instance,
+            fmi2GetString(none, 0, nothing),
+            fmi3GetString(none, 0, nothing, 0)
+        ));
         let nothing = ptr::null();
-        assert_eq!(
-            call!(
-                instance,
-                fmi2SetBoolean(none, 0, nothing),
-                fmi3SetBoolean(none, 0, nothing.cast(), 0)
-            ),
-            c::OK
-        );
+        c::ok(call!(
+            instance,
+            fmi2SetBoolean(none, 0, nothing),
+            fmi3SetBoolean(none, 0, nothing.cast(), 0)
+        ));
     }
 }
 
@@ -255,8 +250,7 @@ fn bad_arrays_are_refused_in_model_exchange() {
                 ),
             ]),
         }
-        let message = instance.refused(|i| i.set_time(f64::INFINITY));
-        assert!(message.contains("time is inf"), "{message}");
+        instance.refuses(|i| i.set_time(f64::INFINITY), "time is inf");
     }
 }
 
@@ -287,100 +281,50 @@ fn variables_of_other_types_are_refused_by_name() {
         let (mut number, mut text, mut byte) = (7, ptr::null::<c_char>(), 7_u8);
         let (number, text, byte) = (&raw mut number, &raw mut text, &raw mut byte);
         let (sizes, values) = (ptr::null_mut::<usize>(), ptr::null_mut());
-        type Call<'a> = &'a dyn Fn(Raw, *const u32) -> c_int;
-        let calls: &[(&str, &str, Call<'_>)] = match version {
-            Fmi2 => &[
-                (
-                    "fmi2GetInteger",
-                    "Integer",
-                    &|i, vr| call!(@one i, fmi2GetInteger(vr, 1, number)),
-                ),
-                (
-                    "fmi2GetBoolean",
-                    "Boolean",
-                    &|i, vr| call!(@one i, fmi2GetBoolean(vr, 1, number)),
-                ),
-                (
-                    "fmi2GetString",
-                    "String",
-                    &|i, vr| call!(@one i, fmi2GetString(vr, 1, text)),
-                ),
-                (
-                    "fmi2SetInteger",
-                    "Integer",
-                    &|i, vr| call!(@one i, fmi2SetInteger(vr, 1, number)),
-                ),
-                (
-                    "fmi2SetBoolean",
-                    "Boolean",
-                    &|i, vr| call!(@one i, fmi2SetBoolean(vr, 1, number)),
-                ),
-                (
-                    "fmi2SetString",
-                    "String",
-                    &|i, vr| call!(@one i, fmi2SetString(vr, 1, text)),
-                ),
-            ],
-            Fmi3 => &[
-                (
-                    "fmi3GetInt32",
-                    "Int32",
-                    &|i, vr| call!(@one i, fmi3GetInt32(vr, 1, number, 1)),
-                ),
-                (
-                    "fmi3SetBoolean",
-                    "Boolean",
-                    &|i, vr| call!(@one i, fmi3SetBoolean(vr, 1, byte, 1)),
-                ),
-                (
-                    "fmi3GetString",
-                    "String",
-                    &|i, vr| call!(@one i, fmi3GetString(vr, 1, text, 1)),
-                ),
-                (
-                    "fmi3GetBinary",
-                    "Binary",
-                    &|i, vr| call!(@one i, fmi3GetBinary(vr, 1, sizes, values, 1)),
-                ),
-                (
-                    "fmi3GetClock",
-                    "Clock",
-                    &|i, vr| call!(@one i, fmi3GetClock(vr, 1, byte)),
-                ),
-            ],
-        };
         let own = match version {
             Fmi2 => "Real",
             Fmi3 => "Float64",
         };
-        for (function, asked, call) in calls {
-            let message = instance.refused(|i| call(i, [vr::A_F].as_ptr()));
-            assert_eq!(
-                message,
-                format!(
-                    "{function}: variable a.F is of type {own}, not {asked}; use the {own} function"
-                )
-            );
-            let message = instance.refused(|i| call(i, [vr::NONE].as_ptr()));
-            assert!(
-                message.contains("value reference 52 does not exist"),
-                "{message}"
-            );
+        macro_rules! refuse {
+            ($($function:ident as $asked:literal: $($argument:expr),*;)*) => {{$(
+                let get = |i: Raw, vr: *const u32| call!(@one i, $function(vr, 1, $($argument),*));
+                let message = instance.refused(|i| get(i, [vr::A_F].as_ptr()));
+                let function = stringify!($function);
+                assert_eq!(
+                    message,
+                    format!("{function}: variable a.F is of type {own}, not {}; use the {own} function", $asked)
+                );
+                instance.refuses(|i| get(i, [vr::NONE].as_ptr()), "value reference 52 does not exist");
+            )*}};
+        }
+        match version {
+            Fmi2 => refuse! {
+                fmi2GetInteger as "Integer": number;
+                fmi2GetBoolean as "Boolean": number;
+                fmi2GetString as "String": text;
+                fmi2SetInteger as "Integer": number;
+                fmi2SetBoolean as "Boolean": number;
+                fmi2SetString as "String": text;
+            },
+            Fmi3 => refuse! {
+                fmi3GetInt32 as "Int32": number, 1;
+                fmi3SetBoolean as "Boolean": byte, 1;
+                fmi3GetString as "String": text, 1;
+                fmi3GetBinary as "Binary": sizes, values, 1;
+                fmi3GetClock as "Clock": byte;
+            },
         }
         // SAFETY: all are locals
         assert_eq!(unsafe { (*number, *text, *byte) }, (7, ptr::null(), 7));
         let (none, nothing) = (ptr::null(), ptr::null_mut());
-        assert_eq!(
-            call!(
-                instance,
-                fmi2GetInteger(none, 0, nothing),
-                fmi3GetInt32(none, 0, nothing, 0)
-            ),
-            c::OK
-        );
+        c::ok(call!(
+            instance,
+            fmi2GetInteger(none, 0, nothing),
+            fmi3GetInt32(none, 0, nothing, 0)
+        ));
         if version == Fmi3 {
             let nothing = ptr::null_mut();
-            assert_eq!(call!(@one instance, fmi3GetClock(none, 0, nothing)), c::OK);
+            c::ok(call!(@one instance, fmi3GetClock(none, 0, nothing)));
         }
         assert_eq!(instance.take_log(), []);
     }
@@ -388,49 +332,36 @@ fn variables_of_other_types_are_refused_by_name() {
 
 #[test]
 fn setting_is_all_or_nothing() {
+    const REFUSED: &str = "
+        b.F        | NaN  | variable b.F cannot be set to NaN
+        b.F        | inf  | variable b.F cannot be set to inf
+        b.F        | -inf | variable b.F cannot be set to -inf
+        52         | 1    | value reference 52 does not exist
+        4294967295 | 1    | value reference 4294967295 does not exist
+        time       | 1    | variable time is the independent variable and cannot be set in state Initialization Mode
+        joint.F    | 1    | variable joint.F is a calculated output and cannot be set
+    ";
     for version in BOTH {
-        for (reference, value, expected) in [
-            (vr::B_F, f64::NAN, "variable b.F cannot be set to NaN"),
-            (vr::B_F, f64::INFINITY, "variable b.F cannot be set to inf"),
-            (
-                vr::B_F,
-                f64::NEG_INFINITY,
-                "variable b.F cannot be set to -inf",
-            ),
-            (vr::NONE, 1.0, "value reference 52 does not exist"),
-            (u32::MAX, 1.0, "value reference 4294967295 does not exist"),
-            (
-                vr::TIME,
-                1.0,
-                "variable time is the independent variable and cannot be set in state Initialization Mode",
-            ),
-            (
-                vr::JOINT_F,
-                1.0,
-                "variable joint.F is a calculated output and cannot be set",
-            ),
-        ] {
+        for [name, value, expected] in rows(REFUSED) {
             let mut instance = version.instance(CoSimulation, Kind::Lap, 2, &[]);
             instance.go_to(State::Initialization);
             let all: Vec<u32> = (0..vr::NONE).collect();
             let before = instance.try_get(&all).unwrap();
-            let references = [vr::A_F, vr::K_YY, reference];
-            let message = instance.refused(|i| i.set(&references, &[5.0, 6.0, value]));
-            assert!(message.contains(expected), "{message}");
+            let references = [vr::A_F, vr::K_YY, reference(name)];
+            let values = [5.0, 6.0, number(value)];
+            instance.refuses(|i| i.set(&references, &values), expected);
             assert_eq!(instance.try_get(&all).unwrap(), before);
         }
         // states are set before and in initialisation only
         let mut instance = version.stepping(Kind::Lap, 1, &[]);
-        let message = instance.refused(|i| i.set(&[vr::A_F, vr::A_Y], &[5.0, 1e-3]));
-        assert!(
-            message.contains("variable a.y is a state and cannot be set in state Step Mode"),
-            "{message}"
+        instance.refuses(
+            |i| i.set(&[vr::A_F, vr::A_Y], &[5.0, 1e-3]),
+            "variable a.y is a state and cannot be set in state Step Mode",
         );
         // nor is a rotation of a joint that has none
-        let message = instance.refused(|i| i.set(&[vr::A_F, vr::A_THETA], &[1.0, 1.0]));
-        assert!(
-            message.contains("value reference 2 does not exist"),
-            "{message}"
+        instance.refuses(
+            |i| i.set(&[vr::A_F, vr::A_THETA], &[1.0, 1.0]),
+            "value reference 2 does not exist",
         );
         assert_eq!(instance.get([vr::A_F, vr::A_Y]), [0.0, 0.0]);
     }
@@ -460,7 +391,7 @@ fn numbers_that_a_solver_tries_in_vain_are_discarded() {
     discarded(
         false,
         &|i| {
-            assert_eq!(i.set_states(&[1e305, 0.0, -1e305, 0.0]), c::OK);
+            c::ok(i.set_states(&[1e305, 0.0, -1e305, 0.0]));
             status_of(i.try_derivatives(4))
         },
         "fmi2GetDerivatives: variable a.acceleration overflows",
@@ -471,23 +402,22 @@ fn numbers_that_a_solver_tries_in_vain_are_discarded() {
         "fmi2GetReal: variable energy.stored overflows",
     );
     // without logging a solver may try in silence; errors are still told
-    assert_eq!(instance.switch_logging(false, &[]), c::OK);
+    c::ok(instance.switch_logging(false, &[]));
     assert_eq!(instance.try_derivatives(4), Err(c::DISCARD));
     assert_eq!(instance.take_log(), []);
-    assert_eq!(instance.set_states(&[1e-5, 0.0, 0.0, 0.0]), c::OK);
+    c::ok(instance.set_states(&[1e-5, 0.0, 0.0, 0.0]));
     assert!(instance.try_derivatives(4).is_ok());
     // in Co-Simulation, where no solver asks, the same are errors
     let mut stepping = Fmi2.stepping(Kind::Lap, 1, &[]);
     stepping.refused(|i| i.set(&[vr::A_F], &[f64::NAN]));
-    assert_eq!(stepping.set(&[vr::A_F], &[f64::MAX]), c::OK);
-    assert_eq!(stepping.set(&[vr::A_MASS], &[1e-10]), c::OK);
+    c::ok(stepping.set(&[vr::A_F], &[f64::MAX]));
+    c::ok(stepping.set(&[vr::A_MASS], &[1e-10]));
     stepping.refused(|i| status_of(i.try_get(&[vr::A_ACCELERATION])));
     // and with FMI 3.0, which has no such answer
     let mut exchanging = Fmi3.continuous(Kind::Lap, 1, &[]);
-    let message = exchanging.refused(|i| i.set_states(&[0.0, f64::NAN, 0.0, 0.0]));
-    assert!(
-        message.contains("variable a.v cannot be set to NaN"),
-        "{message}"
+    exchanging.refuses(
+        |i| i.set_states(&[0.0, f64::NAN, 0.0, 0.0]),
+        "variable a.v cannot be set to NaN",
     );
 }
 
@@ -557,10 +487,10 @@ fn bad_states_are_refused() {
         assert!(content.iter().all(|&byte| byte == 0));
         assert_eq!(instance.state_bytes(), before);
         // nothing to free is fine
-        assert_eq!(free(instance.raw, none), c::OK);
-        assert_eq!(free(instance.raw, new), c::OK);
+        c::ok(free(instance.raw, none));
+        c::ok(free(instance.raw, new));
         // what was refused is still there
-        assert_eq!(instance.restore(saved), c::OK);
+        c::ok(instance.restore(saved));
         instance.free_state(saved);
     }
 }

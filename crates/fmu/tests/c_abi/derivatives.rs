@@ -2,8 +2,10 @@
 
 use crate::{
     c,
+    equations::assert_close_at,
     importer::{Instance, Kind, vr},
     raw::{Raw, status_of},
+    rows::{number, reference, rows},
 };
 
 #[test]
@@ -12,7 +14,7 @@ fn an_element_with_one_dof_has_the_derivatives_of_its_law() {
     let instance = Instance::stepping(Kind::Element, 1, &[("joint.k3_y", 5e12)]);
     let (y_a, y_b, v_a, v_b) = (3e-4, 1e-4, 0.2, 0.05);
     let motion = [vr::A_Y, vr::B_Y, vr::A_V, vr::B_V];
-    assert_eq!(instance.set(&motion, &[y_a, y_b, v_a, v_b]), c::OK);
+    c::ok(instance.set(&motion, &[y_a, y_b, v_a, v_b]));
     let (r, v): (f64, f64) = (y_a - y_b, v_a - v_b);
     let tangent = 4e6 + 3.0 * 5e12 * r * r;
     let spring = 4e6 * r + 5e12 * r.powi(3);
@@ -29,12 +31,7 @@ fn an_element_with_one_dof_has_the_derivatives_of_its_law() {
     ] {
         let found = instance.directional(&unknowns, &[known], &[2.0]).unwrap();
         let expected = [-on_b, on_b, on_b, energy, power].map(|derivative| 2.0 * derivative);
-        for (found, expected) in found.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() <= 1e-14 * expected.abs(),
-                "{known}: {found} {expected}"
-            );
-        }
+        assert_close_at(known, &found, &expected, 1e-14);
     }
     // a known that is listed twice counts twice
     let twice = instance.directional(&[vr::B_F], &[vr::A_V, vr::A_V], &[1.0, 2.0]);
@@ -64,9 +61,8 @@ fn the_adjoint_is_the_transpose() {
         let instance = Instance::new(kind, 2, &[("joint.k3_y", 5e12), ("joint.k3_theta", 1e6)]);
         let motion: Vec<u32> = (vr::A_Y..=vr::B_OMEGA).collect();
         let values = [2e-4, 1e-3, 0.1, -2.0, -1e-4, 3e-3, 0.3, 1.0];
-        assert_eq!(instance.set(&motion, &values), c::OK);
-        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
+        c::ok(instance.set(&motion, &values));
+        instance.initialize(0.0, None);
         let columns: Vec<Vec<f64>> = knowns
             .iter()
             .map(|&known| instance.directional(&unknowns, &[known], &[1.0]).unwrap())
@@ -121,12 +117,12 @@ fn a_state_is_its_own_known_between_steps() {
 fn parameters_count_as_they_are_set() {
     // also before the next step takes them into use, as for outputs
     let instance = Instance::stepping(Kind::Lap, 1, &[]);
-    assert_eq!(instance.set(&[vr::K_YY], &[3e6]), c::OK);
+    c::ok(instance.set(&[vr::K_YY], &[3e6]));
     assert_eq!(
         instance.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0]),
         Ok(vec![3e6])
     );
-    assert_eq!(instance.step(0.0, 1e-3), c::OK);
+    c::ok(instance.step(0.0, 1e-3));
     assert_eq!(
         instance.directional(&[vr::JOINT_F], &[vr::B_Y], &[1.0]),
         Ok(vec![-3e6])
@@ -137,94 +133,61 @@ fn parameters_count_as_they_are_set() {
 fn the_mode_decides_what_is_unknown() {
     let mut instance = Instance::new(Kind::Lap, 2, &[]);
     for call in [Raw::directional, Raw::adjoint] {
-        let message = instance.refused(|i| status_of(call(i, &[vr::JOINT_F], &[vr::A_Y], &[1.0])));
-        assert!(
-            message.contains("is not allowed in state Instantiated"),
-            "{message}"
+        instance.refuses(
+            |i| status_of(call(i, &[vr::JOINT_F], &[vr::A_Y], &[1.0])),
+            "is not allowed in state Instantiated",
         );
     }
-    assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+    c::ok(instance.enter_initialization(0.0, None));
     for call in [Raw::directional, Raw::adjoint] {
         assert_eq!(
             call(instance.raw, &[vr::JOINT_F], &[vr::A_Y], &[1.0]),
             Ok(vec![4e6])
         );
         // a state is given in Initialization Mode
-        let message = instance.refused(|i| status_of(call(i, &[vr::A_Y], &[vr::A_Y], &[1.0])));
-        assert!(
-            message.contains("variable a.y is a state and no unknown in state Initialization Mode"),
-            "{message}"
+        instance.refuses(
+            |i| status_of(call(i, &[vr::A_Y], &[vr::A_Y], &[1.0])),
+            "variable a.y is a state and no unknown in state Initialization Mode",
         );
     }
-    assert_eq!(instance.exit_initialization(), c::OK);
-    assert_eq!(instance.terminate(), c::OK);
+    c::ok(instance.exit_initialization());
+    c::ok(instance.terminate());
     assert_eq!(
         instance.directional(&[vr::JOINT_F], &[vr::A_Y], &[1.0]),
         Ok(vec![4e6])
     );
 }
 
+/// Unknown, known, seed, and why there is no derivative.
+const WRONG: &str = "
+    52         | a.y           | 1   | value reference 52 does not exist
+    joint.F    | 52            | 1   | value reference 52 does not exist
+    a.F        | a.y           | 1   | variable a.F is an input and no unknown in state Step Mode
+    joint.k_yy | a.y           | 1   | variable joint.k_yy is a parameter and no unknown
+    joint.F    | energy.stored | 1   | variable energy.stored is a calculated output and no known
+    joint.F    | a.y           | NaN | is NaN; expected a finite number
+    joint.F    | a.y           | inf | is inf; expected a finite number
+    joint.F    | a.y           | 1.7976931348623157e308 | overflows at t = 0 s with this seed
+";
+
 #[test]
 fn wrong_arguments_are_refused() {
     let mut instance = Instance::stepping(Kind::Lap, 2, &[("joint.k3_y", 5e12)]);
     for call in [Raw::directional, Raw::adjoint] {
-        for (unknown, known, seed, expected) in [
-            (vr::NONE, vr::A_Y, 1.0, "value reference 52 does not exist"),
-            (
-                vr::JOINT_F,
-                vr::NONE,
-                1.0,
-                "value reference 52 does not exist",
-            ),
-            (
-                vr::A_F,
-                vr::A_Y,
-                1.0,
-                "variable a.F is an input and no unknown in state Step Mode",
-            ),
-            (
-                vr::K_YY,
-                vr::A_Y,
-                1.0,
-                "variable joint.k_yy is a parameter and no unknown",
-            ),
-            (
-                vr::JOINT_F,
-                vr::ENERGY,
-                1.0,
-                "variable energy.stored is a calculated output and no known",
-            ),
-            (
-                vr::JOINT_F,
-                vr::A_Y,
-                f64::NAN,
-                "is NaN; expected a finite number",
-            ),
-            (
-                vr::JOINT_F,
-                vr::A_Y,
-                f64::INFINITY,
-                "is inf; expected a finite number",
-            ),
-            (
-                vr::JOINT_F,
-                vr::A_Y,
-                f64::MAX,
-                "overflows at t = 0 s with this seed",
-            ),
-        ] {
-            let message = instance.refused(|i| status_of(call(i, &[unknown], &[known], &[seed])));
-            assert!(message.contains(expected), "{message}");
+        for [unknown, known, seed, expected] in rows(WRONG) {
+            let [unknown, known] = [unknown, known].map(reference);
+            instance.refuses(
+                |i| status_of(call(i, &[unknown], &[known], &[number(seed)])),
+                expected,
+            );
         }
     }
-    let message = instance.refused(|i| status_of(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[])));
-    assert!(
-        message.contains("argument nSeed is 0, expected 1"),
-        "{message}"
+    instance.refuses(
+        |i| status_of(i.directional(&[vr::JOINT_F], &[vr::A_Y], &[])),
+        "argument nSeed is 0, expected 1",
     );
-    let message = instance.refused(|i| status_of(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0; 2])));
-    assert!(
-        message.contains("argument nSeed is 2, expected 1"),
-        "{message}"
+    instance.refuses(
+        |i| status_of(i.adjoint(&[vr::JOINT_F], &[vr::A_Y], &[1.0; 2])),
+        "argument nSeed is 2, expected 1",
     );
 }

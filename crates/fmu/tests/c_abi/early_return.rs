@@ -8,6 +8,7 @@ use crate::{
     importer::{Kind, vr},
     intermediate_update::{lap, taking_part},
     raw::Stepped,
+    rows::{number, rows},
 };
 
 #[test]
@@ -62,25 +63,19 @@ fn an_early_return_ends_exactly_where_it_was_asked_for() {
 
 #[test]
 fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
-    for (allowed, at, expected) in [
-        (
-            false,
-            4e-4,
-            "earlyReturnRequested was set by the callback though canReturnEarly was fmi3False",
-        ),
-        (
-            true,
-            2e-3,
-            "earlyReturnTime is 0.002 s, expected a time within the step from 0 s to 0.001 s",
-        ),
-        (true, -1e-3, "earlyReturnTime is -0.001 s"),
-        (true, f64::NAN, "earlyReturnTime is NaN s"),
-        (true, f64::INFINITY, "earlyReturnTime is inf s"),
-    ] {
+    const REFUSED: &str = "
+        false | 4e-4  | earlyReturnRequested was set by the callback though canReturnEarly was fmi3False
+        true  | 2e-3  | earlyReturnTime is 0.002 s, expected a time within the step from 0 s to 0.001 s
+        true  | -1e-3 | earlyReturnTime is -0.001 s
+        true  | NaN   | earlyReturnTime is NaN s
+        true  | inf   | earlyReturnTime is inf s
+    ";
+    for [allowed, at, expected] in rows(REFUSED) {
+        let (allowed, at) = (allowed == "true", number(at));
         let mut instance = lap(&[vr::A_F], allowed);
         instance.on_update(move |i, update| {
             assert_eq!(update.can_return_early, allowed);
-            assert_eq!(i.set(&[vr::A_F], &[77.0]), c::OK);
+            c::ok(i.set(&[vr::A_F], &[77.0]));
             (update.time > 3e-4).then_some(at)
         });
         let message = instance.refused(|i| {
@@ -88,17 +83,11 @@ fn an_early_return_that_cannot_be_is_refused_and_nothing_moves() {
             assert_eq!((stepped.early, stepped.last), (false, 0.0));
             stepped.status
         });
-        assert!(
-            message.starts_with("fmi3DoStep: ") && message.contains(expected),
-            "{message}"
-        );
+        c::tells(&message, "fmi3DoStep: ", expected);
         instance.on_update(|_, _| None);
         assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
-        assert_close(
-            &instance.get(STATES),
-            &EQUATIONS.runge_kutta(START, 2e-4, 5),
-            1e-12,
-        );
+        let expected = EQUATIONS.runge_kutta(START, 2e-4, 5);
+        assert_close(&instance.get(STATES), &expected, 1e-12);
     }
 }
 
@@ -119,7 +108,7 @@ fn a_step_that_fails_goes_back_to_its_beginning_with_its_inputs() {
     let seen = Rc::clone(&last);
     instance.on_update(move |i, update| {
         *seen.borrow_mut() = update.time;
-        assert_eq!(i.set(&[vr::B_F], &[1e9 * update.time]), c::OK);
+        c::ok(i.set(&[vr::B_F], &[1e9 * update.time]));
         None
     });
     assert_eq!(instance.step_to(0.0, 1e-2), (c::ERROR, 0.0));
@@ -140,6 +129,6 @@ fn refused_steps_do_not_call_back() {
     for (t, h) in [(0.0, 0.0), (0.0, f64::NAN), (1.0, 1e-3), (0.0, 1e9)] {
         instance.refused(|i| i.do_step(t, h).status);
     }
-    assert_eq!(instance.set(&[vr::A_MASS], &[-1.0]), c::OK);
+    c::ok(instance.set(&[vr::A_MASS], &[-1.0]));
     instance.refused(|i| i.do_step(0.0, 1e-3).status);
 }

@@ -1,5 +1,7 @@
 //! The lap with one DOF, written down once more, for results to compare with.
 
+use std::fmt::Display;
+
 use crate::importer::vr;
 
 /// The lap's equations with one DOF, written down once more: m, k, c of both bodies; k12, c12, k3; F of both.
@@ -29,14 +31,21 @@ pub(crate) const START: [f64; 4] = [1e-4, 0.1, -2e-4, 0.0];
 pub(crate) const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 
 /// Each number agrees with the one that is expected but for this part of it.
+#[track_caller]
 pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_close_at("", found, expected, tolerance);
+}
+
+/// The same, for the case that is told.
+#[track_caller]
+pub(crate) fn assert_close_at(case: impl Display, found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() <= tolerance * expected.abs(),
-            "{found} {expected}"
-        );
-    }
+    let is_close =
+        |(found, expected): (&f64, &f64)| (found - expected).abs() <= tolerance * expected.abs();
+    assert!(
+        found.iter().zip(expected).all(is_close),
+        "{case}: {found:?} {expected:?}"
+    );
 }
 
 impl Equations {
@@ -52,21 +61,21 @@ impl Equations {
         ]
     }
 
-    /// `n` classical Runge–Kutta steps of length `h`.
-    pub(crate) fn runge_kutta(&self, mut x: [f64; 4], h: f64, n: usize) -> [f64; 4] {
-        let shifted = |x: [f64; 4], factor: f64, k: [f64; 4]| -> [f64; 4] {
+    /// A classical Runge–Kutta step of length `h`, with the equations at its beginning, middle and end.
+    pub(crate) fn step([start, middle, end]: [Self; 3], x: [f64; 4], h: f64) -> [f64; 4] {
+        let shifted = |factor: f64, k: [f64; 4]| -> [f64; 4] {
             std::array::from_fn(|i| x[i] + factor * k[i])
         };
-        for _ in 0..n {
-            let k1 = self.rate(x);
-            let k2 = self.rate(shifted(x, h / 2.0, k1));
-            let k3 = self.rate(shifted(x, h / 2.0, k2));
-            let k4 = self.rate(shifted(x, h, k3));
-            x = std::array::from_fn(|i| {
-                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
-            });
-        }
-        x
+        let k1 = start.rate(x);
+        let k2 = middle.rate(shifted(h / 2.0, k1));
+        let k3 = middle.rate(shifted(h / 2.0, k2));
+        let k4 = end.rate(shifted(h, k3));
+        std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+    }
+
+    /// `n` of them.
+    pub(crate) fn runge_kutta(&self, x: [f64; 4], h: f64, n: usize) -> [f64; 4] {
+        (0..n).fold(x, |x, _| Self::step([*self; 3], x, h))
     }
 
     /// Force in the joint, stored energy, dissipated power.

@@ -2,6 +2,7 @@
 
 use crate::{
     c,
+    equations::assert_close_at,
     importer::{Instance, Kind, vr},
 };
 
@@ -14,21 +15,13 @@ const TERMS: [(&str, f64); 5] = [
     ("joint.c4_y", -4e14),
 ];
 
-fn near(found: f64, expected: f64, what: &str) {
-    let error = (found - expected).abs();
-    assert!(
-        error <= 4e-15 * expected.abs(),
-        "{what}: {found:e} {expected:e}"
-    );
-}
-
 #[test]
 fn an_element_has_the_load_the_energy_and_the_derivatives_of_its_law() {
     let [k3, k5, k7, c2, c4] = TERMS.map(|(_, value)| value);
     let instance = Instance::stepping(Kind::Element, 1, &TERMS);
     let (y_a, y_b, v_a, v_b) = (4e-4, 1e-4, 0.2, 0.05);
     let motion = [vr::A_Y, vr::B_Y, vr::A_V, vr::B_V];
-    assert_eq!(instance.set(&motion, &[y_a, y_b, v_a, v_b]), c::OK);
+    c::ok(instance.set(&motion, &[y_a, y_b, v_a, v_b]));
     let (r, v): (f64, f64) = (y_a - y_b, v_a - v_b);
     let spring = 4e6 * r + k3 * r.powi(3) + k5 * r.powi(5) + k7 * r.powi(7);
     let damper = 8.0 + c2 * r.powi(2) + c4 * r.powi(4);
@@ -38,9 +31,7 @@ fn an_element_has_the_load_the_energy_and_the_derivatives_of_its_law() {
     let found = instance.get(outputs);
     let on_b = spring + damper * v;
     let expected = [-on_b, on_b, on_b, energy, damper * v * v];
-    for (found, expected) in found.into_iter().zip(expected) {
-        near(found, expected, "output");
-    }
+    assert_close_at("outputs", &found, &expected, 4e-15);
     // every term has its share
     assert!((spring / (4e6 * r) - 1.0).abs() > 0.05 && (damper / 8.0 - 1.0).abs() > 0.05);
 
@@ -61,9 +52,8 @@ fn an_element_has_the_load_the_energy_and_the_derivatives_of_its_law() {
         (vr::C4_Y, r.powi(4) * v, 0.0, r.powi(4) * v * v),
     ] {
         let found = instance.directional(&outputs, &[known], &[1.0]).unwrap();
-        for (found, expected) in found.into_iter().zip([-on_b, on_b, on_b, energy, power]) {
-            near(found, expected, &format!("derivative by {known}"));
-        }
+        let expected = [-on_b, on_b, on_b, energy, power];
+        assert_close_at(format!("derivative by {known}"), &found, &expected, 4e-15);
     }
 }
 
@@ -73,15 +63,15 @@ fn terms_of_higher_order_are_tuned_between_steps() {
     let mut other = Instance::stepping(Kind::Lap, 1, &TERMS);
     let names = [vr::K3_Y, vr::K5_Y, vr::K7_Y, vr::C2_Y, vr::C4_Y];
     let values = TERMS.map(|(_, value)| value);
-    assert_eq!(instance.set(&names, &values), c::OK);
+    c::ok(instance.set(&names, &values));
     let mut plain = Instance::stepping(Kind::Lap, 1, &TERMS[..1]);
     let loads = [vr::A_F, vr::B_F];
     for n in 0..200 {
         let t = 1e-4 * f64::from(n);
         let load = 500.0 * (3000.0 * t).sin();
         for instance in [&mut instance, &mut other, &mut plain] {
-            assert_eq!(instance.set(&loads, &[load, -load]), c::OK);
-            assert_eq!(instance.step(t, 1e-4), c::OK);
+            c::ok(instance.set(&loads, &[load, -load]));
+            c::ok(instance.step(t, 1e-4));
         }
     }
     let state = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];

@@ -3,12 +3,11 @@
 
 use crate::{
     c,
-    equations::Equations,
+    equations::{EQUATIONS, Equations, STATES, assert_close},
     importer::{Instance, Kind, Make as _, vr},
-    raw::Fmi2,
+    raw::{Fmi2, Raw},
+    rows::{number, reference, rows},
 };
-
-const STATES: [u32; 4] = [vr::A_Y, vr::A_V, vr::B_Y, vr::B_V];
 
 fn stepping(kind: Kind, changes: &[(&str, f64)]) -> Instance {
     Fmi2.stepping(kind, 1, changes)
@@ -43,15 +42,15 @@ fn each_derivative_that_is_given_raises_the_order() {
                 let t = h * f64::from(n);
                 let [load, derivatives @ ..] = sine(t);
                 for input in [vr::A_F, vr::B_F] {
-                    assert_eq!(instance.set(&[input], &[load]), c::OK);
+                    c::ok(instance.set(&[input], &[load]));
                     for order in 1..=orders {
                         let derivative = derivatives[order as usize - 1];
                         let status =
                             instance.set_input_derivatives(&[input], &[order], &[derivative]);
-                        assert_eq!(status, c::OK);
+                        c::ok(status);
                     }
                 }
-                assert_eq!(instance.step(t, h), c::OK);
+                c::ok(instance.step(t, h));
             }
             let [y] = instance.get([vr::A_Y]);
             (y - expected).abs() / amplitude.abs()
@@ -70,45 +69,27 @@ fn a_cubic_load_is_integrated_as_such() {
     let load = |t: f64| f0 + t * (f1 + t / 2.0 * (f2 + t / 3.0 * f3));
     for k3 in [0.0, 5e12] {
         let instance = stepping(Kind::Lap, &[("joint.k3_y", k3), ("step_size_max", 1e-5)]);
-        assert_eq!(instance.set(&[vr::A_F, vr::B_F], &[f0, -7.0]), c::OK);
+        c::ok(instance.set(&[vr::A_F, vr::B_F], &[f0, -7.0]));
         let given = instance.set_input_derivatives(&[vr::A_F; 3], &[1, 3, 2], &[f1, f3, f2]);
-        assert_eq!(given, c::OK);
-        assert_eq!(instance.step(0.0, 1e-3), c::OK);
+        c::ok(given);
+        c::ok(instance.step(0.0, 1e-3));
         // Runge–Kutta once more, with the load at the stages
         let equations = |t: f64| Equations {
-            m: 2.0,
-            k: 8e5,
-            c: 1.0,
-            k12: 4e6,
-            c12: 8.0,
             k3,
             force: [load(t), -7.0],
+            ..EQUATIONS
         };
-        let (h, mut x) = (1e-5, [0.0; 4]);
-        for n in 0..100 {
+        let h = 1e-5;
+        let x = (0..100).fold([0.0; 4], |x, n| {
             let t = h * f64::from(n);
-            let shifted = |factor: f64, k: [f64; 4]| -> [f64; 4] {
-                std::array::from_fn(|i| x[i] + factor * k[i])
-            };
-            let k1 = equations(t).rate(x);
-            let k2 = equations(t + h / 2.0).rate(shifted(h / 2.0, k1));
-            let k3 = equations(t + h / 2.0).rate(shifted(h / 2.0, k2));
-            let k4 = equations(t + h).rate(shifted(h, k3));
-            x = std::array::from_fn(|i| {
-                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
-            });
-        }
-        for (found, expected) in instance.get(STATES).iter().zip(x) {
-            assert!(
-                (found - expected).abs() < 1e-11 * expected.abs(),
-                "{found} {expected}"
-            );
-        }
+            Equations::step([t, t + h / 2.0, t + h].map(equations), x, h)
+        });
+        assert_close(&instance.get(STATES), &x, 1e-11);
         // the input is where its polynomial has led
         let [at_end] = instance.get([vr::A_F]);
         assert!((at_end / load(1e-3) - 1.0).abs() < 1e-14);
         // what was given was for one step: the next one holds the inputs
-        assert_eq!(instance.step(1e-3, 1e-3), c::OK);
+        c::ok(instance.step(1e-3, 1e-3));
         assert_eq!(instance.get([vr::A_F]), [at_end]);
     }
 }
@@ -117,39 +98,25 @@ fn a_cubic_load_is_integrated_as_such() {
 fn derivatives_of_outputs_follow_those_of_inputs() {
     // F_b = k r + c ṙ: Ḟ_b = k v_a + c v̇_a; with y_a's own derivative given, that one counts
     let mut instance = stepping(Kind::Element, &[]);
-    assert_eq!(instance.set(&[vr::A_Y, vr::A_V], &[1e-4, 0.2]), c::OK);
+    c::ok(instance.set(&[vr::A_Y, vr::A_V], &[1e-4, 0.2]));
     let rate = |i: &mut Instance| i.output_derivatives(&[vr::B_F]).unwrap()[0];
-    let close = |found: f64, expected: f64| {
-        assert!(
-            (found - expected).abs() <= 1e-13 * expected.abs(),
-            "{found} {expected}"
-        );
-    };
+    let close = |found: f64, expected: f64| assert_close(&[found], &[expected], 1e-13);
     close(rate(&mut instance), 4e6 * 0.2);
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_V; 2], &[1, 2], &[3.0, 500.0]),
-        c::OK
-    );
+    c::ok(instance.set_input_derivatives(&[vr::A_V; 2], &[1, 2], &[3.0, 500.0]));
     close(rate(&mut instance), 4e6 * 0.2 + 8.0 * 3.0);
-    assert_eq!(instance.step(0.0, 1e-2), c::OK);
+    c::ok(instance.step(0.0, 1e-2));
     // at the end of the step: v = 0.2 + 3·10⁻² + 500·10⁻⁴/2, v̇ = 3 + 500·10⁻²
     close(rate(&mut instance), 4e6 * 0.255 + 8.0 * 8.0);
     assert_eq!(instance.get([vr::A_Y]), [1e-4]);
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.0]),
-        c::OK
-    );
+    c::ok(instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.0]));
     close(rate(&mut instance), 0.0);
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.25]),
-        c::OK
-    );
+    c::ok(instance.set_input_derivatives(&[vr::A_Y], &[1], &[0.25]));
     close(rate(&mut instance), 4e6 * 0.25);
-    assert_eq!(instance.step(1e-2, 1e-2), c::OK);
+    c::ok(instance.step(1e-2, 1e-2));
     let [y] = instance.get([vr::A_Y]);
     close(y, 1e-4 + 0.25e-2);
     close(rate(&mut instance), 4e6 * 0.25);
-    assert_eq!(instance.step(2e-2, 1e-2), c::OK);
+    c::ok(instance.step(2e-2, 1e-2));
     assert_eq!(instance.get([vr::A_Y]), [y]);
     close(rate(&mut instance), 4e6 * 0.255);
 }
@@ -157,46 +124,34 @@ fn derivatives_of_outputs_follow_those_of_inputs() {
 #[test]
 fn a_load_that_would_overflow_is_refused_and_nothing_moves() {
     let mut instance = stepping(Kind::Lap, &[]);
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_F], &[3], &[1e300]),
-        c::OK
-    );
+    c::ok(instance.set_input_derivatives(&[vr::A_F], &[3], &[1e300]));
     assert_eq!(instance.step(0.0, 1e4), c::ERROR);
     assert_eq!(instance.get([vr::TIME, vr::A_F, vr::A_Y]), [0.0; 3]);
     let message = instance.message(c::ERROR);
-    assert!(
-        message.contains("input a.F overflows before t = 10000 s"),
-        "{message}"
-    );
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_F], &[3], &[0.0]),
-        c::OK
-    );
-    assert_eq!(instance.step(0.0, 1e-3), c::OK);
+    c::tells(&message, "", "input a.F overflows before t = 10000 s");
+    c::ok(instance.set_input_derivatives(&[vr::A_F], &[3], &[0.0]));
+    c::ok(instance.step(0.0, 1e-3));
 }
 
 #[test]
 fn derivatives_of_inputs_carry_the_inputs_through_the_step() {
     // the element follows its inputs: after the step they are where their Taylor polynomials lead
     let instance = stepping(Kind::Element, &[]);
-    assert_eq!(instance.set(&[vr::A_Y, vr::B_Y], &[1e-4, 5e-5]), c::OK);
-    assert_eq!(
-        instance.set_input_derivatives(
-            &[vr::A_Y, vr::A_Y, vr::B_Y, vr::A_Y],
-            &[1, 2, 1, 3],
-            &[0.25, 4.0, -0.5, 12.0]
-        ),
-        c::OK
-    );
+    c::ok(instance.set(&[vr::A_Y, vr::B_Y], &[1e-4, 5e-5]));
+    c::ok(instance.set_input_derivatives(
+        &[vr::A_Y, vr::A_Y, vr::B_Y, vr::A_Y],
+        &[1, 2, 1, 3],
+        &[0.25, 4.0, -0.5, 12.0],
+    ));
     let h: f64 = 0.5;
-    assert_eq!(instance.step(0.0, h), c::OK);
+    c::ok(instance.step(0.0, h));
     let a = 1e-4 + 0.25 * h + 4.0 * h * h / 2.0 + 12.0 * h * h * h / 6.0;
     let b = 5e-5 - 0.5 * h;
     let [found_a, found_b, force] = instance.get([vr::A_Y, vr::B_Y, vr::JOINT_F]);
     assert!((found_a - a).abs() < 1e-15 && (found_b - b).abs() < 1e-15);
     assert!((force - 4e6 * (a - b)).abs() < 1e-8);
     // they are for one step only
-    assert_eq!(instance.step(h, h), c::OK);
+    c::ok(instance.step(h, h));
     assert_eq!(instance.get([vr::A_Y, vr::B_Y]), [found_a, found_b]);
 }
 
@@ -209,19 +164,16 @@ fn a_lap_under_a_ramp_follows_the_equations_of_motion() {
     let (h, parts) = (1e-3, 100);
     for n in 0..20 {
         let t = f64::from(n) * h;
-        assert_eq!(instance.set(&[vr::A_F], &[ramp * t]), c::OK);
-        assert_eq!(
-            instance.set_input_derivatives(&[vr::A_F], &[1], &[ramp]),
-            c::OK
-        );
-        assert_eq!(instance.step(t, h), c::OK);
+        c::ok(instance.set(&[vr::A_F], &[ramp * t]));
+        c::ok(instance.set_input_derivatives(&[vr::A_F], &[1], &[ramp]));
+        c::ok(instance.step(t, h));
         for part in 0..parts {
             let (t, h) = (
                 t + f64::from(part) * h / f64::from(parts),
                 h / f64::from(parts),
             );
-            assert_eq!(fine.set(&[vr::A_F], &[ramp * (t + h / 2.0)]), c::OK);
-            assert_eq!(fine.step(t, h), c::OK);
+            c::ok(fine.set(&[vr::A_F], &[ramp * (t + h / 2.0)]));
+            c::ok(fine.step(t, h));
         }
     }
     let [y, held] = [&mut instance, &mut fine].map(|i| i.get([vr::A_Y])[0]);
@@ -232,82 +184,20 @@ fn a_lap_under_a_ramp_follows_the_equations_of_motion() {
 }
 
 #[test]
-fn each_derivative_of_a_load_gains_an_order() {
-    const OMEGA: f64 = 300.0;
-    /// Displacement of body b under a sine of which the importer tells this many derivatives.
-    fn displacement(orders: usize, steps: u32) -> f64 {
-        let instance = stepping(Kind::Lap, &[]);
-        let h = 0.02 / f64::from(steps);
-        for n in 0..steps {
-            let t = f64::from(n) * h;
-            let (sin, cos) = (OMEGA * t).sin_cos();
-            let load = 1e3;
-            let derivatives = [
-                load * OMEGA * cos,
-                -load * OMEGA.powi(2) * sin,
-                -load * OMEGA.powi(3) * cos,
-            ];
-            assert_eq!(instance.set(&[vr::B_F], &[load * sin]), c::OK);
-            assert_eq!(
-                instance.set_input_derivatives(
-                    &[vr::B_F; 3][..orders],
-                    &[1, 2, 3][..orders],
-                    &derivatives[..orders],
-                ),
-                c::OK
-            );
-            assert_eq!(instance.step(t, h), c::OK);
-        }
-        instance.get([vr::B_Y])[0]
-    }
-    let exact = displacement(3, 4000);
-    for orders in 0..=3 {
-        let [coarse, fine] = [40, 80].map(|steps| (displacement(orders, steps) - exact).abs());
-        // the load is followed to the order n, which leaves an error of the order n + 1
-        let gain = f64::from(2_u32.pow(orders as u32 + 1));
-        assert!(
-            coarse / fine > 0.8 * gain && coarse < 0.1 * exact.abs(),
-            "{orders}: {coarse:e} {fine:e} of {exact:e}"
-        );
-    }
-}
-
-#[test]
 fn derivatives_of_anything_but_inputs_are_refused() {
     let mut instance = stepping(Kind::Lap, &[]);
-    for (reference, order, value, expected) in [
-        (vr::A_Y, 1, 1.0, "variable a.y is a state and no input"),
-        (
-            vr::K_YY,
-            1,
-            1.0,
-            "variable joint.k_yy is a parameter and no input",
-        ),
-        (vr::NONE, 1, 1.0, "value reference 52 does not exist"),
-        (
-            vr::B_F,
-            0,
-            1.0,
-            "order of the derivative of variable b.F is 0, expected 1 to 3",
-        ),
-        (
-            vr::B_F,
-            4,
-            1.0,
-            "order of the derivative of variable b.F is 4, expected 1 to 3",
-        ),
-        (vr::B_F, 1, f64::NAN, "variable b.F cannot be set to NaN"),
-    ] {
-        let message = instance.refused(|i| {
-            i.set_input_derivatives(&[vr::A_F, reference], &[1, order], &[3.0, value])
-        });
-        assert!(message.contains(expected), "{message}");
+    const REFUSED: &str = "
+        a.y        | 1 | 1   | variable a.y is a state and no input
+        joint.k_yy | 1 | 1   | variable joint.k_yy is a parameter and no input
+        52         | 1 | 1   | value reference 52 does not exist
+        b.F        | 0 | 1   | order of the derivative of variable b.F is 0, expected 1 to 3
+        b.F        | 4 | 1   | order of the derivative of variable b.F is 4, expected 1 to 3
+        b.F        | 1 | NaN | variable b.F cannot be set to NaN
+    ";
+    for [name, order, value, expected] in rows(REFUSED) {
+        let (references, orders) = ([vr::A_F, reference(name)], [1, order.parse().unwrap()]);
+        let values = [3.0, number(value)];
+        let given = |i: Raw| i.set_input_derivatives(&references, &orders, &values);
+        instance.refuses(given, expected);
     }
-    // an input that would overflow on the way: the step is refused, not the derivative
-    assert_eq!(
-        instance.set_input_derivatives(&[vr::A_F], &[1], &[f64::MAX]),
-        c::OK
-    );
-    let message = instance.refused(|i| i.step(0.0, 1e3));
-    assert!(message.contains("input a.F overflows"), "{message}");
 }

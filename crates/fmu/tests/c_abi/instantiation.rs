@@ -13,6 +13,7 @@ use crate::{
         BOTH, Fmi2, Fmi3, FmiVersion,
         Interface::{CoSimulation, ModelExchange},
     },
+    rows::{reference, rows},
 };
 
 #[test]
@@ -47,34 +48,21 @@ fn name_token_and_resources_are_checked() {
                 (Some(""), "argument instanceName is an empty string"),
                 (Some(" \t"), "argument instanceName is an empty string"),
             ] {
-                let message = Request { name, ..good }.refusal();
-                assert!(message.contains(expected), "{message}");
+                Request { name, ..good }.refuses(expected);
             }
             let expected = format!("argument {argument} is a null pointer");
-            let message = Request {
-                token: None,
-                ..good
-            }
-            .refusal();
-            assert!(message.contains(&expected), "{message}");
+            let token = None;
+            Request { token, ..good }.refuses(&expected);
             for other in ["", "another", "{7f0c-4a}", "7f0c-4a} #1", "{{7f0c-4a} #1}"] {
-                let message = Request {
-                    token: Some(other),
-                    ..good
-                }
-                .refusal();
+                let token = Some(other);
                 // a literal '#' is doubled
                 let [other, own] = [other, TOKEN].map(|token| token.replace('#', "##"));
                 let expected =
                     format!("{argument} is \"{other}\", but the FMU's resources have \"{own}\"");
-                assert!(message.contains(&expected), "{message}");
+                Request { token, ..good }.refuses(&expected);
             }
-            let message = Request {
-                resources: Some("/nowhere"),
-                ..good
-            }
-            .refusal();
-            assert!(message.contains("cannot be read"), "{message}");
+            let resources = Some("/nowhere");
+            Request { resources, ..good }.refuses("cannot be read");
         }
     }
 }
@@ -100,27 +88,20 @@ fn required_intermediate_variables_are_checked() {
         vr::A_ACCELERATION,
     ];
     assert!(request(&path, &offered).instantiate().is_ok());
-    for (reference, expected) in [
-        (vr::TIME, "variable time has no intermediateUpdate"),
-        (
-            vr::K_YY,
-            "variable joint.k_yy has no intermediateUpdate in modelDescription.xml",
-        ),
-        (vr::A_THETA, "value reference 2 does not exist"),
-        (vr::NONE, "value reference 52 does not exist"),
-    ] {
-        let message = request(&path, &[vr::A_F, reference]).refusal();
-        assert!(message.contains(expected), "{message}");
+    const REFUSED: &str = "
+        time       | variable time has no intermediateUpdate
+        joint.k_yy | variable joint.k_yy has no intermediateUpdate in modelDescription.xml
+        2          | value reference 2 does not exist
+        52         | value reference 52 does not exist
+    ";
+    for [name, expected] in rows(REFUSED) {
+        request(&path, &[vr::A_F, reference(name)]).refuses(expected);
     }
     let without_callback = Request {
         updated: false,
         ..request(&path, &[vr::A_F])
     };
-    let message = without_callback.refusal();
-    assert!(
-        message.contains("the callback intermediateUpdate is a null pointer"),
-        "{message}"
-    );
+    without_callback.refuses("the callback intermediateUpdate is a null pointer");
 }
 
 /// Tries to instantiate with texts that need not be UTF-8, and a type; the messages.

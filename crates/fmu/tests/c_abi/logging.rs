@@ -26,11 +26,10 @@ fn messages_have_name_category_and_status() {
         let request = Request {
             version,
             name: Some("Fuge 50 % – #7"),
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
         let mut instance = request.instantiate().unwrap();
-        assert_eq!(instance.enter_initialization(0.25, None), c::OK);
+        c::ok(instance.enter_initialization(0.25, None));
         assert_eq!(instance.exit_initialization(), c::WARNING);
         assert_eq!(instance.step(0.25, -1.0), c::ERROR);
         let expected = [
@@ -70,25 +69,16 @@ fn percent_signs_are_no_conversions() {
         let folder = Folder::with_start("no start file");
         let request = Request {
             version,
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
-        let message = request.refusal();
-        assert!(
-            message.contains("Prüfung 100% ##1/start.txt, line 1"),
-            "{message}"
-        );
+        request.refuses("Prüfung 100% ##1/start.txt, line 1");
         let folder = Folder::with_start(&start_text(Kind::Lap, 1, &[]));
         let request = Request {
             token: Some("%s%n%1000000d%%"),
             resources: folder.0.to_str(),
             ..request
         };
-        let message = request.refusal();
-        assert!(
-            message.contains(" is \"%s%n%1000000d%%\", but"),
-            "{message}"
-        );
+        request.refuses(" is \"%s%n%1000000d%%\", but");
     }
 }
 
@@ -97,9 +87,9 @@ fn categories_switch_messages_on_and_off() {
     for version in BOTH {
         let mut instance = version.instance(CoSimulation, Kind::Lap, 1, &ACTIVE);
         let statuses = |instance: &mut Instance| -> Vec<c_int> {
-            assert_eq!(instance.reset(), c::OK);
+            c::ok(instance.reset());
             instance.take_log();
-            assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+            c::ok(instance.enter_initialization(0.0, None));
             assert_eq!(instance.exit_initialization(), c::WARNING);
             // what goes on without a message is refused all the same
             assert_eq!(instance.step(0.0, 0.0), c::ERROR);
@@ -120,7 +110,7 @@ fn categories_switch_messages_on_and_off() {
             (true, &[], &[c::OK, c::WARNING, c::ERROR]),
         ];
         for (on, categories, expected) in switches {
-            assert_eq!(instance.switch_logging(on, categories), c::OK);
+            c::ok(instance.switch_logging(on, categories));
             assert_eq!(statuses(&mut instance), expected, "{on} {categories:?}");
             // a category that there is not, in silence if errors are off
             let all = [events, c"logAll"];
@@ -131,13 +121,13 @@ fn categories_switch_messages_on_and_off() {
             }
         }
         // any other number than zero is true
-        assert_eq!(instance.switch_logging(false, &[]), c::OK);
+        c::ok(instance.switch_logging(false, &[]));
         let on = call!(
             instance,
             fmi2SetDebugLogging(-1, 0, ptr::null()),
             fmi3SetDebugLogging(2, 0, ptr::null())
         );
-        assert_eq!(on, c::OK);
+        c::ok(on);
         assert_eq!(statuses(&mut instance), [c::OK, c::WARNING, c::ERROR]);
         let names = [events.as_ptr(), ptr::null()];
         let null = "argument categories is a null pointer";
@@ -167,17 +157,15 @@ fn errors_are_told_from_the_start() {
         let silent = |token| Request {
             version,
             token: Some(token),
-            resources: folder.0.to_str(),
             logging: false,
-            ..Request::default()
+            ..Request::of(&folder)
         };
         silent("other").refusal();
         let mut instance = silent(TOKEN).instantiate().unwrap();
-        assert_eq!(instance.enter_initialization(0.0, None), c::OK);
+        c::ok(instance.enter_initialization(0.0, None));
         assert_eq!(instance.exit_initialization(), c::WARNING);
         assert_eq!(instance.take_log(), []);
-        let message = instance.refused(|i| i.step(0.0, 0.0));
-        assert!(message.contains("communicationStepSize is 0"), "{message}");
+        instance.refuses(|i| i.step(0.0, 0.0), "communicationStepSize is 0");
         if version == Fmi3 {
             continue;
         }
@@ -185,7 +173,7 @@ fn errors_are_told_from_the_start() {
         let ask = |i: &Instance| status_of(i.status(fmi2GetIntegerStatus, LAST_SUCCESSFUL_TIME, 0));
         assert_eq!(ask(&instance), c::DISCARD);
         assert_eq!(instance.take_log(), []);
-        assert_eq!(instance.switch_logging(true, &[]), c::OK);
+        c::ok(instance.switch_logging(true, &[]));
         assert_eq!(ask(&instance), c::DISCARD);
         assert!(
             instance
@@ -229,14 +217,14 @@ unsafe fn be_careless(functions: *const CallbackFunctions, logging: c_int) {
         let instance = fmi2Instantiate(name, 1, token, path, functions, 1, logging);
         assert!(!instance.is_null());
         assert_eq!(fmi2DoStep(instance, 0.0, 1.0, 0), c::ERROR);
-        assert_eq!(fmi2SetupExperiment(instance, 0, 0.0, 0.0, 0, 0.0), c::OK);
-        assert_eq!(fmi2EnterInitializationMode(instance), c::OK);
+        c::ok(fmi2SetupExperiment(instance, 0, 0.0, 0.0, 0, 0.0));
+        c::ok(fmi2EnterInitializationMode(instance));
         assert_eq!(
             fmi2GetReal(instance, [vr::NONE].as_ptr(), 1, &mut 0.0),
             c::ERROR
         );
-        assert_eq!(fmi2ExitInitializationMode(instance), c::OK);
-        assert_eq!(fmi2DoStep(instance, 0.0, 1e-3, 0), c::OK);
+        c::ok(fmi2ExitInitializationMode(instance));
+        c::ok(fmi2DoStep(instance, 0.0, 1e-3, 0));
         fmi2FreeInstance(instance);
     }
 }
@@ -318,7 +306,7 @@ fn a_callback_may_use_and_even_free_the_instance() {
         unsafe {
             let instance = environment.cast::<*mut c_void>();
             if status == c::ERROR && !(*instance).is_null() {
-                assert_eq!(fmi2SetupExperiment(*instance, 0, 0.0, 0.0, 0, 0.0), c::OK);
+                c::ok(fmi2SetupExperiment(*instance, 0, 0.0, 0.0, 0, 0.0));
                 fmi2FreeInstance(*instance);
                 *instance = ptr::null_mut();
                 // the name is still there

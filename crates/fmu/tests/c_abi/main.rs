@@ -33,6 +33,7 @@ mod random_calls;
 mod raw;
 mod refusals;
 mod resources;
+mod rows;
 mod saved_states;
 mod short_way;
 mod softening;

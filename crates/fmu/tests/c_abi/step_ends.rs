@@ -21,8 +21,7 @@ fn time_does_not_drift() {
         for multiply in [true, false] {
             let mut instance = Instance::new(Kind::Element, 1, &[]);
             let stop = start + h * f64::from(STEPS);
-            assert_eq!(instance.enter_initialization(start, Some(stop)), c::OK);
-            assert_eq!(instance.exit_initialization(), c::OK);
+            instance.initialize(start, Some(stop));
             let mut t = start;
             for n in 1..=STEPS {
                 let (status, last) = instance.step_to(t, h);
@@ -43,8 +42,7 @@ fn time_does_not_drift() {
             let drift = if multiply { 2.0 } else { f64::from(STEPS) } * rounding;
             assert!((time - stop).abs() <= drift, "{start} {h}: {time} {stop}");
             if multiply {
-                let message = instance.refused(|i| i.step(t, h));
-                assert!(message.contains("after stopTime"), "{message}");
+                instance.refuses(|i| i.step(t, h), "after stopTime");
             }
         }
     }
@@ -62,8 +60,7 @@ fn a_stop_time_that_rounding_has_moved_is_reached() {
     for ulps in -8_i64..=8 {
         let instance = Instance::new(Kind::Lap, 1, &[]);
         let stop = f64::from_bits((0.7_f64.to_bits() as i64 + ulps) as u64);
-        assert_eq!(instance.enter_initialization(0.0, Some(stop)), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
+        instance.initialize(0.0, Some(stop));
         let mut t = 0.0;
         for n in 1..=7 {
             assert_eq!(instance.step(t, 0.1), c::OK, "{ulps}");
@@ -78,24 +75,20 @@ fn no_step_passes_a_late_stop_time() {
     let (start, h, steps) = (1e6, 1e-5, 50_u32);
     let mut instance = Instance::new(Kind::Element, 1, &[]);
     let stop = start + h * f64::from(steps);
-    assert_eq!(instance.enter_initialization(start, Some(stop)), c::OK);
-    assert_eq!(instance.exit_initialization(), c::OK);
+    instance.initialize(start, Some(stop));
     let time = |n: u32| start + h * f64::from(n);
     for n in 0..steps {
         assert_eq!(instance.step(time(n), h), c::OK, "{n}");
     }
     for longer in [h, 0.1 * h] {
-        let message = instance.refused(|i| i.step(time(steps), longer));
-        assert!(message.contains("after stopTime"), "{message}");
+        instance.refuses(|i| i.step(time(steps), longer), "after stopTime");
     }
     // nor does one that begins in time
     let mut instance = Instance::new(Kind::Element, 1, &[]);
-    assert_eq!(instance.enter_initialization(start, Some(stop)), c::OK);
-    assert_eq!(instance.exit_initialization(), c::OK);
-    assert_eq!(instance.step(start, h * f64::from(steps - 1)), c::OK);
-    let message = instance.refused(|i| i.step(time(steps - 1), 1.02 * h));
-    assert!(message.contains("after stopTime"), "{message}");
-    assert_eq!(instance.step(time(steps - 1), h), c::OK);
+    instance.initialize(start, Some(stop));
+    c::ok(instance.step(start, h * f64::from(steps - 1)));
+    instance.refuses(|i| i.step(time(steps - 1), 1.02 * h), "after stopTime");
+    c::ok(instance.step(time(steps - 1), h));
 }
 
 #[test]
@@ -122,10 +115,7 @@ fn steps_that_cannot_be_are_refused_and_nothing_moves() {
                 assert_eq!(last, 0.0);
                 status
             });
-            assert!(
-                message.starts_with(function) && message.contains(expected),
-                "{message}"
-            );
+            c::tells(&message, function, expected);
             assert!(version == Fmi3 || !instance.has_terminated());
             // mended, the step is taken
             assert_eq!(instance.step_to(0.0, 1e-3), (c::OK, 1e-3));
@@ -137,12 +127,10 @@ fn steps_that_cannot_be_are_refused_and_nothing_moves() {
 fn a_step_that_rounding_swallows_is_refused() {
     for version in BOTH {
         let mut instance = version.instance(CoSimulation, Kind::Element, 1, &[]);
-        assert_eq!(instance.enter_initialization(1e6, None), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
-        let message = instance.refused(|i| i.step(1e6, 1e-12));
-        assert!(
-            message.contains("is lost to rounding at t = 1000000 s"),
-            "{message}"
+        instance.initialize(1e6, None);
+        instance.refuses(
+            |i| i.step(1e6, 1e-12),
+            "is lost to rounding at t = 1000000 s",
         );
     }
 }
@@ -151,26 +139,23 @@ fn a_step_that_rounding_swallows_is_refused() {
 fn the_stop_time_is_kept_but_for_rounding() {
     let started = || {
         let instance = Instance::new(Kind::Lap, 1, &[]);
-        assert_eq!(instance.enter_initialization(0.0, Some(0.3)), c::OK);
-        assert_eq!(instance.exit_initialization(), c::OK);
+        instance.initialize(0.0, Some(0.3));
         instance
     };
     let mut instance = started();
     // 0.1 + 0.1 + 0.1 > 0.3 by one bit
     let mut t = 0.0;
     for _ in 0..3 {
-        assert_eq!(instance.step(t, 0.1), c::OK);
+        c::ok(instance.step(t, 0.1));
         t += 0.1;
     }
     assert!(t > 0.3);
-    let message = instance.refused(|i| i.step(t, 1e-3));
-    assert!(message.contains("after stopTime = 0.3 s"), "{message}");
-    assert_eq!(instance.terminate(), c::OK);
+    instance.refuses(|i| i.step(t, 1e-3), "after stopTime = 0.3 s");
+    c::ok(instance.terminate());
     let mut instance = started();
-    let message = instance.refused(|i| i.step(0.0, 0.31));
-    assert!(
-        message.contains("the step would end at t = 0.31 s, after stopTime = 0.3 s"),
-        "{message}"
+    instance.refuses(
+        |i| i.step(0.0, 0.31),
+        "the step would end at t = 0.31 s, after stopTime = 0.3 s",
     );
     assert_eq!(instance.step_to(0.0, 0.3), (c::OK, 0.3));
 }
@@ -183,8 +168,7 @@ fn communication_points_may_be_rounded() {
             let instance = version.instance(CoSimulation, Kind::Element, 1, &[]);
             let (start, count) = (100.0, 1000);
             let end = start + f64::from(count) * h;
-            assert_eq!(instance.enter_initialization(start, Some(end)), c::OK);
-            assert_eq!(instance.exit_initialization(), c::OK);
+            instance.initialize(start, Some(end));
             let mut last = start;
             for n in 0..count {
                 let (status, reached) = instance.step_to(start + f64::from(n) * h, h);

@@ -2,6 +2,7 @@
 
 use crate::{
     c,
+    equations::assert_close,
     importer::{Instance, Kind, Make as _, State, vr},
     raw::{BOTH, Interface::CoSimulation, status_of},
 };
@@ -35,7 +36,7 @@ fn unknown_value_references_are_refused() {
 #[test]
 fn the_last_of_repeated_references_counts() {
     let instance = Instance::new(Kind::Lap, 1, &[]);
-    assert_eq!(instance.set(&[vr::A_F, vr::A_F], &[1.0, 2.0]), c::OK);
+    c::ok(instance.set(&[vr::A_F, vr::A_F], &[1.0, 2.0]));
     assert_eq!(instance.get([vr::A_F, vr::A_F, vr::TIME]), [2.0, 2.0, 0.0]);
 }
 
@@ -44,10 +45,7 @@ fn the_element_gives_loads_from_motion_at_once() {
     // b.F = K r + C ṙ + k3 r³ by hand, with K = [4e6 1e4; 1e4 2e3], C = [8 0.5; 0.5 0.25], k3 = [1e12, 1e6]
     let cubic = [("joint.k3_y", 1e12), ("joint.k3_theta", 1e6)];
     let instance = Instance::stepping(Kind::Element, 2, &cubic);
-    assert_eq!(
-        instance.set(&vr::MOTION, &[3e-4, 2e-2, 0.5, 2.0, 2e-4, 1e-2, 0.25, -2.0]),
-        c::OK
-    );
+    c::ok(instance.set(&vr::MOTION, &[3e-4, 2e-2, 0.5, 2.0, 2e-4, 1e-2, 0.25, -2.0]));
     // r = (1e-4, 1e-2), ṙ = (0.25, 4)
     let force = 4e6 * 1e-4 + 1e4 * 1e-2 + 8.0 * 0.25 + 0.5 * 4.0 + 1e12 * 1e-12;
     let moment = 1e4 * 1e-4 + 2e3 * 1e-2 + 0.5 * 0.25 + 0.25 * 4.0 + 1e6 * 1e-6;
@@ -66,14 +64,9 @@ fn the_element_gives_loads_from_motion_at_once() {
     ];
     let found = instance.get(outputs);
     let expected = [-force, -moment, force, moment, force, moment, energy, power];
-    for (found, expected) in found.iter().zip(expected) {
-        assert!(
-            (found - expected).abs() < 1e-12 * expected.abs(),
-            "{found} {expected}"
-        );
-    }
+    assert_close(&found, &expected, 1e-12);
     // a tuned parameter shows at once
-    assert_eq!(instance.set(&[vr::K_YY], &[8e6]), c::OK);
+    c::ok(instance.set(&[vr::K_YY], &[8e6]));
     let [tuned] = instance.get([vr::B_F]);
     assert!((tuned - force - 400.0).abs() < 1e-9, "{tuned}");
     // a step changes the time only
@@ -88,15 +81,16 @@ fn the_element_gives_loads_from_motion_at_once() {
 fn outputs_that_overflow_are_refused_by_name() {
     for version in BOTH {
         let mut instance = version.stepping(Kind::Element, 1, &[("joint.k3_y", 1.0)]);
-        assert_eq!(instance.set(&[vr::A_Y], &[1e200]), c::OK);
+        c::ok(instance.set(&[vr::A_Y], &[1e200]));
         assert_eq!(instance.get([vr::A_Y, vr::POWER]), [1e200, 0.0]);
         let message = instance.refused(|i| status_of(i.try_get(&[vr::A_Y, vr::B_F])));
+        let told = message.split_once("variable b.F overflows at t = 0 s");
         assert!(
-            message.contains("variable b.F overflows at t = 0 s") && message.contains("in N"),
+            told.is_some_and(|(_, rest)| rest.contains("in N")),
             "{message}"
         );
         // the inputs are still the importer's to change
-        assert_eq!(instance.set(&[vr::A_Y], &[1e-4]), c::OK);
+        c::ok(instance.set(&[vr::A_Y], &[1e-4]));
         let [load] = instance.get([vr::B_F]);
         assert!((load - 400.0).abs() < 1e-9, "{load}");
     }
@@ -107,16 +101,4 @@ fn an_element_at_rest_has_no_negative_zeros() {
     let instance = Instance::stepping(Kind::Element, 2, &[]);
     let loads = instance.get([vr::A_F, vr::A_M, vr::B_F, vr::B_M, vr::JOINT_F, vr::JOINT_M]);
     assert_eq!(loads.map(f64::to_bits), [0; 6]);
-}
-
-#[test]
-fn outputs_of_an_element_follow_its_inputs_at_once() {
-    for version in BOTH {
-        let instance = version.stepping(Kind::Element, 1, &[]);
-        assert_eq!(instance.set(&[vr::A_Y, vr::B_V], &[1e-4, 0.5]), c::OK);
-        assert_eq!(
-            instance.get([vr::B_F, vr::A_F]),
-            [4e6 * 1e-4 - 8.0 * 0.5, 8.0 * 0.5 - 4e6 * 1e-4]
-        );
-    }
 }

@@ -45,9 +45,9 @@ fn co_simulation_is_the_same_to_the_bit() {
                         300.0 * (0.1 * f64::from(n)).sin(),
                         2.0 * (0.17 * f64::from(n)).cos(),
                     ];
-                    assert_eq!(instance.set(&[vr::A_F, vr::B_M], &loads), c::OK);
+                    c::ok(instance.set(&[vr::A_F, vr::B_M], &loads));
                     if n == 250 {
-                        assert_eq!(instance.set(&[vr::K_YY], &[5e6]), c::OK);
+                        c::ok(instance.set(&[vr::K_YY], &[5e6]));
                     }
                     assert_eq!(instance.step_to(t, h), (c::OK, t + h));
                     t += h;
@@ -71,7 +71,7 @@ fn an_element_is_the_same_to_the_bit() {
         let at = |n: u32| {
             let position = |reference: &u32| 1e-3 * f64::from(n * reference).sin();
             let values: Vec<f64> = motion.iter().map(position).collect();
-            assert_eq!(instance.set(&motion, &values), c::OK);
+            c::ok(instance.set(&motion, &values));
             let seed = vec![0.5; motion.len()];
             [
                 bits(&instance.try_get(&outputs).unwrap()),
@@ -90,8 +90,8 @@ fn model_exchange_is_the_same_to_the_bit() {
         let mut states = vec![1e-4, 1e-3, 0.1, 1.0, 2e-4, 2e-3, 0.2, 2.0];
         (0..200)
             .map(|n| {
-                assert_eq!(instance.set_time(1e-6 * f64::from(n)), c::OK);
-                assert_eq!(instance.set_states(&states), c::OK);
+                c::ok(instance.set_time(1e-6 * f64::from(n)));
+                c::ok(instance.set_states(&states));
                 let rates = instance.derivatives(8);
                 for (state, rate) in states.iter_mut().zip(&rates) {
                     *state += 1e-6 * rate;
@@ -158,7 +158,7 @@ fn functions_of_one_version_refuse_instances_of_the_other() {
                 )
             );
         }
-        assert_eq!(instance.step(0.0, 1e-3), c::OK);
+        c::ok(instance.step(0.0, 1e-3));
     }
 }
 
@@ -166,9 +166,9 @@ fn functions_of_one_version_refuse_instances_of_the_other() {
 fn both_versions_live_side_by_side_in_threads() {
     let run = |version: FmiVersion, force: f64| {
         let instance = version.stepping(Kind::Lap, 2, &[]);
-        assert_eq!(instance.set(&[vr::B_F], &[force]), c::OK);
+        c::ok(instance.set(&[vr::B_F], &[force]));
         for n in 0..500 {
-            assert_eq!(instance.step(1e-4 * f64::from(n), 1e-4), c::OK);
+            c::ok(instance.step(1e-4 * f64::from(n), 1e-4));
         }
         seen(instance.raw)
     };
@@ -192,8 +192,7 @@ fn one_start_file_serves_both() {
     let stiffness = BOTH.map(|version| {
         let request = Request {
             version,
-            resources: folder.0.to_str(),
-            ..Request::default()
+            ..Request::of(&folder)
         };
         let mut instance = request.instantiate().unwrap();
         instance.go_to(State::Step);

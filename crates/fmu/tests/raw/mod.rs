@@ -4,11 +4,14 @@
 #![allow(dead_code, unused_imports, reason = "each test program uses a part")]
 
 pub(crate) mod request;
+mod start;
 
 use std::{
     ffi::{CStr, c_int, c_void},
     ptr,
 };
+
+pub(crate) use start::start_text;
 
 pub(crate) use bolted_joint_importer::FmiVersion::{self, Three as Fmi3, Two as Fmi2};
 use bolted_joint_importer::header::{OK, fmi2::*, fmi3::*};
@@ -62,6 +65,45 @@ macro_rules! call {
 }
 pub(crate) use call;
 
+/// Functions that differ between the versions in their names alone.
+macro_rules! alike {
+    ($($name:ident($($argument:ident: $type:ty),*) = $two:ident | $three:ident;)*) => {
+        impl Raw {
+            $(pub(crate) fn $name(self, $($argument: $type),*) -> c_int {
+                call!(self, $two | $three($($argument),*))
+            })*
+        }
+    };
+}
+
+alike! {
+    exit_initialization() = fmi2ExitInitializationMode | fmi3ExitInitializationMode;
+    terminate() = fmi2Terminate | fmi3Terminate;
+    reset() = fmi2Reset | fmi3Reset;
+    enter_event() = fmi2EnterEventMode | fmi3EnterEventMode;
+    enter_continuous() = fmi2EnterContinuousTimeMode | fmi3EnterContinuousTimeMode;
+    set_time(time: f64) = fmi2SetTime | fmi3SetTime;
+    restore(state: *mut c_void) = fmi2SetFMUstate | fmi3SetFMUState;
+}
+
+/// Functions that write numbers: those, or the status of a refusal.
+macro_rules! numbers {
+    ($($name:ident = $two:ident | $three:ident;)*) => {
+        impl Raw {
+            $(pub(crate) fn $name(self, count: usize) -> Result<Vec<f64>, c_int> {
+                written(count, |numbers| call!(self, $two | $three(numbers, count)))
+            })*
+        }
+    };
+}
+
+numbers! {
+    try_states = fmi2GetContinuousStates | fmi3GetContinuousStates;
+    try_derivatives = fmi2GetDerivatives | fmi3GetContinuousStateDerivatives;
+    try_nominals = fmi2GetNominalsOfContinuousStates | fmi3GetNominalsOfContinuousStates;
+    try_indicators = fmi2GetEventIndicators | fmi3GetEventIndicators;
+}
+
 impl Raw {
     pub(crate) fn free(self) {
         call!(self, fmi2FreeInstance | fmi3FreeInstance());
@@ -98,21 +140,6 @@ impl Raw {
     /// FMI 2.0: starts initialisation when the time span is known.
     pub(crate) fn enter_set_up(self) -> c_int {
         call!(@one self, fmi2EnterInitializationMode())
-    }
-
-    pub(crate) fn exit_initialization(self) -> c_int {
-        call!(
-            self,
-            fmi2ExitInitializationMode | fmi3ExitInitializationMode()
-        )
-    }
-
-    pub(crate) fn terminate(self) -> c_int {
-        call!(self, fmi2Terminate | fmi3Terminate())
-    }
-
-    pub(crate) fn reset(self) -> c_int {
-        call!(self, fmi2Reset | fmi3Reset())
     }
 
     pub(crate) fn set(self, references: &[u32], values: &[f64]) -> c_int {
@@ -270,10 +297,6 @@ impl Raw {
         })
     }
 
-    pub(crate) fn enter_event(self) -> c_int {
-        call!(self, fmi2EnterEventMode | fmi3EnterEventMode())
-    }
-
     /// Updates discrete states: there are none, so nothing may be said to have changed.
     pub(crate) fn update(self) -> c_int {
         let (mut flags, mut time) = ([7_u8; 5], f64::NAN);
@@ -305,13 +328,6 @@ impl Raw {
         call!(@one self, fmi3EnterStepMode())
     }
 
-    pub(crate) fn enter_continuous(self) -> c_int {
-        call!(
-            self,
-            fmi2EnterContinuousTimeMode | fmi3EnterContinuousTimeMode()
-        )
-    }
-
     pub(crate) fn complete_step(self) -> c_int {
         let (mut event2, mut end2, mut event3, mut end3) = (7, 7, 7, 7);
         let status = call!(
@@ -327,53 +343,12 @@ impl Raw {
         status
     }
 
-    pub(crate) fn set_time(self, time: f64) -> c_int {
-        call!(self, fmi2SetTime | fmi3SetTime(time))
-    }
-
     pub(crate) fn set_states(self, states: &[f64]) -> c_int {
         let (states, count) = (states.as_ptr(), states.len());
         call!(
             self,
             fmi2SetContinuousStates | fmi3SetContinuousStates(states, count)
         )
-    }
-
-    pub(crate) fn try_states(self, count: usize) -> Result<Vec<f64>, c_int> {
-        written(count, |states| {
-            call!(
-                self,
-                fmi2GetContinuousStates | fmi3GetContinuousStates(states, count)
-            )
-        })
-    }
-
-    pub(crate) fn try_derivatives(self, count: usize) -> Result<Vec<f64>, c_int> {
-        written(count, |derivatives| {
-            call!(
-                self,
-                fmi2GetDerivatives | fmi3GetContinuousStateDerivatives(derivatives, count)
-            )
-        })
-    }
-
-    pub(crate) fn try_nominals(self, count: usize) -> Result<Vec<f64>, c_int> {
-        written(count, |nominals| {
-            call!(
-                self,
-                fmi2GetNominalsOfContinuousStates
-                    | fmi3GetNominalsOfContinuousStates(nominals, count)
-            )
-        })
-    }
-
-    pub(crate) fn try_indicators(self, count: usize) -> Result<Vec<f64>, c_int> {
-        written(count, |indicators| {
-            call!(
-                self,
-                fmi2GetEventIndicators | fmi3GetEventIndicators(indicators, count)
-            )
-        })
     }
 
     pub(crate) fn states(self, count: usize) -> Vec<f64> {
@@ -394,10 +369,6 @@ impl Raw {
         assert_eq!(self.save_in(&mut state), OK);
         assert!(!state.is_null());
         state
-    }
-
-    pub(crate) fn restore(self, state: *mut c_void) -> c_int {
-        call!(self, fmi2SetFMUstate | fmi3SetFMUState(state))
     }
 
     pub(crate) fn free_state(self, mut state: *mut c_void) {
@@ -451,6 +422,17 @@ impl Raw {
         self.free_state(state);
         bytes
     }
+}
+
+/// Makes the checksum of a serialised state right: the last eight bytes are the FNV-1a hash of all before.
+pub(crate) fn seal(bytes: &mut [u8]) {
+    let (content, checksum) = bytes.split_last_chunk_mut().unwrap();
+    let hash = content
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+    *checksum = hash.to_le_bytes();
 }
 
 /// Numbers that a function writes.

@@ -11,6 +11,15 @@ use crate::{
     scope::Joints,
 };
 
+/// Adds a line to the source.
+macro_rules! line {
+    ($source:expr, $($text:tt)*) => {{
+        // writing to a String cannot fail
+        let _ = writeln!($source, $($text)*);
+    }};
+}
+use line;
+
 impl Interfaces {
     /// Rust source of the tables: value references as constants, one array of variables for each FMU, and what each calculates.
     ///
@@ -18,53 +27,42 @@ impl Interfaces {
     /// `scatter`.
     #[must_use]
     pub fn to_rust(&self) -> String {
-        let mut source = String::from(
-            "// Written by the build from modelDescription/*.xml, the DOFs and the laws: change those files, not this one.\n\n",
+        let mut source = String::new();
+        line!(
+            source,
+            "// Written by the build from modelDescription/*.xml, the DOFs and the laws: change those files, not this one.\n"
         );
         let count = self.reference_count();
-        line(&mut source, "/// Number of value references.");
-        line(
-            &mut source,
-            &format!("pub(crate) const REFERENCE_COUNT: usize = {count};"),
-        );
-        line(
-            &mut source,
-            "/// Value references of the inputs of either FMU, ascending.",
+        line!(source, "/// Number of value references.");
+        line!(source, "pub(crate) const REFERENCE_COUNT: usize = {count};");
+        line!(
+            source,
+            "/// Value references of the inputs of either FMU, ascending."
         );
         let inputs = self.input_references();
-        line(
-            &mut source,
-            &format!(
-                "pub(crate) const INPUT_REFERENCES: [usize; {}] = {inputs:?};",
-                inputs.len()
-            ),
+        line!(
+            source,
+            "pub(crate) const INPUT_REFERENCES: [usize; {}] = {inputs:?};",
+            inputs.len()
         );
-        line(&mut source, "/// Names of the log categories.");
-        line(
-            &mut source,
-            &format!(
-                "pub(crate) const LOG_CATEGORIES: &[&str] = &{:?};",
-                self.lap.log_categories
-            ),
+        line!(source, "/// Names of the log categories.");
+        line!(
+            source,
+            "pub(crate) const LOG_CATEGORIES: &[&str] = &{:?};",
+            self.lap.log_categories
         );
-        for (doc, name, joints) in [
-            (
-                "Joints whose law is given by parameters.",
-                "CONSTANT_JOINTS",
-                Joints::CONSTANT,
-            ),
-            (
-                "Joints whose law follows from the preload.",
-                "JOINTS_OVER_PRELOAD",
-                Joints::OVER_PRELOAD,
-            ),
-        ] {
-            line(&mut source, &format!("/// {doc}"));
-            line(
-                &mut source,
-                &format!("const {name}: u32 = {};", joints.bits()),
-            );
-        }
+        line!(source, "/// Joints whose law is given by parameters.");
+        line!(
+            source,
+            "const CONSTANT_JOINTS: u32 = {};",
+            Joints::CONSTANT.bits()
+        );
+        line!(source, "/// Joints whose law follows from the preload.");
+        line!(
+            source,
+            "const JOINTS_OVER_PRELOAD: u32 = {};",
+            Joints::OVER_PRELOAD.bits()
+        );
         memory_laws(&mut source, &self.memory_laws);
         references::write(&mut source, self);
         for (name, interface, expanded) in self.both() {
@@ -89,13 +87,13 @@ fn memory_laws(source: &mut String, laws: &[(&'static str, Joints)]) {
         .iter()
         .map(|(name, joints)| (*name, joints.bits()))
         .collect();
-    line(
+    line!(
         source,
-        "/// Laws that remember the motion, each with the joints that have it.",
+        "/// Laws that remember the motion, each with the joints that have it."
     );
-    line(
+    line!(
         source,
-        &format!("pub(crate) const MEMORY_LAWS: &[(&str, u32)] = &{with_memory:?};"),
+        "pub(crate) const MEMORY_LAWS: &[(&str, u32)] = &{with_memory:?};"
     );
 }
 
@@ -106,13 +104,14 @@ fn table(
     expanded: &Expanded,
     count: usize,
 ) {
-    line(
+    line!(
         source,
-        &format!("/// Variables of `{}` by value reference.", interface.file),
+        "/// Variables of `{}` by value reference.",
+        interface.file
     );
-    line(
+    line!(
         source,
-        &format!("pub(crate) static {name}: [Option<Variable>; REFERENCE_COUNT] = ["),
+        "pub(crate) static {name}: [Option<Variable>; REFERENCE_COUNT] = ["
     );
     for reference in 0..count {
         let variable = interface
@@ -121,46 +120,41 @@ fn table(
             .find(|variable| variable.reference as usize == reference)
             .and_then(|variable| Some((variable, expanded.scope(&variable.name)?)));
         match variable {
-            None => line(source, "    None,"),
+            None => line!(source, "    None,"),
             Some((variable, scope)) => {
                 let rows: Vec<u32> = scope.rows.iter().map(|rows| rows.bits()).collect();
-                line(
+                line!(
                     source,
-                    &format!(
-                        "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rows: &{rows:?}, joints: {}, intermediate: {} }}),",
-                        variable.name,
-                        variable.unit,
-                        variable.role,
-                        variable.start.unwrap_or(0.0),
-                        scope.joints.bits(),
-                        variable.intermediate_update,
-                    ),
+                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rows: &{rows:?}, joints: {}, intermediate: {} }}),",
+                    variable.name,
+                    variable.unit,
+                    variable.role,
+                    variable.start.unwrap_or(0.0),
+                    scope.joints.bits(),
+                    variable.intermediate_update
                 );
             }
         }
     }
-    line(source, "];");
+    line!(source, "];");
 }
 
 fn states(source: &mut String, name: &str, interface: &Interface) {
-    line(
+    line!(source, "/// Continuous states of `{}`.", interface.file);
+    line!(
         source,
-        &format!("/// Continuous states of `{}`.", interface.file),
-    );
-    line(
-        source,
-        &format!("pub(crate) static {name}_STATES: &[ContinuousState] = &["),
+        "pub(crate) static {name}_STATES: &[ContinuousState] = &["
     );
     for state in &interface.continuous_states {
-        line(
+        line!(
             source,
-            &format!(
-                "    ContinuousState {{ reference: {}, derivative: {}, nominal: {:?} }},",
-                state.reference, state.derivative, state.nominal
-            ),
+            "    ContinuousState {{ reference: {}, derivative: {}, nominal: {:?} }},",
+            state.reference,
+            state.derivative,
+            state.nominal
         );
     }
-    line(source, "];");
+    line!(source, "];");
 }
 
 /// Name of a constant or, in small letters, of a field: `a.{load}` becomes `A_LOAD` and `a.k_{displacement}`, in which the
@@ -171,9 +165,4 @@ fn constant_name(pattern: &str) -> String {
         .replace(['{', '}'], "")
         .replace('.', "_")
         .to_uppercase()
-}
-
-fn line(source: &mut String, text: &str) {
-    // writing to a String cannot fail
-    let _ = writeln!(source, "{text}");
 }

@@ -1,6 +1,8 @@
 //! Writes what each FMU calculates as structures, so that the library cannot be built before it calculates every variable that
 //! is declared.
 
+use std::fmt::Write as _;
+
 use super::{constant_name, line};
 use crate::{
     frame::{Expanded, Origin},
@@ -37,38 +39,38 @@ pub(super) fn write(source: &mut String, fmu: &str, interface: &Interface, expan
         } else {
             ["", ""]
         };
-        line(
-            source,
-            &format!("/// What is calculated of `{}`.", interface.file),
-        );
-        line(source, "#[derive(Clone, Copy, Debug)]");
-        line(source, &format!("pub(crate) struct {name}{declared} {{"));
+        line!(source, "/// What is calculated of `{}`.", interface.file);
+        line!(source, "#[derive(Clone, Copy, Debug)]");
+        line!(source, "pub(crate) struct {name}{declared} {{");
         for field in &group.fields {
             let of = if field.of_each_dof { "[f64; D]" } else { "f64" };
-            line(source, &format!("    /// `{}`.", field.pattern));
-            line(source, &format!("    pub(crate) {}: {of},", field.name()));
+            line!(source, "    /// `{}`.", field.pattern);
+            line!(source, "    pub(crate) {}: {of},", field.name());
         }
-        line(source, "}");
-        line(source, &format!("impl{declared} {name}{used} {{"));
-        line(source, "    /// Writes all of it to the variables.");
-        line(source, "    #[inline]");
-        line(
+        line!(source, "}}");
+        line!(source, "impl{declared} {name}{used} {{");
+        line!(source, "    /// Writes all of it to the variables.");
+        line!(source, "    #[inline]");
+        line!(
             source,
-            "    pub(crate) fn write(&self, values: &mut Values) {",
+            "    pub(crate) fn write(&self, values: &mut Values) {{"
         );
         for field in &group.fields {
             let (constant, name) = (constant_name(&field.pattern), field.name());
-            line(
-                source,
-                &if field.of_each_dof {
-                    format!("        scatter(values, &reference::{constant}, &self.{name});")
-                } else {
-                    format!("        values[reference::{constant}] = self.{name};")
-                },
-            );
+            if field.of_each_dof {
+                line!(
+                    source,
+                    "        scatter(values, &reference::{constant}, &self.{name});"
+                );
+            } else {
+                line!(
+                    source,
+                    "        values[reference::{constant}] = self.{name};"
+                );
+            }
         }
-        line(source, "    }");
-        line(source, "}");
+        line!(source, "    }}");
+        line!(source, "}}");
     }
 }
 

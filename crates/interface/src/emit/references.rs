@@ -1,7 +1,7 @@
 //! Writes the value references as constants: one by name for what there is once, an array over the DOFs for what each DOF has,
 //! arrays over DOFs and laws for what the laws bring.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, fmt::Write as _};
 
 use super::{constant_name, line};
 use crate::{
@@ -29,39 +29,33 @@ struct References {
 pub(super) fn write(source: &mut String, interfaces: &Interfaces) {
     let count = interfaces.dof_count;
     let found = References::of(interfaces);
-    line(source, "/// Value references, as indices.");
-    line(source, "pub(crate) mod reference {");
+    line!(source, "/// Value references, as indices.");
+    line!(source, "pub(crate) mod reference {{");
     for (reference, name) in &found.alone {
-        line(source, &format!("    /// `{name}`."));
-        line(
+        line!(source, "    /// `{name}`.");
+        line!(
             source,
-            &format!(
-                "    pub(crate) const {}: usize = {reference};",
-                constant_name(name)
-            ),
+            "    pub(crate) const {}: usize = {reference};",
+            constant_name(name)
         );
     }
     for (pattern, references) in &found.dofs {
-        line(source, &format!("    /// `{pattern}` of each DOF."));
-        line(
+        line!(source, "    /// `{pattern}` of each DOF.");
+        line!(
             source,
-            &format!(
-                "    pub(crate) const {}: [usize; {count}] = {references:?};",
-                constant_name(pattern)
-            ),
+            "    pub(crate) const {}: [usize; {count}] = {references:?};",
+            constant_name(pattern)
         );
     }
     for (symbol, rows) in &found.matrices {
-        line(
+        line!(
             source,
-            &format!("    /// Entries of the law's matrix {symbol}, by DOFs."),
+            "    /// Entries of the law's matrix {symbol}, by DOFs."
         );
-        line(
+        line!(
             source,
-            &format!(
-                "    pub(crate) const JOINT_{}: [[usize; {count}]; {count}] = {rows:?};",
-                symbol.to_uppercase()
-            ),
+            "    pub(crate) const JOINT_{}: [[usize; {count}]; {count}] = {rows:?};",
+            symbol.to_uppercase()
         );
     }
     for (name, what, places) in [
@@ -71,19 +65,17 @@ pub(super) fn write(source: &mut String, interfaces: &Interfaces) {
         let rows: Vec<Vec<usize>> = (0..count)
             .map(|row| places.values().map(|references| references[row]).collect())
             .collect();
-        line(
+        line!(
             source,
-            &format!("    /// {what} on each DOF, in the order of their declarations."),
+            "    /// {what} on each DOF, in the order of their declarations."
         );
-        line(
+        line!(
             source,
-            &format!(
-                "    pub(crate) const {name}: [[usize; {}]; {count}] = {rows:?};",
-                places.len()
-            ),
+            "    pub(crate) const {name}: [[usize; {}]; {count}] = {rows:?};",
+            places.len()
         );
     }
-    line(source, "}");
+    line!(source, "}}");
 }
 
 impl References {

@@ -263,3 +263,10 @@ pub enum InterfaceProblem {
         other: String,
     },
 }
+
+impl InterfaceProblem {
+    /// The problem of a placeholder on the line with this number.
+    pub(crate) fn placeholder(line: usize) -> impl Fn(String) -> Self {
+        move |placeholder| Self::Placeholder { line, placeholder }
+    }
+}

@@ -237,10 +237,7 @@ impl<'a> Filler<'a> {
                 "declaredType" => self.declared_type(placeholder, instance),
                 _ => self.word(placeholder, instance),
             });
-            *value = filled.map_err(|placeholder| InterfaceProblem::Placeholder {
-                line: number,
-                placeholder,
-            })?;
+            *value = filled.map_err(InterfaceProblem::placeholder(number))?;
         }
         Ok(Declared {
             name: self.checked_name(&line, number)?,
@@ -270,10 +267,7 @@ impl<'a> Filler<'a> {
         for (attribute, value) in &mut line.attributes {
             if attribute == "name" {
                 *value = words::filled(value, |placeholder| self.name(placeholder, instance))
-                    .map_err(|placeholder| InterfaceProblem::Placeholder {
-                        line: number,
-                        placeholder,
-                    })?;
+                    .map_err(InterfaceProblem::placeholder(number))?;
             }
         }
         let name = self.checked_name(&line, number)?;

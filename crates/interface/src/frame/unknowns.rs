@@ -43,16 +43,9 @@ impl Unknown {
             };
             let known = known.get_or_insert_default();
             for token in tokens.split_whitespace() {
-                let names = laws.names(token, instance).map_err(|placeholder| {
-                    InterfaceProblem::Placeholder {
-                        line: number,
-                        placeholder,
-                    }
-                })?;
-                for name in names {
-                    if !known.iter().any(|(earlier, _)| *earlier == name) {
-                        known.push((name, kind));
-                    }
+                let names = laws.names(token, instance);
+                for name in names.map_err(InterfaceProblem::placeholder(number))? {
+                    add(known, name, kind);
                 }
             }
         }
@@ -85,10 +78,7 @@ impl Unknown {
     /// Takes over what the same unknown depends on for another DOF.
     pub(super) fn depend_also_as(&mut self, other: Self) {
         for (name, kind) in other.known.into_iter().flatten() {
-            let known = self.known.get_or_insert_default();
-            if !known.iter().any(|(earlier, _)| *earlier == name) {
-                known.push((name, kind));
-            }
+            add(self.known.get_or_insert_default(), name, kind);
         }
     }
 
@@ -122,6 +112,13 @@ impl Unknown {
             element.push("dependenciesKind", kinds.join(" "));
         }
         Ok(element.to_string())
+    }
+}
+
+/// Adds a name that is not yet there.
+fn add(known: &mut Vec<(String, &'static str)>, name: String, kind: &'static str) {
+    if !known.iter().any(|(earlier, _)| *earlier == name) {
+        known.push((name, kind));
     }
 }
 

@@ -4,10 +4,14 @@ use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{Defect, Lap, LapState, STABILITY_LIMIT_REAL};
 
-use super::{loads::Loads, prepared::Prepared};
+use super::{
+    loads::Loads,
+    prepared::{Prepared, is_within},
+    way::Way as _,
+};
 use crate::{
     models::{
-        CommunicationStep,
+        Step,
         sides::{A, B, name, unit},
     },
     refusal::Refusal,
@@ -55,12 +59,7 @@ pub(in crate::models) fn check_step<const D: usize>(
 impl<const D: usize> Prepared<D> {
     /// Goes through a failed step again, one Runge–Kutta step at a time, to say what failed first, and when.
     #[cold]
-    pub(super) fn explain(
-        &self,
-        start: &LapState<D>,
-        loads: &Loads<'_, D>,
-        step: CommunicationStep,
-    ) -> Refusal {
+    pub(super) fn explain(&self, start: &LapState<D>, loads: &Loads<'_, D>, step: Step) -> Refusal {
         let count = self
             .internal_steps(step.interval_s)
             .map_or(1, NonZeroU32::get);
@@ -75,21 +74,27 @@ impl<const D: usize> Prepared<D> {
                 break;
             }
         }
-        self.fault(&state, time_s)
+        fault(&state, &self.amplitude, time_s)
     }
+}
 
-    /// What is wrong with this state.
-    pub(super) fn fault(&self, state: &LapState<D>, time_s: f64) -> Refusal {
-        fault(state, &self.amplitude, time_s)
+/// Refuses a state that is not finite, or of a joint that does not hold up to this relative displacement.
+#[inline]
+pub(in crate::models) fn check_held<const D: usize>(
+    state: &LapState<D>,
+    amplitude: &[f64; D],
+    time_s: f64,
+) -> Result<(), Refusal> {
+    if is_within(amplitude, state) {
+        Ok(())
+    } else {
+        Err(fault(state, amplitude, time_s))
     }
 }
 
 /// What is wrong with this state of a joint that holds up to this relative displacement.
-pub(in crate::models) fn fault<const D: usize>(
-    state: &LapState<D>,
-    amplitude: &[f64; D],
-    time_s: f64,
-) -> Refusal {
+#[cold]
+fn fault<const D: usize>(state: &LapState<D>, amplitude: &[f64; D], time_s: f64) -> Refusal {
     for (side, motion) in [(A, &state.a), (B, &state.b)] {
         let numbers = motion.displacement.iter().chain(&motion.velocity);
         let references = side.motion_references::<D>();

@@ -4,10 +4,15 @@ use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{Lap, LapIntegrator, LapLoads, LapPropagator, LapState, substeps};
 
-use super::loads::Loads;
+use super::{
+    loads::Loads,
+    way::{Way, loads, set_state, state},
+};
 use crate::{
+    input_course::InputCourse,
+    interface::Values,
     models::{
-        CommunicationStep,
+        Outcome, Step,
         watch::{Watch, finite},
     },
     refusal::{Reached, Refusal},
@@ -25,7 +30,7 @@ const STEPS_BETWEEN_CHECKS: NonZeroU32 = NonZeroU32::new(8).unwrap();
 
 /// A lap made ready for steps.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Prepared<const D: usize> {
+pub(in crate::models) struct Prepared<const D: usize> {
     pub(super) integrator: LapIntegrator<D>,
     step_size_max_s: f64,
     /// Relative displacement that a softening joint holds at most; the largest number where it always holds.
@@ -60,15 +65,8 @@ enum Propagation<const D: usize> {
     Possible(LapPropagator<D>),
 }
 
-impl<const D: usize> Prepared<D> {
-    /// Prepares `lap` for Runge–Kutta steps of `step_size_max_s` (s) at most, with its escape amplitudes, and the
-    /// relative displacements up to which there is nothing to tell the user.
-    pub(super) fn new(
-        lap: &Lap<D>,
-        step_size_max_s: f64,
-        escape: [Option<f64>; D],
-        quiet: [f64; D],
-    ) -> Self {
+impl<const D: usize> Way<D> for Prepared<D> {
+    fn new(lap: &Lap<D>, step_size_max_s: f64, escape: [Option<f64>; D], quiet: [f64; D]) -> Self {
         Self {
             integrator: LapIntegrator::new(lap),
             step_size_max_s,
@@ -79,18 +77,77 @@ impl<const D: usize> Prepared<D> {
         }
     }
 
-    /// Number of Runge–Kutta steps in a communication step of `interval_s` (s).
-    pub(super) fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
+    fn hold(&self) -> &[f64; D] {
+        &self.amplitude
+    }
+
+    fn look(&mut self, watch: &mut Watch<D>, state: &LapState<D>, time_s: f64) -> Option<Reached> {
+        if self.holds_quietly(state) {
+            return None;
+        }
+        let reached = watch.look(&state.relative().displacement, time_s);
+        self.quiet = watch.quiet();
+        for dof in 0..D {
+            self.quiet[dof] = self.quiet[dof].min(self.amplitude[dof]);
+        }
+        reached
+    }
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
         count(interval_s, self.step_size_max_s)
     }
 
+    fn advance(
+        &mut self,
+        watch: &mut Watch<D>,
+        values: &mut Values,
+        step: Step,
+        inputs: &InputCourse,
+    ) -> Outcome {
+        let start = state::<D>(values);
+        let loads = Loads {
+            start: loads(values),
+            course: inputs,
+        };
+        let end = if inputs.is_held() {
+            self.advance_held(&start, &loads.start, step)?
+        } else {
+            self.advance_along(&start, &loads, step)?
+        };
+        let mut reached = None;
+        if !self.holds_quietly(&end) {
+            if !self.holds(&end) {
+                return Err(self.explain(&start, &loads, step));
+            }
+            reached = self.look(watch, &end, step.time_s + step.interval_s);
+        }
+        set_state(values, &end);
+        Ok(reached)
+    }
+
+    #[inline(always)]
+    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
+        if D > 1 && self.takes_single_steps(interval_s) {
+            return take_single_step(self, values, interval_s);
+        }
+        let (start, loads) = (state(values), loads(values));
+        match self.steady_end(&start, &loads, interval_s) {
+            Some(end) if self.holds_quietly(&end) => {
+                set_state(values, &end);
+                true
+            }
+            _ => false,
+        }
+    }
+}
+
+impl<const D: usize> Prepared<D> {
     /// State at the end of the step, by one product where that is possible and worth its preparation.
     #[inline]
-    pub(super) fn advance(
+    fn advance_held(
         &mut self,
         start: &LapState<D>,
         loads: &LapLoads<D>,
-        step: CommunicationStep,
+        step: Step,
     ) -> Result<LapState<D>, Refusal> {
         let length_s = step.interval_s;
         let interval = match &mut self.interval {
@@ -147,7 +204,7 @@ impl<const D: usize> Prepared<D> {
 
     /// Whether all is prepared for one of many equal steps that is a single Runge–Kutta step without terms of higher order.
     #[inline]
-    pub(super) fn takes_single_steps(&self, interval_s: f64) -> bool {
+    fn takes_single_steps(&self, interval_s: f64) -> bool {
         self.interval.as_ref().is_some_and(|interval| {
             interval.length_s == interval_s
                 && interval.count == NonZeroU32::MIN
@@ -157,7 +214,7 @@ impl<const D: usize> Prepared<D> {
 
     /// State at the end of one of many equal steps, if all is prepared for it.
     #[inline]
-    pub(super) fn steady_end(
+    fn steady_end(
         &self,
         start: &LapState<D>,
         loads: &LapLoads<D>,
@@ -185,11 +242,11 @@ impl<const D: usize> Prepared<D> {
 
     /// State at the end of the step under loads that change, by Runge–Kutta steps.
     #[cold]
-    pub(super) fn advance_along(
+    fn advance_along(
         &self,
         start: &LapState<D>,
         loads: &Loads<'_, D>,
-        step: CommunicationStep,
+        step: Step,
     ) -> Result<LapState<D>, Refusal> {
         let count = self.internal_steps(step.interval_s)?.get();
         let length_s = step.interval_s / f64::from(count);
@@ -212,27 +269,8 @@ impl<const D: usize> Prepared<D> {
 
     /// Whether, besides, there is nothing to tell the user.
     #[inline]
-    pub(super) fn holds_quietly(&self, state: &LapState<D>) -> bool {
+    fn holds_quietly(&self, state: &LapState<D>) -> bool {
         is_within(&self.quiet, state)
-    }
-
-    /// What there is to tell the user of this state at `time_s` (s).
-    pub(super) fn look(
-        &mut self,
-        watch: &mut Watch<D>,
-        state: &LapState<D>,
-        time_s: f64,
-    ) -> Option<Reached> {
-        if self.holds_quietly(state) {
-            return None;
-        }
-        let relative = state.a.relative_to(&state.b);
-        let reached = watch.look(&relative.displacement, time_s);
-        self.quiet = watch.quiet();
-        for dof in 0..D {
-            self.quiet[dof] = self.quiet[dof].min(self.amplitude[dof]);
-        }
-        reached
     }
 }
 
@@ -249,6 +287,26 @@ pub(in crate::models) fn is_within<const D: usize>(limits: &[f64; D], state: &La
         holds &= relative.displacement[dof].abs() <= limits[dof];
     }
     holds && sum <= f64::MAX
+}
+
+/// One of many equal steps that is a single Runge–Kutta step. Apart from all else, so that the numbers stay in the registers.
+#[inline(never)]
+fn take_single_step<const D: usize>(
+    prepared: &Prepared<D>,
+    values: &mut Values,
+    interval_s: f64,
+) -> bool {
+    let end = prepared.integrator.advance_without_higher(
+        &state(values),
+        &loads(values),
+        interval_s,
+        NonZeroU32::MIN,
+    );
+    let holds = prepared.holds_quietly(&end);
+    if holds {
+        set_state(values, &end);
+    }
+    holds
 }
 
 /// The Runge–Kutta steps where time does not matter.

@@ -1,10 +1,10 @@
 //! The element FMU of a joint over the preload.
 
-use std::num::NonZeroU32;
-
 use bolted_joint_dynamics::{JointLaw, JointOverPreload};
 
-use super::{CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller};
+use super::{
+    CHECKED_BETWEEN, are_active, check_preload, preload_power, preload_power_change, smaller,
+};
 use crate::{
     input_course::InputCourse,
     interface::{
@@ -12,9 +12,8 @@ use crate::{
         reference as vr,
     },
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         element::{differentiate, rates, relative, set_outputs},
-        sides::is_active,
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -50,29 +49,15 @@ impl<const D: usize> LooseningElement<D> {
             self.watch.set(&law, finite(law.escape_amplitude()));
             self.watched_n_m = Some(preload_n_m);
         }
-        let displacement = relative::<D>(values).displacement;
-        let quiet = self.watch.quiet();
-        if (0..D).all(|dof| displacement[dof].abs() <= quiet[dof]) {
-            return None;
-        }
-        self.watch.look(&displacement, time_s)
+        self.watch.look(&relative(values).displacement, time_s)
     }
 }
 
 impl<const D: usize> Model for LooseningElement<D> {
     fn prepare(&mut self, _: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
-        let [mut joint_stiffness, mut joint_damping] = [false; 2];
-        for preload_n_m in self.table.samples_n_m(CHECKED_BETWEEN) {
-            let [stiffness, damping] = is_active(&self.table.law(preload_n_m));
-            joint_stiffness |= stiffness;
-            joint_damping |= damping;
-        }
-        Ok(Active {
-            joint_stiffness,
-            joint_damping,
-            supports: false,
-        }
-        .warning())
+        let samples = self.table.samples_n_m(CHECKED_BETWEEN);
+        let laws = samples.map(|preload_n_m| self.table.law(preload_n_m));
+        Ok(Active::of(are_active(laws), false))
     }
 
     fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
@@ -83,29 +68,16 @@ impl<const D: usize> Model for LooseningElement<D> {
         }
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         Ok(self.look(values, values[vr::TIME]))
     }
 
-    fn internal_steps(&self, _: f64) -> Result<NonZeroU32, Refusal> {
-        Ok(NonZeroU32::MIN)
-    }
-
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         if !inputs.is_held() {
             let end_n_m = inputs.value(vr::PRELOAD, values[vr::PRELOAD], step.interval_s);
             check_preload(&self.table, end_n_m, Some(step.time_s + step.interval_s))?;
         }
         Ok(self.look(values, step.time_s))
-    }
-
-    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
-        false
     }
 
     fn reset(&mut self) {

@@ -13,7 +13,7 @@ use bolted_joint_dynamics::{
 };
 
 use super::{
-    CHECKED_BETWEEN, check_preload, preload_power, preload_power_change, smaller,
+    CHECKED_BETWEEN, are_active, check_preload, preload_power, preload_power_change, smaller,
     stored_energy_change,
 };
 use crate::{
@@ -23,16 +23,16 @@ use crate::{
         reference as vr,
     },
     models::{
-        CommunicationStep, Model,
+        Model, Outcome, Step,
         lap::{
             differentiate,
-            faults::{check_parameters, check_step, fault},
-            loads,
+            faults::{check_held, check_parameters, check_step},
             loads::Loads,
-            prepared::{count, is_within},
-            rates, set_outputs, state,
+            prepared::count,
+            rates, set_outputs,
+            way::{loads, set_state, state},
         },
-        sides::{A, B, is_active},
+        sides::{A, B},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -101,7 +101,7 @@ impl<const D: usize> LooseningLap<D> {
     fn steps(
         &self,
         start: &CountedState<D>,
-        step: CommunicationStep,
+        step: Step,
         mut hold: [f64; D],
         conditions_at: &dyn Fn(f64) -> Result<LapConditions<D>, Refusal>,
         is_held: bool,
@@ -125,9 +125,7 @@ impl<const D: usize> LooseningLap<D> {
                 }
                 next
             };
-            if !is_within(&hold, &counted.state) {
-                return Err(fault(&counted.state, &hold, step.time_s + to_s));
-            }
+            check_held(&counted.state, &hold, step.time_s + to_s)?;
         }
         let PassedEnergy {
             supplied,
@@ -156,11 +154,7 @@ impl<const D: usize> LooseningLap<D> {
         time_s: f64,
     ) -> Option<Reached> {
         self.watch.set(&lap.joint, hold);
-        if is_within(&self.watch.quiet(), state) {
-            return None;
-        }
-        let relative = state.a.relative_to(&state.b);
-        self.watch.look(&relative.displacement, time_s)
+        self.watch.look(&state.relative().displacement, time_s)
     }
 
     /// The lap at the preloads that are looked at, for changes of the bodies.
@@ -183,26 +177,18 @@ impl<const D: usize> Model for LooseningLap<D> {
     ) -> Result<Option<Active>, Refusal> {
         let step_size_max_s = values[vr::STEP_SIZE_MAX];
         check_parameters(&self.lap(values))?;
-        let mut active = [false; 2];
         // the bolt may come to any preload of the table
-        for lap in self.laps(values) {
-            if interface_type == InterfaceType::CoSimulation {
+        if interface_type == InterfaceType::CoSimulation {
+            for lap in self.laps(values) {
                 check_step(&lap, step_size_max_s)?;
             }
-            let [stiffness, damping] = is_active(&lap.joint);
-            active = [active[0] || stiffness, active[1] || damping];
         }
+        let active = are_active(self.laps(values).map(|lap| lap.joint));
         self.step_size_max_s = Some(step_size_max_s);
         self.interface_type = interface_type;
         // the bodies may be others
         self.latest = None;
-        let [joint_stiffness, joint_damping] = active;
-        Ok(Active {
-            joint_stiffness,
-            joint_damping,
-            supports: self.lap(values).has_active_support(),
-        }
-        .warning())
+        Ok(Active::of(active, self.lap(values).has_active_support()))
     }
 
     fn begin(&self, values: &mut Values) {
@@ -224,14 +210,11 @@ impl<const D: usize> Model for LooseningLap<D> {
         }
     }
 
-    fn check_states(&mut self, values: &Values) -> Result<Option<Reached>, Refusal> {
+    fn check_states(&mut self, values: &Values) -> Outcome {
         let (state, lap) = (state(values), self.lap(values));
         let hold = finite(lap.escape_amplitude());
-        if is_within(&hold, &state) {
-            Ok(self.look(&lap, hold, &state, values[vr::TIME]))
-        } else {
-            Err(fault(&state, &hold, values[vr::TIME]))
-        }
+        check_held(&state, &hold, values[vr::TIME])?;
+        Ok(self.look(&lap, hold, &state, values[vr::TIME]))
     }
 
     fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
@@ -239,12 +222,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         count(interval_s, step_size_max_s)
     }
 
-    fn advance(
-        &mut self,
-        values: &mut Values,
-        step: CommunicationStep,
-        inputs: &InputCourse,
-    ) -> Result<Option<Reached>, Refusal> {
+    fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         let preload_n_m = values[vr::PRELOAD];
         let latest = match self.latest {
             Some(latest) if latest.preload_n_m.to_bits() == preload_n_m.to_bits() => latest,
@@ -261,7 +239,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         self.latest = Some(latest);
         let law = latest.law;
         let state = state::<D>(values);
-        let relative = state.a.relative_to(&state.b);
+        let relative = state.relative();
         let start = CountedState {
             state,
             memory: JointMemory::REST,
@@ -299,8 +277,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         let is_held = inputs.is_held();
         let conditions_at: &dyn Fn(f64) -> _ = if is_held { &held } else { &along };
         let (end, last) = self.steps(&start, step, latest.hold, conditions_at, is_held)?;
-        A.set_motion(values, &end.state.a);
-        B.set_motion(values, &end.state.b);
+        set_state(values, &end.state);
         values[vr::ENERGY_SUPPLIED] = end.passed.supplied;
         values[vr::ENERGY_DISSIPATED] = end.passed.dissipated;
         values[memory::PRELOAD_WORK] = end.passed.preload;
@@ -316,10 +293,6 @@ impl<const D: usize> Model for LooseningLap<D> {
         };
         let end_s = step.time_s + step.interval_s;
         Ok(self.look(&last.lap, hold, &end.state, end_s))
-    }
-
-    fn advance_steadily(&self, _: &mut Values, _: f64) -> bool {
-        false
     }
 
     fn reset(&mut self) {

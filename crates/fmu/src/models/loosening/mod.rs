@@ -10,6 +10,7 @@ use bolted_joint_dynamics::{Dual, JointLaw, JointOverPreload};
 
 use crate::{
     interface::{Values, memory, reference as vr},
+    models::sides::is_active,
     refusal::Refusal,
 };
 
@@ -72,6 +73,14 @@ fn stored_energy_change<const D: usize>(
 ) -> f64 {
     let r = std::array::from_fn(|dof| Dual::new(r[dof], [r_change[dof]]));
     law.with_change(law_change).stored_energy(&r).change[0]
+}
+
+/// Whether stiffness and damping of any of these laws can feed energy.
+fn are_active<const D: usize>(laws: impl Iterator<Item = JointLaw<D>>) -> [bool; 2] {
+    laws.fold([false; 2], |[stiffness, damping], law| {
+        let own = is_active(&law);
+        [stiffness || own[0], damping || own[1]]
+    })
 }
 
 /// The smaller of two amplitudes in each DOF.

@@ -142,23 +142,30 @@ impl Instance {
 }
 
 impl Instance {
+    /// Goes through initialisation, in which nothing is to be said.
+    #[track_caller]
+    pub(crate) fn initialize(&self, start_s: f64, stop_s: Option<f64>) {
+        c::ok(self.enter_initialization(start_s, stop_s));
+        c::ok(self.exit_initialization());
+    }
+
     /// From Instantiated to another state, at t = 0.
     pub(crate) fn go_to(&mut self, state: State) {
         use State::{Continuous, Event, Instantiated, SetUp, Step, Terminated};
         match state {
             Instantiated => {}
-            SetUp => assert_eq!(self.set_up(0.0, None), c::OK),
-            _ => assert_eq!(self.enter_initialization(0.0, None), c::OK),
+            SetUp => c::ok(self.set_up(0.0, None)),
+            _ => c::ok(self.enter_initialization(0.0, None)),
         }
         if matches!(state, Event | Step | Continuous | Terminated) {
-            assert_eq!(self.exit_initialization(), c::OK);
+            c::ok(self.exit_initialization());
         }
         if state == Continuous {
-            assert_eq!(self.update(), c::OK);
-            assert_eq!(self.enter_continuous(), c::OK);
+            c::ok(self.update());
+            c::ok(self.enter_continuous());
         }
         if state == Terminated {
-            assert_eq!(self.terminate(), c::OK);
+            c::ok(self.terminate());
         }
         self.take_log();
     }
@@ -203,11 +210,18 @@ impl Instance {
         self.message(c::ERROR)
     }
 
+    /// The call is refused in the words that are expected of it.
+    #[track_caller]
+    pub(crate) fn refuses(&mut self, call: impl FnOnce(Raw) -> c_int, expected: impl AsRef<str>) {
+        let (message, expected) = (self.refused(call), expected.as_ref());
+        assert!(message.contains(expected), "{message}, not {expected}");
+    }
+
     /// Each call is refused in the words that are expected of it.
+    #[track_caller]
     pub(crate) fn refused_all(&mut self, calls: &[(&str, &dyn Fn(Raw) -> c_int)]) {
         for (expected, call) in calls {
-            let message = self.refused(call);
-            assert!(message.contains(expected), "{message}, not {expected}");
+            self.refuses(call, expected);
         }
     }
 

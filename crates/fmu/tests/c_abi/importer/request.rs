@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use super::callbacks::{Environment, update};
-use super::{Instance, Message, TOKEN, record, record_fmi2};
+use super::{Folder, Instance, Message, TOKEN, record, record_fmi2};
 use crate::raw::{self, Fmi3, FmiVersion, Interface};
 
 /// How to instantiate.
@@ -38,7 +38,15 @@ impl Default for Request<'_> {
     }
 }
 
-impl Request<'_> {
+impl<'a> Request<'a> {
+    /// For an instance with the resources in this folder.
+    pub(crate) fn of(folder: &'a Folder) -> Self {
+        Self {
+            resources: folder.0.to_str(),
+            ..Self::default()
+        }
+    }
+
     /// The instance, or the messages that say why there is none.
     pub(crate) fn instantiate(&self) -> Result<Instance, Vec<Message>> {
         let texts = [self.name, self.token, self.resources]
@@ -66,6 +74,13 @@ impl Request<'_> {
         // SAFETY: the library uses the environment only during a call
         unsafe { (*environment).handle = Some(raw.handle) };
         Ok(Instance { raw, environment })
+    }
+
+    /// There is no instance, for the reason that is expected.
+    #[track_caller]
+    pub(crate) fn refuses(&self, expected: &str) {
+        let message = self.refusal();
+        assert!(message.contains(expected), "{message}, not {expected}");
     }
 
     /// The one reason why there is no instance.

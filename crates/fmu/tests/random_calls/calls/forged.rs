@@ -5,22 +5,10 @@ use super::{
     lives,
     turn::{Mode, Subject},
 };
-
-/// FNV-1a, 64 bits: the last eight bytes of a serialised state are that of all before.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
-}
+use crate::raw::seal;
 
 /// Number of bytes of the checksum.
 pub(crate) const CHECKSUM: usize = 8;
-
-/// Makes the checksum right.
-pub(crate) fn seal(bytes: &mut [u8]) {
-    let (content, checksum) = bytes.split_last_chunk_mut().expect("a whole state");
-    *checksum = fnv1a(content).to_le_bytes();
-}
 
 /// Changes some of the content and makes the checksum right again.
 pub(crate) fn forge(bytes: &mut [u8], choices: &mut Choices<'_>) {

@@ -9,7 +9,7 @@ use std::{
 
 use bolted_joint_importer::header::{OK, WARNING};
 
-use crate::raw::{Fmi3, Raw};
+use crate::raw::{Fmi3, Raw, start_text};
 
 /// Token of all FMUs here.
 pub(crate) const TOKEN: &CStr = c"{random calls}";
@@ -80,54 +80,12 @@ impl Model {
 
     /// The text of `resources/start.txt`.
     pub(crate) fn start_text(self) -> String {
-        let mut text = format!(
-            "bolted-joint-start/1\nmodel {}\ndofs {}\ntoken {}\n",
-            if self.lap { "lap" } else { "element" },
-            self.dofs,
-            TOKEN.to_string_lossy()
-        );
-        let mut parameter = |name: &str, value: f64| {
-            let rotational = name.contains("theta") || name.ends_with(".J");
-            if self.dofs == 2 || !rotational {
-                text += &format!("{name} {value}\n");
-            }
-        };
-        for (name, value) in [
-            ("joint.k_yy", 4e6),
-            ("joint.k_ytheta", 1e4),
-            ("joint.k_thetatheta", 2e3),
-            ("joint.c_yy", 8.0),
-            ("joint.c_ytheta", 0.5),
-            ("joint.c_thetatheta", 0.25),
+        let changes = [
             ("joint.k3_y", self.cubic_n_per_m3),
-            ("joint.k3_theta", 0.0),
             ("joint.k5_y", self.quintic_n_per_m5),
-            ("joint.k5_theta", 0.0),
-            ("joint.k7_y", 0.0),
-            ("joint.k7_theta", 0.0),
             ("joint.c2_y", self.quintic_n_per_m5.abs() * 1e-11),
-            ("joint.c2_theta", 0.0),
-            ("joint.c4_y", 0.0),
-            ("joint.c4_theta", 0.0),
-        ] {
-            parameter(name, value);
-        }
-        if self.lap {
-            for side in ["a", "b"] {
-                for (name, value) in [
-                    ("m", 2.0),
-                    ("J", 1e-3),
-                    ("k_y", 8e5),
-                    ("k_theta", 1e3),
-                    ("c_y", 1.0),
-                    ("c_theta", 1e-3),
-                ] {
-                    parameter(&format!("{side}.{name}"), value);
-                }
-            }
-            parameter("step_size_max", 2e-5);
-        }
-        text
+        ];
+        start_text(self.lap, self.dofs, &TOKEN.to_string_lossy(), &changes)
     }
 }
 

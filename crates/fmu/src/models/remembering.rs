@@ -1,0 +1,110 @@
+//! The lap FMU of a joint with memory: Runge–Kutta steps whose stages take the joint as it was committed, with one commit at the
+//! end of each. In Model Exchange the importer integrates the heat, and a commit follows each step that it has completed.
+
+use std::num::NonZeroU32;
+
+use bolted_joint_dynamics::{CountedState, JointLaw, Lap, LapConditions, LapState, PassedEnergy};
+
+use crate::{
+    input_course::InputCourse,
+    interface::{Values, reference as vr},
+    models::{
+        Outcome, Step,
+        lap::{
+            faults::check_held,
+            loads::Loads,
+            prepared::count,
+            way::{Way, lap, loads, set_state, state},
+        },
+        sides::{joint_memory, set_joint_memory},
+        watch::{Watch, finite},
+    },
+    refusal::{Reached, Refusal},
+};
+
+/// Two bodies and a joint with memory between them.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::models) struct RememberingLap<const D: usize> {
+    lap: Lap<D>,
+    step_size_max_s: f64,
+    hold: [f64; D],
+}
+
+impl<const D: usize> Way<D> for RememberingLap<D> {
+    fn new(lap: &Lap<D>, step_size_max_s: f64, escape: [Option<f64>; D], _: [f64; D]) -> Self {
+        Self {
+            lap: *lap,
+            step_size_max_s,
+            hold: finite(escape),
+        }
+    }
+
+    fn hold(&self) -> &[f64; D] {
+        &self.hold
+    }
+
+    fn look(&mut self, watch: &mut Watch<D>, state: &LapState<D>, time_s: f64) -> Option<Reached> {
+        watch.look(&state.relative().displacement, time_s)
+    }
+
+    fn internal_steps(&self, interval_s: f64) -> Result<NonZeroU32, Refusal> {
+        count(interval_s, self.step_size_max_s)
+    }
+
+    fn commit(values: &mut Values) {
+        let relative = state::<D>(values).relative();
+        let mut remembered = joint_memory(values);
+        // its heat is part of the power that the importer integrates
+        let law: JointLaw<D> = lap(values).joint;
+        law.commit(&mut remembered, &relative.displacement);
+        set_joint_memory(values, &remembered);
+    }
+
+    fn advance(
+        &mut self,
+        watch: &mut Watch<D>,
+        values: &mut Values,
+        step: Step,
+        inputs: &InputCourse,
+    ) -> Outcome {
+        let loads: Loads<'_, D> = Loads {
+            start: loads(values),
+            course: inputs,
+        };
+        let count = self.internal_steps(step.interval_s)?.get();
+        let length_s = step.interval_s / f64::from(count);
+        let mut counted = CountedState {
+            state: state::<D>(values),
+            memory: joint_memory(values),
+            passed: PassedEnergy {
+                dissipated: values[vr::ENERGY_DISSIPATED],
+                ..PassedEnergy::default()
+            },
+        };
+        for index in 0..count {
+            let conditions = loads.at_stages(index, length_s).map(|loads| LapConditions {
+                lap: self.lap,
+                law_rate: JointLaw::NONE,
+                loads,
+            });
+            counted = LapConditions::step(conditions.each_ref(), &counted, length_s);
+            let end_s = step.time_s + length_s * f64::from(index + 1);
+            check_held(&counted.state, &self.hold, end_s)?;
+        }
+        let end_s = step.time_s + step.interval_s;
+        if !counted.passed.dissipated.is_finite() {
+            return Err(Refusal::StateNotFinite {
+                name: "energy.dissipated",
+                time_s: end_s,
+            });
+        }
+        set_state(values, &counted.state);
+        set_joint_memory(values, &counted.memory);
+        values[vr::ENERGY_DISSIPATED] = counted.passed.dissipated;
+        Ok(self.look(watch, &counted.state, end_s))
+    }
+
+    fn add_rates(values: &Values, rates: &mut Values) {
+        rates[vr::ENERGY_DISSIPATED] = values[vr::POWER_DISSIPATED];
+    }
+}

@@ -66,11 +66,6 @@ pub(super) fn run<const D: usize>(
                 "energy.stored" => Some(law.stored_energy_after(memory, &relative.displacement)),
                 "energy.dissipated" => Some(committed.dissipated_j),
                 "power.dissipated" => Some(law.dissipated_power_after(memory, &relative)),
-                "power.supplied" => Some(
-                    std::iter::zip(&on_b, &relative.velocity)
-                        .map(|(load, rate)| load * rate)
-                        .sum(),
-                ),
                 // the preload is held
                 "power.preload" => Some(0.0),
                 _ => [("a", &on_a), ("b", &on_b), ("joint", &on_b)]

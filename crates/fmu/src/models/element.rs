@@ -198,10 +198,7 @@ fn outputs<const D: usize, N: Number>(
     relative: &Motion<D, N>,
     of: impl Fn(N) -> f64,
 ) -> ElementOutputs<D> {
-    let load = law.load_on_b_after(memory, relative);
-    let on_b = load.map(&of);
-    // Fᵀ (ẋ_a − ẋ_b)
-    let supplied = (0..D).fold(N::ZERO, |sum, dof| sum + load[dof] * relative.velocity[dof]);
+    let on_b = law.load_on_b_after(memory, relative).map(&of);
     ElementOutputs {
         // 0 − F is −F but for F = 0, which stays without a sign
         a_load: on_b.map(|load| 0.0 - load),
@@ -209,7 +206,6 @@ fn outputs<const D: usize, N: Number>(
         joint_load: on_b,
         energy_stored: of(law.stored_energy_after(memory, &relative.displacement)),
         power_dissipated: of(law.dissipated_power_after(memory, relative)),
-        power_supplied: of(supplied),
     }
 }
 

@@ -30,7 +30,8 @@ pub enum Boundary {
 }
 
 /// Damping of the beam's elastic modes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Damping {
     /// ζ of each mode in ascending order, rigid-body modes included; the last one holds for all higher modes.
     Ratios(Vec<f64>),
@@ -39,7 +40,8 @@ pub enum Damping {
 }
 
 /// A uniform beam of rectangular cross-section that bends about its width.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Beam {
     /// Length, m.
     pub length_m: f64,

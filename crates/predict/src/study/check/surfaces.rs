@@ -91,7 +91,7 @@ impl Checker<'_> {
                     );
                 }
                 let fit = self.profiles(key, paths, table)?;
-                let found = fit.roughness();
+                let found = fit.roughness;
                 let of_dimension = Uncertain {
                     value: found.fractal_dimension(),
                     standard_deviation: fit.dimension_standard_deviation(),

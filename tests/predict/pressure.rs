@@ -258,6 +258,8 @@ fn preloads_from_torques() {
             .is_err()
     );
     assert!(coarse_pitch_m(0.0101).is_none());
+    assert_eq!(coarse_pitch_m(1.6e-3), Some(1e-3 * 0.35));
+    assert_eq!(coarse_pitch_m(64e-3), Some(1e-3 * 6.0));
 }
 
 fn in_file(text: &str, nominal_m2: Option<f64>) -> Result<PressureField, String> {

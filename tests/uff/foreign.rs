@@ -320,7 +320,7 @@ fn millimetres_become_metres_by_the_kinds_of_both_ends() {
     let [coherence] = &reading.coherences[..] else {
         panic!()
     };
-    assert_eq!(coherence.gamma_squared(), [1.0; 13]);
+    assert_eq!(coherence.gamma_squared, [1.0; 13]);
     let set = reading.into_set().unwrap();
     for (response, reference, factor) in [
         ("11:Y", "2:Y", 1.0),

@@ -20,7 +20,7 @@ impl StudyText {
     pub fn record(&self) -> InputFile {
         record(
             "study",
-            &self.path(),
+            self.path(),
             self.folder(),
             &Sha256::digest(self.text()),
         )

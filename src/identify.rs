@@ -221,7 +221,7 @@ fn summary(found: &Identification, study: &Study) -> String {
             let _ = write!(text, "\nat {torque} N·m");
         }
         text += "\n";
-        text += &parameters(&joint, bolts);
+        text += &parameters(joint, bolts);
     }
     let active: Vec<String> = joints
         .iter()
@@ -236,7 +236,7 @@ fn summary(found: &Identification, study: &Study) -> String {
         );
     }
     for joint in joints {
-        text += &averaged(&joint, bolts);
+        text += &averaged(joint, bolts);
     }
     text += &from_modes(found);
     let _ = writeln!(text, "\n{}", fit(found));
@@ -244,7 +244,7 @@ fn summary(found: &Identification, study: &Study) -> String {
     text += &torques(found);
     for joint in joints {
         if let Some(result) = &joint.bootstrap {
-            text += &bootstrap(result, &joint, bolts);
+            text += &bootstrap(result, joint, bolts);
         }
     }
     text

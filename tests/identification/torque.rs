@@ -101,7 +101,7 @@ fn each_torque_has_its_joint_within_its_intervals() {
                 covariance[(i, j)].abs() < 1e-9 * (covariance[(i, i)] * covariance[(j, j)]).sqrt()
             );
         }
-        squares += distance(&errors, &covariance);
+        squares += distance(&errors, covariance);
         let choice = found.torque_choice().unwrap();
         assert_eq!(choice.recommended, separate);
         assert!(choice.compared[0].bic_difference > 100.0, "{choice:?}");
@@ -189,7 +189,7 @@ fn measured_substructures_in_common_couple_the_torques() {
                 "  {:13} {own:.3}  {change:.3}  {:.3} (stated {:.3})",
                 found.covariance().unknowns[i].name,
                 correlation(&bound, low, high),
-                correlation(&stated, low, high),
+                correlation(stated, low, high),
             );
             // The other torques tell of the substructures, and most of the error is the same at all torques.
             assert!(own < 0.95 && change < 0.2, "{i}: {own} {change}");
@@ -198,7 +198,7 @@ fn measured_substructures_in_common_couple_the_torques() {
         }
         // χ² of the errors with all their correlations.
         let errors = errors(&rig, &found, joints);
-        let squares = distance(&errors, &stated);
+        let squares = distance(&errors, stated);
         let count = errors.len() as f64;
         println!("χ² of {count} errors: {squares:.1}");
         near(squares, count, 4.0 * (2.0 * count).sqrt());

@@ -32,11 +32,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let fit = ProfileFit::new(&[profile], &FitSettings::default())?;
     println!(
         "fit of this profile alone: D = {:.3} ± {:.3}, G = {:.2e} m, 95 % from {:.1e} to {:.1e} m",
-        fit.roughness().fractal_dimension(),
+        fit.roughness.fractal_dimension(),
         fit.dimension_standard_deviation(),
-        fit.roughness().roughness_m(),
-        fit.roughness_interval_m()[0],
-        fit.roughness_interval_m()[1],
+        fit.roughness.roughness_m(),
+        fit.roughness_interval_m[0],
+        fit.roughness_interval_m[1],
     );
     Ok(())
 }

@@ -214,7 +214,7 @@ pub(super) fn warnings(found: &Identification) -> Vec<String> {
 /// The result for people.
 fn summary(found: &Identification, study: &Study) -> String {
     let mut text = format!("{}\n{}\n", found.name, basis(found));
-    let joints = found.estimate.joints();
+    let joints = &found.estimate.joints;
     let bolts = found.bolts.with_own_joint();
     for joint in joints {
         if let Some(torque) = joint.torque_n_m {

@@ -197,7 +197,7 @@ fn three_functions_of_a_gigabyte_take_the_memory_of_three_functions() {
             "{name}: {gigabytes:.2} GB, {functions} functions, {seconds:.1} s, {grown:.1} MiB more than before ({before:.1} MiB)"
         );
         assert_eq!(reading.functions().len(), 3);
-        assert_eq!(reading.not_selected().len(), functions - 3);
+        assert_eq!(reading.not_selected.len(), functions - 3);
         let (re, im) = value(999, 1999);
         let last = &reading.functions()[2];
         assert!((last.frequency_hz()[0] - 100.0).abs() < 1e-9);

@@ -113,7 +113,7 @@ fn check(count: usize) {
         held as f64 / data as f64
     );
     assert!(file.len() > 1000);
-    assert!(found.estimate.assessment().fits());
+    assert!(found.estimate.assessment.fits());
     assert!(ratio < ALLOWED, "{ratio}");
 }
 

@@ -277,10 +277,10 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
                 })),
                 "normal_loss_factor": state.interface.normal_loss_factor(),
                 "tangential_loss_factor": state.interface.tangential_loss_factor(),
-                "reference_m": state.interface.reference_m(),
-                "stiffness": state.interface.stiffness(),
-                "hysteretic_damping": state.interface.hysteretic(),
-                "viscous_damping": state.interface.viscous(),
+                "reference_m": state.interface.reference_m,
+                "stiffness": state.interface.stiffness,
+                "hysteretic_damping": state.interface.hysteretic,
+                "viscous_damping": state.interface.viscous,
             })
         })
         .collect();

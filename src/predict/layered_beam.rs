@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
     let progress = Progress::new("predicting", 0);
     let found = study.run()?;
     drop(progress);
-    let joint_file = found.joint_file().to_json()?;
+    let joint_file = found.joint_file.to_json()?;
     let mut files = Outputs::new();
     files.add(Some(&arguments.output), || joint_file);
     files.add(arguments.damping_csv.as_ref(), || found.csv());
@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         figure.to_svg().unwrap_or_default()
     });
     files.write()?;
-    for warning in found.warnings() {
+    for warning in &found.warnings {
         message(&format!("warning: {warning}"));
     }
     if arguments.json {
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
             "output": arguments.output.display().to_string(),
             "figure": arguments.figure.as_ref().map(|path| path.display().to_string()),
             "damping_csv": arguments.damping_csv.as_ref().map(|path| path.display().to_string()),
-            "joint_file": found.joint_file(),
+            "joint_file": found.joint_file,
             "result": found,
         });
         return print(&serde_json::to_string_pretty(&value)?);

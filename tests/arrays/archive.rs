@@ -61,7 +61,7 @@ fn only_what_is_asked_for_is_kept_and_units_can_be_stated() {
     for name in ["stored.npz", "frequency_first.npz"] {
         let reading = read_frfs(own_file(name), &options).unwrap();
         assert!(reading.units_are_stated());
-        assert_eq!(reading.not_selected().len(), 5);
+        assert_eq!(reading.not_selected.len(), 5);
         let [function] = reading.functions() else {
             panic!()
         };

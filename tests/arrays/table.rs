@@ -182,7 +182,7 @@ fn only_what_is_asked_for_is_kept() {
     };
     assert_eq!(function.frequency_hz(), [2.0]);
     assert_eq!(
-        reading.not_selected().first(),
+        reading.not_selected.first(),
         Some(&(dof("9:Y"), dof("2:Y")))
     );
 }

@@ -127,7 +127,7 @@ fn exact_data_give_each_bolt_its_own_joint() {
         assert!(error < 1e-6, "{error}");
     }
     // With points between the bolts single lines do, too.
-    let averages = found.joints()[0].band_averages.as_ref().unwrap();
+    let averages = found.joints[0].band_averages.as_ref().unwrap();
     for (average, exact) in averages.iter().zip(&joints) {
         let error = deviation(average, exact);
         assert!(error < 1e-2, "{error}");
@@ -163,7 +163,7 @@ fn with_noise_the_intervals_hold_the_joints_of_two_bolts() {
             squares += ((covariance.values[index] - exact) / deviations[index]).powi(2);
             numbers += 1.0;
         }
-        assert!(found.assessment().fits(), "{:?}", found.assessment());
+        assert!(found.assessment.fits(), "{:?}", found.assessment);
     }
     // Squares of standardised errors are χ² with as many degrees; errors of one draw are correlated, so with room.
     let mean: f64 = squares / numbers;
@@ -202,7 +202,7 @@ fn bolts_taken_as_alike_though_they_differ_do_not_leave_noise() {
         1,
     );
     let found = identified(&lines, Bolts::Alike(names()), Noise::default());
-    assert!(!found.assessment().fits(), "{:?}", found.assessment());
+    assert!(!found.assessment.fits(), "{:?}", found.assessment);
 }
 
 #[test]

@@ -161,11 +161,11 @@ fn one_per_cent_noise_leaves_the_estimate_near_the_bound() {
 fn a_coupling_of_zero_is_a_result_and_not_a_doubt() {
     let lines = beams_4_2_2(axis(500.0, 1.0), &[], &THREE_POINTS).lines(&joint_4_2_2(), 0.0, 1);
     let found = identified(&lines, JointModel::Full, None).unwrap();
-    assert_eq!(found.warnings(), [""; 0]);
+    assert_eq!(found.warnings, [""; 0]);
     // √(k_Fy k_Mθ) = 1e4 N is the largest coupling of a passive joint.
     assert!(found.joint().stiffness[(0, 1)].abs() < 1e-12 * 1e4);
     // Without noise the minima differ by rounding alone, and still count as one.
-    assert!(found.starts().1 > 1, "{:?}", found.starts());
+    assert!(found.starts.1 > 1, "{:?}", found.starts);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn as_many_numbers_as_unknowns_do_not_tell_the_noise() {
     );
     assert!(
         unknown
-            .warnings()
+            .warnings
             .iter()
             .any(|warning| warning.starts_with("6 measured values"))
     );

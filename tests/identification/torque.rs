@@ -53,7 +53,7 @@ fn identified(
 
 /// Errors of the unknowns of all joints.
 fn errors(rig: &Rig, found: &LinesEstimate, joints: &[JointMatrices]) -> DVector<f64> {
-    let pairs = found.joints().iter().zip(joints);
+    let pairs = found.joints.iter().zip(joints);
     let errors = pairs.flat_map(|(found, truth)| {
         let truth = unknowns(rig.model, truth);
         let found = unknowns(rig.model, &found.free[0]);
@@ -86,7 +86,7 @@ fn each_torque_has_its_joint_within_its_intervals() {
     for seed in 0..draws {
         let separate = TorqueDependence::Separate;
         let found = identified(&rig, &joints, Noisy::Assembly, separate, 40 + seed);
-        let covariance = found.covariance_of_all();
+        let covariance = &found.covariance_of_all;
         let errors = errors(&rig, &found, &joints);
         for i in 0..size {
             let deviation = covariance[(i, i)].sqrt();
@@ -106,8 +106,8 @@ fn each_torque_has_its_joint_within_its_intervals() {
         assert_eq!(choice.recommended, separate);
         assert!(choice.compared[0].bic_difference > 100.0, "{choice:?}");
         assert!(!choice.compared[0].adequate);
-        assert_eq!(found.warnings(), [""; 0]);
-        for (found, torque) in found.joints().iter().zip(TORQUES_N_M) {
+        assert_eq!(found.warnings, [""; 0]);
+        for (found, torque) in found.joints.iter().zip(TORQUES_N_M) {
             assert_eq!(found.torque_n_m, Some(torque));
         }
     }
@@ -138,7 +138,7 @@ fn one_joint_at_all_torques_is_recommended_as_common() {
             "{difference} {cost}"
         );
         let warned = found
-            .warnings()
+            .warnings
             .iter()
             .any(|w| w.contains("torques = \"common\""));
         assert_eq!(warned, dependence == TorqueDependence::Separate);
@@ -150,10 +150,10 @@ fn a_common_joint_where_each_torque_has_its_own_is_warned_of() {
     let (rig, joints) = (rig(), over_torque());
     let common = TorqueDependence::Common;
     let found = identified(&rig, &joints[..2], Noisy::Assembly, common, 3);
-    assert_eq!(found.joints().len(), 1);
+    assert_eq!(found.joints.len(), 1);
     let choice = found.torque_choice().unwrap();
     assert_eq!(choice.recommended, TorqueDependence::Separate);
-    let mut warnings = found.warnings().iter();
+    let mut warnings = found.warnings.iter();
     assert!(warnings.any(|w| w.contains("torques = \"separate\"")));
 }
 
@@ -174,8 +174,8 @@ fn measured_substructures_in_common_couple_the_torques() {
         |c: &DMatrix<f64>, i: usize, j: usize| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt();
     for seed in [40, 41] {
         let found = identified(&rig, joints, noisy, TorqueDependence::Separate, seed);
-        assert_eq!(found.warnings(), [""; 0]);
-        let stated = found.covariance_of_all();
+        assert_eq!(found.warnings, [""; 0]);
+        let stated = &found.covariance_of_all;
         println!(
             "unknown: deviation at 15 N·m together/alone; of the change to 20 N·m with/without what is in common; correlation"
         );

@@ -53,12 +53,12 @@ fn one_rivet_carries_what_the_thesis_says_or_its_preload() {
         };
         for cells in [[7, 6], [61, 53]] {
             let as_published = interface(ZoneForce::AsPublished, cells).field().unwrap();
-            let force_n = as_published.field().force_n();
+            let force_n = as_published.field.force_n();
             assert!((force_n / 5000.0 - published).abs() < 5e-5, "{force_n}");
-            let imbalance = as_published.balance().force_imbalance();
+            let imbalance = as_published.balance.force_imbalance();
             assert!((imbalance - (published - 1.0)).abs() < 5e-5);
             let carried = interface(ZoneForce::Preload, cells).field().unwrap();
-            assert!(carried.balance().force_imbalance().abs() < 1e-12);
+            assert!(carried.balance.force_imbalance().abs() < 1e-12);
             assert_eq!(carried.cut_zones().count(), 0);
         }
         // The pressure at a point is the polynomial's, σ_s = P/(2.0625 π R_v²), but for the tail that would pull.
@@ -71,7 +71,7 @@ fn one_rivet_carries_what_the_thesis_says_or_its_preload() {
             ThicknessRatio::OneAndAHalf => 1.133_830_2 / 1.133_848_9,
             ThicknessRatio::Two => 1.0,
         };
-        for element in fine.field().elements() {
+        for element in fine.field.elements() {
             let rho = element.x_m.hypot(element.y_m) / 0.004;
             if (1.05..rim - 0.35).contains(&rho) {
                 let expected = tail * stress_pa * ratio.pressure_over_surface_stress(rho);
@@ -82,7 +82,7 @@ fn one_rivet_carries_what_the_thesis_says_or_its_preload() {
             }
         }
         let hole_m2 = PI * 0.004_f64.powi(2);
-        assert!((fine.field().area_m2() / (0.06 * 0.05 - hole_m2) - 1.0).abs() < 1e-7);
+        assert!((fine.field.area_m2() / (0.06 * 0.05 - hole_m2) - 1.0).abs() < 1e-7);
     }
 }
 
@@ -101,13 +101,13 @@ fn the_zone_of_a_bolt_is_three_and_a_half_diameters_across() {
     .field()
     .unwrap();
     let touching = field
-        .field()
+        .field
         .elements()
         .iter()
         .filter(|e| e.pressure_pa > 0.0);
     let farthest = touching.map(|e| e.x_m.hypot(e.y_m)).fold(0.0, f64::max);
     assert!((farthest / 0.014 - 1.0).abs() < 0.015, "{farthest}");
-    assert!(field.balance().force_imbalance().abs() < 1e-12);
+    assert!(field.balance.force_imbalance().abs() < 1e-12);
 }
 
 #[test]
@@ -137,14 +137,14 @@ fn a_cone_spreads_the_force_over_its_base() {
                 (1.0 - (r / rim_m).powi(2)) * 5000.0 * 2.0 * rim_m.powi(2) / (PI * ring_m2.powi(2))
             }
         };
-        for element in field.field().elements() {
+        for element in field.field.elements() {
             let r = element.x_m.hypot(element.y_m);
             if (hole_m + 0.001..rim_m - 0.001).contains(&r) {
                 let error = element.pressure_pa / pressure(r) - 1.0;
                 assert!(error.abs() < 2e-3, "{r}: {error}");
             }
         }
-        assert!(field.balance().force_imbalance().abs() < 1e-12);
+        assert!(field.balance.force_imbalance().abs() < 1e-12);
     }
 }
 
@@ -177,18 +177,18 @@ fn a_cut_zone_is_named_and_still_carries_its_preload() {
     let cut: Vec<_> = field.cut_zones().collect();
     assert_eq!(cut.len(), 1);
     assert!((cut[0].part_on_plate - (1.0 - segment / zone)).abs() < 1e-10);
-    assert!((field.field().force_n() / 5000.0 - 1.0).abs() < 1e-12);
+    assert!((field.field.force_n() / 5000.0 - 1.0).abs() < 1e-12);
     let text = cut[0].to_string();
     assert!(
         text.starts_with("bolt 1: ") && text.contains("cuts off 20.4 %"),
         "{text}"
     );
     // The resultant moves inwards, and the balance says how far; the field can be brought into balance.
-    let balance = field.balance();
+    let balance = field.balance;
     assert!(balance.offset_m()[0] > 1e-3 && balance.offset_m()[1].abs() < 1e-12);
     let target = balance.preload_moments_n_m;
-    let balanced = field.field().carrying(5000.0, target).unwrap();
-    let balance = Balance::of(balanced.field(), &bolts);
+    let balanced = field.field.carrying(5000.0, target).unwrap();
+    let balance = Balance::of(&balanced.field, &bolts);
     assert!(balance.offset_m().iter().all(|offset| offset.abs() < 1e-12));
     let line = balance.to_string();
     has(&line, &["imbalance +0.00 %", "0.000 mm"]);
@@ -258,6 +258,8 @@ fn preloads_from_torques() {
             .is_err()
     );
     assert!(coarse_pitch_m(0.0101).is_none());
+    assert_eq!(coarse_pitch_m(1.6e-3), Some(1e-3 * 0.35));
+    assert_eq!(coarse_pitch_m(64e-3), Some(1e-3 * 6.0));
 }
 
 fn in_file(text: &str, nominal_m2: Option<f64>) -> Result<PressureField, String> {
@@ -403,18 +405,18 @@ proptest! {
         }
         .field()
         .unwrap();
-        let balance = bolted.balance();
+        let balance = bolted.balance;
         prop_assert!(balance.force_imbalance().abs() < 1e-11);
         // Each cell's force acts at its middle; a cell is 5 to 15 mm wide.
         prop_assert!(balance.offset_m().iter().all(|offset| offset.abs() < 2e-3));
-        for (share, bolt) in bolted.shares().iter().zip(&bolts) {
+        for (share, bolt) in bolted.shares.iter().zip(&bolts) {
             prop_assert!((share.force_n / bolt.preload_n - 1.0).abs() < 1e-12);
         }
         let balanced = bolted
-            .field()
+            .field
             .carrying(balance.preload_n, balance.preload_moments_n_m)
             .unwrap();
-        let balance = Balance::of(balanced.field(), &bolts);
+        let balance = Balance::of(&balanced.field, &bolts);
         prop_assert!(balance.force_imbalance().abs() < 1e-9);
         prop_assert!(balance.offset_m().iter().all(|offset| offset.abs() < 1e-9));
     }
@@ -438,11 +440,11 @@ proptest! {
         .field()
         .unwrap();
         let even = PressureField::uniform(&outline, [40, 20], 5e3).unwrap();
-        for (field, half_m) in [(&even, [0.1, 0.05]), (with_bolts.field(), [0.01, 0.01])] {
+        for (field, half_m) in [(&even, [0.1, 0.05]), (&with_bolts.field, [0.01, 0.01])] {
             let [x_m, y_m] = [place[0] * half_m[0], place[1] * half_m[1]];
             let moments = [force_n * y_m, -force_n * x_m];
             let found = field.carrying(force_n, moments).unwrap();
-            let found = found.field();
+            let found = found.field;
             prop_assert!(found.elements().iter().all(|e| e.pressure_pa >= 0.0));
             prop_assert!((found.force_n() / force_n - 1.0).abs() < 1e-8);
             let [about_x, about_y] = found.moments_n_m();

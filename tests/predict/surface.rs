@@ -54,15 +54,15 @@ fn trials(
         synthetic.roughness.roughness_m().ln(),
     ];
     let quantities = |fit: &ProfileFit| {
-        let [low, high] = fit.roughness_interval_m();
+        let [low, high] = fit.roughness_interval_m;
         [
             (
-                fit.roughness().fractal_dimension(),
-                fit.dimension_interval(),
+                fit.roughness.fractal_dimension(),
+                fit.dimension_interval,
                 fit.dimension_standard_deviation(),
             ),
             (
-                fit.roughness().roughness_m().ln(),
+                fit.roughness.roughness_m().ln(),
                 [low.ln(), high.ln()],
                 fit.log_roughness_standard_deviation(),
             ),
@@ -72,7 +72,7 @@ fn trials(
         covered: [0.0; 2],
         bias: [0.0; 2],
         stated: [0.0; 2],
-        inflated: fits.iter().filter(|fit| fit.is_inflated()).count() as f64 / count,
+        inflated: fits.iter().filter(|fit| fit.is_inflated).count() as f64 / count,
     };
     for quantity in 0..2 {
         let values: Vec<_> = fits.iter().map(|fit| quantities(fit)[quantity]).collect();
@@ -125,17 +125,17 @@ fn intervals_of_weierstrass_mandelbrot_surfaces_hold_the_truth() {
                 .collect();
             for three in profiles.chunks(3) {
                 let fit = ProfileFit::new(three, &FitSettings::default()).unwrap();
-                let [low, high] = fit.dimension_interval();
+                let [low, high] = fit.dimension_interval;
                 assert!((low..=high).contains(&dimension));
-                let [low, high] = fit.roughness_interval_m();
+                let [low, high] = fit.roughness_interval_m;
                 assert!((low..=high).contains(&roughness_m));
             }
             // All together: bias without scatter.
             let fit = ProfileFit::new(&profiles, &FitSettings::default()).unwrap();
-            let off = fit.roughness().fractal_dimension() - dimension;
+            let off = fit.roughness.fractal_dimension() - dimension;
             println!(
                 "D {dimension} step {step_m}: {off:+.4}, G {:.4}",
-                fit.roughness().roughness_m() / roughness_m
+                fit.roughness.roughness_m() / roughness_m
             );
             assert!(off.abs() < 0.006, "{off}");
         }
@@ -172,9 +172,9 @@ fn spectra_are_those_of_scipy() {
             .filter_map(|line| line.strip_prefix(&start)?.split_once(','))
             .map(|(f, s)| (f.parse().unwrap(), s.parse().unwrap()))
             .collect();
-        assert_eq!(expected.len(), spectrum.density_m3().len());
+        assert_eq!(expected.len(), spectrum.density_m3.len());
         let largest = expected.iter().map(|(_, s)| *s).fold(0.0, f64::max);
-        let found = spectrum.frequency_per_m().iter().zip(spectrum.density_m3());
+        let found = spectrum.frequency_per_m.iter().zip(spectrum.density_m3);
         for ((f, s), (frequency, density)) in found.zip(expected) {
             assert!((f - frequency).abs() <= 1e-12 * frequency);
             // What a mean or a line leaves at zero is rounding.
@@ -200,16 +200,16 @@ fn the_density_is_one_sided_and_over_cycles_per_metre() {
         detrend: Detrend::Nothing,
     };
     let spectrum = welch.spectrum(&heights, 1e-6).unwrap();
-    let spacing = spectrum.frequency_per_m()[1];
-    let power: f64 = spectrum.density_m3().iter().sum::<f64>() * spacing;
+    let spacing = spectrum.frequency_per_m[1];
+    let power: f64 = spectrum.density_m3.iter().sum::<f64>() * spacing;
     assert!((power / (0.5 * amplitude.powi(2)) - 1.0).abs() < 1e-12);
     let peak = spectrum
-        .density_m3()
+        .density_m3
         .iter()
         .enumerate()
         .max_by(|a, b| a.1.total_cmp(b.1))
         .unwrap();
-    assert!((spectrum.frequency_per_m()[peak.0] * wavelength_m - 1.0).abs() < 1e-12);
+    assert!((spectrum.frequency_per_m[peak.0] * wavelength_m - 1.0).abs() < 1e-12);
 }
 
 /// ω counts cycles per metre, and the density is one-sided: only so does the published line give the D and G that made the surface.
@@ -220,10 +220,10 @@ fn line_and_intercept_are_those_of_the_published_equations() {
         .map(|seed| synthetic.gaussian(seed).unwrap())
         .collect();
     let fit = ProfileFit::new(&profiles, &FitSettings::default()).unwrap();
-    let roughness = fit.roughness();
+    let roughness = fit.roughness;
     let (d, g) = (roughness.fractal_dimension(), roughness.roughness_m());
     // (31) with its own D and G is an identity; D and G themselves within three standard deviations.
-    assert!((fit.slope() - (2.0 * d - 5.0)).abs() < 1e-12);
+    assert!((fit.slope - (2.0 * d - 5.0)).abs() < 1e-12);
     let intercept = 2.0 * (d - 1.0) * g.log10() - (2.0 * 1.5_f64.ln()).log10();
     assert!((fit.intercept() - intercept).abs() < 1e-10);
     assert!((d - 1.42).abs() < 3.0 * fit.dimension_standard_deviation());
@@ -233,13 +233,13 @@ fn line_and_intercept_are_those_of_the_published_equations() {
     let factor = std::f64::consts::TAU.powf(0.58 / 0.42);
     assert!(factor.ln() > 20.0 * fit.log_roughness_standard_deviation());
     // The points of the figure are the line and its scatter.
-    for band in fit.bands() {
+    for band in &fit.bands {
         let off = (band.density_m3 / fit.density_m3(band.frequency_per_m)).ln();
         assert!(off.abs() < 4.0 * band.log_standard_deviation);
     }
     // D and ln G are almost one quantity, and their covariance has their standard deviations.
     assert!((0.99..1.0).contains(&fit.correlation()));
-    let [low, high] = fit.roughness_interval_m();
+    let [low, high] = fit.roughness_interval_m;
     let to_first_order = 2.0 * 1.959_964 * fit.log_roughness_standard_deviation();
     assert!(((high / low).ln() / to_first_order - 1.0).abs() < 0.01);
 }
@@ -259,7 +259,7 @@ fn a_form_that_is_taken_off_does_not_matter() {
     };
     let dimension = |profile: Profile| {
         let fit = ProfileFit::new(&[profile], &settings).unwrap();
-        fit.roughness().fractal_dimension()
+        fit.roughness.fractal_dimension()
     };
     assert!((dimension(profile) - dimension(bent)).abs() < 1e-9);
 }
@@ -281,16 +281,12 @@ fn a_surface_that_is_no_fractal_has_wider_intervals_and_a_warning() {
         ProfileFit::new(&plain, &settings).unwrap(),
         ProfileFit::new(&marked, &settings).unwrap(),
     );
-    assert!(!plain.is_inflated() && plain.warnings().is_empty());
-    assert!(marked.is_inflated());
+    assert!(!plain.is_inflated && plain.warnings.is_empty());
+    assert!(marked.is_inflated);
     assert!(marked.dimension_standard_deviation() > 2.0 * plain.dimension_standard_deviation());
     let warned = |w: &FitWarning| matches!(w, FitWarning::NotStraight { .. });
-    assert!(marked.warnings().iter().any(warned));
-    assert!(
-        marked.warnings()[0]
-            .to_string()
-            .contains("no straight line")
-    );
+    assert!(marked.warnings.iter().any(warned));
+    assert!(marked.warnings[0].to_string().contains("no straight line"));
 }
 
 #[test]
@@ -303,7 +299,7 @@ fn bands_beyond_what_was_measured_are_warned_of_or_refused() {
         };
         ProfileFit::new(&profiles, &settings)
     };
-    let warnings = fit([2e-6, 5e-4]).unwrap().warnings().to_vec();
+    let warnings = fit([2e-6, 5e-4]).unwrap().warnings;
     assert!(
         matches!(warnings[0], FitWarning::NearSampling { steps } if (steps - 2.0).abs() < 1e-9)
     );

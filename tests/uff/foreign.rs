@@ -59,8 +59,8 @@ fn a_measured_dam_is_read_as_accelerance_without_stated_units() {
     assert_eq!(
         (
             reading.functions().len(),
-            reading.skipped_functions().len(),
-            reading.skipped_datasets()
+            reading.skipped_functions.len(),
+            reading.skipped_datasets
         ),
         (26, 0, 0)
     );
@@ -316,11 +316,11 @@ fn single_precision_files_of_pyuff_give_six_digits() {
 fn millimetres_become_metres_by_the_kinds_of_both_ends() {
     let reading = read(&own_file("millimetres.uff"));
     assert!(reading.units_are_stated());
-    assert!(reading.skipped_functions().is_empty());
-    let [coherence] = reading.coherences() else {
+    assert!(reading.skipped_functions.is_empty());
+    let [coherence] = &reading.coherences[..] else {
         panic!()
     };
-    assert_eq!(coherence.gamma_squared(), [1.0; 13]);
+    assert_eq!(coherence.gamma_squared, [1.0; 13]);
     let set = reading.into_set().unwrap();
     for (response, reference, factor) in [
         ("11:Y", "2:Y", 1.0),

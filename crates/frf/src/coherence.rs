@@ -11,11 +11,16 @@ const ROUNDING: f64 = 1e-5;
 
 /// Ordinary coherence γ² of one measured function on the lines of its set, and how many averages stand behind it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Coherence {
-    response: Dof,
-    reference: Dof,
-    frequency_hz: Vec<f64>,
-    gamma_squared: Vec<f64>,
+    /// Response of the function that it belongs to.
+    pub response: Dof,
+    /// Reference of the function that it belongs to.
+    pub reference: Dof,
+    /// The frequency of each line, Hz.
+    pub frequency_hz: Vec<f64>,
+    /// γ² at each line, as many as there are frequencies.
+    pub gamma_squared: Vec<f64>,
 }
 
 impl Coherence {
@@ -53,30 +58,6 @@ impl Coherence {
             frequency_hz,
             gamma_squared,
         })
-    }
-
-    /// Response of the function that it belongs to.
-    #[must_use]
-    pub fn response(&self) -> Dof {
-        self.response
-    }
-
-    /// Reference of the function that it belongs to.
-    #[must_use]
-    pub fn reference(&self) -> Dof {
-        self.reference
-    }
-
-    /// The frequency of each line, Hz.
-    #[must_use]
-    pub fn frequency_hz(&self) -> &[f64] {
-        &self.frequency_hz
-    }
-
-    /// γ² at each line.
-    #[must_use]
-    pub fn gamma_squared(&self) -> &[f64] {
-        &self.gamma_squared
     }
 }
 

@@ -9,22 +9,10 @@ use super::{Coherence, Dof, Frf, FrfError, FrfSet};
 /// A function of a file that is no frequency response function and was passed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SkippedFunction {
-    pub(super) line: usize,
-    pub(super) kind: &'static str,
-}
-
-impl SkippedFunction {
     /// The line at which its data set begins.
-    #[must_use]
-    pub fn line(self) -> usize {
-        self.line
-    }
-
+    pub line: usize,
     /// The standard's name of its function type, such as "auto spectrum".
-    #[must_use]
-    pub fn kind(self) -> &'static str {
-        self.kind
-    }
+    pub kind: &'static str,
 }
 
 /// What was read from a file.
@@ -32,12 +20,16 @@ impl SkippedFunction {
 pub struct FrfReading {
     pub(super) path: PathBuf,
     pub(super) functions: Vec<Frf>,
-    pub(super) coherences: Vec<Coherence>,
+    /// Ordinary coherences in the file's order.
+    pub coherences: Vec<Coherence>,
     /// Averages, and who states them.
     pub(super) averages: Option<(f64, StatedBy)>,
-    pub(super) not_selected: BTreeSet<(Dof, Dof)>,
-    pub(super) skipped_functions: Vec<SkippedFunction>,
-    pub(super) skipped_datasets: usize,
+    /// Response and reference of the functions that are in the file but were not asked for.
+    pub not_selected: BTreeSet<(Dof, Dof)>,
+    /// Data sets 58 that hold something else than a frequency response function or an ordinary coherence.
+    pub skipped_functions: Vec<SkippedFunction>,
+    /// The number of data sets that are neither functions (58) nor units (164).
+    pub skipped_datasets: usize,
     pub(super) statements: Statements,
 }
 
@@ -48,34 +40,10 @@ impl FrfReading {
         &self.functions
     }
 
-    /// Ordinary coherences in the file's order.
-    #[must_use]
-    pub fn coherences(&self) -> &[Coherence] {
-        &self.coherences
-    }
-
     /// The number of averages behind the functions, where the caller or the file states it.
     #[must_use]
     pub fn averages(&self) -> Option<f64> {
         self.averages.map(|(averages, _)| averages)
-    }
-
-    /// Response and reference of the functions that are in the file but were not asked for.
-    #[must_use]
-    pub fn not_selected(&self) -> &BTreeSet<(Dof, Dof)> {
-        &self.not_selected
-    }
-
-    /// Data sets 58 that hold something else than a frequency response function or an ordinary coherence.
-    #[must_use]
-    pub fn skipped_functions(&self) -> &[SkippedFunction] {
-        &self.skipped_functions
-    }
-
-    /// The number of data sets that are neither functions (58) nor units (164).
-    #[must_use]
-    pub fn skipped_datasets(&self) -> usize {
-        self.skipped_datasets
     }
 
     /// Whether the file (or the caller) states the units of every function; where it does not, SI was assumed.

@@ -85,7 +85,9 @@ pub struct FileSummary {
 
 /// Lowest, median and highest σ/|H| of coherences with this number of averages.
 pub(super) fn coherence_noise(coherences: &[Coherence], averages: f64) -> Option<[f64; 3]> {
-    let lines = coherences.iter().flat_map(Coherence::gamma_squared);
+    let lines = coherences
+        .iter()
+        .flat_map(|coherence| &coherence.gamma_squared);
     let mut noise: Vec<f64> = lines
         .map(|&gamma_squared| relative_variance(gamma_squared, averages).sqrt())
         .collect();

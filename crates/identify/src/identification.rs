@@ -125,7 +125,7 @@ pub fn identify_and_draw(
     let estimate = identify_lines(&all, study.model, &options)?;
     let mut fitted = Vec::with_capacity(all.len());
     for (number, lines) in all.into_iter().enumerate() {
-        let regenerated = lines.regenerated(estimate.joint_of(number).whole())?;
+        let regenerated = lines.regenerated(&estimate.joint_of(number).whole)?;
         let fits: Vec<FunctionFit> = lines
             .measured
             .iter()
@@ -146,7 +146,7 @@ pub fn identify_and_draw(
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
-    warnings.extend(estimate.warnings().iter().cloned());
+    warnings.extend(estimate.warnings.iter().cloned());
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
@@ -160,11 +160,11 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
-        reduced_chi_squared: (estimate.assessment().noise_is_stated
-            || estimate.assessment().noise_is_known)
-            .then_some(estimate.assessment().reduced_chi_squared)
+        reduced_chi_squared: (estimate.assessment.noise_is_stated
+            || estimate.assessment.noise_is_known)
+            .then_some(estimate.assessment.reduced_chi_squared)
             .flatten(),
-        starts: estimate.starts(),
+        starts: estimate.starts,
         warnings,
         from_modes,
         files,

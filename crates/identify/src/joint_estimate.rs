@@ -35,8 +35,8 @@ pub struct JointEstimate {
     pub covariance: Covariance,
     /// The bootstrap, where one was asked for.
     pub bootstrap: Option<BootstrapResult>,
-    /// The joint at every bolt.
-    pub(super) whole: JointMatrices,
+    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`](super::Lines::regenerated) takes them.
+    pub whole: JointMatrices,
     pub(super) layout: Layout,
 }
 
@@ -66,12 +66,6 @@ impl JointEstimate {
     #[must_use]
     pub fn joint(&self) -> &JointMatrices {
         &self.bolts()[0]
-    }
-
-    /// K and C over the DOFs of all bolts, as [`Lines::regenerated`](super::Lines::regenerated) takes them.
-    #[must_use]
-    pub fn whole(&self) -> &JointMatrices {
-        &self.whole
     }
 
     /// The average of the decoupled values, at the first bolt where every bolt has its own.

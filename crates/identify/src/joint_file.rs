@@ -64,7 +64,7 @@ impl Identification {
         };
         let joints = self.ascending();
         // The nominal torque is that of the first assembly.
-        let nominal = self.estimate.joints().first();
+        let nominal = self.estimate.joints.first();
         let Some(nominal) = nominal.and_then(|joint| joint.torque_n_m) else {
             return constant;
         };
@@ -91,7 +91,7 @@ impl Identification {
 
     /// The joints by torque, each with its number.
     fn ascending(&self) -> Vec<(usize, &JointEstimate)> {
-        let mut joints: Vec<_> = self.estimate.joints().iter().enumerate().collect();
+        let mut joints: Vec<_> = self.estimate.joints.iter().enumerate().collect();
         joints.sort_by(|(_, a), (_, b)| torque(a).total_cmp(&torque(b)));
         joints
     }
@@ -106,11 +106,11 @@ impl Identification {
     }
 
     fn uncertainty(&self, bolt: usize) -> Option<Uncertainty> {
-        let all = self.estimate.covariance_of_all();
+        let all = &self.estimate.covariance_of_all;
         if all.diagonal().iter().any(|variance| !variance.is_finite()) {
             return None;
         }
-        let noise = if self.estimate.assessment().noise_is_known {
+        let noise = if self.estimate.assessment.noise_is_known {
             "the noise that coherence and averages tell"
         } else if self.noise_is_stated {
             "the stated noise"
@@ -123,7 +123,7 @@ impl Identification {
         } else {
             "the assembly only"
         };
-        let joints = self.estimate.joints();
+        let joints = &self.estimate.joints;
         let inflation = joints.iter().flat_map(|joint| {
             let own = joint.unknowns_of(bolt).into_iter();
             own.map(|index| joint.covariance.inflation[index])
@@ -165,7 +165,7 @@ impl Identification {
                 own.map(move |index| first + index)
             })
             .collect();
-        let all = self.estimate.covariance_of_all();
+        let all = &self.estimate.covariance_of_all;
         let ascending = all.select_rows(&places).select_columns(&places);
         let names = joints.iter().flat_map(|(_, joint)| {
             let own = joint.unknowns_of(bolt).into_iter();
@@ -215,7 +215,7 @@ impl Identification {
         let further = || self.further.iter();
         let lines = further().map(|assembly| assembly.lines.frequency_hz.len());
         let fits = self.fits.iter().chain(further().flat_map(|a| &a.fits));
-        let assessment = self.estimate.assessment();
+        let assessment = &self.estimate.assessment;
         Residual {
             relative_rms: self.relative_rms,
             lines: self.lines.frequency_hz.len() + lines.sum::<usize>(),
@@ -231,7 +231,7 @@ impl Identification {
                 .line_correlation
                 .is_finite()
                 .then_some(assessment.line_correlation),
-            noise: self.estimate.noise_level().map(|level| NoiseRecord {
+            noise: self.estimate.noise_level.map(|level| NoiseRecord {
                 relative: level.relative,
                 floor: level.floor,
                 stated: self.noise_is_stated,

@@ -52,28 +52,29 @@ pub struct Options<'a> {
 #[derive(Clone, Debug)]
 pub struct LinesEstimate {
     decoupled: Vec<Vec<Option<ComplexMatrix>>>,
-    /// That of the first assembly first, at least one.
-    joints: Vec<JointEstimate>,
+    /// All joints: the common one, or one for each torque in the order of their first assemblies.
+    pub joints: Vec<JointEstimate>,
     joint_of_assembly: Vec<usize>,
     layout: Layout,
-    covariance_of_all: DMatrix<f64>,
-    assessment: Assessment,
-    noise_level: Option<NoiseLevel>,
-    starts: (usize, usize),
+    /// Covariance of the unknowns of one torque after the other, in the order of [`Self::joints`]: common errors of the
+    /// substructures correlate them.
+    pub covariance_of_all: DMatrix<f64>,
+    /// Whether the residual is noise.
+    pub assessment: Assessment,
+    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
+    /// degrees of freedom to estimate it.
+    pub noise_level: Option<NoiseLevel>,
+    /// How many starts were tried, and how many of them led to this estimate.
+    pub starts: (usize, usize),
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
-    warnings: Vec<String>,
+    /// What the user should know before using the estimate.
+    pub warnings: Vec<String>,
 }
 
 /// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own, and
 /// at the first bolt where every bolt has its own.
 impl LinesEstimate {
-    /// K* of each line of each assembly by (3.21), over the DOFs of all bolts; `None` where it cannot be had.
-    #[must_use]
-    pub fn decoupled(&self) -> &[Vec<Option<ComplexMatrix>>] {
-        &self.decoupled
-    }
-
     /// K* of each line of each assembly at the bolts that have joint number `bolt`, a list for each of them.
     #[must_use]
     pub fn decoupled_of(&self, bolt: usize) -> Vec<Vec<Vec<Option<ComplexMatrix>>>> {
@@ -85,12 +86,6 @@ impl LinesEstimate {
                 .collect()
         };
         self.layout.bolts_with(bolt).map(at).collect()
-    }
-
-    /// All joints: the common one, or one for each torque in the order of their first assemblies.
-    #[must_use]
-    pub fn joints(&self) -> &[JointEstimate] {
-        &self.joints
     }
 
     /// The joint in one of the assemblies; the first one's if there are not so many.
@@ -113,13 +108,6 @@ impl LinesEstimate {
         let torque = |joint: &JointEstimate| joint.torque_n_m.unwrap_or(0.0);
         joints.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
         joints
-    }
-
-    /// Covariance of the unknowns of one torque after the other, in the order of [`Self::joints`]: common errors of the
-    /// substructures correlate them.
-    #[must_use]
-    pub fn covariance_of_all(&self) -> &DMatrix<f64> {
-        &self.covariance_of_all
     }
 
     /// The joint: the passive estimate where there is one.
@@ -167,20 +155,7 @@ impl LinesEstimate {
         assembly: usize,
         lines: &Lines,
     ) -> Result<Vec<Sensitivity>, SingularAssembly> {
-        sensitivity::to_unknowns(lines, &self.layout, self.joint_of(assembly).whole())
-    }
-
-    /// Whether the residual is noise.
-    #[must_use]
-    pub fn assessment(&self) -> &Assessment {
-        &self.assessment
-    }
-
-    /// Noise of the assembly's functions, stated or estimated; `None` where coherence tells it line by line, and without
-    /// degrees of freedom to estimate it.
-    #[must_use]
-    pub fn noise_level(&self) -> Option<NoiseLevel> {
-        self.noise_level
+        sensitivity::to_unknowns(lines, &self.layout, &self.joint_of(assembly).whole)
     }
 
     /// Average of the decoupled values, one of the starts.
@@ -193,12 +168,6 @@ impl LinesEstimate {
     #[must_use]
     pub fn bands(&self) -> &[Vec<UsedBands>] {
         &self.joints[0].bands
-    }
-
-    /// How many starts were tried, and how many of them led to this estimate.
-    #[must_use]
-    pub fn starts(&self) -> (usize, usize) {
-        self.starts
     }
 
     /// The joint models beside each other, where they were compared.
@@ -217,12 +186,6 @@ impl LinesEstimate {
     #[must_use]
     pub fn bootstrap(&self) -> Option<&BootstrapResult> {
         self.joints[0].bootstrap.as_ref()
-    }
-
-    /// What the user should know before using the estimate.
-    #[must_use]
-    pub fn warnings(&self) -> &[String] {
-        &self.warnings
     }
 }
 

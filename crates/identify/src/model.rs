@@ -125,10 +125,15 @@ impl JointMatrices {
 
     /// Matrices of `model` from its unknowns: the stiffness of each entry, then the damping of each entry.
     pub(super) fn from_unknowns(model: JointModel, unknowns: &[f64]) -> Self {
-        let (stiffness, damping) = unknowns.split_at(model.entries().len());
+        Self::of_entries(model.dofs(), model.entries(), unknowns)
+    }
+
+    /// Matrices over `dofs` from the stiffness of each of `entries`, then the damping of each.
+    pub(super) fn of_entries(dofs: usize, entries: &[(usize, usize)], unknowns: &[f64]) -> Self {
+        let (stiffness, damping) = unknowns.split_at(entries.len());
         let matrix = |values: &[f64]| {
-            let mut matrix = DMatrix::zeros(model.dofs(), model.dofs());
-            for (&(row, column), &value) in model.entries().iter().zip(values) {
+            let mut matrix = DMatrix::zeros(dofs, dofs);
+            for (&(row, column), &value) in entries.iter().zip(values) {
                 matrix[(row, column)] = value;
                 matrix[(column, row)] = value;
             }

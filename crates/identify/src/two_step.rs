@@ -129,20 +129,8 @@ impl<const N: usize> Problem<N> {
     }
 
     fn joint(&self, unknowns: &[f64]) -> JointMatrices {
-        let (stiffness, damping) = unknowns.split_at(self.entries.len());
-        let matrix = |values: &[f64]| {
-            let mut matrix = DMatrix::zeros(N, N);
-            for (place, &value) in self.entries.iter().zip(values) {
-                let (i, j) = place.first();
-                matrix[(i, j)] = value;
-                matrix[(j, i)] = value;
-            }
-            matrix
-        };
-        JointMatrices {
-            stiffness: matrix(stiffness),
-            damping: matrix(damping),
-        }
+        let entries: Vec<_> = self.entries.iter().map(|place| place.first()).collect();
+        JointMatrices::of_entries(N, &entries, unknowns)
     }
 
     /// Minimises over some of the unknowns, the others held.

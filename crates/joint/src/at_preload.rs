@@ -195,13 +195,12 @@ impl Uncertainty {
             return Some(Self {
                 standard_deviation: own.standard_deviation.clone(),
                 basis: self.basis.clone(),
-                correlation: None,
                 interval_95: own.interval_95.clone(),
                 inflation: self.inflation,
                 not_identified: own.not_identified.clone(),
                 free_estimate: own.free_estimate.clone(),
                 bootstrap: own.bootstrap.clone(),
-                over_preload: None,
+                ..Self::default()
             });
         }
         let (low, high) = (table.at.get(place.lower)?, table.at.get(place.lower + 1)?);
@@ -212,7 +211,6 @@ impl Uncertainty {
                  them",
                 self.basis, low.preload, high.preload
             ),
-            correlation: None,
             interval_95: low.interval_95.as_ref().zip(high.interval_95.as_ref()).map(
                 |(low, high)| Intervals {
                     stiffness: place.ends(&low.stiffness, &high.stiffness),
@@ -231,8 +229,7 @@ impl Uncertainty {
                     }
                 },
             ),
-            bootstrap: None,
-            over_preload: None,
+            ..Self::default()
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Why a joint file cannot be read or written.
 
+use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
@@ -60,53 +61,29 @@ pub enum JointFileError {
         found: &'static str,
     },
     /// The text ends in the middle of a value.
-    #[error(
-        "{origin}:{line}:{column}: the file ends too early, in {}; it seems to be cut off",
-        place(path)
-    )]
+    #[error("{at}: the file ends too early, in {}; it seems to be cut off", at.key())]
     Truncated {
-        /// Origin.
-        origin: String,
-        /// Last line.
-        line: usize,
-        /// Column of the end.
-        column: usize,
-        /// Key in which the text ends.
-        path: String,
+        /// Where it ends.
+        at: TextPlace,
     },
     /// The text is not JSON.
     #[error(
-        "{origin}:{line}:{column}: is not JSON: {message}, in {}; expected a joint file (format \"{}\"): mend the text \
-         there, or give the NAME.joint.json that `identify` wrote",
-        place(path),
+        "{at}: is not JSON: {message}, in {}; expected a joint file (format \"{}\"): mend the text there, or give the \
+         NAME.joint.json that `identify` wrote",
+        at.key(),
         Format::NAME
     )]
     NotJson {
-        /// Origin.
-        origin: String,
-        /// Line of the mistake.
-        line: usize,
-        /// Column of the mistake.
-        column: usize,
-        /// Key that was being read.
-        path: String,
+        /// Where the mistake is.
+        at: TextPlace,
         /// What the parser said.
         message: String,
     },
     /// A number that is not finite.
-    #[error(
-        "{origin}:{line}:{column}: {}: found {found}, expected a finite number",
-        place(path)
-    )]
+    #[error("{at}: {}: found {found}, expected a finite number", at.key())]
     NotFinite {
-        /// Origin.
-        origin: String,
-        /// Line of the number.
-        line: usize,
-        /// Column of the number.
-        column: usize,
-        /// Key of the number.
-        path: String,
+        /// Where the number is.
+        at: TextPlace,
         /// What stands there.
         found: String,
     },
@@ -123,47 +100,30 @@ pub enum JointFileError {
     },
     /// A key that the format does not have.
     #[error(
-        "{origin}:{line}:{column}: {path}: unknown key{}; expected one of {}",
+        "{at}: {}: unknown key{}; expected one of {}",
+        at.path,
         nearest.as_ref().map(|key| format!(", did you mean \"{key}\"?")).unwrap_or_default(),
         known.join(", ")
     )]
     UnknownKey {
-        /// Origin.
-        origin: String,
-        /// Line of the key.
-        line: usize,
-        /// Column of the key.
-        column: usize,
-        /// Path of the key.
-        path: String,
+        /// Where the key is.
+        at: TextPlace,
         /// The known key that it is most like.
         nearest: Option<String>,
         /// All keys known there.
         known: Vec<String>,
     },
     /// A key that must be there and is not.
-    #[error("{origin}:{line}:{column}: {path}: not found, expected this key; add it")]
+    #[error("{at}: {}: not found, expected this key; add it", at.path)]
     MissingKey {
-        /// Origin.
-        origin: String,
-        /// Line where the object ends.
-        line: usize,
-        /// Column where the object ends.
-        column: usize,
-        /// Path of the key.
-        path: String,
+        /// The key, and where the object ends.
+        at: TextPlace,
     },
     /// A value of the wrong type.
-    #[error("{origin}:{line}:{column}: {}: {message}", place(path))]
+    #[error("{at}: {}: {message}", at.key())]
     WrongType {
-        /// Origin.
-        origin: String,
-        /// Line of the value.
-        line: usize,
-        /// Column of the value.
-        column: usize,
-        /// Path of the key.
-        path: String,
+        /// Where the value is.
+        at: TextPlace,
         /// What was found and what was expected.
         message: String,
     },
@@ -186,6 +146,31 @@ pub enum JointFileError {
         /// Everything that is wrong, at least one.
         problems: Vec<JointProblem>,
     },
+}
+
+/// A place in the text of a joint file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextPlace {
+    /// The file's name, or what the caller calls the text.
+    pub origin: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// Path of the key.
+    pub path: String,
+}
+
+impl TextPlace {
+    fn key(&self) -> &str {
+        place(&self.path)
+    }
+}
+
+impl fmt::Display for TextPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.origin, self.line, self.column)
+    }
 }
 
 /// The parser's path of a key, in words where it is the whole file.

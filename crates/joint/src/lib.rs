@@ -22,7 +22,7 @@ mod validate;
 mod write;
 
 pub use dofs::{DofName, DofSet};
-pub use error::JointFileError;
+pub use error::{JointFileError, TextPlace};
 pub use friction::Friction;
 pub use higher::HigherTerms;
 pub use law::LawError;

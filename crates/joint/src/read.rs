@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::{Value, error::Category};
 
 use super::nearest::nearest;
-use super::{Format, JointFile, JointFileError};
+use super::{Format, JointFile, JointFileError, TextPlace};
 use bolted_joint_files::text_file;
 
 impl JointFile {
@@ -139,56 +139,36 @@ fn list_for_record(found: &Value, written: &Value, path: &str) -> Option<String>
 
 /// Turns the parser's refusal into this format's terms.
 fn explain(text: &str, origin: &str, path: String, refused: &serde_json::Error) -> JointFileError {
-    let origin = origin.to_owned();
-    let (line, column) = (refused.line(), refused.column());
+    let at = TextPlace {
+        origin: origin.to_owned(),
+        line: refused.line(),
+        column: refused.column(),
+        path,
+    };
     let message = refused.to_string();
     let message = message
-        .strip_suffix(&format!(" at line {line} column {column}"))
+        .strip_suffix(&format!(" at line {} column {}", at.line, at.column))
         .unwrap_or(&message)
         .to_owned();
     match refused.classify() {
-        Category::Eof => JointFileError::Truncated {
-            origin,
-            line,
-            column,
-            path,
+        Category::Eof => JointFileError::Truncated { at },
+        Category::Data => explain_data(at, &message),
+        Category::Io | Category::Syntax => match literal_that_is_not_finite(text, &at, &message) {
+            Some(found) => JointFileError::NotFinite { at, found },
+            None => JointFileError::NotJson { at, message },
         },
-        Category::Data => explain_data(origin, line, column, path, &message),
-        Category::Io | Category::Syntax => {
-            match literal_that_is_not_finite(text, line, column, &message) {
-                Some(found) => JointFileError::NotFinite {
-                    origin,
-                    line,
-                    column,
-                    path,
-                    found,
-                },
-                None => JointFileError::NotJson {
-                    origin,
-                    line,
-                    column,
-                    path,
-                    message,
-                },
-            }
-        }
     }
 }
 
 /// JSON has no NaN and no infinity, but programs write them, and numbers too large to be held.
-fn literal_that_is_not_finite(
-    text: &str,
-    line: usize,
-    column: usize,
-    message: &str,
-) -> Option<String> {
-    let line = text.lines().nth(line.checked_sub(1)?)?;
+fn literal_that_is_not_finite(text: &str, at: &TextPlace, message: &str) -> Option<String> {
+    let line = text.lines().nth(at.line.checked_sub(1)?)?;
     let ends_token = |c: char| c.is_whitespace() || matches!(c, ',' | '[' | ']' | '{' | '}' | ':');
-    let at = line
+    let end = line
         .char_indices()
         .map(|(index, _)| index)
-        .rfind(|index| *index < column)?;
-    let start = line[..at].rfind(ends_token).map_or(0, |index| index + 1);
+        .rfind(|index| *index < at.column)?;
+    let start = line[..end].rfind(ends_token).map_or(0, |index| index + 1);
     let token = line[start..].split(ends_token).next()?;
     let not_finite = ["nan", "inf", "infinity"];
     let bare = token.trim_start_matches(['+', '-']).to_lowercase();
@@ -196,45 +176,32 @@ fn literal_that_is_not_finite(
         .then(|| token.to_owned())
 }
 
-fn explain_data(
-    origin: String,
-    line: usize,
-    column: usize,
-    path: String,
-    message: &str,
-) -> JointFileError {
+fn explain_data(at: TextPlace, message: &str) -> JointFileError {
     // Serde words these messages the same for every format: unknown field `x`, expected one of `y`, `z`.
     let mut quoted = message.split('`').skip(1).step_by(2);
+    let at_key = |at: TextPlace, key: &str| TextPlace {
+        path: child(&at.path, key),
+        ..at
+    };
     if message.starts_with("unknown field") {
         let key = quoted.next().unwrap_or_default();
         let known: Vec<&str> = quoted.collect();
         return JointFileError::UnknownKey {
-            origin,
-            line,
-            column,
-            path: child(&path, key),
+            at: at_key(at, key),
             nearest: nearest(key, &known).map(str::to_owned),
             known: known.into_iter().map(str::to_owned).collect(),
         };
     }
     if message.starts_with("missing field") {
-        return JointFileError::MissingKey {
-            origin,
-            line,
-            column,
-            path: child(&path, quoted.next().unwrap_or_default()),
-        };
+        let at = at_key(at, quoted.next().unwrap_or_default());
+        return JointFileError::MissingKey { at };
     }
     if message.starts_with("invalid type: sequence, expected struct") {
+        let TextPlace { origin, path, .. } = at;
         return JointFileError::NotAnObject { origin, path };
     }
-    JointFileError::WrongType {
-        origin,
-        line,
-        column,
-        path,
-        message: found_and_expected(message),
-    }
+    let message = found_and_expected(message);
+    JointFileError::WrongType { at, message }
 }
 
 /// `path.key`, unless the path already ends there.

@@ -158,7 +158,7 @@ pub struct Body {
 }
 
 /// How well the joint's parameters are known.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Uncertainty {
@@ -205,7 +205,7 @@ pub struct UncertaintyOverPreload {
 }
 
 /// How well the joint's parameters are known at one preload.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintyAtPreload {
@@ -280,7 +280,7 @@ pub struct BootstrapRecord {
 }
 
 /// One standard deviation of each entry of the joint's matrices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StandardDeviation {
@@ -316,7 +316,7 @@ pub struct Validity {
 }
 
 /// How far the model is from the measurement that it was identified from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Residual {
@@ -370,7 +370,7 @@ pub struct FunctionResidual {
 }
 
 /// Where the joint's parameters come from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {

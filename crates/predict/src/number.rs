@@ -48,13 +48,8 @@ pub(crate) fn positive(
     unit: &'static str,
     expected: &'static str,
 ) -> Result<(), NumberError> {
-    check(
-        found.is_finite() && found > 0.0,
-        quantity,
-        found,
-        unit,
-        expected,
-    )
+    let valid = found.is_finite() && found > 0.0;
+    check(valid, quantity, found, unit, expected)
 }
 
 /// Refuses a number that is not finite or below zero.
@@ -64,11 +59,6 @@ pub(crate) fn not_negative(
     unit: &'static str,
     expected: &'static str,
 ) -> Result<(), NumberError> {
-    check(
-        found.is_finite() && found >= 0.0,
-        quantity,
-        found,
-        unit,
-        expected,
-    )
+    let valid = found.is_finite() && found >= 0.0;
+    check(valid, quantity, found, unit, expected)
 }

@@ -7,12 +7,12 @@ use bolted_joint_predict::surface::ProfileFit;
 /// can be drawn.
 #[must_use]
 pub fn spectrum_figure(fit: &ProfileFit) -> Option<String> {
-    let spectrum = fit.spectrum();
-    let points = spectrum.frequency_per_m().iter().copied();
-    let points = points.zip(spectrum.density_m3().iter().copied()).skip(1);
-    let bands = fit.bands().iter();
+    let spectrum = &fit.spectrum;
+    let points = spectrum.frequency_per_m.iter().copied();
+    let points = points.zip(spectrum.density_m3.iter().copied()).skip(1);
+    let bands = fit.bands.iter();
     let means = bands.map(|band| (band.frequency_per_m, band.density_m3));
-    let [shortest_m, longest_m] = fit.wavelength_band_m();
+    let [shortest_m, longest_m] = fit.wavelength_band_m;
     let ends = [1.0 / longest_m, 1.0 / shortest_m];
     let line = |name: String, shape, points| Line {
         name,
@@ -25,14 +25,14 @@ pub fn spectrum_figure(fit: &ProfileFit) -> Option<String> {
         up: ("S, m³", Scale::Logarithmic),
         lines: vec![
             line(
-                format!("Welch, {} segments", spectrum.segments()),
+                format!("Welch, {} segments", spectrum.segments),
                 Shape::Curve,
                 points.collect(),
             ),
             line(
                 format!(
                     "fit, D = {:.3} ± {:.3}",
-                    fit.roughness().fractal_dimension(),
+                    fit.roughness.fractal_dimension(),
                     fit.dimension_standard_deviation()
                 ),
                 Shape::Curve,

@@ -12,8 +12,7 @@ use bolted_joint_respond::Pollution;
 
 use super::draws::{Repetition, decoupled_within, polluted, rows};
 use super::error::ReproduceError;
-use super::outcome::{Reproduction, Row};
-use super::published::PublishedTable;
+use super::outcome::Row;
 use super::receptances::{assemblies, at, block, partitions, rotation, translation};
 
 const LENGTH_M: f64 = 0.3;
@@ -200,34 +199,11 @@ fn joint_rows(case: &str, published: &[f64], joints: &[JointMatrices]) -> Vec<Ro
 /// (3.18) in Tables 4.4 and 4.5: k_Fy, k_Fθ, k_Mθ, c_Fy, c_Fθ, c_Mθ.
 const BY_RR: [f64; 6] = [1.01e6, 9.03e3, 1.11e3, 25.2, 5.60, 4.83];
 
-fn conditions() -> Vec<String> {
-    vec![format!(
-        "k_yy, c_yy averaged over 200–400 Hz, k_thetatheta, c_thetatheta over 15–300 Hz, coupling over 150–310 Hz; noise {} % \
-         of the highest response; couplings below zero taken as zero, as the thesis does",
-        100.0 * LEVEL
-    )]
+pub(super) fn table_4_3() -> Vec<Row> {
+    joint_rows("joint", &[1e6, 1e4, 1e3, 25.0, 8.0], &[])
 }
 
-fn not_given(draws: Repetition<'_>) -> Vec<String> {
-    vec![
-        format!("where r is on A and s on B: {R_M} m from A's fixed end and B's free end taken"),
-        format!("spacing of the lines: {LINE_SPACING_HZ} Hz taken, as in chapter 5"),
-        draws.samples_taken(),
-    ]
-}
-
-pub(super) fn table_4_3() -> Reproduction {
-    let published = [1e6, 1e4, 1e3, 25.0, 8.0];
-    Reproduction {
-        table: PublishedTable::Table4_3,
-        conditions: vec!["This table is input: the joint of Tables 4.4 and 4.5.".to_owned()],
-        rows: rows("joint", JointModel::Full, Some(&truth()), &published, &[]),
-        differences: Vec::new(),
-        not_given: vec!["c_thetatheta: taken from Table 4.4 (5 N·m·s/rad)".to_owned()],
-    }
-}
-
-pub(super) fn table_4_4(draws: Repetition<'_>) -> Result<Reproduction, ReproduceError> {
+pub(super) fn table_4_4(draws: Repetition<'_>) -> Result<Vec<Row>, ReproduceError> {
     let case = Case::new(R_M)?;
     let by_rs = [9.91e5, 8.60e3, 178.0, 43.2, 8.19, 3.52];
     let by_ss = [9.02e5, 2.38e4, 9.66e2, 76.3, 13.5, 3.36];
@@ -249,22 +225,10 @@ pub(super) fn table_4_4(draws: Repetition<'_>) -> Result<Reproduction, Reproduce
         let alone = case.translation_alone(equation);
         found.extend(joint_rows(name, &published, &alone));
     }
-    Ok(Reproduction {
-        table: PublishedTable::Table4_4,
-        conditions: conditions(),
-        rows: found,
-        differences: vec![
-            "All equations are exact without noise. What noise leaves of them is a bias: it hides the smaller singular value of H_rr − H^C_rr or H_ss − H^C_ss, and the other one tells what one receptance tells.".to_owned(),
-            "(3.21): the published values are those of the translation at s alone (last rows), within 7 % in all six.".to_owned(),
-            "(3.18): the published values are near the true ones, so its noise was low enough to leave the smaller singular value. Where it is not, the values are within 11 % those of the translation at r alone.".to_owned(),
-            "(3.19) does not follow. Its k_thetatheta goes from about −720 to 680 with N = 2²⁴ as r goes from 0.05 to 0.25 m; from 0.15 m on that of (3.18) is within 20 % of the true one.".to_owned(),
-            "Printed k_Fy of (3.21): 9.02·10⁶ with an error of 10 %; it must be 9.02·10⁵, which is the value above.".to_owned(),
-        ],
-        not_given: not_given(draws),
-    })
+    Ok(found)
 }
 
-pub(super) fn table_4_5(draws: Repetition<'_>) -> Result<Reproduction, ReproduceError> {
+pub(super) fn table_4_5(draws: Repetition<'_>) -> Result<Vec<Row>, ReproduceError> {
     let case = Case::new(R_M)?;
     let estimated = [9.02e5, 0.0, 5.30e2, 47.6, 0.0, 2.79];
     let mut found = Vec::new();
@@ -288,16 +252,7 @@ pub(super) fn table_4_5(draws: Repetition<'_>) -> Result<Reproduction, Reproduce
     found.extend(joint_rows("2: estimated, no noise", &estimated, &exact));
     let alone = case.translation_alone(Equation::Rr);
     found.extend(joint_rows("no noise, y at r alone", &estimated, &alone));
-    Ok(Reproduction {
-        table: PublishedTable::Table4_5,
-        conditions: conditions(),
-        rows: found,
-        differences: vec![
-            "Identification 2 is the same at any noise, and without any: what it costs is not noise but the error of the central difference. H^C_rr is formed by differences and H_rr is not, so that the error of the difference, small as it is, hides the smaller singular value of H_rr − H^C_rr; what is left is nearly the answer of the translation at r alone. With H_rr and H_rj formed by the same differences (3.18) is exact.".to_owned(),
-            "k_thetatheta of identification 2 depends most on r: 720 to 360 N·m/rad as r goes from 0.05 to 0.2 m; published 530.".to_owned(),
-        ],
-        not_given: not_given(draws),
-    })
+    Ok(found)
 }
 
 #[cfg(test)]

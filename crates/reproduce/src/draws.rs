@@ -44,15 +44,6 @@ impl<'a> Repetition<'a> {
         self.draws.samples.iter().map(noise).collect()
     }
 
-    /// What was taken for the samples that the thesis does not give.
-    pub(super) fn samples_taken(&self) -> String {
-        let numbers: Vec<String> = self.draws.samples.iter().map(u32::to_string).collect();
-        format!(
-            "samples N of each harmonic test: {} taken (--samples); the noise of a line falls with √N",
-            numbers.join(", ")
-        )
-    }
-
     /// `identify` with the noise of each draw; draws that give no joint are left out.
     pub(super) fn joints(
         &self,

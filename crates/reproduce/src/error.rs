@@ -32,5 +32,6 @@ from_other_crates!(
     NumberError,
     RespondError,
     SingularAssembly,
-    StructureError
+    StructureError,
+    toml::de::Error
 );

@@ -14,6 +14,7 @@ mod outcome;
 mod pirdayr;
 mod published;
 mod receptances;
+mod texts;
 mod tian;
 
 pub use draws::Draws;
@@ -28,6 +29,7 @@ pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
 pub use tian::{TianFit, TianLayer, TianReproduction, tian};
 
+use bolted::Bolts;
 use draws::Repetition;
 
 /// Computes a published table anew. `progress` is called after each draw of the noise, of which there are `draws.count` for each of
@@ -40,27 +42,28 @@ pub fn reproduce(
     draws: &Draws,
     progress: &(dyn Fn() + Sync),
 ) -> Result<Reproduction, ReproduceError> {
-    let draws = Repetition { draws, progress };
-    match table {
-        PublishedTable::Table4_2 => lumped::table_4_2(draws),
+    let repetition = Repetition { draws, progress };
+    let rows = match table {
+        PublishedTable::Table4_2 => lumped::table_4_2(repetition),
         PublishedTable::Table4_3 => Ok(beams::table_4_3()),
-        PublishedTable::Table4_4 => beams::table_4_4(draws),
-        PublishedTable::Table4_5 => beams::table_4_5(draws),
-        PublishedTable::Table4_6 => approaches::table_4_6(draws),
-        PublishedTable::Table4_7 => approaches::table_4_7(draws),
-        PublishedTable::Table4_8 => approaches::table_4_8(draws),
-        PublishedTable::Table4_9 => approaches::table_4_9(draws),
-        PublishedTable::Table5_2 => bolted::table_5_2(draws),
-        PublishedTable::M10x16 => bolted::m10x16_chain(draws),
-        PublishedTable::M8x16 => bolted::m8x16_chain(draws),
-        PublishedTable::M10x35 => bolted::m10x35_chain(draws),
-        PublishedTable::M8x35 => bolted::m8x35_chain(draws),
-        PublishedTable::LongM8x35 => bolted::long_m8x35(draws),
-        PublishedTable::Torques => bolted::torques(draws),
-        PublishedTable::M6x30 => bolted::m6x30_chain(draws),
+        PublishedTable::Table4_4 => beams::table_4_4(repetition),
+        PublishedTable::Table4_5 => beams::table_4_5(repetition),
+        PublishedTable::Table4_6 => approaches::table_4_6(repetition),
+        PublishedTable::Table4_7 => approaches::table_4_7(repetition),
+        PublishedTable::Table4_8 => approaches::table_4_8(repetition),
+        PublishedTable::Table4_9 => approaches::table_4_9(repetition),
+        PublishedTable::Table5_2 => bolted::table_5_2(repetition),
+        PublishedTable::M10x16 => Bolts::published()?.m10x16.chain(repetition),
+        PublishedTable::M8x16 => Bolts::published()?.m8x16.chain(repetition),
+        PublishedTable::M10x35 => Bolts::published()?.m10x35.chain(repetition),
+        PublishedTable::M8x35 => Bolts::published()?.m8x35.chain(repetition),
+        PublishedTable::LongM8x35 => bolted::long_m8x35(repetition),
+        PublishedTable::Torques => bolted::torques(repetition),
+        PublishedTable::M6x30 => Bolts::published()?.m6x30.chain(repetition),
         PublishedTable::TwoM6x30 => bolted::two_m6x30(),
-        PublishedTable::Table5_10 => bolted::table_5_10(draws),
-        PublishedTable::Table5_11 => bolted::table_5_11(draws),
-        PublishedTable::Table5_12 => bolted::table_5_12(draws),
-    }
+        PublishedTable::Table5_10 => bolted::table_5_10(repetition),
+        PublishedTable::Table5_11 => bolted::table_5_11(repetition),
+        PublishedTable::Table5_12 => bolted::table_5_12(repetition),
+    }?;
+    texts::with_texts(table, rows, draws)
 }

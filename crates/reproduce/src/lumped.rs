@@ -9,8 +9,7 @@ use bolted_joint_identify::{
 
 use super::draws::{Repetition, decoupled_within, polluted, rows};
 use super::error::ReproduceError;
-use super::outcome::Reproduction;
-use super::published::PublishedTable;
+use super::outcome::Row;
 use super::receptances::block;
 
 /// Noise of section 4.1.
@@ -37,7 +36,7 @@ fn substructures() -> Result<[SpatialModel; 2], ReproduceError> {
     Ok([a, b])
 }
 
-pub(super) fn table_4_2(draws: Repetition<'_>) -> Result<Reproduction, ReproduceError> {
+pub(super) fn table_4_2(draws: Repetition<'_>) -> Result<Vec<Row>, ReproduceError> {
     let truth = JointMatrices {
         stiffness: dmatrix![2000.0],
         damping: dmatrix![3.0],
@@ -95,23 +94,5 @@ pub(super) fn table_4_2(draws: Repetition<'_>) -> Result<Reproduction, Reproduce
             ));
         }
     }
-    Ok(Reproduction {
-        table: PublishedTable::Table4_2,
-        conditions: vec![format!(
-            "joint averaged from {} to {} Hz; noise {} % of the highest response",
-            BAND_HZ[0],
-            BAND_HZ[1],
-            100.0 * LEVEL
-        )],
-        rows: found,
-        differences: vec![
-            "Published: one draw. With N = 1024 all six published values are within two standard deviations of the obtained means; which N and how many lines it was, the thesis does not say.".to_owned(),
-            "\"Best performance from (3.18)\": (3.18) and (3.19) are equally good, (3.21) has twice their standard deviation, and with N = 4096 or more none has a bias. (3.20) returns (3.19), as the thesis says.".to_owned(),
-            "Printed error of c in (3.18): 0.4 %; 3.52 against 3 is 17 %.".to_owned(),
-        ],
-        not_given: vec![
-            format!("spacing of the lines: {LINE_SPACING_HZ} Hz taken"),
-            draws.samples_taken(),
-        ],
-    })
+    Ok(found)
 }

@@ -65,10 +65,8 @@ pub fn provenance(
         method: method.name().to_owned(),
         model: model.into(),
         inputs,
-        bolts: Vec::new(),
-        bands: None,
-        from_modes: Vec::new(),
         notes,
+        ..Provenance::default()
     }
 }
 

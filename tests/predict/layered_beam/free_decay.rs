@@ -21,7 +21,7 @@ fn outcome(text: &str) -> Outcome {
 
 /// Upper turning points of body a, time and displacement, over some periods of a free decay in the beam's mode.
 fn peaks(outcome: &Outcome, amplitude: f64, periods: u32) -> Vec<(f64, f64)> {
-    let lap = outcome.joint_file().lap::<1>().unwrap();
+    let lap = outcome.joint_file.lap::<1>().unwrap();
     let mode = outcome
         .modes
         .iter()
@@ -167,7 +167,7 @@ fn damping_over_the_amplitude_decays_nearly_as_friction() {
 #[test]
 fn at_resonance_the_force_holds_the_amplitude() {
     let found = outcome(&study("fixed-fixed", 1, ""));
-    let lap = found.joint_file().lap::<1>().unwrap();
+    let lap = found.joint_file.lap::<1>().unwrap();
     let beam = &found.modes[0];
     let omega = TAU * beam.frequency_hz;
     let ratio = found

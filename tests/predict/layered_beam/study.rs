@@ -83,9 +83,9 @@ fn a_study_gives_frequencies_damping_and_a_joint_file() {
     assert_eq!(csv.lines().filter(|line| line.ends_with(',')).count(), 6);
     assert!(found.summary().iter().any(|line| line.contains("mode 2")));
 
-    let file = found.joint_file();
+    let file = found.joint_file;
     let again = JointFile::from_json(&file.to_json().unwrap(), "again").unwrap();
-    assert_eq!(&again, file);
+    assert_eq!(again, file);
     assert!(file.passivity().is_passive());
     let provenance = file.provenance.as_ref().unwrap();
     assert_eq!(provenance.method, "layered-beam");
@@ -102,7 +102,7 @@ fn a_list_of_torques_gives_a_table_over_the_preload() {
         "[joint]\ndamping = \"linear\"\namplitude = 1e-4\nnominal_torque = 4\n[motion]",
     );
     let found = run(&text);
-    let file = found.joint_file();
+    let file = found.joint_file;
     let table = file.joint.over_preload.as_ref().unwrap();
     assert_eq!(table.preload, [2.0, 4.0, 8.0]);
     assert_eq!(table.nominal, 4.0);
@@ -122,7 +122,7 @@ fn a_list_of_torques_gives_a_table_over_the_preload() {
         "[joint]\ndamping = \"linear\"\namplitude = 1e-4\n[motion]",
     );
     let alone = run(&alone);
-    close(alone.joint_file().joint.damping[0][0], damping[1], 1e-13);
+    close(alone.joint_file.joint.damping[0][0], damping[1], 1e-13);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn standard_deviations_become_intervals_of_the_joint() {
     // c ∝ α′μ P: (s/m)² = (1 + 0.2²)(1 + 0.15²) − 1
     let relative = ((1.0 + 0.04_f64) * (1.0 + 0.0225) - 1.0).sqrt();
     let damping = row("c_yy");
-    let c = found.joint_file().joint.damping[0][0];
+    let c = found.joint_file.joint.damping[0][0];
     close(damping.mean, c, 0.01);
     close(damping.standard_deviation / damping.mean, relative, 0.03);
     // of a lognormal: e^(σ²/2 ± 1.96 σ) about the mean
@@ -199,7 +199,7 @@ fn standard_deviations_become_intervals_of_the_joint() {
     }
     // they do not change what bends
     assert!(row("k_yy").standard_deviation < 1e-9 * row("k_yy").mean);
-    let uncertainty = found.joint_file().uncertainty.as_ref().unwrap();
+    let uncertainty = found.joint_file.uncertainty.as_ref().unwrap();
     assert_eq!(
         uncertainty.standard_deviation.damping[0][0],
         damping.standard_deviation
@@ -208,7 +208,7 @@ fn standard_deviations_become_intervals_of_the_joint() {
         &uncertainty.basis,
         &["friction.alpha_mu", "fasteners.preload"],
     );
-    JointFile::from_json(&found.joint_file().to_json().unwrap(), "again").unwrap();
+    JointFile::from_json(&found.joint_file.to_json().unwrap(), "again").unwrap();
     // the same seed, the same draws
     assert_eq!(run(&text).scatter, found.scatter);
 }
@@ -254,14 +254,14 @@ fn a_table_over_the_preload_has_its_scatter() {
         .replace("alpha_mu = 0.0021", "alpha_mu = \"0.0021 ± 0.0002\"")
         .replace("[motion]", "[joint]\ndamping = \"linear\"\n[motion]");
     let found = run(&text);
-    let uncertainty = found.joint_file().uncertainty.as_ref().unwrap();
+    let uncertainty = found.joint_file.uncertainty.as_ref().unwrap();
     let over = uncertainty.over_preload.as_ref().unwrap();
     let [low, high] = [0, 1].map(|place| over.at[place].standard_deviation.damping[0][0]);
     close(high, 4.0 * low, 1e-2);
     // one friction for both
     let matrix = &over.correlation.as_ref().unwrap().matrix;
     assert!(matrix[1][3] > 0.9999);
-    JointFile::from_json(&found.joint_file().to_json().unwrap(), "again").unwrap();
+    JointFile::from_json(&found.joint_file.to_json().unwrap(), "again").unwrap();
 }
 
 #[test]
@@ -274,5 +274,5 @@ fn the_example_runs() {
         1e-6,
     );
     close(found.amplitudes[0].damping_ratio, 0.012, 1e-12);
-    found.joint_file().to_json().unwrap();
+    found.joint_file.to_json().unwrap();
 }

@@ -321,40 +321,22 @@ mod tests {
 
     #[test]
     fn other_headers_are_refused_with_what_they_hold() {
+        let with = |descr: &str, order: &str, shape: &str| {
+            format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}, }}")
+        };
         for (text, named) in [
-            (
-                "{'descr': '|O', 'fortran_order': False, 'shape': (3,), }",
-                "|O",
-            ),
-            (
-                "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3,), }",
-                "[(",
-            ),
-            (
-                "{'descr': '<f16', 'fortran_order': False, 'shape': (3,), }",
-                "<f16",
-            ),
-            (
-                "{'descr': '<U99999', 'fortran_order': False, 'shape': (3,), }",
-                "<U99999",
-            ),
-            (
-                "{'descr': '<f8', 'fortran_order': 0, 'shape': (3,), }",
-                "fortran_order",
-            ),
-            (
-                "{'descr': '<f8', 'fortran_order': False, 'shape': (-3,), }",
-                "shape",
-            ),
-            (
-                "{'descr': '<f8', 'fortran_order': False, 'shape': 3, }",
-                "shape",
-            ),
-            ("", "descr"),
-            ("{'descr': ''}", "type"),
-            ("{'descr': 'µ8', ", "µ8"),
+            (with("'|O'", "False", "(3,)"), "|O"),
+            (with("[('a', '<f8')]", "False", "(3,)"), "[("),
+            (with("'<f16'", "False", "(3,)"), "<f16"),
+            (with("'<U99999'", "False", "(3,)"), "<U99999"),
+            (with("'<f8'", "0", "(3,)"), "fortran_order"),
+            (with("'<f8'", "False", "(-3,)"), "shape"),
+            (with("'<f8'", "False", "3"), "shape"),
+            (String::new(), "descr"),
+            ("{'descr': ''}".to_owned(), "type"),
+            ("{'descr': 'µ8', ".to_owned(), "µ8"),
         ] {
-            let message = header(text).unwrap_err().to_string();
+            let message = header(&text).unwrap_err().to_string();
             assert!(message.contains(named), "{text}: {message}");
         }
     }

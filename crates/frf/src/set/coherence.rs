@@ -23,7 +23,7 @@ impl FrfSet {
         }
         self.averages = averages;
         for coherence in coherences {
-            let (response, reference) = (coherence.response(), coherence.reference());
+            let (response, reference) = (coherence.response, coherence.reference);
             let Some(pair) = self.measured_pair(response, reference) else {
                 continue;
             };
@@ -71,20 +71,20 @@ impl FrfSet {
 
     fn on_own_lines(&self, coherence: &Coherence) -> Result<Vec<f64>, FrfError> {
         let missing = |line: usize| FrfError::CoherenceAxis {
-            response: coherence.response(),
-            reference: coherence.reference(),
+            response: coherence.response,
+            reference: coherence.reference,
             line: line + 1,
             frequency_hz: self.frequency_hz[line],
         };
         // Only lines before the set's first one may be more: 0 Hz of a mobility or accelerance.
         let surplus = coherence
-            .frequency_hz()
+            .frequency_hz
             .len()
             .checked_sub(self.frequency_hz.len())
-            .ok_or_else(|| missing(coherence.frequency_hz().len()))?;
-        match first_difference(&self.frequency_hz, &coherence.frequency_hz()[surplus..]) {
+            .ok_or_else(|| missing(coherence.frequency_hz.len()))?;
+        match first_difference(&self.frequency_hz, &coherence.frequency_hz[surplus..]) {
             Some(line) => Err(missing(line)),
-            None => Ok(coherence.gamma_squared()[surplus..].to_vec()),
+            None => Ok(coherence.gamma_squared[surplus..].to_vec()),
         }
     }
 }

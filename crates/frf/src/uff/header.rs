@@ -324,42 +324,21 @@ mod tests {
 
     #[test]
     fn a_field_that_cannot_be_read_is_named_with_its_record() {
+        for (index, from, to, named) in [
+            (5, "11  -2", "1x  -2", "response node"),
+            (5, "11  -2", "11  -7", "direction code -7"),
+            (5, "               2   6", "", "reference node"),
+            (6, "         6", "         3", "ordinate data type"),
+            (6, "       801", "       -80", "number of values"),
+            (6, "         1  5", "         2  5", "abscissa spacing"),
+            (6, "2.50000D-01", "        NaN", "abscissa increment"),
+        ] {
+            let mut records = records();
+            assert!(records[index].contains(from), "{from}");
+            records[index] = records[index].replace(from, to);
+            refused(&records, index, named);
+        }
         for (index, line, named) in [
-            (
-                5,
-                "    4         1    1         0 NONE              1x  -2 NONE               2   6",
-                "response node",
-            ),
-            (
-                5,
-                "    4         1    1         0 NONE              11  -7 NONE               2   6",
-                "direction code -7",
-            ),
-            (
-                5,
-                "    4         1    1         0 NONE              11  -2 NONE",
-                "reference node",
-            ),
-            (
-                6,
-                "         3       801         1  5.00000E+00  2.50000D-01  0.00000E+00",
-                "ordinate data type",
-            ),
-            (
-                6,
-                "         6       -80         1  5.00000E+00  2.50000D-01  0.00000E+00",
-                "number of values",
-            ),
-            (
-                6,
-                "         6       801         2  5.00000E+00  2.50000D-01  0.00000E+00",
-                "abscissa spacing",
-            ),
-            (
-                6,
-                "         6       801         1  5.00000E+00          NaN  0.00000E+00",
-                "abscissa increment",
-            ),
             (6, "", "ordinate data type"),
             (8, "acceleration", "specific data type"),
             (
@@ -370,9 +349,13 @@ mod tests {
         ] {
             let mut records = records();
             records[index] = line.to_owned();
-            let (record, problem) = Header::from_records(&records).unwrap_err();
-            assert_eq!(record, index + 1);
-            assert!(problem.to_string().contains(named), "{problem}");
+            refused(&records, index, named);
         }
+    }
+
+    fn refused(records: &[String; RECORDS], index: usize, named: &str) {
+        let (record, problem) = Header::from_records(records).unwrap_err();
+        assert_eq!(record, index + 1);
+        assert!(problem.to_string().contains(named), "{problem}");
     }
 }

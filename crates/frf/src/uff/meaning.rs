@@ -221,14 +221,11 @@ pub(super) mod examples {
 mod tests {
     use super::examples::{NO_OPTIONS, axis, decided, force, header};
     use super::*;
+    use Quantity::{Accelerance, Mobility, Receptance};
 
     #[test]
     fn data_types_decide_the_quantity() {
-        for (data_type, quantity) in [
-            (8, Quantity::Receptance),
-            (11, Quantity::Mobility),
-            (12, Quantity::Accelerance),
-        ] {
+        for (data_type, quantity) in [(8, Receptance), (11, Mobility), (12, Accelerance)] {
             for denominator in [9, 13, 0] {
                 let meaning =
                     decided(axis(data_type, "", ""), axis(denominator, "", ""), None).unwrap();
@@ -247,11 +244,11 @@ mod tests {
     #[test]
     fn labels_decide_where_types_are_unknown() {
         for (label, unit, quantity) in [
-            ("Inertance", "", Quantity::Accelerance),
-            ("", "(m/s)/N", Quantity::Mobility),
-            ("Dynamic compliance", "m/N", Quantity::Receptance),
-            ("FRF", "1/kg", Quantity::Accelerance),
-            ("", "g", Quantity::Accelerance),
+            ("Inertance", "", Accelerance),
+            ("", "(m/s)/N", Mobility),
+            ("Dynamic compliance", "m/N", Receptance),
+            ("FRF", "1/kg", Accelerance),
+            ("", "g", Accelerance),
         ] {
             let meaning = decided(axis(0, label, unit), axis(0, "", ""), None).unwrap();
             assert_eq!(meaning.quantity.0, quantity, "{label} {unit}");
@@ -273,28 +270,10 @@ mod tests {
     #[test]
     fn statements_that_disagree_are_refused_with_both_and_the_override_settles_it() {
         for (data_type, label, unit, first, second) in [
-            (
-                12,
-                "Receptance",
-                "",
-                Quantity::Accelerance,
-                Quantity::Receptance,
-            ),
-            (12, "", "m/N", Quantity::Accelerance, Quantity::Receptance),
-            (
-                0,
-                "Receptance",
-                "(m/s)/N",
-                Quantity::Mobility,
-                Quantity::Receptance,
-            ),
-            (
-                8,
-                "Displacement",
-                "m/s^2",
-                Quantity::Receptance,
-                Quantity::Accelerance,
-            ),
+            (12, "Receptance", "", Accelerance, Receptance),
+            (12, "", "m/N", Accelerance, Receptance),
+            (0, "Receptance", "(m/s)/N", Mobility, Receptance),
+            (8, "Displacement", "m/s^2", Receptance, Accelerance),
         ] {
             let header = header(axis(data_type, label, unit), force());
             let (record, problem) = decide(&header, None, &NO_OPTIONS).unwrap_err();
@@ -304,12 +283,12 @@ mod tests {
             };
             assert_eq!((record, found), (9, (first, second)));
             let stated = ReadOptions {
-                quantity: Some(Quantity::Mobility),
+                quantity: Some(Mobility),
                 ..ReadOptions::default()
             };
             assert_eq!(
                 decide(&header, None, &stated).unwrap().quantity,
-                (Quantity::Mobility, StatedBy::Caller)
+                (Mobility, StatedBy::Caller)
             );
         }
     }
@@ -317,19 +296,17 @@ mod tests {
     #[test]
     fn loads_per_motion_and_other_ratios_are_refused_by_name() {
         for (numerator, denominator, name) in [
-            (axis(13, "", ""), axis(8, "", ""), "dynamic stiffness"),
-            (axis(9, "", ""), axis(11, "", ""), "impedance"),
-            (axis(13, "", ""), axis(12, "", ""), "apparent mass"),
-            (
-                axis(0, "Apparent Mass", ""),
-                axis(0, "", ""),
-                "apparent mass",
-            ),
-            (axis(0, "", "N/m"), axis(0, "", ""), "dynamic stiffness"),
-            (axis(0, "", "N/(m/s)"), axis(0, "", ""), "impedance"),
-            (axis(0, "", "N s^2/m"), axis(0, "", ""), "apparent mass"),
+            ((13, "", ""), 8, "dynamic stiffness"),
+            ((9, "", ""), 11, "impedance"),
+            ((13, "", ""), 12, "apparent mass"),
+            ((0, "Apparent Mass", ""), 0, "apparent mass"),
+            ((0, "", "N/m"), 0, "dynamic stiffness"),
+            ((0, "", "N/(m/s)"), 0, "impedance"),
+            ((0, "", "N s^2/m"), 0, "apparent mass"),
         ] {
-            let problem = decided(numerator, denominator, None).unwrap_err();
+            let (data_type, label, unit) = numerator;
+            let numerator = axis(data_type, label, unit);
+            let problem = decided(numerator, axis(denominator, "", ""), None).unwrap_err();
             assert!(
                 matches!(&problem, UffProblem::Inverse { found, .. } if *found == name),
                 "{problem}"

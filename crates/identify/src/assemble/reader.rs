@@ -50,7 +50,7 @@ impl Reader<'_> {
                 file.path.display()
             ));
         }
-        if !reading.coherences().is_empty() && reading.averages().is_none() {
+        if !reading.coherences.is_empty() && reading.averages().is_none() {
             self.warnings.push(format!(
                 "{}: coherence is not used, since the number of averages is not known; state averages beside frf",
                 file.path.display()

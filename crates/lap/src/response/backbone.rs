@@ -5,7 +5,6 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use bolted_joint_dynamics::law::Term;
-use bolted_joint_files::TextFileError;
 
 use super::data::{RESPONSE, Use};
 use super::dynamic_stiffness::RelativeMotion;
@@ -154,30 +153,19 @@ pub(super) fn read_backbone(
     share: f64,
 ) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |line, found: String, expected: String| {
-        LapError::from(TextFileError::in_line(path, line, found, expected))
-    };
-    let missing = |expected: String| problem(1, format!("the columns {}", table.names()), expected);
-    let (frequency, by) = table
-        .column(&["frequency_hz", "omega_rad_per_s"])
-        .ok_or_else(|| missing("a column frequency_hz or omega_rad_per_s".to_owned()))?;
-    let (response, order) = table
-        .column(&RESPONSE)
-        .ok_or_else(|| missing(format!("a column {}", RESPONSE.join(" or "))))?;
+    let (frequency, by) = table.required(&["frequency_hz", "omega_rad_per_s"], "")?;
+    let (response, order) = table.required(&RESPONSE, "")?;
     let ratio = table.column(&["damping_ratio"]);
     let force = table.column(&["force_n"]);
     let mut lines = Vec::new();
     for (number, values) in table.rows() {
         let positive = |place: usize, what: &str| match values[place] {
             Some(value) if value > 0.0 => Ok(value),
-            other => Err(problem(
-                *number,
-                format!(
-                    "a {what} of {}",
-                    other.map_or("nothing".to_owned(), |value| value.to_string())
-                ),
-                "a value above zero".to_owned(),
-            )),
+            other => {
+                let other = other.map_or("nothing".to_owned(), |value| value.to_string());
+                let found = format!("a {what} of {other}");
+                Err(table.problem(*number, found, "a value above zero"))
+            }
         };
         let frequency = positive(frequency, "frequency")?;
         let omega = if by == 0 { TAU * frequency } else { frequency };
@@ -194,7 +182,7 @@ pub(super) fn read_backbone(
         });
     }
     if lines.is_empty() {
-        return Err(problem(1, "no rows".to_owned(), "at least one".to_owned()));
+        return Err(table.problem(1, "no rows".to_owned(), "at least one"));
     }
     Ok(BackboneRun {
         name,
@@ -213,35 +201,22 @@ pub(super) fn read_decay(
     share: f64,
 ) -> Result<BackboneRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |found: String, expected: String| {
-        LapError::from(TextFileError::in_line(path, 1, found, expected))
-    };
-    let missing = |expected: String| problem(format!("the columns {}", table.names()), expected);
-    let (time, _) = table
-        .column(&["time_s"])
-        .ok_or_else(|| missing("a column time_s".to_owned()))?;
-    let (response, order) = table
-        .column(&RESPONSE)
-        .ok_or_else(|| missing(format!("a column {}", RESPONSE.join(" or "))))?;
+    let (time, _) = table.required(&["time_s"], "")?;
+    let (response, order) = table.required(&RESPONSE, "")?;
     let rows = table.rows().iter();
     let samples: Vec<(f64, f64)> = rows
         .filter_map(|(_, values)| Some((values[time]?, values[response]?)))
         .collect();
     if samples.windows(2).any(|pair| pair[1].0 <= pair[0].0) {
-        return Err(problem(
-            "times that do not ascend".to_owned(),
-            "ascending times".to_owned(),
-        ));
+        let found = "times that do not ascend".to_owned();
+        return Err(table.problem(1, found, "ascending times"));
     }
     let lines = of_decay(&samples, order as i32, share);
     if lines.len() < 2 {
-        return Err(problem(
-            format!(
-                "{} stretch(es) of {HALF_PERIODS} half-periods in the decay",
-                lines.len()
-            ),
-            "at least two: a longer record of one mode decaying freely".to_owned(),
-        ));
+        let count = lines.len();
+        let found = format!("{count} stretch(es) of {HALF_PERIODS} half-periods in the decay");
+        let expected = "at least two: a longer record of one mode decaying freely";
+        return Err(table.problem(1, found, expected));
     }
     Ok(BackboneRun {
         name,

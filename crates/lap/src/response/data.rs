@@ -7,7 +7,6 @@ use serde::Deserialize;
 
 use super::table::NumberTable;
 use crate::error::LapError;
-use bolted_joint_files::TextFileError;
 
 /// What a run is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -97,22 +96,10 @@ const PHASE: [&str; 2] = ["phase_rad", "phase_deg"];
 /// Reads a run.
 pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, LapError> {
     let table = NumberTable::read(path)?;
-    let problem = |line, found: String, expected: &str| {
-        LapError::from(TextFileError::in_line(path, line, found, expected))
-    };
-    let column = |names: &[&str], what: &str| {
-        table.column(names).ok_or_else(|| {
-            problem(
-                1,
-                format!("the columns {}", table.names()),
-                &format!("a column {}{what}", names.join(" or ")),
-            )
-        })
-    };
-    let frequency = column(&FREQUENCY, "")?;
-    let force = column(&["force_n"], "")?;
-    let response = column(&RESPONSE, "")?;
-    let phase = column(
+    let frequency = table.required(&FREQUENCY, "")?;
+    let force = table.required(&["force_n"], "")?;
+    let response = table.required(&RESPONSE, "")?;
+    let phase = table.required(
         &PHASE,
         ": a level without phase does not tell damping from stiffness",
     )?;
@@ -121,7 +108,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, La
     let mut lines = Vec::new();
     for (number, values) in table.rows() {
         let value = |(place, _): (usize, usize), name: &str, expected: &str| {
-            values[place].ok_or_else(|| problem(*number, format!("no {name}"), expected))
+            values[place].ok_or_else(|| table.problem(*number, format!("no {name}"), expected))
         };
         let frequency_value = value(frequency, "frequency", "a number")?;
         let hz = match frequency.1 {
@@ -141,7 +128,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, La
             ("response", amplitude),
         ] {
             if found <= 0.0 {
-                return Err(problem(
+                return Err(table.problem(
                     *number,
                     format!("a {what} of {found}"),
                     "a value above zero",
@@ -167,7 +154,7 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, La
         });
     }
     if lines.len() < 2 {
-        return Err(problem(
+        return Err(table.problem(
             1,
             format!("{} line(s) in the frequency range", lines.len()),
             "at least two",

@@ -121,9 +121,7 @@ impl LapResponse {
                 .into_iter()
                 .map(str::to_owned)
                 .collect(),
-            free_estimate: None,
-            bootstrap: None,
-            over_preload: None,
+            ..Uncertainty::default()
         })
     }
 

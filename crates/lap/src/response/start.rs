@@ -25,10 +25,7 @@ pub(super) fn best(
     noise: &Noise,
     known: &Values,
 ) -> Result<(Fit, usize, usize), LapError> {
-    let lines: Vec<SineLine> = runs
-        .iter()
-        .flat_map(|run| run.lines.iter().copied())
-        .collect();
+    let lines = lines_of(runs);
     let data = Data {
         lines: &lines,
         backbone,
@@ -75,15 +72,17 @@ pub fn fit_responses(
     if model.harmonics == 1 {
         return Ok(found);
     }
-    let lines: Vec<SineLine> = runs
-        .iter()
-        .flat_map(|run| run.lines.iter().copied())
-        .collect();
+    let lines = lines_of(&runs);
     let data = Data {
         lines: &lines,
         backbone: &[],
     };
     fit(model, data, noise, &found.values)
+}
+
+fn lines_of(runs: &[&SineRun]) -> Vec<SineLine> {
+    let lines = runs.iter().flat_map(|run| &run.lines);
+    lines.copied().collect()
 }
 
 fn starts(

@@ -5,16 +5,19 @@ use std::path::Path;
 use bolted_joint_files::text_file::{self, TextFileError};
 use bolted_joint_files::text_table::{self, Cells};
 
+use crate::error::LapError;
+
 /// A table of numbers.
-pub(super) struct NumberTable {
+pub(super) struct NumberTable<'p> {
+    path: &'p Path,
     names: Vec<String>,
     /// Number of the line in the file, and its values; an empty cell is none.
     rows: Vec<(usize, Vec<Option<f64>>)>,
 }
 
-impl NumberTable {
+impl<'p> NumberTable<'p> {
     /// Reads a table: comment lines with `#`, a header, rows of numbers.
-    pub(super) fn read(path: &Path) -> Result<Self, TextFileError> {
+    pub(super) fn read(path: &'p Path) -> Result<Self, TextFileError> {
         let text = text_file::read(path, "a table of responses (CSV)")?;
         let problem = |line, found: String, expected: &str| {
             TextFileError::in_line(path, line, found, expected)
@@ -63,7 +66,7 @@ impl NumberTable {
             let values = cells.iter().map(number).collect::<Result<_, _>>()?;
             rows.push((line, values));
         }
-        Ok(Self { names, rows })
+        Ok(Self { path, names, rows })
     }
 
     /// The line of the file and the values of some columns in each row. `wanted` are places of columns.
@@ -79,8 +82,16 @@ impl NumberTable {
         })
     }
 
-    /// The names of the columns.
-    pub(super) fn names(&self) -> String {
-        self.names.join(", ")
+    /// The same where there must be one; `why` follows what is expected.
+    pub(super) fn required(&self, names: &[&str], why: &str) -> Result<(usize, usize), LapError> {
+        self.column(names).ok_or_else(|| {
+            let found = format!("the columns {}", self.names.join(", "));
+            self.problem(1, found, &format!("a column {}{why}", names.join(" or ")))
+        })
+    }
+
+    /// What is wrong in a line of the file.
+    pub(super) fn problem(&self, line: usize, found: String, expected: &str) -> LapError {
+        TextFileError::in_line(self.path, line, found, expected).into()
     }
 }

@@ -64,13 +64,8 @@ impl LapUpdate {
             uncertainty: Some(Uncertainty {
                 standard_deviation: at.standard_deviation,
                 basis: basis(),
-                correlation: None,
-                interval_95: None,
-                inflation: None,
                 not_identified: at.not_identified,
-                free_estimate: None,
-                bootstrap: None,
-                over_preload: None,
+                ..Uncertainty::default()
             }),
             validity: Some(validity(&[torque])),
             residual: Some(residual(&[torque])),
@@ -155,14 +150,12 @@ impl TorqueUpdate {
                 stiffness: vec![vec![self.deviation(LapParameter::JointStiffness)]],
                 damping: vec![vec![self.deviation(LapParameter::JointDamping)]],
             },
-            interval_95: None,
             not_identified: self
                 .not_identified()
                 .into_iter()
                 .map(str::to_owned)
                 .collect(),
-            free_estimate: None,
-            bootstrap: None,
+            ..UncertaintyAtPreload::default()
         }
     }
 
@@ -228,9 +221,6 @@ fn residual(torques: &[&TorqueUpdate]) -> Residual {
     Residual {
         relative_rms: (squares / errors.len().max(1) as f64).sqrt(),
         lines: errors.len(),
-        functions: Vec::new(),
-        reduced_chi_squared: None,
-        line_correlation: None,
-        noise: None,
+        ..Residual::default()
     }
 }

@@ -23,7 +23,6 @@ const SMALLEST_LOG_AREA: f64 = -300.0;
 pub struct FractalContact {
     fractal_dimension: f64,
     hardness_pa: f64,
-    nominal_area_m2: f64,
     critical_area_m2: f64,
     critical_pressure_pa: f64,
     growth: Growth,
@@ -113,7 +112,6 @@ impl FractalContact {
         Ok(Self {
             fractal_dimension: d,
             hardness_pa,
-            nominal_area_m2,
             critical_area_m2,
             critical_pressure_pa,
             // (12): p/p_c = e^(Dx/2) (1 + [(2−D)/2] φ(3/2 − D, x))
@@ -141,12 +139,6 @@ impl FractalContact {
     #[must_use]
     pub fn fractal_dimension(&self) -> f64 {
         self.fractal_dimension
-    }
-
-    /// Nominal area A₀, in m².
-    #[must_use]
-    pub fn nominal_area_m2(&self) -> f64 {
-        self.nominal_area_m2
     }
 
     /// Truncated area a'_c between plastic contacts and the larger, elastic ones, in m²; infinite where D is close to 1.

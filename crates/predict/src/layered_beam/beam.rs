@@ -91,18 +91,6 @@ impl LayeredBeam {
         &self.layers
     }
 
-    /// How the ends are held.
-    #[must_use]
-    pub fn boundary(&self) -> Boundary {
-        self.boundary
-    }
-
-    /// Stiffness over that of the solid beam.
-    #[must_use]
-    pub fn stiffness_ratio(&self) -> f64 {
-        self.stiffness_ratio
-    }
-
     /// Thickness of all layers, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {

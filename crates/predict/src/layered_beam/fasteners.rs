@@ -59,10 +59,7 @@ impl Fasteners {
         let tension_n = stress_pa * PI * (0.5 * diameter_m).powi(2);
         Ok(Self {
             kind: FastenerKind::Rivet,
-            diameter_m,
-            tension_n,
-            positions_m,
-            rule: NormalForceRule::default(),
+            ..Self::bolts(diameter_m, tension_n, positions_m)?
         })
     }
 
@@ -112,12 +109,6 @@ impl Fasteners {
     #[must_use]
     pub fn kind(&self) -> FastenerKind {
         self.kind
-    }
-
-    /// Diameter of the shank, m.
-    #[must_use]
-    pub fn diameter_m(&self) -> f64 {
-        self.diameter_m
     }
 
     /// Tension P in each, N.

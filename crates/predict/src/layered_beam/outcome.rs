@@ -46,8 +46,9 @@ pub struct Outcome {
     pub scatter: Vec<ScatterRow>,
     /// What a reader should know before using the result.
     pub warnings: Vec<String>,
+    /// The lap equivalent of the study's mode.
     #[serde(skip)]
-    joint_file: JointFile,
+    pub joint_file: JointFile,
 }
 
 /// One mode, by both routes.
@@ -189,18 +190,6 @@ impl Outcome {
             warnings,
             joint_file: lap.file,
         })
-    }
-
-    /// The lap equivalent of the study's mode.
-    #[must_use]
-    pub fn joint_file(&self) -> &JointFile {
-        &self.joint_file
-    }
-
-    /// What a reader should know before using the result.
-    #[must_use]
-    pub fn warnings(&self) -> &[String] {
-        &self.warnings
     }
 
     /// Damping over the amplitude as CSV, one line a mode and amplitude.

@@ -223,9 +223,7 @@ impl Scattered {
                 preload,
                 standard_deviation: self.deviation(suffix),
                 interval_95: Some(self.intervals(suffix)),
-                not_identified: Vec::new(),
-                free_estimate: None,
-                bootstrap: None,
+                ..UncertaintyAtPreload::default()
             });
         Uncertainty {
             standard_deviation: self.deviation(""),
@@ -238,10 +236,6 @@ impl Scattered {
             ),
             correlation: Some(self.correlation(&["k_yy".to_owned(), "c_yy".to_owned()])),
             interval_95: Some(self.intervals("")),
-            inflation: None,
-            not_identified: Vec::new(),
-            free_estimate: None,
-            bootstrap: None,
             over_preload: (!self.torques.is_empty()).then(|| {
                 let names = suffixes.iter();
                 let names =
@@ -252,6 +246,7 @@ impl Scattered {
                     correlation: Some(self.correlation(&names)),
                 }
             }),
+            ..Uncertainty::default()
         }
     }
 

@@ -61,18 +61,23 @@ impl ContactMoments {
         for (element, contact) in parts {
             let arms = [element.x_m - about[0], element.y_m - about[1]];
             let area = element.area_m2;
-            moments
-                .normal_stiffness
-                .add(contact.normal_stiffness_n_per_m3 * area, arms);
-            moments
-                .tangential_stiffness
-                .add(contact.tangential_stiffness_n_per_m3 * area, arms);
-            moments
-                .normal_damping
-                .add(contact.normal_damping_n_per_m3 * area, arms);
-            moments
-                .tangential_damping
-                .add(contact.tangential_damping_n_per_m3 * area, arms);
+            for (moments, per_area) in [
+                (
+                    &mut moments.normal_stiffness,
+                    contact.normal_stiffness_n_per_m3,
+                ),
+                (
+                    &mut moments.tangential_stiffness,
+                    contact.tangential_stiffness_n_per_m3,
+                ),
+                (&mut moments.normal_damping, contact.normal_damping_n_per_m3),
+                (
+                    &mut moments.tangential_damping,
+                    contact.tangential_damping_n_per_m3,
+                ),
+            ] {
+                moments.add(per_area * area, arms);
+            }
         }
         moments
     }

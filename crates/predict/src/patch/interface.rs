@@ -21,10 +21,14 @@ pub type Matrix6 = [[f64; 6]; 6];
 /// K = Σ Bᵀ diag(k_t, k_t, k_n) B ΔA with d = B (u, θ) is symmetric and positive semidefinite, and so are the dampings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InterfaceJoint {
-    reference_m: [f64; 3],
-    stiffness: Matrix6,
-    hysteretic: Matrix6,
-    viscous: Matrix6,
+    /// Where the two nodes are, m.
+    pub reference_m: [f64; 3],
+    /// K: N/m, N/rad; N·m/m, N·m/rad.
+    pub stiffness: Matrix6,
+    /// Hysteretic (structural) damping D, in the units of K: the load is j D (u, θ) at every frequency.
+    pub hysteretic: Matrix6,
+    /// Viscous damping C, in the units of K times s.
+    pub viscous: Matrix6,
     normal: [f64; 2],
     tangential: [f64; 2],
 }
@@ -71,30 +75,6 @@ impl InterfaceJoint {
                 moments.tangential_damping.sum,
             ],
         })
-    }
-
-    /// Where the two nodes are, m.
-    #[must_use]
-    pub fn reference_m(&self) -> [f64; 3] {
-        self.reference_m
-    }
-
-    /// K: N/m, N/rad; N·m/m, N·m/rad.
-    #[must_use]
-    pub fn stiffness(&self) -> &Matrix6 {
-        &self.stiffness
-    }
-
-    /// Hysteretic (structural) damping D, in the units of K: the load is j D (u, θ) at every frequency.
-    #[must_use]
-    pub fn hysteretic(&self) -> &Matrix6 {
-        &self.hysteretic
-    }
-
-    /// Viscous damping C, in the units of K times s.
-    #[must_use]
-    pub fn viscous(&self) -> &Matrix6 {
-        &self.viscous
     }
 
     /// All damping as a dashpot that dissipates the same at this frequency (Hz): C + D/ω.

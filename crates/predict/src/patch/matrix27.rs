@@ -23,7 +23,7 @@ pub fn matrix27(
     frequency_hz: f64,
 ) -> Result<String, NumberError> {
     let damping = interface.viscous_at(frequency_hz)?;
-    let [x, y, z] = interface.reference_m();
+    let [x, y, z] = interface.reference_m;
     // A comment ends with its line, and APDL has `$` between commands.
     let name = name.replace(['\n', '\r', '$'], " ");
     let mut text = format!(
@@ -32,7 +32,7 @@ pub fn matrix27(
          ! N, m, rad, s; z normal to the interface; damping converted to viscous at {frequency_hz} Hz\n"
     );
     for (what, keyopt, number, matrix) in [
-        ("stiffness", 4, "ARG3", interface.stiffness()),
+        ("stiffness", 4, "ARG3", &interface.stiffness),
         ("damping", 5, "ARG3+1", &damping),
     ] {
         // writing to a String cannot fail

@@ -80,7 +80,7 @@ impl Planar {
         frequency_hz: f64,
     ) -> Result<PlanarJoint, NumberError> {
         Ok(PlanarJoint {
-            stiffness: self.part(interface.stiffness()),
+            stiffness: self.part(&interface.stiffness),
             damping: self.part(&interface.viscous_at(frequency_hz)?),
         })
     }

@@ -18,7 +18,7 @@ pub fn table(
     frequency_hz: f64,
 ) -> Result<String, NumberError> {
     let total = interface.viscous_at(frequency_hz)?;
-    let [x, y, z] = interface.reference_m();
+    let [x, y, z] = interface.reference_m;
     let name = name.replace(['\n', '\r'], " ");
     let mut text = format!(
         "# {name}\n# relative motion of two nodes at x = {x} m, y = {y} m, z = {z} m; interface normal z; N, m, rad, s\n\
@@ -33,9 +33,9 @@ pub fn table(
             let _ = writeln!(text, "{symbol},{dof},{}", values.join(","));
         }
     };
-    append("K", interface.stiffness());
-    append("D", interface.hysteretic());
-    append("C", interface.viscous());
+    append("K", &interface.stiffness);
+    append("D", &interface.hysteretic);
+    append("C", &interface.viscous);
     append("C_total", &total);
     Ok(text)
 }

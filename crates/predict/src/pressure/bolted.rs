@@ -32,10 +32,14 @@ pub struct BoltedInterface<'a> {
 /// The field of a [`BoltedInterface`], and what became of each bolt's preload.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoltedField {
-    field: PressureField,
-    cell_m: [f64; 2],
-    shares: Vec<BoltShare>,
-    balance: Balance,
+    /// The pressure on the cells; those within a hole are left out.
+    pub field: PressureField,
+    /// Width and height of a cell, in m.
+    pub cell_m: [f64; 2],
+    /// What each bolt's zone carries.
+    pub shares: Vec<BoltShare>,
+    /// The field's force and moments beside the bolts'.
+    pub balance: Balance,
 }
 
 /// What a bolt's zone carries on the interface.
@@ -217,34 +221,10 @@ pub(super) fn check_cells(cells: [usize; 2]) -> Result<(), PressureError> {
 }
 
 impl BoltedField {
-    /// The pressure on the cells; those within a hole are left out.
-    #[must_use]
-    pub fn field(&self) -> &PressureField {
-        &self.field
-    }
-
-    /// Width and height of a cell, in m.
-    #[must_use]
-    pub fn cell_m(&self) -> [f64; 2] {
-        self.cell_m
-    }
-
-    /// What each bolt's zone carries.
-    #[must_use]
-    pub fn shares(&self) -> &[BoltShare] {
-        &self.shares
-    }
-
     /// Bolts whose zone the plate's edge or another hole cuts; each prints as a warning.
     pub fn cut_zones(&self) -> impl Iterator<Item = &BoltShare> {
         self.shares
             .iter()
             .filter(|share| share.part_on_plate < 1.0 - UNNOTICED)
-    }
-
-    /// The field's force and moments beside the bolts'.
-    #[must_use]
-    pub fn balance(&self) -> &Balance {
-        &self.balance
     }
 }

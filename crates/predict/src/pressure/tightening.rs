@@ -35,41 +35,17 @@ pub struct ThreadFriction {
     pub bearing_inner_diameter_m: f64,
 }
 
-/// d and coarse pitch of ISO 261, first choice and M14 to M33 of the second, in mm.
-const COARSE: [(f64, f64); 26] = [
-    (1.6, 0.35),
-    (2.0, 0.4),
-    (2.5, 0.45),
-    (3.0, 0.5),
-    (3.5, 0.6),
-    (4.0, 0.7),
-    (5.0, 0.8),
-    (6.0, 1.0),
-    (7.0, 1.0),
-    (8.0, 1.25),
-    (10.0, 1.5),
-    (12.0, 1.75),
-    (14.0, 2.0),
-    (16.0, 2.0),
-    (18.0, 2.5),
-    (20.0, 2.5),
-    (22.0, 2.5),
-    (24.0, 3.0),
-    (27.0, 3.0),
-    (30.0, 3.5),
-    (33.0, 3.5),
-    (36.0, 4.0),
-    (42.0, 4.5),
-    (48.0, 5.0),
-    (56.0, 5.5),
-    (64.0, 6.0),
-];
-
 /// The coarse pitch of a metric bolt of nominal diameter `diameter_m`, in m; `None` if ISO 261 has no such size up to M64.
 #[must_use]
 pub fn coarse_pitch_m(diameter_m: f64) -> Option<f64> {
-    COARSE
-        .into_iter()
+    let mut sizes_mm = include_str!("coarse-pitch.csv").lines().filter_map(|line| {
+        let (diameter_mm, pitch_mm) = line.split_once(',')?;
+        Some((
+            diameter_mm.parse::<f64>().ok()?,
+            pitch_mm.parse::<f64>().ok()?,
+        ))
+    });
+    sizes_mm
         .find(|(diameter_mm, _)| (1e3 * diameter_m / diameter_mm - 1.0).abs() < 1e-6)
         .map(|(_, pitch_mm)| 1e-3 * pitch_mm)
 }

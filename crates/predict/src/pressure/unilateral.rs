@@ -9,8 +9,10 @@ use crate::number::check;
 /// A field that carries a given force and moment, opened where it would have to pull.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnilateralField {
-    field: PressureField,
-    opened_area_m2: f64,
+    /// The pressure.
+    pub field: PressureField,
+    /// Area that was in contact before and is open now, in m².
+    pub opened_area_m2: f64,
 }
 
 /// Newton steps at most; a resultant that contact can carry needs about ten.
@@ -19,20 +21,6 @@ const STEPS: usize = 200;
 const RESIDUAL: f64 = 1e-13;
 /// With this much left over after all steps, rounding is the reason.
 const ACCEPTABLE: f64 = 1e-9;
-
-impl UnilateralField {
-    /// The pressure.
-    #[must_use]
-    pub fn field(&self) -> &PressureField {
-        &self.field
-    }
-
-    /// Area that was in contact before and is open now, in m².
-    #[must_use]
-    pub fn opened_area_m2(&self) -> f64 {
-        self.opened_area_m2
-    }
-}
 
 impl PressureField {
     /// The field when the interface as a whole carries `force_n` (N) and `moments_n_m` about the x and the y axis (N·m), as
@@ -224,13 +212,13 @@ mod tests {
         let found = even
             .carrying(force_n, [0.0, -force_n * eccentricity])
             .unwrap();
-        let field = found.field();
+        let field = found.field;
         assert!((field.force_n() / force_n - 1.0).abs() < 1e-12);
         assert!((field.moments_n_m()[1] / (-force_n * eccentricity) - 1.0).abs() < 1e-12);
         let peak_pa = field.elements().last().unwrap().pressure_pa;
         assert!((peak_pa / (2.0 * force_n / (3.0 * breadth * c)) - 1.0).abs() < 5e-4);
         let open = (height - 3.0 * c) * breadth;
-        assert!((found.opened_area_m2() / open - 1.0).abs() < 2e-3);
+        assert!((found.opened_area_m2 / open - 1.0).abs() < 2e-3);
     }
 
     #[test]
@@ -241,11 +229,11 @@ mod tests {
         let found = field
             .carrying(3000.0, [3000.0 * 0.19, -3000.0 * 0.16])
             .unwrap();
-        assert_eq!(found.opened_area_m2(), 0.0);
+        assert_eq!(found.opened_area_m2, 0.0);
         // Cells take the moment of their middles: the second moment is that of 30 and of 20 cells.
         let mean = 3000.0 / 0.06;
         let second = |length: f64, cells: f64| length.powi(2) * (1.0 - cells.powi(-2)) / 12.0;
-        for element in found.field().elements() {
+        for element in found.field.elements() {
             let expected = mean
                 * (1.0 + 0.01 * (element.x_m - 0.15) / second(0.3, 30.0)
                     - 0.01 * (element.y_m - 0.2) / second(0.2, 20.0));

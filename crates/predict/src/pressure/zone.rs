@@ -1,5 +1,7 @@
 //! The zone around a bolt in which the parts press on each other.
 
+use serde::Deserialize;
+
 use super::radial::RadialPressure;
 use super::{Bolt, PressureError};
 use crate::number::{check, not_negative, positive};
@@ -32,19 +34,23 @@ pub enum ThicknessRatio {
 }
 
 /// How far a polynomial zone reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Reach {
-    /// 4.125, 5.0 or 5.6 diameters across, as measured for rivets (Table 3.1).
-    Rivets,
     /// 3.5 diameters across, as the thesis says of bolts. It has no constants for them: the polynomial is compressed linearly
     /// between the hole's edge and the rim, so that it falls off to the same pressure there.
+    #[default]
     Bolts,
+    /// 4.125, 5.0 or 5.6 diameters across, as measured for rivets (Table 3.1).
+    Rivets,
 }
 
 /// What force a polynomial zone carries.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ZoneForce {
     /// The preload: the pressure is scaled so.
+    #[default]
     Preload,
     /// N of (3.34), which is 0.8952, 1.1338 or 1.2787 times the preload: the thesis's σ_s = P/(2.0625 π R_v²) is kept.
     AsPublished,
@@ -64,11 +70,13 @@ pub struct Cone {
 }
 
 /// How the pressure is spread over a cone's base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ConePressure {
     /// The same everywhere.
     Uniform,
     /// p ∝ 1 − (r/R)², zero at the rim R.
+    #[default]
     Parabolic,
 }
 

@@ -22,7 +22,7 @@ impl Plate {
     fn of(found: &BoltedField, outline: Rectangle, clearance_m: f64) -> Self {
         Self {
             outline,
-            cell_m: found.cell_m(),
+            cell_m: found.cell_m,
             clearance_m,
         }
     }
@@ -76,7 +76,7 @@ impl Geometry {
             zone,
         }
         .field()?;
-        let field = found.field().scaled(0.0).map_err(ModelError::Field)?;
+        let field = found.field.scaled(0.0).map_err(ModelError::Field)?;
         Ok(Self {
             elements: field.elements().to_vec(),
             plate: Some(Plate::of(&found, outline, clearance_m)),
@@ -112,8 +112,8 @@ impl Geometry {
                 zone,
             }
             .field()?;
-            shares.extend(found.shares().get(place).copied());
-            let field = found.field();
+            shares.extend(found.shares.get(place).copied());
+            let field = &found.field;
             per_preload.push(field.elements().iter().map(|e| e.pressure_pa).collect());
             if place == 0 {
                 elements = field

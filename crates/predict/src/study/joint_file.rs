@@ -90,10 +90,6 @@ impl Prediction<'_> {
                 matrix: correlation(outcome, &at_nominal),
             }),
             interval_95: Some(intervals(outcome, dofs, nominal)),
-            inflation: None,
-            not_identified: Vec::new(),
-            free_estimate: None,
-            bootstrap: None,
             over_preload: (!self.study.torques_n_m.is_empty()).then(|| UncertaintyOverPreload {
                 at: self
                     .study
@@ -103,9 +99,7 @@ impl Prediction<'_> {
                         preload: torque,
                         standard_deviation: deviation(outcome, dofs, Some(torque)),
                         interval_95: Some(intervals(outcome, dofs, Some(torque))),
-                        not_identified: Vec::new(),
-                        free_estimate: None,
-                        bootstrap: None,
+                        ..UncertaintyAtPreload::default()
                     })
                     .collect(),
                 correlation: Some(Correlation {
@@ -113,6 +107,7 @@ impl Prediction<'_> {
                     unknowns: at_all,
                 }),
             }),
+            ..Uncertainty::default()
         }
     }
 

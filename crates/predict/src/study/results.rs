@@ -51,7 +51,7 @@ pub(super) fn values(dofs: DofSet, interface: &InterfaceJoint, planar: &PlanarJo
         };
         matrix[i][j]
     });
-    let diagonal = (0..6).map(|i| interface.stiffness()[i][i]);
+    let diagonal = (0..6).map(|i| interface.stiffness[i][i]);
     let loss = [
         interface.normal_loss_factor(),
         interface.tangential_loss_factor(),

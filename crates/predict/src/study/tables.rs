@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use crate::patch::{LossFactor, SignedAxis};
+use crate::pressure::{ConePressure, Reach, ZoneForce};
 use crate::uncertain::Uncertain;
 use bolted_joint_study::{Method, UncertaintyTable};
 
@@ -121,15 +122,15 @@ pub(super) struct PressureTable {
     pub(super) model: Option<PressureModel>,
     /// Of the layers on side a and b, m.
     pub(super) thickness: Option<[f64; 2]>,
-    pub(super) reach: Option<ReachWord>,
-    pub(super) force: Option<ForceWord>,
+    pub(super) reach: Option<Reach>,
+    pub(super) force: Option<ZoneForce>,
     /// Degrees.
     pub(super) half_angle: Option<f64>,
     /// m.
     pub(super) head_diameter: Option<f64>,
     /// m.
     pub(super) depth: Option<f64>,
-    pub(super) distribution: Option<DistributionWord>,
+    pub(super) distribution: Option<ConePressure>,
     /// m.
     pub(super) clearance: Option<f64>,
     /// About x and y, N·m.
@@ -142,27 +143,6 @@ pub(super) enum PressureModel {
     Uniform,
     Kavi,
     Cone,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ReachWord {
-    Bolts,
-    Rivets,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ForceWord {
-    Preload,
-    AsPublished,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum DistributionWord {
-    Uniform,
-    Parabolic,
 }
 
 #[derive(Debug, Deserialize)]

@@ -67,7 +67,7 @@ impl Prediction<'_> {
                     "the layer has no damping{at}: its model gives none; state layer.loss_factor"
                 ));
             }
-            if state.interface.stiffness()[2][2] == 0.0 {
+            if state.interface.stiffness[2][2] == 0.0 {
                 warnings.push(format!(
                     "no contact is elastic{at}, so that there is no stiffness: the roughness is too large for this pressure and hardness"
                 ));

@@ -30,7 +30,7 @@ impl Bands {
             centre: Vec::new(),
             ends_per_m: [high * ratio.powf(-count - 1.0), high],
         };
-        let frequencies = spectrum.frequency_per_m();
+        let frequencies = &spectrum.frequency_per_m;
         let half = 0.5 * frequencies.get(1).copied().unwrap_or(0.0);
         let mut below = count;
         while below > 0.5 {

@@ -56,21 +56,31 @@ const SHORTEST_SEGMENT: usize = 64;
 /// D and G of profiles, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileFit {
-    roughness: Roughness,
-    /// Covariance of D and ln G.
-    covariance: [[f64; 2]; 2],
-    dimension_interval: [f64; 2],
-    roughness_interval_m: [f64; 2],
-    slope: f64,
+    /// D and G.
+    pub roughness: Roughness,
+    /// Covariance matrix of D and ln G. They are almost one quantity, so draw them together.
+    pub covariance: [[f64; 2]; 2],
+    /// 95 % interval of D.
+    pub dimension_interval: [f64; 2],
+    /// 95 % interval of G, in m, by Fieller's theorem: ln G is the ratio of two normal variables.
+    pub roughness_interval_m: [f64; 2],
+    /// Slope of log S over log ω: 2D − 5.
+    pub slope: f64,
+    /// Shortest and longest wavelength used: whole bands within those asked for, in m.
+    pub wavelength_band_m: [f64; 2],
+    /// How the spectrum was estimated.
+    pub welch: Welch,
+    /// Whether standard deviations are widened because the spectrum is no straight line within its scatter.
+    pub is_inflated: bool,
+    /// The spectrum of all profiles.
+    pub spectrum: Spectrum,
+    /// What the line was fitted to.
+    pub bands: Vec<BandMean>,
+    /// What is doubtful; each prints as a sentence.
+    pub warnings: Vec<FitWarning>,
     log_density_at_one: f64,
-    wavelength_band_m: [f64; 2],
-    welch: Welch,
     chi_squared: f64,
     degrees_of_freedom: usize,
-    inflated: bool,
-    spectrum: Spectrum,
-    bands: Vec<BandMean>,
-    warnings: Vec<FitWarning>,
 }
 
 /// Mean of the spectrum over a band, on the fitted line's terms.
@@ -134,9 +144,9 @@ impl ProfileFit {
         )?;
         let degrees_of_freedom = bands.count() - 2;
         let freedom = degrees_of_freedom as f64;
-        let inflated = line.chi_squared > chi_squared_95(degrees_of_freedom);
+        let is_inflated = line.chi_squared > chi_squared_95(degrees_of_freedom);
         // With known variances the normal distribution; where χ² says that the line does not fit, the scatter about it and Student's.
-        let (scale, quantile) = match inflated {
+        let (scale, quantile) = match is_inflated {
             true => (line.chi_squared / freedom, student_975(degrees_of_freedom)),
             false => (1.0, NORMAL_975),
         };
@@ -158,7 +168,7 @@ impl ProfileFit {
         if waves < WARN_WAVES * (1.0 - rounding) {
             warnings.push(FitWarning::NearSegment { waves });
         }
-        if inflated {
+        if is_inflated {
             warnings.push(FitWarning::NotStraight {
                 chi_squared: line.chi_squared,
                 degrees_of_freedom,
@@ -186,17 +196,11 @@ impl ProfileFit {
             welch,
             chi_squared: line.chi_squared,
             degrees_of_freedom,
-            inflated,
+            is_inflated,
             bands: band_means.collect(),
             spectrum,
             warnings,
         })
-    }
-
-    /// D and G.
-    #[must_use]
-    pub fn roughness(&self) -> Roughness {
-        self.roughness
     }
 
     /// Standard deviation of D.
@@ -217,35 +221,11 @@ impl ProfileFit {
         self.roughness.roughness_m() * self.log_roughness_standard_deviation()
     }
 
-    /// Covariance matrix of D and ln G. They are almost one quantity, so draw them together.
-    #[must_use]
-    pub fn covariance(&self) -> [[f64; 2]; 2] {
-        self.covariance
-    }
-
     /// Correlation of D and ln G.
     #[must_use]
     pub fn correlation(&self) -> f64 {
         let [[dimension, product], [_, log_roughness]] = self.covariance;
         product / (dimension * log_roughness).sqrt()
-    }
-
-    /// 95 % interval of D.
-    #[must_use]
-    pub fn dimension_interval(&self) -> [f64; 2] {
-        self.dimension_interval
-    }
-
-    /// 95 % interval of G, in m, by Fieller's theorem: ln G is the ratio of two normal variables.
-    #[must_use]
-    pub fn roughness_interval_m(&self) -> [f64; 2] {
-        self.roughness_interval_m
-    }
-
-    /// Slope of log S over log ω: 2D − 5.
-    #[must_use]
-    pub fn slope(&self) -> f64 {
-        self.slope
     }
 
     /// Decimal logarithm of S (m³) at 1 cycle per metre: 2(D − 1) log₁₀ G − log₁₀(2 ln γ).
@@ -260,46 +240,10 @@ impl ProfileFit {
         (self.log_density_at_one + self.slope * frequency_per_m.ln()).exp()
     }
 
-    /// Shortest and longest wavelength used: whole bands within those asked for, in m.
-    #[must_use]
-    pub fn wavelength_band_m(&self) -> [f64; 2] {
-        self.wavelength_band_m
-    }
-
-    /// How the spectrum was estimated.
-    #[must_use]
-    pub fn welch(&self) -> Welch {
-        self.welch
-    }
-
     /// χ² of the line and its degrees of freedom.
     #[must_use]
     pub fn chi_squared(&self) -> (f64, usize) {
         (self.chi_squared, self.degrees_of_freedom)
-    }
-
-    /// Whether standard deviations are widened because the spectrum is no straight line within its scatter.
-    #[must_use]
-    pub fn is_inflated(&self) -> bool {
-        self.inflated
-    }
-
-    /// The spectrum of all profiles.
-    #[must_use]
-    pub fn spectrum(&self) -> &Spectrum {
-        &self.spectrum
-    }
-
-    /// What the line was fitted to.
-    #[must_use]
-    pub fn bands(&self) -> &[BandMean] {
-        &self.bands
-    }
-
-    /// What is doubtful; each prints as a sentence.
-    #[must_use]
-    pub fn warnings(&self) -> &[FitWarning] {
-        &self.warnings
     }
 }
 

@@ -46,7 +46,7 @@ impl Line {
         let information = Matrix2::from_fn(|row, column| information[(row, column)]);
         let line_covariance = information.try_inverse()?;
 
-        let (frequency, density) = (spectrum.frequency_per_m(), spectrum.density_m3());
+        let (frequency, density) = (&spectrum.frequency_per_m, &spectrum.density_m3);
         let smoothing = welch.smoothing();
         let residual = |line: &Vector2<f64>| -> Option<DVector<f64>> {
             let slope = line[1];

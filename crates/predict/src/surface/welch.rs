@@ -32,9 +32,12 @@ pub struct Welch {
 /// One-sided power spectral density over spatial frequency in cycles per metre: its integral is the mean square height.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
-    frequency_per_m: Vec<f64>,
-    density_m3: Vec<f64>,
-    segments: usize,
+    /// Frequencies in cycles per metre, from 0 to half the sampling frequency.
+    pub frequency_per_m: Vec<f64>,
+    /// Density at each frequency, in m³: square metres per cycle and metre.
+    pub density_m3: Vec<f64>,
+    /// Number of segments in the mean.
+    pub segments: usize,
 }
 
 impl Window {
@@ -52,24 +55,6 @@ impl Window {
 }
 
 impl Spectrum {
-    /// Frequencies in cycles per metre, from 0 to half the sampling frequency.
-    #[must_use]
-    pub fn frequency_per_m(&self) -> &[f64] {
-        &self.frequency_per_m
-    }
-
-    /// Density at each frequency, in m³: square metres per cycle and metre.
-    #[must_use]
-    pub fn density_m3(&self) -> &[f64] {
-        &self.density_m3
-    }
-
-    /// Number of segments in the mean.
-    #[must_use]
-    pub fn segments(&self) -> usize {
-        self.segments
-    }
-
     /// The mean of spectra over the same frequencies, each counting by its segments; `None` of none.
     pub(super) fn mean(spectra: &[Self]) -> Option<Self> {
         let first = spectra.first()?;

@@ -32,7 +32,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
              line across is the estimate, with its 95 % interval. Where the receptances say little about the joint the dots \
              scatter, and because noise is inverted with them they are drawn away from the joint's values, not only \
              spread about them.</p>\n";
-    if let Some(torque) = found.estimate.joints()[0].torque_n_m {
+    if let Some(torque) = found.estimate.joints[0].torque_n_m {
         html += &format!(
             "<p>At {}, the torque of the first assembly.</p>\n",
             quantity(torque, "N·m")

@@ -28,7 +28,7 @@ pub(super) fn summary(report: &IdentificationReport<'_>, files: &[JointFile]) ->
         (_, true) => "all joints are passive",
         (_, false) => "not all joints are passive",
     };
-    let joints = found.estimate.joints();
+    let joints = &found.estimate.joints;
     let identified = || joints.iter().flat_map(|joint| &joint.covariance.identified);
     let determined = match identified().filter(|identified| !**identified).count() {
         0 => "the data determine every parameter".to_owned(),
@@ -69,7 +69,7 @@ pub(super) fn section(report: &IdentificationReport<'_>, files: &[JointFile]) ->
 
 fn fit(report: &IdentificationReport<'_>) -> String {
     let found = report.found;
-    let assessment = found.estimate.assessment();
+    let assessment = &found.estimate.assessment;
     let (tried, agreeing) = found.starts;
     let mut rows = vec![
         row(

@@ -289,7 +289,7 @@ fn noise(report: &IdentificationReport<'_>) -> String {
             "of the assembly: from coherence, line by line, <i>σ</i>²/|<i>H</i>|² = (1 − <i>γ</i>²)/(<i>n</i> <i>γ</i>²)".to_owned(),
         );
     } else {
-        match found.estimate.noise_level() {
+        match found.estimate.noise_level {
             Some(found) => sentences.push(format!("of the assembly: {}, {origin}", level(found))),
             None => sentences.push("unknown: as many unknowns as measured values".to_owned()),
         }

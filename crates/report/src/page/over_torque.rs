@@ -27,7 +27,7 @@ pub(super) fn section(report: &IdentificationReport<'_>, joints: &[&JointEstimat
         }
     }
     let headings = [&["", "Torque, N·m"], &parameters::HEADINGS[..]].concat();
-    let nominal = report.found.estimate.joints()[0].torque_n_m.unwrap_or(0.0);
+    let nominal = report.found.estimate.joints[0].torque_n_m.unwrap_or(0.0);
     format!(
         "<p>Each torque has a joint of its own; all were estimated together. The nominal torque, that of the first assembly, is \
          {}.</p>\n{}{}{}",
@@ -90,10 +90,10 @@ fn coupling(report: &IdentificationReport<'_>, unknowns: &[Unknown]) -> String {
             .to_owned();
     }
     let estimate = &report.found.estimate;
-    let all = estimate.covariance_of_all();
+    let all = &estimate.covariance_of_all;
     let size = unknowns.len();
-    let mut order: Vec<usize> = (0..estimate.joints().len()).collect();
-    let torque_of = |joint: usize| estimate.joints()[joint].torque_n_m.unwrap_or(0.0);
+    let mut order: Vec<usize> = (0..estimate.joints.len()).collect();
+    let torque_of = |joint: usize| estimate.joints[joint].torque_n_m.unwrap_or(0.0);
     order.sort_by(|&a, &b| torque_of(a).total_cmp(&torque_of(b)));
     let rows: Vec<String> = order
         .windows(2)

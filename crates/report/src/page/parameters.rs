@@ -127,7 +127,7 @@ fn symbol(name: &str) -> String {
 }
 
 fn basis(report: &IdentificationReport<'_>) -> String {
-    let joints = report.found.estimate.joints();
+    let joints = &report.found.estimate.joints;
     let mut html = String::from(
         "<p>The estimate is that of maximum likelihood over all lines and functions together; its standard deviations follow \
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
@@ -239,7 +239,7 @@ fn correlations(report: &IdentificationReport<'_>) -> String {
     };
     format!(
         "<h3>Correlations{}</h3>\n{}{remark}",
-        place(&report.found.estimate.joints()[0]),
+        place(&report.found.estimate.joints[0]),
         table(&headings, &rows)
     )
 }

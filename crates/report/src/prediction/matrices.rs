@@ -162,9 +162,9 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         "<h2>The whole interface</h2>\n<p>Stiffness <i>K</i>, hysteretic damping <i>D</i> and viscous damping <i>C</i> for the relative motion of two \
          nodes at the reference point{at}, in N, m, rad and s. <i>D</i> and <i>C</i> are kept apart: at one frequency <i>C</i> + <i>D</i>/ω is all \
          of it.</p>\n<h3>Stiffness</h3>\n{}<h3>Hysteretic damping</h3>\n{}<h3>Viscous damping</h3>\n{}",
-        matrix(interface.stiffness()),
-        matrix(interface.hysteretic()),
-        matrix(interface.viscous()),
+        matrix(&interface.stiffness),
+        matrix(&interface.hysteretic),
+        matrix(&interface.viscous),
     )
 }
 

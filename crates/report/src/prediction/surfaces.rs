@@ -22,7 +22,7 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
 }
 
 fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
-    let roughness = fit.roughness();
+    let roughness = fit.roughness;
     let interval = |[low, high]: [f64; 2], deviation: f64| {
         format!("{} … {}", beside(low, deviation), beside(high, deviation))
     };
@@ -33,20 +33,20 @@ fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
             cell("<i>D</i>"),
             number_cell(&beside(roughness.fractal_dimension(), of_dimension)),
             number_cell(&spread(of_dimension)),
-            number_cell(&interval(fit.dimension_interval(), of_dimension)),
+            number_cell(&interval(fit.dimension_interval, of_dimension)),
         ]
         .concat(),
         [
             cell("<i>G</i>, m"),
             number_cell(&beside(roughness.roughness_m(), of_roughness)),
             number_cell(&spread(of_roughness)),
-            number_cell(&interval(fit.roughness_interval_m(), of_roughness)),
+            number_cell(&interval(fit.roughness_interval_m, of_roughness)),
         ]
         .concat(),
     ];
-    let [shortest_m, longest_m] = fit.wavelength_band_m();
+    let [shortest_m, longest_m] = fit.wavelength_band_m;
     let warnings: String = fit
-        .warnings()
+        .warnings
         .iter()
         .map(|warning| {
             format!(

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use nalgebra::{DMatrix, dmatrix};
+use nalgebra::dmatrix;
 use num_complex::Complex64;
+use serde::Deserialize;
 
-use bolted_joint_frf::structure::{
-    Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, ModalModel,
-};
+use bolted_joint_frf::structure::{Beam, ComplexMatrix, FiniteDifference, ModalModel};
 use bolted_joint_frf::{Direction, Dof, Sign, resonances};
 use bolted_joint_identify::{JointMatrices, Lines, Receptances};
 
@@ -22,84 +21,38 @@ const LINE_COUNT: u32 = 2048;
 /// Below, the assembly answers like a support; the first mode is at 18 Hz or more.
 const FIRST_LINE: u32 = 20;
 
-/// Modes of Appendix A.
-#[derive(Clone, Copy)]
-pub(super) struct PublishedModes {
-    /// TOML.
-    pub(super) text: &'static str,
-    /// What messages call it.
-    pub(super) name: &'static str,
+/// Substructures A, by their modes in Appendix A.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SubstructureA {
+    M10x16,
+    M8x16,
+    M10x35,
+    M8x35,
+    LongM8x35,
+    M6x30,
+}
+
+impl SubstructureA {
+    fn modes(self) -> Result<ModalModel, ReproduceError> {
+        let text = match self {
+            Self::M10x16 => include_str!("../../../../examples/tol-m10x16/a-modes.toml"),
+            Self::M8x16 => include_str!("appendix_a/m8x16.toml"),
+            Self::M10x35 => include_str!("appendix_a/m10x35.toml"),
+            Self::M8x35 => include_str!("appendix_a/m8x35.toml"),
+            Self::LongM8x35 => include_str!("appendix_a/m8x35-long.toml"),
+            Self::M6x30 => include_str!("appendix_a/m6x30.toml"),
+        };
+        Ok(ModalModel::from_toml(text, Path::new(&format!("{self:?}")))?.without_residuals())
+    }
+
     /// Labels of the three points in the direction of the tip; the joint is at the middle one.
-    pub(super) towards_tip: [u32; 3],
-}
-
-pub(super) const ALUMINIUM_M10: PublishedModes = PublishedModes {
-    text: include_str!("../../../../examples/tol-m10x16/a-modes.toml"),
-    name: "M10x16",
-    towards_tip: [3, 2, 1],
-};
-pub(super) const ALUMINIUM_M8: PublishedModes = PublishedModes {
-    text: include_str!("appendix_a/m8x16.toml"),
-    name: "M8x16",
-    towards_tip: [3, 2, 1],
-};
-pub(super) const STEEL_M10: PublishedModes = PublishedModes {
-    text: include_str!("appendix_a/m10x35.toml"),
-    name: "M10x35",
-    towards_tip: [1, 2, 3],
-};
-pub(super) const STEEL_M8: PublishedModes = PublishedModes {
-    text: include_str!("appendix_a/m8x35.toml"),
-    name: "M8x35",
-    towards_tip: [1, 2, 3],
-};
-pub(super) const STEEL_M8_LONG: PublishedModes = PublishedModes {
-    text: include_str!("appendix_a/m8x35-long.toml"),
-    name: "M8x35, longer A",
-    towards_tip: [1, 2, 3],
-};
-pub(super) const STEEL_M6: PublishedModes = PublishedModes {
-    text: include_str!("appendix_a/m6x30.toml"),
-    name: "M6x30",
-    towards_tip: [1, 2, 3],
-};
-
-/// Section 5.2: aluminium, 0.221 m × 25 mm × 6 mm.
-pub(super) fn aluminium_b() -> Beam {
-    Beam {
-        length_m: 0.221,
-        width_m: 0.025,
-        height_m: 0.006,
-        youngs_modulus_pa: 70e9,
-        density_kg_per_m3: 2700.0,
-        boundary: Boundary::FreeFree,
-        damping: Damping::Ratios(vec![0.0, 0.0, 0.0008]),
+    fn towards_tip(self) -> [u32; 3] {
+        match self {
+            Self::M10x16 | Self::M8x16 => [3, 2, 1],
+            _ => [1, 2, 3],
+        }
     }
-}
-
-/// Steel, 15 mm × 10 mm, 7604 kg/m³ (section 5.3.1 and Appendix B).
-fn steel_b(length_m: f64, youngs_modulus_pa: f64, elastic: &[f64]) -> Beam {
-    Beam {
-        length_m,
-        width_m: 0.015,
-        height_m: 0.010,
-        youngs_modulus_pa,
-        density_kg_per_m3: 7604.0,
-        boundary: Boundary::FreeFree,
-        damping: Damping::Ratios([&[0.0, 0.0], elastic].concat()),
-    }
-}
-
-pub(super) fn steel_b_m10() -> Beam {
-    steel_b(0.335, 1.92e11, &[0.0005])
-}
-
-pub(super) fn steel_b_m8() -> Beam {
-    steel_b(0.335, 1.9225e11, &[0.0006, 0.0007])
-}
-
-pub(super) fn steel_b_m6() -> Beam {
-    steel_b(0.340, 1.885e11, &[0.00205, 0.00165])
 }
 
 /// K and C from k_Fy, k_Fθ, k_Mθ, c_Fy, c_Fθ, c_Mθ.
@@ -118,12 +71,12 @@ pub(super) fn frequencies() -> Vec<f64> {
 
 /// Receptances of A between its three points in the direction of the tip, from modes alone.
 pub(super) fn translations(
-    modes: PublishedModes,
+    a: SubstructureA,
     frequency_hz: &[f64],
 ) -> Result<Vec<ComplexMatrix>, ReproduceError> {
-    let model = ModalModel::from_toml(modes.text, Path::new(modes.name))?.without_residuals();
+    let model = a.modes()?;
     let dof = |node| Dof::new(node, Direction::Y, Sign::Plus);
-    let points = modes.towards_tip.map(dof);
+    let points = a.towards_tip().map(dof);
     let mut entries = Vec::new();
     for reference in points {
         for response in points {
@@ -142,14 +95,14 @@ pub(super) fn points_m(beam: &Beam) -> [f64; 3] {
 
 /// A, B and their assembly through `joint` at points 1s, 2s and 3s, without noise.
 pub(super) fn assembled(
-    modes: PublishedModes,
+    a: SubstructureA,
     beam: &Beam,
     joint: &JointMatrices,
 ) -> Result<Lines, ReproduceError> {
     let frequency_hz = frequencies();
     let transformation = FiniteDifference::central(SPACING_M).transformation();
     let transposed = transformation.transpose();
-    let a_joint = translations(modes, &frequency_hz)?
+    let a_joint = translations(a, &frequency_hz)?
         .iter()
         .map(|h| &transformation * h * &transposed)
         .collect();
@@ -206,38 +159,34 @@ pub(super) fn measured_at(lines: &Lines, places: &[usize]) -> Lines {
     }
 }
 
-/// One receptance of the assembly over all lines.
-pub(super) fn function(assembly: &[ComplexMatrix], place: (usize, usize)) -> Vec<Complex64> {
-    assembly.iter().map(|h| h[place]).collect()
-}
-
 /// Resonances of the assembly at point 2s, Hz.
 pub(super) fn resonances_hz(
     lines: &Lines,
     joint: &JointMatrices,
 ) -> Result<Vec<f64>, ReproduceError> {
     let assembly = lines.regenerated(joint)?;
-    let found = resonances(&lines.frequency_hz, &function(&assembly, (1, 1)));
+    let function: Vec<Complex64> = assembly.iter().map(|h| h[(1, 1)]).collect();
+    let found = resonances(&lines.frequency_hz, &function);
     Ok(found
         .iter()
         .map(|resonance| resonance.frequency_hz)
         .collect())
 }
 
-/// √ of the mean of |Ĥ − H|²/|H|² over the lines.
-pub(super) fn relative_rms(found: &[Complex64], exact: &[Complex64]) -> f64 {
-    let squares = found
-        .iter()
-        .zip(exact)
-        .map(|(found, exact)| (found - exact).norm_sqr() / exact.norm_sqr());
-    (squares.sum::<f64>() / exact.len() as f64).sqrt()
-}
-
-/// Both matrices multiplied by a factor.
-pub(super) fn stiffened(joint: &JointMatrices, factor: f64) -> JointMatrices {
-    let times = |matrix: &DMatrix<f64>| matrix * factor;
-    JointMatrices {
-        stiffness: times(&joint.stiffness),
-        damping: times(&joint.damping),
-    }
+/// √ of the mean of |Ĥ − H|²/|H|² over the lines at each drive point, %, where Ĥ is with `joint`.
+pub(super) fn deviations_percent(
+    lines: &Lines,
+    joint: &JointMatrices,
+) -> Result<[f64; 3], ReproduceError> {
+    let regenerated = lines.regenerated(joint)?;
+    Ok(std::array::from_fn(|point| {
+        let squares = regenerated
+            .iter()
+            .zip(&lines.assembly)
+            .map(|(found, exact)| {
+                let (found, exact) = (found[(point, point)], exact[(point, point)]);
+                (found - exact).norm_sqr() / exact.norm_sqr()
+            });
+        100.0 * (squares.sum::<f64>() / lines.assembly.len() as f64).sqrt()
+    }))
 }

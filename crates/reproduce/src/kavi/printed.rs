@@ -140,7 +140,7 @@ pub(super) fn all() -> Result<Vec<PrintedNumber>, LayeredBeamError> {
                   and α′μ calibrated by the one (3.44) must not be used in the other";
     say("(3.29)", slope, None, 0.5, "", remark);
     let symmetric = {
-        let setup = Setup::KAVI;
+        let setup = Setup::default();
         let (beam, rivets) = (specimen.beam(&setup)?, specimen.rivets(&setup)?);
         let shape = beam.shape(1);
         let positions = rivets.positions_m().iter();

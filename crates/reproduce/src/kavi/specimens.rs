@@ -1,6 +1,6 @@
 //! Table 5.1: the specimens, their frequencies and their damping ratios.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use bolted_joint_frf::structure::Boundary;
 use bolted_joint_predict::layered_beam::{
@@ -105,7 +105,7 @@ const MILD_STEEL: [Specimen; 11] = [
 ];
 
 /// Where the rivets are: the thesis says "equispaced along the length" and, of the same specimens, one zone of pressure apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Placement {
     /// In the middle of equal parts of the length.
@@ -115,7 +115,8 @@ pub(super) enum Placement {
 }
 
 /// What else than Table 5.1 can be varied.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub(super) struct Setup {
     pub(super) boundary: Boundary,
     pub(super) placement: Placement,
@@ -127,24 +128,31 @@ pub(super) struct Setup {
     pub(super) thickness_scale: f64,
     /// α′μ.
     pub(super) alpha_mu: f64,
+    /// Of the largest deflection, m.
+    pub(super) amplitude_m: f64,
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self {
+            boundary: Boundary::FixedFixed,
+            placement: Placement::EqualParts,
+            rule: NormalForceRule::Polynomial,
+            route: Route::Classical,
+            stored: StoredEnergy::Modal,
+            stiffness_ratio: 1.0,
+            thickness_scale: 1.0,
+            alpha_mu: 1.0,
+            amplitude_m: AMPLITUDE_M,
+        }
+    }
 }
 
 impl Setup {
-    pub(super) const KAVI: Self = Self {
-        boundary: Boundary::FixedFixed,
-        placement: Placement::EqualParts,
-        rule: NormalForceRule::Polynomial,
-        route: Route::Classical,
-        stored: StoredEnergy::Modal,
-        stiffness_ratio: 1.0,
-        thickness_scale: 1.0,
-        alpha_mu: 1.0,
-    };
-
     pub(super) fn with(boundary: Boundary) -> Self {
         Self {
             boundary,
-            ..Self::KAVI
+            ..Self::default()
         }
     }
 }
@@ -201,20 +209,20 @@ impl Specimen {
         BeamMode::new(&beam, &rivets, number, None, setup.route, setup.stored)
     }
 
-    /// ζ/α′μ of the first mode at an amplitude of its largest deflection, m.
-    pub(super) fn damping(&self, setup: &Setup, amplitude_m: f64) -> Result<f64, LayeredBeamError> {
-        self.damping_of(setup, self.mode(setup, 1)?, amplitude_m)
+    /// ζ/α′μ of the first mode at the setup's amplitude.
+    pub(super) fn damping(&self, setup: &Setup) -> Result<f64, LayeredBeamError> {
+        self.damping_of(setup, self.mode(setup, 1)?)
     }
 
-    fn damping_of(
-        &self,
-        setup: &Setup,
-        mode: BeamMode,
-        amplitude_m: f64,
-    ) -> Result<f64, LayeredBeamError> {
+    fn damping_of(&self, setup: &Setup, mode: BeamMode) -> Result<f64, LayeredBeamError> {
         let (beam, rivets) = (self.beam(setup)?, self.rivets(setup)?);
         let damping = SlipDamping::new(&beam, &rivets, mode, setup.alpha_mu)?;
-        Ok(damping.damping_ratio(amplitude_m))
+        Ok(damping.damping_ratio(setup.amplitude_m))
+    }
+
+    /// Diameter of the zone of pressure, mm.
+    pub(super) fn zone_mm(&self, setup: &Setup) -> Result<f64, LayeredBeamError> {
+        Ok(1e3 * self.rivets(setup)?.zone_diameter_m(&self.beam(setup)?))
     }
 }
 
@@ -274,7 +282,7 @@ fn row(specimen: &Specimen) -> Result<SpecimenRow, LayeredBeamError> {
             let modes = modes.collect::<Result<Vec<BeamMode>, LayeredBeamError>>()?;
             let frequencies: Vec<f64> = modes.iter().map(BeamMode::frequency_hz).collect();
             let first = modes[0].clone();
-            let damping = specimen.damping_of(setup, first, AMPLITUDE_M)?;
+            let damping = specimen.damping_of(setup, first)?;
             Ok::<_, LayeredBeamError>((frequencies, damping))
         };
         let (frequency_hz, damping) = of(&setup)?;
@@ -289,7 +297,7 @@ fn row(specimen: &Specimen) -> Result<SpecimenRow, LayeredBeamError> {
             finite_element_damping,
         })
     });
-    let setup = Setup::KAVI;
+    let setup = Setup::default();
     let (beam, rivets) = (specimen.beam(&setup)?, specimen.rivets(&setup)?);
     Ok(SpecimenRow {
         number: specimen.number,
@@ -303,6 +311,6 @@ fn row(specimen: &Specimen) -> Result<SpecimenRow, LayeredBeamError> {
             .into_iter()
             .fold(0.0, f64::max),
         at: at.into_iter().collect::<Result<_, LayeredBeamError>>()?,
-        zone_mm: 1e3 * rivets.zone_diameter_m(&beam),
+        zone_mm: specimen.zone_mm(&setup)?,
     })
 }

@@ -30,7 +30,8 @@ pub enum Boundary {
 }
 
 /// Damping of the beam's elastic modes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Damping {
     /// ζ of each mode in ascending order, rigid-body modes included; the last one holds for all higher modes.
     Ratios(Vec<f64>),
@@ -60,7 +61,8 @@ pub enum Damping {
 /// assert!((static_receptance.re / 3.0476e-5 - 1.0).abs() < 1e-4);
 /// # Ok::<(), bolted_joint_frf::structure::StructureError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Beam {
     /// Length, m.
     pub length_m: f64,

@@ -2,15 +2,10 @@
 
 use super::{Checked, Checker, ELEMENTS};
 use crate::patch::Planar;
-use crate::pressure::{
-    Cone, ConePressure, PressureField, Reach, Rectangle, ThicknessRatio, Zone, ZoneForce,
-};
+use crate::pressure::{Cone, PressureField, Rectangle, ThicknessRatio, Zone};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
-use crate::study::tables::{
-    DistributionWord, ForceWord, InterfaceTable, JointTable, PressureModel, PressureTable,
-    ReachWord, StudyFile,
-};
+use crate::study::tables::{InterfaceTable, JointTable, PressureModel, PressureTable, StudyFile};
 use bolted_joint_study::{StudyError, input_file};
 use std::path::Path;
 
@@ -115,14 +110,8 @@ impl Checker<'_> {
                 let ratio = self.model("pressure.thickness", ThicknessRatio::of(a_m, b_m))?;
                 Ok(Some(Zone::Polynomial {
                     thickness_ratio: ratio,
-                    reach: match table.reach {
-                        Some(ReachWord::Rivets) => Reach::Rivets,
-                        Some(ReachWord::Bolts) | None => Reach::Bolts,
-                    },
-                    force: match table.force {
-                        Some(ForceWord::AsPublished) => ZoneForce::AsPublished,
-                        Some(ForceWord::Preload) | None => ZoneForce::Preload,
-                    },
+                    reach: table.reach.unwrap_or_default(),
+                    force: table.force.unwrap_or_default(),
                 }))
             }
             Some(PressureModel::Cone) => {
@@ -147,10 +136,7 @@ impl Checker<'_> {
                         table.depth,
                         "the thickness in m between head and interface",
                     )?,
-                    distribution: match table.distribution {
-                        Some(DistributionWord::Uniform) => ConePressure::Uniform,
-                        Some(DistributionWord::Parabolic) | None => ConePressure::Parabolic,
-                    },
+                    distribution: table.distribution.unwrap_or_default(),
                 })))
             }
         }

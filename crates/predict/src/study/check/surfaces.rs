@@ -81,7 +81,8 @@ impl Checker<'_> {
             |name: &str| format!("{key}.{name}"),
         );
         let [dimension_name, roughness_name] = names;
-        match (&table.profiles, table.fractal_dimension, table.roughness) {
+        let stated = (&table.profiles, table.fractal_dimension, table.roughness);
+        let (of_dimension, of_roughness, correlation, origin) = match stated {
             (Some(paths), None, None) => {
                 if let Some(correlation) = table.correlation {
                     return self.study.refuse(
@@ -91,30 +92,17 @@ impl Checker<'_> {
                     );
                 }
                 let fit = self.profiles(key, paths, table)?;
-                let found = fit.roughness();
                 let of_dimension = Uncertain {
-                    value: found.fractal_dimension(),
+                    value: fit.roughness.fractal_dimension(),
                     standard_deviation: fit.dimension_standard_deviation(),
                 };
-                let fractal_dimension = self
-                    .inputs
-                    .add(dimension_name, Distribution::new(within, of_dimension));
                 let of_roughness = Distribution::of_logarithm(
-                    found.roughness_m(),
+                    fit.roughness.roughness_m(),
                     fit.log_roughness_standard_deviation(),
                 );
-                let roughness = self.inputs.add_correlated(
-                    roughness_name,
-                    of_roughness,
-                    fractal_dimension,
-                    fit.correlation(),
-                );
-                let roughness = self.model(&place("profiles"), roughness)?;
+                let correlation = fit.correlation();
                 self.fits.push((whose, fit));
-                Ok(SurfaceInput {
-                    fractal_dimension,
-                    roughness,
-                })
+                (of_dimension, of_roughness, correlation, "profiles")
             }
             (None, Some(dimension), Some(roughness)) => {
                 self.study.ensure(
@@ -129,41 +117,45 @@ impl Checker<'_> {
                     roughness,
                     "a length in m above zero, about 1e-13 to 1e-7 for machined metal",
                 )?;
-                let fractal_dimension = self
-                    .inputs
-                    .add(dimension_name, Distribution::new(within, dimension));
                 let of_roughness = Distribution::new(Spread::Lognormal, roughness);
                 let correlation = table.correlation.unwrap_or(0.0);
-                let roughness = self.inputs.add_correlated(
-                    roughness_name,
-                    of_roughness,
-                    fractal_dimension,
-                    correlation,
-                );
-                let roughness = self.model(&place("correlation"), roughness)?;
-                if let Some(band) = table.band {
-                    return self.study.refuse(
-                        place("band"),
-                        format!("from {} to {} m", band.from, band.to),
-                        "a band only beside profiles, which are fitted over it",
-                    );
-                }
-                Ok(SurfaceInput {
-                    fractal_dimension,
-                    roughness,
-                })
+                (dimension, of_roughness, correlation, "correlation")
             }
-            (Some(_), _, _) => self.study.refuse(
-                key,
-                "profiles beside fractal_dimension or roughness",
-                "the one or the other",
-            ),
-            (None, _, _) => self.study.refuse(
-                key,
-                "neither profiles nor both of fractal_dimension and roughness",
-                "profiles = [\"profile-1.csv\", …] with a band, or fractal_dimension and roughness",
-            ),
+            (Some(_), _, _) => {
+                return self.study.refuse(
+                    key,
+                    "profiles beside fractal_dimension or roughness",
+                    "the one or the other",
+                );
+            }
+            (None, _, _) => {
+                return self.study.refuse(
+                    key,
+                    "neither profiles nor both of fractal_dimension and roughness",
+                    "profiles = [\"profile-1.csv\", …] with a band, or fractal_dimension and roughness",
+                );
+            }
+        };
+        let of_dimension = Distribution::new(within, of_dimension);
+        let fractal_dimension = self.inputs.add(dimension_name, of_dimension);
+        let roughness = self.inputs.add_correlated(
+            roughness_name,
+            of_roughness,
+            fractal_dimension,
+            correlation,
+        );
+        let roughness = self.model(&place(origin), roughness)?;
+        if let (None, Some(band)) = (&table.profiles, table.band) {
+            return self.study.refuse(
+                place("band"),
+                format!("from {} to {} m", band.from, band.to),
+                "a band only beside profiles, which are fitted over it",
+            );
         }
+        Ok(SurfaceInput {
+            fractal_dimension,
+            roughness,
+        })
     }
 
     /// The fit of a surface's profiles.

@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         figure.to_svg().unwrap_or_default()
     });
     files.write()?;
-    warn(&found.warnings());
+    warn(found.warnings());
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),

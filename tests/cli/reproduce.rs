@@ -27,26 +27,24 @@ fn documents_are_what_the_command_writes() {
     assert_eq!(bench.text("kavi.svg"), document("images/kavi.svg"));
 }
 
-/// What a document says under the heading of a table.
-fn section(document: &str, table: PublishedTable) -> &str {
-    let heading = format!("\n## {table}\n");
-    let start = document.find(&heading).unwrap() + heading.len();
-    let rest = &document[start..];
-    rest[..rest.find("\n## ").unwrap_or(rest.len())].trim()
-}
-
 #[test]
 fn quick_tables_are_in_the_document_as_the_command_writes_them() {
     let keys = ["4.2", "4.3", "two-m6x30"];
     let command = format!("reproduce --markdown {}", keys.join(" "));
     let written = Bench::new().done(&command).stdout;
     let document = document("tol.md");
-    let heading = "\n## ";
-    let before = |text: &str| text[..text.find(heading).unwrap()].to_owned();
-    assert_eq!(before(&written), before(&document));
-    for key in keys {
-        let table = key.parse().unwrap();
-        assert_eq!(section(&written, table), section(&document, table));
+    let before: Vec<&str> = document.split("\n## ").collect();
+    let (first, tables) = written.split_once("\n## ").unwrap();
+    assert_eq!(first, before[0]);
+    let tables: Vec<&str> = tables.split("\n## ").map(str::trim).collect();
+    assert_eq!(tables.len(), keys.len());
+    for (key, table) in keys.into_iter().zip(tables) {
+        let published: PublishedTable = key.parse().unwrap();
+        assert!(table.starts_with(&published.to_string()), "{key}");
+        assert!(
+            before.iter().any(|section| section.trim() == table),
+            "{key}"
+        );
     }
 }
 

@@ -95,7 +95,7 @@ fn noise_drawn_from_the_coherence_is_found_to_be_that_noise() {
         let away = (estimate(&file) - unknowns(&FULL)).component_div(&deviation(&file));
         assert!(away.amax() < 4.0, "{away}");
         let basis = file["uncertainty"]["basis"].as_str().unwrap();
-        has(&basis, &["the noise that coherence and averages tell"]);
+        has(basis, &["the noise that coherence and averages tell"]);
         assert!(file["residual"]["noise"].is_null());
     }
 }

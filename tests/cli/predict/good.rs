@@ -122,7 +122,7 @@ fn intervals_are_those_of_the_only_uncertain_input() {
     // the joint itself is the one at the values given
     assert_eq!(file["joint"], predicted(STUDY)["joint"]);
     let basis = file["uncertainty"]["basis"].as_str().unwrap();
-    has(&basis, &["nut factor", "20000 draws", "seed 7"]);
+    has(basis, &["nut factor", "20000 draws", "seed 7"]);
 }
 
 #[test]

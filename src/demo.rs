@@ -19,7 +19,7 @@ use bolted_joint::identify::{
 use super::error::CliError;
 use super::export::{self, export_to};
 use super::identify::{self, basis, figure, fit, warnings};
-use super::output::{message, print, write_file};
+use super::output::{print, warn, write_file};
 use super::table::{Table, number};
 
 /// `demo`
@@ -99,9 +99,7 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     let study = synthesise(&mut files, arguments)?;
     let found = identification::identify(&study)?;
     let warnings = warnings(&found);
-    for warning in &warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&warnings);
     let joint_file = files.path("m10x16.joint.json");
     found.joint_file().write(&joint_file)?;
     let subtitle = format!(

@@ -16,12 +16,13 @@ use bolted_joint::identify::{
 use bolted_joint::joint::JointFile;
 use bolted_joint::report::{FrfFigure, FrfPanel, IdentificationReport};
 use bolted_joint::study::{Method, StudyText};
-use bolted_joint_files::whole_file;
 
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
-use super::output::{check_output, message, print, write_file};
+use super::output::{
+    ANY, HTML, SVG, check_output, check_outputs, print, warn, write_file, write_files,
+};
 use super::progress::Progress;
 use super::table::{Table, number};
 
@@ -54,31 +55,14 @@ pub(super) struct IdentifyArguments {
 const PANELS: usize = 3;
 
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
-    let named = [
-        (
-            "--figure",
-            &arguments.figure,
-            "svg",
-            "a name that ends in .svg",
-        ),
-        (
-            "--report",
-            &arguments.report,
-            "html",
-            "a name that ends in .html",
-        ),
-    ];
-    check_output(&arguments.output, &[&arguments.study])?;
-    let mut taken = vec![&arguments.study, &arguments.output];
-    for (option, path, expected_extension, expected) in named {
-        let Some(path) = path else { continue };
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        if extension != Some(expected_extension) {
-            return Err(CliError::option(option, path.display(), expected));
-        }
-        check_output(path, &taken)?;
-        taken.push(path);
-    }
+    let taken = check_outputs(
+        &arguments.study,
+        &[
+            ("--output", Some(&arguments.output), ANY),
+            ("--figure", arguments.figure.as_ref(), SVG),
+            ("--report", arguments.report.as_ref(), HTML),
+        ],
+    )?;
     let study = StudyText::read(&arguments.study)?;
     match study.method()? {
         Method::FrfDecoupling => {}
@@ -93,10 +77,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             study.check_method(other, &methods)?;
         }
     }
-    let written = match arguments.report {
-        Some(_) => Some(Timestamp::from_environment()?),
-        None => None,
-    };
+    let written = arguments.report.as_ref();
+    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = Study::of(&study)?;
     let outputs = of_bolts(&arguments.output, &study.bolts);
     if outputs.len() > 1 {
@@ -128,9 +110,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     if let (Some(path), Some(page)) = (&arguments.report, page) {
         write_file(path, page.as_bytes())?;
     }
-    for warning in &warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&warnings);
     if arguments.json {
         let bolts: Vec<_> = outputs
             .iter()
@@ -185,17 +165,14 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
 }
 
 /// Writes every joint file or, if one cannot be written, none.
-fn write_joint_files(
-    outputs: &[PathBuf],
-    files: &[(Option<&str>, JointFile)],
-) -> Result<(), CliError> {
+fn write_joint_files<T>(outputs: &[PathBuf], files: &[(T, JointFile)]) -> Result<(), CliError> {
     let texts = files.iter().map(|(_, file)| file.to_json());
     let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
     let contents = outputs.iter().zip(&texts);
     let contents: Vec<(&Path, &[u8])> = contents
         .map(|(output, text)| (output.as_path(), text.as_bytes()))
         .collect();
-    whole_file::write_all(&contents).map_err(|(path, source)| CliError::Unwritable { path, source })
+    write_files(&contents)
 }
 
 /// What the identification and the passivity of its result give reason to warn of.
@@ -325,22 +302,16 @@ fn torques(found: &Identification) -> String {
         .compared
         .iter()
         .map(|fit| {
-            format!(
-                "{} +{:.1} ({})",
-                fit.dependence,
-                fit.bic_difference,
-                leaves(fit.adequate)
-            )
+            let residual = leaves(fit.adequate);
+            format!("{} +{:.1} ({residual})", fit.dependence, fit.bic_difference)
         })
         .collect();
     let advice = match (choice.any_is_adequate, choice.recommended) {
         (true, recommended) => format!("\"{recommended}\" is the simplest adequate one"),
         (false, closest) => format!("neither is adequate, \"{closest}\" comes closest"),
     };
-    format!(
-        "joints over the torque by BIC: {}; {advice}\n",
-        compared.join(", ")
-    )
+    let compared = compared.join(", ");
+    format!("joints over the torque by BIC: {compared}; {advice}\n")
 }
 
 fn leaves(adequate: bool) -> &'static str {
@@ -443,16 +414,11 @@ pub(super) fn figure(found: &Identification, subtitle: &str) -> String {
     let curve = |matrices: &[bolted_joint::structure::ComplexMatrix], place| -> Vec<Complex64> {
         matrices.iter().map(|matrix| matrix[place]).collect()
     };
-    let drive_points = found
-        .fits
-        .iter()
-        .filter(|fit| fit.response == fit.reference);
-    let others = found
-        .fits
-        .iter()
-        .filter(|fit| fit.response != fit.reference);
-    let curves: Vec<_> = drive_points
-        .chain(others)
+    let mut fits: Vec<_> = found.fits.iter().collect();
+    // stable: each kind stays in its order
+    fits.sort_by_key(|fit| fit.response != fit.reference);
+    let curves: Vec<_> = fits
+        .into_iter()
         .take(PANELS)
         .map(|fit| {
             let label = format!("{} / {}", fit.response, fit.reference);

@@ -37,9 +37,48 @@ pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliEr
     }
 }
 
+/// What a name may end in, and what is said where it does not; anything where nothing is named.
+pub(super) type Ending = (&'static [&'static str], &'static str);
+
+pub(super) const ANY: Ending = (&[], "");
+pub(super) const CSV: Ending = (&["csv"], "a name that ends in .csv");
+pub(super) const HTML: Ending = (&["html"], "a name that ends in .html");
+pub(super) const SVG: Ending = (&["svg"], "a name that ends in .svg");
+
+/// Refuses paths that cannot be written, name a file twice or end otherwise than the option asks for; gives all that are taken.
+pub(super) fn check_outputs<'a>(
+    study: &'a PathBuf,
+    asked: &[(&'static str, Option<&'a PathBuf>, Ending)],
+) -> Result<Vec<&'a PathBuf>, CliError> {
+    let mut taken = vec![study];
+    for (option, path, (endings, expected)) in asked {
+        let Some(path) = *path else { continue };
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let fits = endings.is_empty() || extension.is_some_and(|found| endings.contains(&found));
+        if !fits {
+            return Err(CliError::option(option, path.display(), expected));
+        }
+        check_output(path, &taken)?;
+        taken.push(path);
+    }
+    Ok(taken)
+}
+
 /// Prints a line to stderr; a stderr that nobody reads is no reason to stop.
 pub(super) fn message(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Prints warnings to stderr.
+pub(super) fn warn(warnings: &[String]) {
+    for warning in warnings {
+        message(&format!("warning: {warning}"));
+    }
+}
+
+/// Writes files whole or, if one cannot be written, none.
+pub(super) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), CliError> {
+    whole_file::write_all(files).map_err(|(path, source)| CliError::Unwritable { path, source })
 }
 
 /// Writes a file whole or not at all.

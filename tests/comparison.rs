@@ -25,38 +25,27 @@ const RENAMED: [(&str, &str); 3] = [
 ];
 
 /// Capabilities that FMI 2.0 does not know.
-const OF_FMI_3_ALONE: [&str; 4] = [
-    "providesAdjointDerivatives",
-    "providesIntermediateUpdate",
-    "canReturnEarlyAfterIntermediateUpdate",
-    "hasEventMode",
-];
+const OF_FMI_3_ALONE: &str = "\
+    providesAdjointDerivatives providesIntermediateUpdate canReturnEarlyAfterIntermediateUpdate hasEventMode";
 
-/// Capabilities that FMI 3.0 does not know.
-const OF_FMI_2_ALONE: [&str; 1] = ["canInterpolateInputs"];
+/// The capability that FMI 3.0 does not know.
+const OF_FMI_2_ALONE: &str = "canInterpolateInputs";
 
 /// Capabilities of Co-Simulation alone.
-const CO_SIMULATION_ALONE: [&str; 6] = [
-    "maxOutputDerivativeOrder",
-    "canInterpolateInputs",
-    "providesIntermediateUpdate",
-    "canReturnEarlyAfterIntermediateUpdate",
-    "hasEventMode",
-    "canHandleVariableCommunicationStepSize",
-];
+const CO_SIMULATION_ALONE: &str = "\
+    maxOutputDerivativeOrder canInterpolateInputs providesIntermediateUpdate canReturnEarlyAfterIntermediateUpdate \
+    hasEventMode canHandleVariableCommunicationStepSize";
 
 /// Attributes of the interface types that are no capabilities but facts about the FMU or duties of the importer.
-const NO_CAPABILITIES: [&str; 8] = [
-    "modelIdentifier",
-    "needsCompletedIntegratorStep",
-    "completedIntegratorStepNotNeeded",
-    "needsExecutionTool",
-    "canNotUseMemoryManagementFunctions",
-    "fixedInternalStepSize",
-    "recommendedIntermediateInputSmoothness",
-    // of FMI 2.0, never claimed: with the standard's spelling
-    "canRunAsynchronuously",
-];
+/// The last one is of FMI 2.0, never claimed: with the standard's spelling.
+const NO_CAPABILITIES: &str = "\
+    modelIdentifier needsCompletedIntegratorStep completedIntegratorStepNotNeeded needsExecutionTool \
+    canNotUseMemoryManagementFunctions fixedInternalStepSize recommendedIntermediateInputSmoothness \
+    canRunAsynchronuously";
+
+fn lists(names: &str, name: &str) -> bool {
+    names.split(' ').any(|one| one == name)
+}
 
 /// An exported FMU, as far as the table speaks of it.
 struct Fmu {
@@ -86,11 +75,8 @@ impl Fmu {
             .map(|name| name.unwrap().into_owned())
             .collect();
         let mut description = String::new();
-        archive
-            .by_name("modelDescription.xml")
-            .unwrap()
-            .read_to_string(&mut description)
-            .unwrap();
+        let mut entry = archive.by_name("modelDescription.xml").unwrap();
+        entry.read_to_string(&mut description).unwrap();
         Self {
             version,
             description,
@@ -103,9 +89,9 @@ impl Fmu {
         let (_, rest) = self.description.split_once(&format!("<{element} "))?;
         let (tag, _) = rest.split_once('>').unwrap();
         let parts: Vec<&str> = tag.trim_end_matches('/').split('"').collect();
+        let pairs = parts.chunks_exact(2);
         Some(
-            parts
-                .chunks_exact(2)
+            pairs
                 .map(|pair| (pair[0].trim().trim_end_matches('='), pair[1]))
                 .collect(),
         )
@@ -114,11 +100,10 @@ impl Fmu {
     /// The name of a capability in this FMU's version, if it has it.
     fn name_of<'a>(&self, capability: &'a str) -> Option<&'a str> {
         if self.version == 3 {
-            return (!OF_FMI_2_ALONE.contains(&capability)).then_some(capability);
+            return (capability != OF_FMI_2_ALONE).then_some(capability);
         }
         let renamed = RENAMED.iter().find(|(name, _)| *name == capability);
-        (!OF_FMI_3_ALONE.contains(&capability))
-            .then(|| renamed.map_or(capability, |(_, name)| name))
+        (!lists(OF_FMI_3_ALONE, capability)).then(|| renamed.map_or(capability, |(_, name)| name))
     }
 }
 
@@ -172,7 +157,7 @@ fn claimed(fmus: &[Fmu], capability: &str) -> String {
             continue;
         };
         for element in ["CoSimulation", "ModelExchange"] {
-            if element == "ModelExchange" && CO_SIMULATION_ALONE.contains(&capability) {
+            if element == "ModelExchange" && lists(CO_SIMULATION_ALONE, capability) {
                 continue;
             }
             let attributes = fmu.interface_type(element).unwrap();
@@ -193,17 +178,16 @@ fn yes_or_no(yes: bool) -> String {
 #[test]
 fn our_column_of_the_table_says_what_exported_fmus_say() {
     let fmus = exported();
+    let all = |fmus: &mut dyn Iterator<Item = &Fmu>, has: &dyn Fn(&Fmu) -> bool, label: &str| {
+        agreed(&fmus.map(|fmu| yes_or_no(has(fmu))).collect(), label)
+    };
     let mut checked = 0;
     for (label, ours) in rows() {
         let expected = match named(&label) {
             // a file in every FMU
-            Some(path) if path.contains('/') => agreed(
-                &fmus
-                    .iter()
-                    .map(|fmu| yes_or_no(fmu.entries.contains(path)))
-                    .collect(),
-                &label,
-            ),
+            Some(path) if path.contains('/') => {
+                all(&mut fmus.iter(), &|fmu| fmu.entries.contains(path), &label)
+            }
             Some(attribute) if label.contains(", not `") => {
                 yes_or_no(claimed(&fmus, attribute) == "no")
             }
@@ -215,14 +199,9 @@ fn our_column_of_the_table_says_what_exported_fmus_say() {
             {
                 Some((version, name)) => {
                     let element = name.replace(['-', ' '], "");
-                    agreed(
-                        &fmus
-                            .iter()
-                            .filter(|fmu| fmu.version.to_string() == version)
-                            .map(|fmu| yes_or_no(fmu.interface_type(&element).is_some()))
-                            .collect(),
-                        &label,
-                    )
+                    let has = |fmu: &Fmu| fmu.interface_type(&element).is_some();
+                    let mut of_it = fmus.iter().filter(|fmu| fmu.version.to_string() == version);
+                    all(&mut of_it, &has, &label)
                 }
                 None if label == "arrays, clocks" => yes_or_no(fmus.iter().any(|fmu| {
                     fmu.description.contains("<Dimension") || fmu.description.contains("<Clock")
@@ -245,12 +224,10 @@ fn every_capability_that_an_exported_fmu_claims_has_its_row() {
     for fmu in exported() {
         for element in ["CoSimulation", "ModelExchange"] {
             for (attribute, value) in fmu.interface_type(element).unwrap() {
-                let capability = RENAMED
-                    .iter()
-                    .find(|(_, name)| *name == attribute)
-                    .map_or(attribute, |(name, _)| name);
+                let renamed = RENAMED.iter().find(|(_, name)| *name == attribute);
+                let capability = renamed.map_or(attribute, |(name, _)| name);
                 assert!(
-                    in_table.contains(capability) || NO_CAPABILITIES.contains(&attribute),
+                    in_table.contains(capability) || lists(NO_CAPABILITIES, attribute),
                     "FMI {} {element}: {attribute}=\"{value}\" has no row in the table of docs/comparison.md",
                     fmu.version
                 );

@@ -7,6 +7,9 @@
     reason = "helpers of tests fail as the tests do"
 )]
 
+#[path = "identification/beams.rs"]
+#[expect(dead_code, reason = "the tests of identification need more of them")]
+mod beams;
 #[path = "memory/counting.rs"]
 mod counting;
 #[path = "identification/measured.rs"]
@@ -16,42 +19,16 @@ mod measured;
 use std::path::Path;
 
 use bolted_joint::frf::{ByteOrder, Dof, Frf, FrfSet, write_uff58b};
-use bolted_joint::identify::{NoiseLevel, Receptances, Study, identify};
+use bolted_joint::identify::{Receptances, Study, identify};
 use bolted_joint::structure::ComplexMatrix;
 
 use measured::{Noisy, Rig, joint, thesis};
 
-const ONE_PER_CENT: NoiseLevel = NoiseLevel {
-    relative: 0.01,
-    floor: 0.0,
-};
 /// Peak of the memory in use, beside the receptances of all files.
 const ALLOWED: f64 = 3.0;
 
 /// Three points about A's joint, as many about B's, and those where the assembly is measured.
-const STUDY: &str = r#"
-name = "memory"
-method = "frf-decoupling"
-
-[a]
-frf = "a.uff"
-joint = { y = "2:+Y", theta = { points = ["1:+Y", "2:+Y", "3:+Y"], spacing = 0.015 } }
-
-[b]
-frf = "b.uff"
-joint = { y = "12:+Y", theta = { points = ["11:+Y", "12:+Y", "13:+Y"], spacing = 0.015 } }
-
-[assembly]
-frf = "assembly.uff"
-points = ["21:+Y", "22:+Y", "23:+Y"]
-
-[joint]
-model = "full"
-
-[noise]
-relative = 0.01
-floor = 0.0
-"#;
+const STUDY: &str = include_str!("data/studies/measured.toml");
 
 fn write(path: &Path, frequency_hz: &[f64], matrices: &[ComplexMatrix], nodes: &[u32]) {
     let dof = |node: u32| -> Dof { format!("{node}:+Y").parse().unwrap() };
@@ -76,14 +53,10 @@ fn written(folder: &Path, count: usize) -> usize {
     let step_hz = 500.0 / count as f64;
     let axis = (1..=count).map(|line| line as f64 * step_hz).collect();
     let rig = Rig::new("memory", joint(1.0, 1.0), thesis(axis));
-    let lines = rig.lines(Noisy::Everything, ONE_PER_CENT, 1);
+    let lines = rig.lines(Noisy::Everything, beams::relative(0.01), 1);
     let hz = &lines.frequency_hz;
-    write(
-        &folder.join("assembly.uff"),
-        hz,
-        &lines.assembly,
-        &[21, 22, 23],
-    );
+    let assembly = folder.join("assembly.uff");
+    write(&assembly, hz, &lines.assembly, &[21, 22, 23]);
     let all = |substructure: &Receptances| -> Vec<ComplexMatrix> {
         let measured = substructure.measured().unwrap();
         (0..count).map(|line| measured.receptance(line)).collect()

@@ -12,6 +12,9 @@
     reason = "a benchmark whose preparation fails has nothing better to do than panic"
 )]
 
+#[path = "../../tests/identification/beams.rs"]
+#[expect(dead_code, reason = "the tests of identification need more of them")]
+mod beams;
 #[path = "../../tests/identification/measured.rs"]
 mod measured;
 #[path = "../../tests/identification/monte_carlo.rs"]
@@ -21,16 +24,13 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
+use beams::identified;
 use bolted_joint::identify::{
-    BandChoice, BandChoices, Bootstrap, Lines, Noise, NoiseLevel, Options, identify_lines,
+    BandChoice, BandChoices, Bootstrap, Lines, Noise, NoiseLevel, Options,
 };
-
 use measured::{Noisy, Rig, joint, stiff_and_soft, thesis};
 
-const ONE_PER_CENT: NoiseLevel = NoiseLevel {
-    relative: 0.01,
-    floor: 0.0,
-};
+const ONE_PER_CENT: NoiseLevel = beams::relative(0.01);
 const LINES: usize = 2048;
 const REPETITIONS: usize = 20;
 /// Turns of both programs.
@@ -63,16 +63,20 @@ fn rig() -> Rig {
 
 /// Seconds that each of `count` identifications of the same lines takes.
 fn repeat(count: usize, bands: BandChoice) -> Vec<f64> {
-    let rig = rig();
-    let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
     let options = Options {
         noise: Noise::stated(ONE_PER_CENT),
         bands: BandChoices::all(bands),
         ..Options::default()
     };
+    repeat_with(count, &options)
+}
+
+fn repeat_with(count: usize, options: &Options) -> Vec<f64> {
+    let rig = rig();
+    let lines = rig.lines(Noisy::Assembly, ONE_PER_CENT, 1);
     let one = |_| {
         let begun = Instant::now();
-        let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+        let found = identified(&lines, rig.model, options);
         assert!(found.assessment.fits());
         begun.elapsed().as_secs_f64()
     };
@@ -98,9 +102,8 @@ fn repeat_in_numpy(python: &str, file: &Path, threads: Option<&str>) -> Vec<f64>
     let text = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{errors}");
-    text.split_whitespace()
-        .map(|word| word.parse().unwrap())
-        .collect()
+    let words = text.split_whitespace();
+    words.map(|word| word.parse().unwrap()).collect()
 }
 
 /// Both in turns, so that they share whatever else the machine does.
@@ -145,19 +148,11 @@ fn time() {
         ("noise stated", Noise::stated(ONE_PER_CENT)),
         ("noise estimated", Noise::default()),
     ] {
-        let mut times: Vec<f64> = (0..REPETITIONS)
-            .map(|_| {
-                let options = Options {
-                    noise,
-                    ..Options::default()
-                };
-                let begun = Instant::now();
-                let found =
-                    identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
-                assert!(found.assessment.fits());
-                begun.elapsed().as_secs_f64()
-            })
-            .collect();
+        let options = Options {
+            noise,
+            ..Options::default()
+        };
+        let mut times = repeat_with(REPETITIONS, &options);
         times.sort_by(f64::total_cmp);
         println!(
             "{LINES} lines, three points, {what}: {:.1} ms (fastest {:.1} ms)",
@@ -174,7 +169,7 @@ fn time() {
         ..Options::default()
     };
     let begun = Instant::now();
-    let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+    let found = identified(&lines, rig.model, &options);
     let elapsed = begun.elapsed().as_secs_f64();
     let converged = found.bootstrap().unwrap().converged;
     println!("1000 bootstrap draws of {LINES} lines: {elapsed:.2} s, {converged} converged");
@@ -200,10 +195,7 @@ fn table(draws: u64, chosen: &str) {
                 if !holds(&case, chosen) {
                     continue;
                 }
-                let level = NoiseLevel {
-                    relative,
-                    floor: 0.0,
-                };
+                let level = beams::relative(relative);
                 let begun = Instant::now();
                 let outcomes = monte_carlo::run(&rig, noisy, level, draws, true);
                 monte_carlo::print(&rig, noisy, level, &outcomes);

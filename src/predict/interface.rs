@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::super::error::CliError;
-use super::super::output::{message, print};
+use super::super::output::{ANY, CSV, Ending, HTML, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::super::table::{Table, number};
 use super::PredictArguments;
@@ -17,6 +17,12 @@ use bolted_joint::predict::study::{InterfaceStudy, Prediction, State};
 use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
 use bolted_joint::study::{Method, StudyError, StudyText};
+
+const MAC: Ending = (&["mac"], "a name that ends in .mac");
+const CARD: Ending = (
+    &["csv", "inp", "mac"],
+    "a name that ends in .csv, in .inp for Abaqus or in .mac for ANSYS",
+);
 
 /// Name and number of the layer's material.
 const MATERIAL_NAME: &str = "bolted_joint";
@@ -36,40 +42,15 @@ pub(super) fn run(
         ],
         "none: damping over the amplitude is of method \"layered-beam\"",
     )?;
-    outputs::check(
+    check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(&arguments.output), &[], ""),
-            (
-                "--report",
-                arguments.report.as_ref(),
-                &["html"],
-                "a name that ends in .html",
-            ),
-            (
-                "--matrix-csv",
-                arguments.matrix_csv.as_ref(),
-                &["csv"],
-                "a name that ends in .csv",
-            ),
-            (
-                "--matrix27",
-                arguments.matrix27.as_ref(),
-                &["mac"],
-                "a name that ends in .mac",
-            ),
-            (
-                "--field-csv",
-                arguments.field_csv.as_ref(),
-                &["csv"],
-                "a name that ends in .csv",
-            ),
-            (
-                "--material-card",
-                arguments.material_card.as_ref(),
-                &["csv", "inp", "mac"],
-                "a name that ends in .csv, in .inp for Abaqus or in .mac for ANSYS",
-            ),
+            ("--output", Some(&arguments.output), ANY),
+            ("--report", arguments.report.as_ref(), HTML),
+            ("--matrix-csv", arguments.matrix_csv.as_ref(), CSV),
+            ("--matrix27", arguments.matrix27.as_ref(), MAC),
+            ("--field-csv", arguments.field_csv.as_ref(), CSV),
+            ("--material-card", arguments.material_card.as_ref(), CARD),
         ],
     )?;
     if method == Method::FractalContact {
@@ -78,10 +59,8 @@ pub(super) fn run(
             "none: only method \"virtual-material\" has a material",
         )?;
     }
-    let written = match arguments.report {
-        Some(_) => Some(Timestamp::from_environment()?),
-        None => None,
-    };
+    let written = arguments.report.as_ref();
+    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = InterfaceStudy::of(study)?;
     let draws = study.monte_carlo.map_or(0, |monte_carlo| monte_carlo.draws);
     let progress = Progress::new("predicting", draws as usize);
@@ -118,9 +97,7 @@ pub(super) fn run(
         });
     }
     files.write()?;
-    for warning in &warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&warnings);
     if arguments.json {
         let value = as_json(arguments, &found, &warnings);
         return print(&serde_json::to_string_pretty(&value)?);
@@ -244,12 +221,8 @@ fn shares(found: &Prediction<'_>) -> String {
                 .into_iter()
                 .map(|(input, share)| format!("{input} {:.0} %", 100.0 * share))
                 .collect();
-            let _ = writeln!(
-                text,
-                "  {} scatters with {}",
-                unknown.name,
-                named.join(", ")
-            );
+            let named = named.join(", ");
+            let _ = writeln!(text, "  {} scatters with {named}", unknown.name);
         }
     }
     text

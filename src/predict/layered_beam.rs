@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::super::error::CliError;
-use super::super::output::{message, print};
+use super::super::output::{ANY, CSV, SVG, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::PredictArguments;
 use super::outputs::{self, Outputs};
@@ -22,22 +22,12 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         ],
         "none: a layered beam has no interface elements; --damping-csv has its damping over the amplitude",
     )?;
-    outputs::check(
+    check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(&arguments.output), &[], ""),
-            (
-                "--damping-csv",
-                arguments.damping_csv.as_ref(),
-                &["csv"],
-                "a name that ends in .csv",
-            ),
-            (
-                "--figure",
-                arguments.figure.as_ref(),
-                &["svg"],
-                "a name that ends in .svg",
-            ),
+            ("--output", Some(&arguments.output), ANY),
+            ("--damping-csv", arguments.damping_csv.as_ref(), CSV),
+            ("--figure", arguments.figure.as_ref(), SVG),
         ],
     )?;
     let study = LayeredBeamStudy::of(study)?;
@@ -53,9 +43,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         figure.to_svg().unwrap_or_default()
     });
     files.write()?;
-    for warning in &found.warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&found.warnings);
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),

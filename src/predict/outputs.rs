@@ -1,11 +1,10 @@
-//! The files that a prediction is asked for: checked before anything is computed, written all or none.
+//! The files that a prediction is asked for: written all or none.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::super::error::CliError;
-use super::super::output::check_output;
-use bolted_joint_files::whole_file;
+use super::super::output::write_files;
 
 /// Contents for paths.
 pub(super) struct Outputs {
@@ -30,8 +29,7 @@ impl Outputs {
         let files: Vec<(&Path, &[u8])> = files
             .map(|(path, contents)| (path.as_path(), contents.as_bytes()))
             .collect();
-        whole_file::write_all(&files)
-            .map_err(|(path, source)| CliError::Unwritable { path, source })
+        write_files(&files)
     }
 
     /// A line for each.
@@ -45,34 +43,13 @@ impl Outputs {
     }
 }
 
-/// Refuses paths that cannot be written, name a file twice or end otherwise than the option asks for.
-pub(super) fn check(
-    study: &PathBuf,
-    asked: &[(&'static str, Option<&PathBuf>, &[&str], &'static str)],
-) -> Result<(), CliError> {
-    let mut taken = vec![study];
-    for (option, path, endings, expected) in asked {
-        let Some(path) = *path else { continue };
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        let fits = endings.is_empty() || extension.is_some_and(|found| endings.contains(&found));
-        if !fits {
-            return Err(CliError::option(option, path.display(), expected));
-        }
-        check_output(path, &taken)?;
-        taken.push(path);
-    }
-    Ok(())
-}
-
 /// Refuses options that belong to another method.
 pub(super) fn refuse(
     asked: &[(&'static str, Option<&PathBuf>)],
     expected: &'static str,
 ) -> Result<(), CliError> {
-    match asked
-        .iter()
-        .find_map(|(option, path)| Some((*option, (*path)?)))
-    {
+    let mut asked = asked.iter();
+    match asked.find_map(|(option, path)| Some((*option, (*path)?))) {
         Some((option, path)) => Err(CliError::option(option, path.display(), expected)),
         None => Ok(()),
     }

@@ -63,10 +63,9 @@ fn is_oscillator(set: &FrfSet, pairs: &[(&str, &str, f64)], tolerance: f64) {
         let found = set.receptance(dof(response), dof(reference)).unwrap();
         for (&value, &hz) in found.iter().zip(set.frequency_hz()) {
             let expected = factor * oscillator(hz);
-            assert!(
-                (value - expected).norm() <= tolerance * expected.norm(),
-                "{response} / {reference}, {hz} Hz: {value}, not {expected}"
-            );
+            let place = format!("{response} / {reference}, {hz} Hz");
+            let error = (value - expected).norm();
+            assert!(error <= tolerance * expected.norm(), "{place}: {value}");
         }
     }
 }

@@ -33,7 +33,7 @@ fn the_functions_are_those_of_the_archive_with_the_same_arrays() {
     let [matlab, numpy] =
         ["cells.mat", "stored.npz"].map(|name| read_frfs(own_file(name), &options).unwrap());
     assert_eq!(matlab.functions(), numpy.functions());
-    assert_eq!(matlab.not_selected(), numpy.not_selected());
+    assert_eq!(matlab.not_selected, numpy.not_selected);
     assert_eq!(matlab.summary().formats[0].to_string(), "MATLAB file (mat)");
 }
 

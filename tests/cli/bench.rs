@@ -2,12 +2,17 @@
 
 use bolted_joint_testing::has;
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read as _;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 use tempfile::TempDir;
+use zip::ZipArchive;
+
+/// Identifies the joint of `study.toml`.
+pub(crate) const IDENTIFY: &str = "identify study.toml -o o.joint.json";
 
 /// The beginning of a picture: binary data that no reader of this program should take for anything else.
 pub(crate) const PNG: &[u8] =
@@ -21,7 +26,7 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    fn of(output: Output) -> Self {
+    pub(crate) fn of(output: Output) -> Self {
         let outcome = Self {
             code: output.status.code(),
             stdout: String::from_utf8(output.stdout).unwrap(),
@@ -63,29 +68,86 @@ impl Bench {
         serde_json::from_str(&self.text(name)).unwrap()
     }
 
-    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+    /// Replaces what stands once in a file.
+    pub(crate) fn edit(&self, name: &str, from: &str, to: &str) {
+        self.write(name, replaced(&self.text(name), from, to));
+    }
+
+    /// A text in an FMU.
+    pub(crate) fn member(&self, fmu: &str, entry: &str) -> String {
+        let mut archive = ZipArchive::new(File::open(self.path(fmu)).unwrap()).unwrap();
+        let mut text = String::new();
+        let mut entry = archive.by_name(entry).unwrap();
+        entry.read_to_string(&mut text).unwrap();
+        text
+    }
+
+    /// The program with arguments as one types them; none of them holds a space.
+    pub(crate) fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_bolted-joint"));
         command
-            .args(arguments)
+            .args(arguments.split_whitespace())
             .current_dir(self.folder.path())
             .env_remove("SOURCE_DATE_EPOCH")
             .stdin(Stdio::null());
         command
     }
 
-    pub(crate) fn run(&self, arguments: &[&str]) -> Outcome {
+    pub(crate) fn run(&self, arguments: &str) -> Outcome {
         Outcome::of(self.command(arguments).output().unwrap())
     }
 
     /// Runs a command that must succeed.
-    pub(crate) fn done(&self, arguments: &[&str]) -> Outcome {
+    pub(crate) fn done(&self, arguments: &str) -> Outcome {
         let outcome = self.run(arguments);
-        assert_eq!(outcome.code, Some(0), "{arguments:?}: {}", outcome.stderr);
+        assert_eq!(outcome.code, Some(0), "{arguments}: {}", outcome.stderr);
         outcome
     }
 
+    /// Identifies and gives the report.
+    pub(crate) fn report(&self) -> String {
+        let outcome = self.done(&format!("{IDENTIFY} --report o.html"));
+        has(&outcome.stdout, &["wrote o.html"]);
+        self.text("o.html")
+    }
+
+    /// Runs a command that must end with 1 and say all `fragments`.
+    pub(crate) fn fails(&self, arguments: &str, fragments: &[&str]) -> Outcome {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.code, Some(1), "{arguments}: {}", outcome.stderr);
+        has(&outcome.stderr, fragments);
+        outcome
+    }
+
+    /// A file whose text has one part replaced is refused by `arguments`, as each row says; so it is for every row.
+    pub(crate) fn refused_edits<const N: usize>(
+        &self,
+        arguments: &str,
+        (file, text): (&str, &str),
+        rows: &[(&str, &str, [&str; N])],
+    ) {
+        for (from, to, fragments) in rows {
+            self.write(file, replaced(text, from, to));
+            let place = format!("error: {file}:");
+            self.refused(arguments, &[&[place.as_str()], &fragments[..]].concat());
+        }
+    }
+
+    /// A file is refused by `arguments` for its contents, as each row says.
+    pub(crate) fn refused_contents(
+        &self,
+        arguments: &str,
+        file: &str,
+        rows: &[(&[u8], [&str; 2])],
+    ) {
+        for (contents, [one, two]) in rows {
+            self.write(file, contents);
+            self.refused(arguments, &[&format!("error: {file}:"), one, two]);
+        }
+    }
+
     /// Runs a command that must end with 1, an error that holds all `fragments`, nothing on stdout and no file touched.
-    pub(crate) fn refused(&self, arguments: &[&str], fragments: &[&str]) {
+    pub(crate) fn refused(&self, arguments: &str, fragments: &[&str]) {
         self.refused_by(&mut self.command(arguments), fragments);
     }
 
@@ -97,9 +159,7 @@ impl Bench {
         assert_eq!(outcome.code, Some(1), "{command:?}: {stderr}");
         assert_eq!(outcome.stdout, "", "{command:?}");
         assert!(stderr.starts_with("error: "), "{command:?}: {stderr}");
-        for fragment in fragments {
-            has(stderr, &[fragment]);
-        }
+        has(stderr, fragments);
         // Messages are for people: no bytes of a binary file, no hundreds of digits.
         let printable = |c: char| !c.is_control() || c == '\n';
         assert!(stderr.chars().all(printable), "{stderr:?}");

@@ -7,7 +7,7 @@ use std::io::{Cursor, Read as _, Write as _};
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
 
-use crate::bench::{Bench, Outcome, PNG, replaced};
+use crate::bench::{Bench, PNG, replaced};
 use crate::joint_file::JOINT;
 
 /// A bench with a joint file and its FMUs.
@@ -16,7 +16,7 @@ fn bench() -> Bench {
     bench.write("j.joint.json", JOINT);
     for interface in ["element", "lap"] {
         let fmu = format!("{interface}.fmu");
-        bench.done(&["export", "j.joint.json", "-o", &fmu, "--as", interface]);
+        bench.done(&format!("export j.joint.json -o {fmu} --as {interface}"));
     }
     bench
 }
@@ -43,69 +43,46 @@ pub(crate) fn repacked(
     bench.write(to, new.finish().unwrap().into_inner());
 }
 
-/// The lap FMU with one text of one entry replaced, and what `check` makes of it.
-fn edited(bench: &Bench, entry: &str, from: &str, to: &str) -> Outcome {
+/// Makes `edited.fmu` of the lap FMU with another text of one entry.
+fn with_entry(bench: &Bench, entry: &str, change: impl Fn(String) -> String) {
     repacked(bench, "lap.fmu", "edited.fmu", |name, bytes| {
-        if name != entry {
-            return Some(bytes);
-        }
-        Some(replaced(&String::from_utf8(bytes).unwrap(), from, to).into_bytes())
+        Some(if name == entry {
+            change(String::from_utf8(bytes).unwrap()).into()
+        } else {
+            bytes
+        })
     });
-    bench.run(&["check", "edited.fmu"])
-}
-
-fn line(bench: &Bench, entry: &str, beginning: &str) -> String {
-    let mut fmu = ZipArchive::new(File::open(bench.path("lap.fmu")).unwrap()).unwrap();
-    let mut text = String::new();
-    fmu.by_name(entry)
-        .unwrap()
-        .read_to_string(&mut text)
-        .unwrap();
-    let mut lines = text.lines().map(str::trim);
-    lines
-        .find(|line| line.starts_with(beginning))
-        .unwrap()
-        .to_owned()
 }
 
 #[test]
 fn sound_files_are_said_to_be_sound() {
     let bench = bench();
+    let fmu = "FMU (FMI 3.0, Co-Simulation and Model Exchange)";
     for (file, kind) in [
         ("j.joint.json", "joint file"),
-        (
-            "element.fmu",
-            "FMU (FMI 3.0, Co-Simulation and Model Exchange)",
-        ),
-        ("lap.fmu", "FMU (FMI 3.0, Co-Simulation and Model Exchange)"),
+        ("element.fmu", fmu),
+        ("lap.fmu", fmu),
     ] {
-        let outcome = bench.done(&["check", file]);
+        let outcome = bench.done(&format!("check {file}"));
         assert!(outcome.stdout.starts_with(&format!("{file}: {kind}\n")));
-        assert!(outcome.stdout.contains("no problem found"));
+        has(&outcome.stdout, &["no problem found"]);
         assert_eq!(outcome.stderr, "");
     }
     // Packed anew and otherwise the same.
     repacked(&bench, "lap.fmu", "again.fmu", |_, bytes| Some(bytes));
-    bench.done(&["check", "again.fmu"]);
+    bench.done("check again.fmu");
 }
 
 #[test]
 fn an_active_joint_is_found() {
     let bench = Bench::new();
-    bench.write(
-        "j.joint.json",
-        replaced(JOINT, "[[6, 0.05], [0.05, 0.02]]", "[[6, 5], [5, 0.02]]"),
-    );
-    bench.done(&["export", "j.joint.json", "-o", "o.fmu", "--allow-active"]);
+    let (passive, active) = ("[[6, 0.05], [0.05, 0.02]]", "[[6, 5], [5, 0.02]]");
+    bench.write("j.joint.json", replaced(JOINT, passive, active));
+    bench.done("export j.joint.json -o o.fmu --allow-active");
     for file in ["j.joint.json", "o.fmu"] {
-        let outcome = bench.run(&["check", file]);
-        assert_eq!(outcome.code, Some(1));
-        assert!(
-            outcome.stderr.starts_with(&format!("error: {file}:")),
-            "{}",
-            outcome.stderr
-        );
-        has(&outcome.stderr, &["joint.damping is active"]);
+        let outcome = bench.fails(&format!("check {file}"), &["joint.damping is active"]);
+        let stderr = &outcome.stderr;
+        assert!(stderr.starts_with(&format!("error: {file}:")), "{stderr}");
         assert!(!outcome.stdout.contains("no problem found"));
     }
 }
@@ -115,27 +92,26 @@ fn every_edit_of_an_fmu_is_found() {
     let bench = bench();
     let start = "resources/start.txt";
     let description = "modelDescription.xml";
-    let token_line = line(&bench, start, "token ");
+    let text = bench.member("lap.fmu", start);
+    let line = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap();
+    let (token_line, step_line) = (line("token "), line("step_size_max "));
     let token = token_line.strip_prefix("token ").unwrap();
-    let step_line = line(&bench, start, "step_size_max ");
     #[rustfmt::skip]
     let cases = [
         (start, "joint.k_yy 80000.0", "joint.k_yy 80001.0", "found joint.k_yy = 80001.0"),
         (start, "joint.k_yy 80000.0\n", "", "start values differ from resources/start.txt"),
         (start, "dofs 2", "dofs 1", "found dofs 1, expected 2"),
         (start, "model lap", "model element", "found variable a.y as output 1 in m, expected input 1 in m"),
-        (start, &token_line, "token 0", "expected \"0\" as in resources/start.txt"),
-        (start, &step_line, "step_size_max 1.0", "found 1.0 s, with which RK4 is unstable"),
+        (start, token_line, "token 0", "expected \"0\" as in resources/start.txt"),
+        (start, step_line, "step_size_max 1.0", "found 1.0 s, with which RK4 is unstable"),
         (description, token, "0", "found instantiationToken \"0\""),
         (description, "start=\"80000\"", "start=\"80001\"", "start values differ from resources/start.txt"),
         (description, "name=\"joint.F\"", "name=\"joint.load\"", "variable joint.F not found"),
         ("resources/joint.json", "8e4, 600", "9e4, 600", "found joint.k_yy = 80000.0, expected Some(90000.0)"),
     ];
     for (entry, from, to, fragment) in cases {
-        let outcome = edited(&bench, entry, from, to);
-        assert_eq!(outcome.code, Some(1), "{entry}: {from} → {to}");
-        assert!(outcome.stderr.contains("edited.fmu"), "{}", outcome.stderr);
-        has(&outcome.stderr, &[fragment]);
+        with_entry(&bench, entry, |text| replaced(&text, from, to));
+        bench.fails("check edited.fmu", &["edited.fmu", fragment]);
     }
 }
 
@@ -150,44 +126,22 @@ fn entries_that_are_missing_or_broken_are_named() {
         repacked(&bench, "lap.fmu", "less.fmu", |name, bytes| {
             (name != entry).then_some(bytes)
         });
-        bench.refused(
-            &["check", "less.fmu"],
-            &["less.fmu: ", entry, "export it again"],
-        );
+        bench.refused("check less.fmu", &["less.fmu: ", entry, "export it again"]);
     }
     repacked(&bench, "lap.fmu", "less.fmu", |name, bytes| {
         (!name.starts_with("binaries/")).then_some(bytes)
     });
-    let outcome = bench.run(&["check", "less.fmu"]);
-    assert_eq!(outcome.code, Some(1));
-    has(&outcome.stderr, &["binaries: found no library"]);
+    bench.fails("check less.fmu", &["binaries: found no library"]);
+    let ends = "resources/joint.json:1:1: the file ends too early";
     for (entry, contents, fragment) in [
         ("resources/start.txt", "hello", "resources/start.txt"),
-        (
-            "resources/joint.json",
-            "{",
-            "resources/joint.json:1:1: the file ends too early",
-        ),
+        ("resources/joint.json", "{", ends),
     ] {
-        repacked(&bench, "lap.fmu", "broken.fmu", |name, bytes| {
-            Some(if name == entry {
-                contents.into()
-            } else {
-                bytes
-            })
-        });
-        bench.refused(&["check", "broken.fmu"], &["broken.fmu: ", fragment]);
+        with_entry(&bench, entry, |_| contents.to_owned());
+        bench.refused("check edited.fmu", &["edited.fmu: ", fragment]);
     }
-    repacked(&bench, "lap.fmu", "broken.fmu", |name, bytes| {
-        Some(if name == "modelDescription.xml" {
-            b"<fmi".to_vec()
-        } else {
-            bytes
-        })
-    });
-    let outcome = bench.run(&["check", "broken.fmu"]);
-    assert_eq!(outcome.code, Some(1));
-    has(&outcome.stderr, &["modelDescription.xml"]);
+    with_entry(&bench, "modelDescription.xml", |_| "<fmi".to_owned());
+    bench.fails("check edited.fmu", &["modelDescription.xml"]);
 }
 
 #[test]
@@ -196,17 +150,17 @@ fn what_is_no_fmu_is_said_to_be_none() {
     let bench = bench();
     let whole = fs::read(bench.path("lap.fmu")).unwrap();
     bench.write("cut.fmu", &whole[..whole.len() / 2]);
-    bench.refused(&["check", "cut.fmu"], &["cut.fmu: found no readable zip archive", "copy or export it again"]);
+    bench.refused("check cut.fmu", &["cut.fmu: found no readable zip archive", "copy or export it again"]);
     let mut other = ZipWriter::new(Cursor::new(Vec::new()));
     other
         .start_file("notes.txt", SimpleFileOptions::default())
         .unwrap();
     bench.write("other.zip", other.finish().unwrap().into_inner());
-    bench.refused(&["check", "other.zip"], &["other.zip: `modelDescription.xml` is missing", "expected an FMU"]);
+    bench.refused("check other.zip", &["other.zip: `modelDescription.xml` is missing", "expected an FMU"]);
     bench.write("picture.png", PNG);
-    bench.refused(&["check", "picture.png"], &["picture.png: found bytes that are no text", "expected a joint file"]);
-    bench.refused(&["check", "missing.fmu"], &["missing.fmu: cannot be read"]);
-    bench.refused(&["export", "lap.fmu", "-o", "o.fmu"], &["lap.fmu: found a zip archive (an FMU?)"]);
+    bench.refused("check picture.png", &["picture.png: found bytes that are no text", "expected a joint file"]);
+    bench.refused("check missing.fmu", &["missing.fmu: cannot be read"]);
+    bench.refused("export lap.fmu -o o.fmu", &["lap.fmu: found a zip archive (an FMU?)"]);
 }
 
 #[test]
@@ -224,9 +178,7 @@ fn a_library_with_a_flipped_bit_is_found() {
     let mut damaged = whole.clone();
     damaged[usize::try_from(start + size / 2).unwrap()] ^= 0x10;
     bench.write("damaged.fmu", damaged);
-    let outcome = bench.run(&["check", "damaged.fmu"]);
-    assert_eq!(outcome.code, Some(1));
-    has(&outcome.stderr, &["binaries/", "damaged"]);
+    bench.fails("check damaged.fmu", &["binaries/", "damaged"]);
 }
 
 #[test]
@@ -237,16 +189,9 @@ fn what_no_validator_sees_is_found() {
         ("2", "canGetAndSetFMUstate", "canGetAndSetFMUState"),
         ("3", "canGetAndSetFMUState", "canGetAndSetFMUstate"),
     ] {
-        bench.done(&[
-            "export",
-            "j.joint.json",
-            "-o",
-            "lap.fmu",
-            "--as",
-            "lap",
-            "--fmi",
-            version,
-        ]);
+        bench.done(&format!(
+            "export j.joint.json -o lap.fmu --as lap --fmi {version}"
+        ));
         #[rustfmt::skip]
         let cases = [
             (format!("{capability}=\"true\""), format!("{misspelt}=\"true\""),
@@ -258,33 +203,20 @@ fn what_no_validator_sees_is_found() {
              "found fmiVersion \"1.0\", expected \"2.0\" or \"3.0\"".to_owned()),
         ];
         for (from, to, fragment) in cases {
-            repacked(&bench, "lap.fmu", "edited.fmu", |name, bytes| {
-                if name != "modelDescription.xml" {
-                    return Some(bytes);
-                }
-                let text = String::from_utf8(bytes).unwrap();
+            with_entry(&bench, "modelDescription.xml", |text| {
                 assert!(text.contains(&from), "{from}");
-                Some(text.replace(&from, &to).into_bytes())
+                text.replace(&from, &to)
             });
-            let outcome = bench.run(&["check", "edited.fmu", "--no-run"]);
-            assert_eq!(outcome.code, Some(1));
-            has(&outcome.stderr, &[&fragment]);
+            bench.fails("check edited.fmu --no-run", &[&fragment]);
         }
     }
-    repacked(&bench, "lap.fmu", "edited.fmu", |name, bytes| {
-        if name != "terminalsAndIcons/terminalsAndIcons.xml" {
-            return (!name.ends_with("flange_a.png")).then_some(bytes);
-        }
-        Some(
-            String::from_utf8(bytes)
-                .unwrap()
-                .replace("\"b.F\"", "\"b.G\"")
-                .into_bytes(),
-        )
+    with_entry(&bench, "terminalsAndIcons/terminalsAndIcons.xml", |text| {
+        text.replace("\"b.F\"", "\"b.G\"")
     });
-    let outcome = bench.run(&["check", "edited.fmu"]);
-    has(
-        &outcome.stderr,
-        &["found member \"b.G\"", "found icon \"flange_a\""],
-    );
+    repacked(&bench, "edited.fmu", "less.fmu", |name, bytes| {
+        (!name.ends_with("flange_a.png")).then_some(bytes)
+    });
+    let outcome = bench.run("check less.fmu");
+    let expected = ["found member \"b.G\"", "found icon \"flange_a\""];
+    has(&outcome.stderr, &expected);
 }

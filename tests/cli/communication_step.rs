@@ -8,16 +8,11 @@ use bolted_joint_testing::has;
 fn bounds_are_given_for_joint_files_and_fmus_alike() {
     let bench = Bench::new();
     bench.write("j.joint.json", JOINT);
-    bench.done(&["export", "j.joint.json", "-o", "element.fmu"]);
-    let neighbours = [
-        "--neighbour-mass",
-        "1.2,fixed",
-        "--neighbour-inertia",
-        "8e-3,3e-3",
-    ];
+    bench.done("export j.joint.json -o element.fmu");
+    let neighbours = "--neighbour-mass 1.2,fixed --neighbour-inertia 8e-3,3e-3";
     let step = |file: &str| {
-        let arguments = [&["check", file, "--json"], &neighbours[..]].concat();
-        bench.done(&arguments).json()["communication_step"].clone()
+        let outcome = bench.done(&format!("check {file} --json {neighbours}"));
+        outcome.json()["communication_step"].clone()
     };
     let (of_joint, of_fmu) = (step("j.joint.json"), step("element.fmu"));
     for master in ["held", "late", "semi_implicit"] {
@@ -25,25 +20,17 @@ fn bounds_are_given_for_joint_files_and_fmus_alike() {
         assert!(of_fmu[master].as_f64().unwrap() > 0.0);
     }
     assert!(of_fmu["suggested"].is_number());
-    let text = bench
-        .done(&[&["check", "element.fmu"], &neighbours[..]].concat())
-        .stdout;
-    assert!(text.contains("stable below"), "{text}");
-    has(
-        &text,
-        &["directional derivatives, or export the joint as lap"],
-    );
+    let outcome = bench.done(&format!("check element.fmu {neighbours}"));
+    let advice = "directional derivatives, or export the joint as lap";
+    has(&outcome.stdout, &["stable below", advice]);
     // what does not move has no bound
-    let fixed = [
-        "--neighbour-mass",
-        "fixed,fixed",
-        "--neighbour-inertia",
-        "fixed,fixed",
-    ];
-    let arguments = [&["check", "element.fmu", "--json"], &fixed[..]].concat();
-    assert!(bench.done(&arguments).json()["communication_step"]["held"].is_null());
+    let fixed = "--neighbour-mass fixed,fixed --neighbour-inertia fixed,fixed";
+    let report = bench
+        .done(&format!("check element.fmu --json {fixed}"))
+        .json();
+    assert!(report["communication_step"]["held"].is_null());
     // nobody asked
-    let report = bench.done(&["check", "element.fmu", "--json"]).json();
+    let report = bench.done("check element.fmu --json").json();
     assert!(report.get("communication_step").is_none());
 }
 
@@ -51,27 +38,27 @@ fn bounds_are_given_for_joint_files_and_fmus_alike() {
 fn what_does_not_fit_is_refused() {
     let bench = Bench::new();
     bench.write("j.joint.json", JOINT);
-    bench.done(&["export", "j.joint.json", "-o", "element.fmu"]);
-    bench.done(&["export", "j.joint.json", "-o", "lap.fmu", "--as", "lap"]);
+    bench.done("export j.joint.json -o element.fmu");
+    bench.done("export j.joint.json -o lap.fmu --as lap");
     #[rustfmt::skip]
     let cases = [
-        (&["element.fmu", "--neighbour-mass", "1,2"][..], ["--neighbour-inertia: found none", "`fixed,fixed`"]),
-        (&["element.fmu", "--neighbour-stiffness", "1e5,0"], ["found an element, which takes motion", "--neighbour-mass"]),
-        (&["lap.fmu", "--neighbour-mass", "1,2"], ["found a lap", "add rigidly attached masses to `bodies`"]),
-        (&["element.fmu", "--amplitude", "1e-5,1e-4"], ["--amplitude: found no neighbour", "--neighbour-mass"]),
-        (&["lap.fmu", "--neighbour-stiffness", "1e5,0", "--amplitude", "1e-5"], ["found 1 values", "2 degrees of freedom"]),
+        ("element.fmu --neighbour-mass 1,2", ["--neighbour-inertia: found none", "`fixed,fixed`"]),
+        ("element.fmu --neighbour-stiffness 1e5,0", ["found an element, which takes motion", "--neighbour-mass"]),
+        ("lap.fmu --neighbour-mass 1,2", ["found a lap", "add rigidly attached masses to `bodies`"]),
+        ("element.fmu --amplitude 1e-5,1e-4", ["--amplitude: found no neighbour", "--neighbour-mass"]),
+        ("lap.fmu --neighbour-stiffness 1e5,0 --amplitude 1e-5", ["found 1 values", "2 degrees of freedom"]),
     ];
     for (arguments, fragments) in cases {
-        bench.refused(&[&["check"], arguments].concat(), &fragments);
+        bench.refused(&format!("check {arguments}"), &fragments);
     }
-    for arguments in [
-        ["--neighbour-mass", "1"],
-        ["--neighbour-mass", "1,0"],
-        ["--neighbour-mass", "-1,2"],
-        ["--neighbour-mass", "nan,2"],
-        ["--neighbour-stiffness", "-1,0"],
+    for wrong in [
+        "mass 1",
+        "mass 1,0",
+        "mass -1,2",
+        "mass nan,2",
+        "stiffness -1,0",
     ] {
-        let outcome = bench.run(&[&["check", "element.fmu"], &arguments[..]].concat());
-        assert_eq!(outcome.code, Some(2), "{arguments:?}");
+        let outcome = bench.run(&format!("check element.fmu --neighbour-{wrong}"));
+        assert_eq!(outcome.code, Some(2), "{wrong}");
     }
 }

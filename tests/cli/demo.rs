@@ -16,14 +16,9 @@ fn assert_published_joint(bench: &Bench, name: &str) {
         for (i, j) in [(0, 0), (0, 1), (1, 1)] {
             let deviation = deviations[key][i][j].as_f64().unwrap();
             let error = found[(i, j)] - exact[i][j];
-            assert!(
-                error.abs() < 5.0 * deviation,
-                "{key}[{i}][{j}]: {error} ± {deviation}"
-            );
-            assert!(
-                deviation < 0.03 * exact[i][j].abs(),
-                "{key}[{i}][{j}]: {deviation}"
-            );
+            let place = format!("{key}[{i}][{j}]: {error} ± {deviation}");
+            assert!(error.abs() < 5.0 * deviation, "{place}");
+            assert!(deviation < 0.03 * exact[i][j].abs(), "{place}");
         }
     }
 }
@@ -31,7 +26,7 @@ fn assert_published_joint(bench: &Bench, name: &str) {
 #[test]
 fn the_demo_and_its_study_give_the_published_joint() {
     let bench = Bench::new();
-    let outcome = bench.done(&["demo", "-o", "d", "--seed", "7"]);
+    let outcome = bench.done("demo -o d --seed 7");
     assert!(outcome.stdout.contains("NOT measured"));
     assert_published_joint(&bench, "d/m10x16.joint.json");
     for name in [
@@ -40,16 +35,9 @@ fn the_demo_and_its_study_give_the_published_joint() {
         "pirdayr-ex03-lap.fmu",
     ] {
         assert!(outcome.stdout.contains(name));
-        bench.done(&["check", &format!("d/{name}")]);
+        bench.done(&format!("check d/{name}"));
     }
-    bench.done(&[
-        "identify",
-        "d/study.toml",
-        "-o",
-        "o.joint.json",
-        "--figure",
-        "o.svg",
-    ]);
+    bench.done("identify d/study.toml -o o.joint.json --figure o.svg");
     assert_published_joint(&bench, "o.joint.json");
     assert!(bench.text("o.svg").trim_end().ends_with("</svg>"));
     assert_eq!(bench.names(), ["d", "o.joint.json", "o.svg"]);
@@ -58,7 +46,7 @@ fn the_demo_and_its_study_give_the_published_joint() {
 #[test]
 fn without_noise_the_published_joint_returns_to_the_digits_of_the_file() {
     let bench = Bench::new();
-    bench.done(&["demo", "-o", "d", "--noise", "0"]);
+    bench.done("demo -o d --noise 0");
     let file = bench.json("d/m10x16.joint.json");
     for (key, exact) in [("stiffness", STIFFNESS), ("damping", DAMPING)] {
         let found = matrix_of(&file, key);
@@ -75,16 +63,14 @@ fn what_the_demo_cannot_do_is_refused_before_it_writes() {
     bench.write("taken", "a file");
     for noise in ["-0.1", "1", "nan", "inf"] {
         bench.refused(
-            &["demo", "-o", "d", "--noise", noise],
+            &format!("demo -o d --noise {noise}"),
             &["--noise: found", "0.01 for 1 %"],
         );
     }
-    bench.refused(&["demo", "-o", "taken"], &["taken: cannot be written"]);
-    bench.refused_by(
-        bench
-            .command(&["demo", "-o", "d"])
-            .env("SOURCE_DATE_EPOCH", "yesterday"),
-        &["SOURCE_DATE_EPOCH: found \"yesterday\"", "unset it"],
-    );
+    bench.refused("demo -o taken", &["taken: cannot be written"]);
+    let mut command = bench.command("demo -o d");
+    command.env("SOURCE_DATE_EPOCH", "yesterday");
+    let expected = ["SOURCE_DATE_EPOCH: found \"yesterday\"", "unset it"];
+    bench.refused_by(&mut command, &expected);
     assert_eq!(bench.names(), ["taken"]);
 }

@@ -3,7 +3,7 @@
 use bolted_joint_testing::has;
 use std::fs;
 
-use crate::bench::{Bench, replaced};
+use crate::bench::Bench;
 use crate::joint_file::JOINT;
 
 fn bench(joint: &str) -> Bench {
@@ -12,26 +12,16 @@ fn bench(joint: &str) -> Bench {
     bench
 }
 
-fn export(more: &[&'static str]) -> Vec<&'static str> {
-    [&["export", "j.joint.json", "-o", "o.fmu"], more].concat()
-}
+const EXPORT: &str = "export j.joint.json -o o.fmu";
 
 #[test]
 fn an_active_joint_needs_to_be_insisted_on() {
-    let bench = bench(&replaced(
-        JOINT,
-        "[[6, 0.05], [0.05, 0.02]]",
-        "[[6, 5], [5, 0.02]]",
-    ));
-    bench.refused(
-        &export(&[]),
-        &[
-            "j.joint.json: joint.damping is active",
-            "positive semidefinite",
-            "--allow-active",
-        ],
-    );
-    let outcome = bench.done(&export(&["--allow-active"]));
+    let bench = bench(JOINT);
+    let (passive, active) = ("[[6, 0.05], [0.05, 0.02]]", "[[6, 5], [5, 0.02]]");
+    bench.edit("j.joint.json", passive, active);
+    let found = "j.joint.json: joint.damping is active";
+    bench.refused(EXPORT, &[found, "positive semidefinite", "--allow-active"]);
+    let outcome = bench.done(&format!("{EXPORT} --allow-active"));
     has(&outcome.stderr, &["warning: joint.damping is active"]);
 }
 
@@ -42,16 +32,9 @@ fn a_joint_over_preload_needs_a_preload_of_its_table() {
     let bench = bench(&format!(
         r#"{{ "format": "bolted-joint/1", "name": "M8", "joint": {{ "dofs": ["y"], {preload} }} }}"#
     ));
-    let member = |name: &str| {
-        let file = std::fs::File::open(bench.path("o.fmu")).unwrap();
-        let mut archive = zip::ZipArchive::new(file).unwrap();
-        let mut member = archive.by_name(name).unwrap();
-        let mut text = String::new();
-        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
-        text
-    };
+    let member = |name: &str| bench.member("o.fmu", name);
     // without one it has the preload as an input, which starts at the nominal one and ends with the table
-    let outcome = bench.done(&export(&[]));
+    let outcome = bench.done(EXPORT);
     has(&outcome.stdout, &["model: M8, bolted joint"]);
     let start = member("resources/start.txt");
     let lines = "\ntable 2 refused\n10.0 600000.0 12.0 0.0\n25.0 900000.0 8.0 0.0\npreload 10.0\n";
@@ -60,42 +43,32 @@ fn a_joint_over_preload_needs_a_preload_of_its_table() {
     assert!(description.contains("name=\"preload\""));
     has(&description, &["start=\"10\" min=\"10\" max=\"25\""]);
     assert!(!description.contains("joint.k_yy") && !description.contains("energy.dissipated"));
-    let checked = bench.done(&["check", "o.fmu"]);
+    let checked = bench.done("check o.fmu");
     has(&checked.stdout, &["no problem found"]);
     // told to extrapolate, it does not end there
-    bench.done(&export(&["--extrapolate"]));
+    bench.done(&format!("{EXPORT} --extrapolate"));
     assert!(member("resources/start.txt").contains("\ntable 2 held\n"));
     assert!(!member("modelDescription.xml").contains("max=\"25\""));
-    let checked = bench.done(&["check", "o.fmu"]);
+    let checked = bench.done("check o.fmu");
     has(&checked.stdout, &["no problem found"]);
-    assert_eq!(
-        bench
-            .run(&export(&["--extrapolate", "--preload", "12"]))
-            .code,
-        Some(2)
-    );
+    let both = bench.run(&format!("{EXPORT} --extrapolate --preload 12"));
+    assert_eq!(both.code, Some(2));
     // with one it is constant
-    let outcome = bench.done(&export(&["--preload", "10"]));
+    let outcome = bench.done(&format!("{EXPORT} --preload 10"));
     has(&outcome.stdout, &["model: M8, at 10 N·m"]);
     assert!(member("modelDescription.xml").contains("joint.k_yy"));
-    bench.refused(
-        &export(&["--preload", "30"]),
-        &[
-            "j.joint.json: preload: found 30.0 N·m",
-            "expected 10.0 to 25.0 N·m",
-        ],
-    );
+    let found = "j.joint.json: preload: found 30.0 N·m";
+    let expected = [found, "expected 10.0 to 25.0 N·m"];
+    bench.refused(&format!("{EXPORT} --preload 30"), &expected);
 }
 
 #[test]
 fn a_lap_needs_bodies() {
     let end = JOINT.find(",\n  \"bodies\"").unwrap();
     let bench = bench(&format!("{}\n}}\n", &JOINT[..end]));
-    bench.refused(
-        &export(&["--as", "lap"]),
-        &["j.joint.json: bodies: not found", "export as element"],
-    );
-    bench.done(&export(&[]));
+    let expected = ["j.joint.json: bodies: not found", "export as element"];
+    bench.refused(&format!("{EXPORT} --as lap"), &expected);
+    bench.done(EXPORT);
 }
 
 #[test]
@@ -103,18 +76,15 @@ fn step_sizes_that_cannot_be_are_refused() {
     let bench = bench(JOINT);
     #[rustfmt::skip]
     let cases = [
-        (["--step-size-max", "1e-5"].as_slice(), ["found 1e-5 s for the element", "export as lap"]),
-        (&["--as", "lap", "--step-size-max", "0"], ["found 0.0 s", "greater than zero"]),
-        (&["--as", "lap", "--step-size-max", "-1e-5"], ["found -1e-5 s", "greater than zero"]),
-        (&["--as", "lap", "--step-size-max", "nan"], ["found NaN s", "finite number of seconds"]),
-        (&["--as", "lap", "--step-size-max", "inf"], ["found inf s", "finite number of seconds"]),
-        (&["--as", "lap", "--step-size-max", "1"], ["found 1.0 s, with which RK4 is unstable", "expected at most"]),
+        ("--step-size-max 1e-5", ["found 1e-5 s for the element", "export as lap"]),
+        ("--as lap --step-size-max 0", ["found 0.0 s", "greater than zero"]),
+        ("--as lap --step-size-max -1e-5", ["found -1e-5 s", "greater than zero"]),
+        ("--as lap --step-size-max nan", ["found NaN s", "finite number of seconds"]),
+        ("--as lap --step-size-max inf", ["found inf s", "finite number of seconds"]),
+        ("--as lap --step-size-max 1", ["found 1.0 s, with which RK4 is unstable", "expected at most"]),
     ];
-    for (arguments, fragments) in cases {
-        bench.refused(
-            &export(arguments),
-            &["step size: ", fragments[0], fragments[1]],
-        );
+    for (options, [one, two]) in cases {
+        bench.refused(&format!("{EXPORT} {options}"), &["step size: ", one, two]);
     }
 }
 
@@ -122,7 +92,7 @@ fn step_sizes_that_cannot_be_are_refused() {
 #[rustfmt::skip]
 fn a_folder_of_platforms_must_hold_platforms() {
     let bench = bench(JOINT);
-    let command = export(&["--platforms", "p"]);
+    let command = format!("{EXPORT} --platforms p");
     bench.refused(&command, &["p: cannot be read", "such as x86_64-windows"]);
     fs::create_dir(bench.path("p")).unwrap();
     bench.write("p/README.md", "libraries");
@@ -134,7 +104,7 @@ fn a_folder_of_platforms_must_hold_platforms() {
     bench.write("p/x86_64-windows/bolted_joint.dll", "text");
     bench.refused(&command, &["bolted_joint.dll: is not a shared library", "PE format"]);
     bench.write("p/x86_64-windows/bolted_joint.dll", "MZ and so on");
-    let outcome = bench.done(&export(&["--platforms", "p", "--json"]));
+    let outcome = bench.done(&format!("{command} --json"));
     let platforms = outcome.json()["platforms"].clone();
     assert!(platforms.as_array().unwrap().contains(&"x86_64-windows".into()));
 }
@@ -143,14 +113,10 @@ fn a_folder_of_platforms_must_hold_platforms() {
 fn a_date_that_is_none_is_refused() {
     let bench = bench(JOINT);
     for date in ["", "today", "-1", "1.5", "253402300800"] {
-        bench.refused_by(
-            bench.command(&export(&[])).env("SOURCE_DATE_EPOCH", date),
-            &[
-                &format!("SOURCE_DATE_EPOCH: found {date:?}"),
-                "whole number",
-                "unset it",
-            ],
-        );
+        let mut command = bench.command(EXPORT);
+        let found = format!("SOURCE_DATE_EPOCH: found {date:?}");
+        let fragments = [&found, "whole number", "unset it"];
+        bench.refused_by(command.env("SOURCE_DATE_EPOCH", date), &fragments);
     }
 }
 
@@ -158,7 +124,7 @@ fn a_date_that_is_none_is_refused() {
 fn the_same_date_gives_the_same_bytes() {
     let bench = bench(JOINT);
     for name in ["one.fmu", "two.fmu"] {
-        let mut command = bench.command(&["export", "j.joint.json", "-o", name]);
+        let mut command = bench.command(&format!("export j.joint.json -o {name}"));
         let output = command.env("SOURCE_DATE_EPOCH", "0").output().unwrap();
         assert!(output.status.success());
     }
@@ -172,25 +138,19 @@ fn five_lines_say_what_was_written_and_for_which_version() {
         ("3", "3.0", "platforms: x86_64-linux"),
         ("2", "2.0", "platforms: linux64"),
     ] {
-        let arguments = export(&["--fmi", version, "--as", "lap"]);
+        let arguments = format!("{EXPORT} --fmi {version} --as lap");
         let outcome = bench.done(&arguments);
         let lines: Vec<&str> = outcome.stdout.lines().collect();
         assert_eq!(lines.len(), 5, "{}", outcome.stdout);
-        assert!(
-            lines[0].starts_with(&format!("wrote o.fmu (FMI {number}, ")),
-            "{}",
-            lines[0]
-        );
-        for (line, start) in lines[1..]
-            .iter()
-            .zip(["model: ", "steps: ", "platforms: ", "token: "])
-        {
+        let wrote = format!("wrote o.fmu (FMI {number}, ");
+        let starts = [&wrote, "model: ", "steps: ", "platforms: ", "token: "];
+        for (line, start) in lines.iter().zip(starts) {
             assert!(line.starts_with(start), "{line}");
         }
         if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
             assert_eq!(lines[3], platforms);
         }
-        let json = bench.done(&[&arguments[..], &["--json"]].concat()).json();
+        let json = bench.done(&format!("{arguments} --json")).json();
         assert_eq!(json["fmi_version"], number);
     }
 }

@@ -1,27 +1,7 @@
 //! Studies that are right lead to the joint that the data were made with.
 
-use crate::bench::Bench;
-use crate::rig::{DIAGONAL, FULL, Joint, Quantity, TRANSLATION, matrix_of, measure, study};
-
-/// Largest deviation of the identified joint, each entry relative to √(m_ii m_jj) of its matrix.
-fn deviation(bench: &Bench, joint: &Joint) -> f64 {
-    let file = bench.json("o.joint.json");
-    let mut largest: f64 = 0.0;
-    for (key, exact) in [("stiffness", joint.stiffness), ("damping", joint.damping)] {
-        let found = matrix_of(&file, key);
-        for i in 0..found.nrows() {
-            for j in 0..found.ncols() {
-                let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
-                largest = largest.max((found[(i, j)] - exact[(i, j)]).abs() / scale);
-            }
-        }
-    }
-    largest
-}
-
-fn identify(bench: &Bench) {
-    bench.done(&["identify", "study.toml", "-o", "o.joint.json"]);
-}
+use crate::bench::{Bench, IDENTIFY};
+use crate::rig::{DIAGONAL, FULL, Quantity, TRANSLATION, functions_of, measure, study};
 
 #[test]
 fn every_model_at_one_two_and_three_points() {
@@ -34,9 +14,8 @@ fn every_model_at_one_two_and_three_points() {
         measure(&bench, &joint, [Quantity::Receptance; 3]);
         for points in [[21, 22, 23].as_slice(), &[21, 23], &[23]] {
             bench.write("study.toml", study(model, points));
-            identify(&bench);
-            let error = deviation(&bench, &joint);
-            assert!(error < 1e-6, "{model} at {points:?}: {error}");
+            bench.done(IDENTIFY);
+            joint.is_in(&bench);
             let file = bench.json("o.joint.json");
             assert_eq!(file["joint"]["dofs"].as_array().unwrap().len(), dofs);
             assert_eq!(file["provenance"]["model"], model);
@@ -60,9 +39,8 @@ fn every_quantity_gives_the_same_joint() {
         let bench = Bench::new();
         measure(&bench, &FULL, quantities);
         bench.write("study.toml", study("full", &[21, 22, 23]));
-        identify(&bench);
-        let error = deviation(&bench, &FULL);
-        assert!(error < 1e-6, "{error}");
+        bench.done(IDENTIFY);
+        FULL.is_in(&bench);
     }
 }
 
@@ -71,19 +49,16 @@ fn a_study_elsewhere_finds_its_files_beside_itself() {
     let bench = crate::rig::ready();
     std::fs::create_dir(bench.path("work")).unwrap();
     let outcome = bench
-        .command(&["identify", "../study.toml", "-o", "o.joint.json"])
+        .command("identify ../study.toml -o o.joint.json")
         .current_dir(bench.path("work"))
         .output()
         .unwrap();
     assert!(outcome.status.success());
     std::fs::rename(bench.path("work/o.joint.json"), bench.path("o.joint.json")).unwrap();
-    assert!(deviation(&bench, &FULL) < 1e-6);
+    FULL.is_in(&bench);
     let file = bench.json("o.joint.json");
     let inputs = file["provenance"]["inputs"].as_array().unwrap();
-    let names: Vec<&str> = inputs
-        .iter()
-        .map(|input| input["file"].as_str().unwrap())
-        .collect();
+    let names: Vec<&str> = inputs.iter().map(|i| i["file"].as_str().unwrap()).collect();
     assert_eq!(names, ["study.toml", "a.uff", "b.uff", "c.uff"]);
 }
 
@@ -91,18 +66,10 @@ fn a_study_elsewhere_finds_its_files_beside_itself() {
 fn a_transposed_half_of_the_matrix_is_enough() {
     let bench = crate::rig::ready();
     // All functions whose response has not a lower node than its reference.
-    let text = bench.text("c.uff");
-    let begin = "    -1\n    58\n";
-    let half: String = text
-        .split(begin)
-        .skip(1)
-        .enumerate()
-        .filter(|(index, _)| index / 3 >= index % 3)
-        .map(|(_, function)| format!("{begin}{function}"))
-        .collect();
+    let half = functions_of(&bench.text("c.uff"), |place| place / 3 >= place % 3);
     bench.write("c.uff", half);
-    identify(&bench);
-    assert!(deviation(&bench, &FULL) < 1e-6);
+    bench.done(IDENTIFY);
+    FULL.is_in(&bench);
     let file = bench.json("o.joint.json");
     assert_eq!(file["residual"]["functions"].as_array().unwrap().len(), 6);
 }
@@ -115,19 +82,13 @@ fn a_stated_quantity_takes_the_place_of_a_missing_one() {
         .text("c.uff")
         .replace("        12    0", "         0    0");
     bench.write("c.uff", silent);
-    let text = study("full", &[21, 22, 23]);
-    bench.write("study.toml", &text);
-    bench.refused(
-        &["identify", "study.toml", "-o", "o.joint.json"],
-        &["c.uff, line 11", "quantity = \"accelerance\""],
-    );
-    let stated = text.replace(
-        "frf = \"c.uff\"",
-        "frf = \"c.uff\"\nquantity = \"accelerance\"",
-    );
-    bench.write("study.toml", stated);
-    identify(&bench);
-    assert!(deviation(&bench, &FULL) < 1e-6);
+    bench.write("study.toml", study("full", &[21, 22, 23]));
+    let advice = "quantity = \"accelerance\"";
+    bench.refused(IDENTIFY, &["c.uff, line 11", advice]);
+    let stated = format!("frf = \"c.uff\"\n{advice}");
+    bench.edit("study.toml", "frf = \"c.uff\"", &stated);
+    bench.done(IDENTIFY);
+    FULL.is_in(&bench);
 }
 
 #[test]
@@ -136,11 +97,11 @@ fn what_was_identified_can_be_checked_and_exported() {
     let bodies = "\n[bodies]\na = { inertia = [1.2, 8e-3], stiffness = [4e4, 300], damping = [3, 0.01] }\n\
                   b = { inertia = [0.5, 3e-3], stiffness = [500, 5], damping = [0.5, 2e-3] }\n";
     bench.write("study.toml", study("full", &[21, 22, 23]) + bodies);
-    identify(&bench);
-    bench.done(&["check", "o.joint.json"]);
+    bench.done(IDENTIFY);
+    bench.done("check o.joint.json");
     for interface in ["element", "lap"] {
-        bench.done(&["export", "o.joint.json", "-o", "o.fmu", "--as", interface]);
-        bench.done(&["check", "o.fmu"]);
+        bench.done(&format!("export o.joint.json -o o.fmu --as {interface}"));
+        bench.done("check o.fmu");
     }
 }
 
@@ -176,7 +137,6 @@ fn binary_files_and_tables_give_the_joint_too() {
         .replace("b.uff", "b.csv")
         .replace("c.uff", "c.bin");
     bench.write("study.toml", study);
-    identify(&bench);
-    let error = deviation(&bench, &TRANSLATION);
-    assert!(error < 1e-6, "{error}");
+    bench.done(IDENTIFY);
+    TRANSLATION.is_in(&bench);
 }

@@ -2,26 +2,12 @@
 
 use crate::bench::{Bench, PNG, replaced};
 
-pub(crate) const JOINT: &str = r#"{
-  "format": "bolted-joint/1",
-  "name": "two bodies",
-  "joint": {
-    "dofs": ["y", "theta"],
-    "stiffness": [[8e4, 600], [600, 120]],
-    "damping": [[6, 0.05], [0.05, 0.02]],
-    "cubic": [0, 0]
-  },
-  "bodies": {
-    "a": { "inertia": [1.2, 8e-3], "stiffness": [4e4, 300], "damping": [3, 0.01] },
-    "b": { "inertia": [0.5, 3e-3], "stiffness": [500, 5], "damping": [0.5, 2e-3] }
-  }
-}
-"#;
+pub(crate) const JOINT: &str = include_str!("../data/joint/two-bodies.joint.json");
 
 /// Both commands that read a joint file.
-const COMMANDS: [&[&str]; 2] = [
-    &["check", "j.joint.json"],
-    &["export", "j.joint.json", "-o", "o.fmu", "--as", "lap"],
+const COMMANDS: [&str; 2] = [
+    "check j.joint.json",
+    "export j.joint.json -o o.fmu --as lap",
 ];
 
 #[test]
@@ -41,11 +27,8 @@ fn what_is_no_joint_file_is_said_to_be_none() {
         (b"[]", ["j.joint.json", "expected an object"]),
         (b"{}", ["j.joint.json:1:2: format: not found", "add it"]),
     ];
-    for (contents, fragments) in cases {
-        bench.write("j.joint.json", contents);
-        for command in COMMANDS {
-            bench.refused(command, &fragments);
-        }
+    for command in COMMANDS {
+        bench.refused_contents(command, "j.joint.json", &cases);
     }
 }
 
@@ -72,24 +55,16 @@ fn every_wrong_entry_is_named() {
         ("\"cubic\": [0, 0]", "\"cubic\": [0]", ["joint.cubic: found 1 entry", "expected 2"]),
         ("    \"damping\": [[6, 0.05], [0.05, 0.02]],\n", "", ["joint.damping: not found", "a symmetric matrix"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("j.joint.json", replaced(JOINT, from, to));
-        for command in COMMANDS {
-            bench.refused(command, &["j.joint.json", fragments[0], fragments[1]]);
-        }
+    for command in COMMANDS {
+        bench.refused_edits(command, ("j.joint.json", JOINT), &cases);
     }
 }
 
 #[test]
 fn several_faults_are_told_at_once() {
     let bench = Bench::new();
-    let text = replaced(JOINT, "[600, 120]", "[601, 120]");
-    bench.write(
-        "j.joint.json",
-        replaced(&text, "\"cubic\": [0, 0]", "\"cubic\": [0]"),
-    );
-    bench.refused(
-        COMMANDS[0],
-        &["joint.stiffness: found 600.0", "joint.cubic: found 1 entry"],
-    );
+    bench.write("j.joint.json", replaced(JOINT, "[600, 120]", "[601, 120]"));
+    bench.edit("j.joint.json", "\"cubic\": [0, 0]", "\"cubic\": [0]");
+    let both = ["joint.stiffness: found 600.0", "joint.cubic: found 1 entry"];
+    bench.refused(COMMANDS[0], &both);
 }

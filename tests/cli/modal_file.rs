@@ -1,36 +1,20 @@
 //! Modal data that are wrong.
 
-use crate::bench::{Bench, PNG, replaced};
+use crate::bench::{Bench, IDENTIFY, PNG};
 use crate::rig;
 
-const MODES: &str = r#"points = ["1:+Y", "2:+Y", "3:+Y"]
-[[mode]]
-frequency_hz = 40.0
-damping_ratio = 0.01
-shape = [[4.0, 0.0], [3.6, 0.0], [3.3, 0.0]]
-[[residual]]
-reference = "3:+Y"
-upper = [1e-7, 1e-7, 1e-7]
-lower = [0, 0, 0]
-"#;
-
-const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
+const MODES: &str = include_str!("../data/studies/modes.toml");
 
 fn bench() -> Bench {
     let bench = rig::ready();
-    let study = rig::study("full", &[21, 22, 23]);
-    bench.write(
-        "study.toml",
-        replaced(&study, "frf = \"a.uff\"", "modal = \"modes.toml\""),
-    );
+    bench.edit("study.toml", "frf = \"a.uff\"", "modal = \"modes.toml\"");
     bench.write("modes.toml", MODES);
     bench
 }
 
 #[test]
 fn the_data_that_the_others_are_made_from_are_right() {
-    let outcome = bench().run(&IDENTIFY);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    bench().done(IDENTIFY);
 }
 
 #[test]
@@ -43,13 +27,9 @@ fn what_is_no_modal_file_is_said_to_be_none() {
         (&MODES.as_bytes()[..100], ["line 5", "shape"]),
         (b"frequency,damping\n", ["line 1", "expected"]),
     ];
-    for (contents, fragments) in cases {
-        bench.write("modes.toml", contents);
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["modes.toml: ", one, two]);
-    }
+    bench.refused_contents(IDENTIFY, "modes.toml", &cases);
     std::fs::remove_file(bench.path("modes.toml")).unwrap();
-    bench.refused(&IDENTIFY, &["modes.toml: cannot be read", "check the path"]);
+    bench.refused(IDENTIFY, &["modes.toml: cannot be read", "check the path"]);
 }
 
 #[test]
@@ -71,23 +51,13 @@ fn every_wrong_entry_is_named() {
         ("reference = \"3:+Y\"", "reference = \"7:+Y\"", ["reference 7:+Y", "a reference among `points`"]),
         ("lower = [0, 0, 0]", "lower = [0, 0]", ["residual of 3:+Y, lower: found 2 entries", "expected 3"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("modes.toml", replaced(MODES, from, to));
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["modes.toml: ", one, two]);
-    }
+    bench.refused_edits(IDENTIFY, ("modes.toml", MODES), &cases);
 }
 
 #[test]
 fn a_point_without_a_shape_is_named_beside_those_that_have_one() {
     let bench = bench();
     bench.write("modes.toml", MODES.replace("\"1:+Y\"", "\"9:+Y\""));
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "modes.toml: no mode shape at 1:+Y",
-            "the points are 9:+Y, 2:+Y, 3:+Y",
-            "correct the point in the study",
-        ],
-    );
+    let absent = "modes.toml: no mode shape at 1:+Y; the points are 9:+Y, 2:+Y, 3:+Y";
+    bench.refused(IDENTIFY, &[absent, "correct the point in the study"]);
 }

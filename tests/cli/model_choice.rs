@@ -1,28 +1,16 @@
 //! Starts that the study gives, and the comparison of joint models where the rotation is known beside a translation.
 
-use crate::bench::Bench;
-use crate::bench::replaced;
-use crate::rig::{self, FULL, Quantity, TRANSLATION, matrix_of, measure, study};
+use crate::bench::{Bench, IDENTIFY, replaced};
+use crate::rig::{self, FULL, TRANSLATION, matrix_of};
 use bolted_joint_testing::has;
-
-const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
-
-fn translation(joint: &rig::Joint) -> Bench {
-    let bench = Bench::new();
-    measure(&bench, joint, [Quantity::Receptance; 3]);
-    bench.write("study.toml", study("translation", &[21, 22, 23]));
-    bench
-}
 
 #[test]
 fn a_translation_is_compared_with_the_models_that_rotate() {
-    let bench = translation(&FULL);
-    let text = bench.done(&IDENTIFY).stdout;
-    has(
-        &text,
-        &["\"full\" is the simplest adequate one: consider it instead of \"translation\""],
-    );
-    let models = bench.done(&[&IDENTIFY[..], &["--json"]].concat()).json();
+    let bench = rig::of(&FULL, "translation");
+    let text = bench.done(IDENTIFY).stdout;
+    let advice = "\"full\" is the simplest adequate one: consider it instead of \"translation\"";
+    has(&text, &[advice]);
+    let models = bench.done(&format!("{IDENTIFY} --json")).json();
     let compared: Vec<&str> = models["models"]["compared"]
         .as_array()
         .unwrap()
@@ -30,13 +18,11 @@ fn a_translation_is_compared_with_the_models_that_rotate() {
         .map(|fit| fit["model"].as_str().unwrap())
         .collect();
     assert_eq!(compared, ["translation", "diagonal", "full"]);
-    assert_eq!(
-        bench.json("o.joint.json")["joint"]["dofs"],
-        serde_json::json!(["y"])
-    );
+    let dofs = &bench.json("o.joint.json")["joint"]["dofs"];
+    assert_eq!(*dofs, serde_json::json!(["y"]));
     // Where there is no stiffness in rotation the simplest model is enough.
-    let bench = translation(&TRANSLATION);
-    let text = bench.done(&IDENTIFY).stdout;
+    let bench = rig::of(&TRANSLATION, "translation");
+    let text = bench.done(IDENTIFY).stdout;
     has(&text, &["\"translation\" is the simplest adequate one"]);
     let found = matrix_of(&bench.json("o.joint.json"), "stiffness");
     assert!((found[(0, 0)] / 8e4 - 1.0).abs() < 1e-8, "{found}");
@@ -44,7 +30,7 @@ fn a_translation_is_compared_with_the_models_that_rotate() {
 
 #[test]
 fn without_a_rotation_the_output_says_why_models_are_not_compared() {
-    let bench = translation(&TRANSLATION);
+    let bench = rig::of(&TRANSLATION, "translation");
     let text = bench.text("study.toml");
     let with = ", theta = { points = [\"3:+Y\", \"2:+Y\", \"1:+Y\"], spacing = 0.03 }";
     let without_a = replaced(&text, with, "");
@@ -56,26 +42,22 @@ fn without_a_rotation_the_output_says_why_models_are_not_compared() {
         ),
     ] {
         bench.write("study.toml", text);
-        let arguments = [&IDENTIFY[..], &["--report", "o.html"]].concat();
-        let output = bench.done(&arguments).stdout;
-        let expected = format!("joint models are not compared: {keys}");
-        assert!(output.contains(&expected), "{output}");
+        let output = bench.done(&format!("{IDENTIFY} --report o.html")).stdout;
+        has(&output, &[format!("joint models are not compared: {keys}")]);
         assert!(bench.text("o.html").contains(keys));
         let found = matrix_of(&bench.json("o.joint.json"), "stiffness");
         assert!((found[(0, 0)] / 8e4 - 1.0).abs() < 1e-8, "{found}");
     }
-    let json = bench.done(&[&IDENTIFY[..], &["--json"]].concat()).json();
-    assert!(
-        json["models"].is_null() && json["models_not_compared"].is_string(),
-        "{json}"
-    );
+    let json = bench.done(&format!("{IDENTIFY} --json")).json();
+    let (models, reason) = (&json["models"], &json["models_not_compared"]);
+    assert!(models.is_null() && reason.is_string(), "{json}");
 }
 
 #[test]
 fn a_presumed_joint_is_one_start_more() {
     let bench = rig::ready();
     let tried = |bench: &Bench| {
-        let json = bench.done(&[&IDENTIFY[..], &["--json"]].concat()).json();
+        let json = bench.done(&format!("{IDENTIFY} --json")).json();
         let found = matrix_of(&json["joint_file"], "stiffness");
         assert!((found[(0, 1)] / 600.0 - 1.0).abs() < 1e-6, "{found}");
         json["starts"]["tried"].as_u64().unwrap()
@@ -84,22 +66,16 @@ fn a_presumed_joint_is_one_start_more() {
     let start = "\n[start]\nstiffness = [[1e5, 0], [0, 100]]\ndamping = [[1, 0], [0, 0.01]]\n";
     bench.write("study.toml", bench.text("study.toml") + start);
     assert_eq!(tried(&bench), without + 1);
-    bench.done(&[&IDENTIFY[..], &["--report", "o.html"]].concat());
-    let page = bench.text("o.html");
-    has(&page, &["Presumed joint, a start of the search"]);
+    has(&bench.report(), &["Presumed joint, a start of the search"]);
 }
 
 #[test]
 fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
     let bench = rig::ready();
     let text = bench.text("study.toml");
-    let output = bench
-        .done(&[&IDENTIFY[..], &["--report", "o.html"]].concat())
-        .stdout;
-    has(
-        &output,
-        &["Hz, chosen by sensitivity and distance to resonances"],
-    );
+    let output = bench.done(&format!("{IDENTIFY} --report o.html")).stdout;
+    let chosen = "Hz, chosen by sensitivity and distance to resonances";
+    has(&output, &[chosen]);
     assert!(bench.text("o.html").contains("Hz, chosen"));
     let bands = |bench: &Bench| bench.json("o.joint.json")["provenance"]["bands"].clone();
     let chosen = bands(&bench);
@@ -109,37 +85,27 @@ fn the_bands_of_the_averages_are_chosen_printed_and_recorded() {
         assert!(!own.is_empty() && own.len() < 10, "{chosen}");
     }
     // One entry given, one left to the median, the third chosen as before.
-    bench.write(
-        "study.toml",
-        text.clone() + "\n[bands]\nyy = [[20, 60]]\nytheta = \"median\"\n",
-    );
-    let output = bench.done(&IDENTIFY).stdout;
-    has(
-        &output,
-        &[
-            "yy: 20.00 to 60.00 Hz, as in the study",
-            "ytheta: all lines, their median, as in the study",
-        ],
-    );
+    let given = "\n[bands]\nyy = [[20, 60]]\nytheta = \"median\"\n";
+    bench.write("study.toml", text.clone() + given);
+    let output = bench.done(IDENTIFY).stdout;
+    has(&output, &["yy: 20.00 to 60.00 Hz, as in the study"]);
+    let median = "ytheta: all lines, their median, as in the study";
+    has(&output, &[median]);
     let mixed = bands(&bench);
-    assert_eq!(
-        mixed["yy"],
-        serde_json::json!({ "origin": "study", "frequency_hz": [[20.0, 60.0]] })
-    );
+    let given = serde_json::json!({ "origin": "study", "frequency_hz": [[20.0, 60.0]] });
+    assert_eq!(mixed["yy"], given);
     assert_eq!(mixed["ytheta"], serde_json::json!({ "origin": "median" }));
     assert_eq!(mixed["thetatheta"], chosen["thetatheta"]);
     // Two lines are no band.
     bench.write("study.toml", replaced(&text, "to = 200", "to = 6"));
-    let output = bench.done(&IDENTIFY).stdout;
+    let output = bench.done(IDENTIFY).stdout;
     has(&output, &["all lines, their median: no band qualifies"]);
     // The word for all.
-    bench.write(
-        "study.toml",
-        replaced(&text, "[frequency]", "bands = \"median\"\n[frequency]"),
-    );
-    bench.refused(&IDENTIFY, &["unknown field `bands`"]);
+    let inside = "bands = \"median\"\n[frequency]";
+    bench.write("study.toml", replaced(&text, "[frequency]", inside));
+    bench.refused(IDENTIFY, &["unknown field `bands`"]);
     let all = replaced(&text, "name = ", "bands = \"median\"\nname = ");
     bench.write("study.toml", all);
-    let output = bench.done(&IDENTIFY).stdout;
+    let output = bench.done(IDENTIFY).stdout;
     has(&output, &["yy: all lines, their median, as in the study"]);
 }

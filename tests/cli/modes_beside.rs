@@ -1,64 +1,37 @@
 //! FRFs of a substructure together with its modes, which supply what was not measured.
 
-use crate::bench::{Bench, replaced};
-use crate::rig::{self, FULL, matrix_of, modes_of_a};
+use crate::bench::{Bench, IDENTIFY};
+use crate::rig::{self, FULL, functions_of, modes_of_a};
 use bolted_joint_testing::has;
 
 /// The rig's bench with modes of A beside its functions, of which only some are left.
-fn bench(keep: impl Fn(u32, u32) -> bool) -> Bench {
+fn bench(keep: impl Fn(usize, usize) -> bool) -> Bench {
     let bench = rig::ready();
-    let begin = "    -1\n    58\n";
-    let all = bench.text("a.uff");
     // Nine functions, reference by reference within each response.
-    let kept: String = all
-        .split(begin)
-        .skip(1)
-        .zip((1..=3).flat_map(|response| (1..=3).map(move |reference| (response, reference))))
-        .filter(|(_, (response, reference))| keep(*response, *reference))
-        .map(|(function, _)| format!("{begin}{function}"))
-        .collect();
+    let kept = functions_of(&bench.text("a.uff"), |place| {
+        keep(1 + place / 3, 1 + place % 3)
+    });
     bench.write("a.uff", kept);
     bench.write("modes.toml", modes_of_a(1.0));
-    let study = bench.text("study.toml");
-    bench.write("bare.toml", &study);
+    bench.write("bare.toml", bench.text("study.toml"));
     let beside = "frf = \"a.uff\"\nmodal = \"modes.toml\"";
-    bench.write("study.toml", replaced(&study, "frf = \"a.uff\"", beside));
+    bench.edit("study.toml", "frf = \"a.uff\"", beside);
     bench
 }
-
-fn error(bench: &Bench) -> f64 {
-    let file = bench.json("o.joint.json");
-    let mut largest = 0.0_f64;
-    for (key, exact) in [("stiffness", &FULL.stiffness), ("damping", &FULL.damping)] {
-        let found = matrix_of(&file, key);
-        for (i, j) in [(0, 0), (0, 1), (1, 1)] {
-            let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
-            largest = largest.max((found[(i, j)] - exact[(i, j)]).abs() / scale);
-        }
-    }
-    largest
-}
-
-const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
 
 #[test]
 fn columns_that_were_not_measured_come_from_the_modes() {
     // Loads at point 2 alone: with reciprocity five of nine functions, where a rotation needs all.
     let bench = bench(|_, reference| reference == 2);
     bench.refused(
-        &["identify", "bare.toml", "-o", "o.joint.json"],
+        "identify bare.toml -o o.joint.json",
         &["a.uff: no function with response 3:+Y and reference 3:+Y"],
     );
-    let text = bench.done(&IDENTIFY).stdout;
-    let error = error(&bench);
-    assert!(error < 1e-6, "{error}");
-    assert!(
-        text.contains(
-            "from the modes of a: 3:+Y / 3:+Y, 3:+Y / 1:+Y, 1:+Y / 1:+Y, taken as exact; \
-             of the measured functions the modes are 0.00 % away"
-        ),
-        "{text}"
-    );
+    let text = bench.done(IDENTIFY).stdout;
+    FULL.is_in(&bench);
+    let told = "from the modes of a: 3:+Y / 3:+Y, 3:+Y / 1:+Y, 1:+Y / 1:+Y, taken as exact; \
+                of the measured functions the modes are 0.00 % away";
+    has(&text, &[told]);
     let file = bench.json("o.joint.json");
     let provenance = &file["provenance"];
     assert_eq!(
@@ -88,32 +61,23 @@ fn columns_that_were_not_measured_come_from_the_modes() {
 #[test]
 fn a_point_that_was_not_measured_comes_from_the_modes() {
     let bench = bench(|response, reference| response != 3 && reference != 3);
-    bench.done(&IDENTIFY);
-    let error = error(&bench);
-    assert!(error < 1e-6, "{error}");
+    bench.done(IDENTIFY);
+    FULL.is_in(&bench);
 }
 
 #[test]
 fn what_was_measured_wins_over_modes_that_are_wrong() {
     let bench = bench(|_, _| true);
     bench.write("modes.toml", modes_of_a(1.5));
-    let arguments = [&IDENTIFY[..], &["--report", "o.html"]].concat();
-    let text = bench.done(&arguments).stdout;
-    let error = error(&bench);
-    assert!(error < 1e-6, "{error}");
+    let text = bench.done(&format!("{IDENTIFY} --report o.html")).stdout;
+    FULL.is_in(&bench);
     // Shapes 1.5 times too large make receptances 2.25 times too large.
-    has(
-        &text,
-        &[
-            "nothing, all functions were measured",
-            "the modes are 125.00 % away",
-        ],
-    );
-    assert!(bench.text("o.html").contains("From modes, substructure A"));
-    assert_eq!(
-        bench.json("o.joint.json")["provenance"]["from_modes"][0]["functions"],
-        serde_json::json!([])
-    );
+    let away = "the modes are 125.00 % away";
+    has(&text, &["nothing, all functions were measured", away]);
+    has(&bench.text("o.html"), &["From modes, substructure A"]);
+    let provenance = &bench.json("o.joint.json")["provenance"];
+    let functions = &provenance["from_modes"][0]["functions"];
+    assert_eq!(*functions, serde_json::json!([]));
 }
 
 #[test]
@@ -127,7 +91,7 @@ shape = [[0.9, 0.0], [0.9, 0.0]]
 "#;
     bench.write("modes.toml", without_3);
     bench.refused(
-        &IDENTIFY,
+        IDENTIFY,
         &[
             "a.uff: no function with response 3:+Y and reference 3:+Y",
             "nor do the modes have it",
@@ -135,5 +99,5 @@ shape = [[0.9, 0.0], [0.9, 0.0]]
         ],
     );
     bench.write("modes.toml", without_3.to_owned() + "[[mode]]\n");
-    bench.refused(&IDENTIFY, &["modes.toml: ", "missing field"]);
+    bench.refused(IDENTIFY, &["modes.toml: ", "missing field"]);
 }

@@ -3,11 +3,13 @@
 use std::fs;
 use std::process::Stdio;
 
-use crate::bench::{Bench, replaced};
+use bolted_joint_testing::has;
+
+use crate::bench::{Bench, Outcome};
 use crate::joint_file::JOINT;
 use crate::rig;
 
-const IDENTIFY: [&str; 3] = ["identify", "study.toml", "-o"];
+const IDENTIFY: &str = "identify study.toml -o";
 
 /// A bench with a study and a joint file.
 fn bench() -> Bench {
@@ -23,35 +25,28 @@ fn outputs_that_cannot_be_written_are_refused() {
     for output in ["missing/o", "folder", "study.toml/o"] {
         let fragment = format!("{output}: cannot be written");
         let fragments = [fragment.as_str(), "give a path in a folder that exists"];
-        bench.refused(&[&IDENTIFY[..], &[output]].concat(), &fragments);
-        bench.refused(&["export", "j.joint.json", "-o", output], &fragments);
+        bench.refused(&format!("{IDENTIFY} {output}"), &fragments);
+        bench.refused(&format!("export j.joint.json -o {output}"), &fragments);
     }
     // The joint file is not written where the figure cannot be.
-    let figure = ["o.joint.json", "--figure", "missing/o.svg"];
-    bench.refused(
-        &[&IDENTIFY[..], &figure].concat(),
-        &["missing/o.svg: cannot be written"],
-    );
-    let figure = ["o.joint.json", "--figure", "o.png"];
-    bench.refused(
-        &[&IDENTIFY[..], &figure].concat(),
-        &["--figure: found o.png", "ends in .svg"],
-    );
+    for (figure, expected) in [
+        ("missing/o.svg", ["missing/o.svg: cannot be written", ""]),
+        ("o.png", ["--figure: found o.png", "ends in .svg"]),
+    ] {
+        let command = format!("{IDENTIFY} o.joint.json --figure {figure}");
+        bench.refused(&command, &expected);
+    }
 }
 
 #[test]
 fn an_input_is_never_overwritten() {
     let bench = bench();
-    bench.refused(
-        &[&IDENTIFY[..], &["./study.toml"]].concat(),
-        &["same file as study.toml", "a name of its own"],
-    );
-    bench.refused(
-        &["export", "j.joint.json", "-o", "./j.joint.json"],
-        &["same file as j.joint.json"],
-    );
-    let both = ["o.svg", "--figure", "o.svg"];
-    bench.refused(&[&IDENTIFY[..], &both].concat(), &["same file as o.svg"]);
+    let expected = ["same file as study.toml", "a name of its own"];
+    bench.refused(&format!("{IDENTIFY} ./study.toml"), &expected);
+    let expected = ["same file as j.joint.json"];
+    bench.refused("export j.joint.json -o ./j.joint.json", &expected);
+    let both = format!("{IDENTIFY} o.svg --figure o.svg");
+    bench.refused(&both, &["same file as o.svg"]);
 }
 
 #[test]
@@ -60,88 +55,41 @@ fn an_error_leaves_the_old_output_alone_and_success_replaces_it() {
     bench.write("o.joint.json", "old");
     bench.write("o.fmu", "old");
     let study = bench.text("study.toml");
-    bench.write("study.toml", replaced(&study, "from = 2", "from = 900"));
-    bench.refused(
-        &[&IDENTIFY[..], &["o.joint.json"]].concat(),
-        &["`frequency`"],
-    );
-    bench.refused(&["export", "study.toml", "-o", "o.fmu"], &["is not JSON"]);
+    bench.edit("study.toml", "from = 2", "from = 900");
+    bench.refused(&format!("{IDENTIFY} o.joint.json"), &["`frequency`"]);
+    bench.refused("export study.toml -o o.fmu", &["is not JSON"]);
     bench.write("study.toml", study);
-    bench.done(&[&IDENTIFY[..], &["o.joint.json"]].concat());
-    bench.done(&["export", "j.joint.json", "-o", "o.fmu"]);
+    bench.done(&format!("{IDENTIFY} o.joint.json"));
+    bench.done("export j.joint.json -o o.fmu");
     assert_eq!(bench.json("o.joint.json")["format"], "bolted-joint/1");
     assert!(fs::read(bench.path("o.fmu")).unwrap().starts_with(b"PK"));
-    let names = [
-        "a.uff",
-        "b.uff",
-        "c.uff",
-        "j.joint.json",
-        "o.fmu",
-        "o.joint.json",
-        "study.toml",
-    ];
-    assert_eq!(bench.names(), names);
+    let names = "a.uff b.uff c.uff j.joint.json o.fmu o.joint.json study.toml";
+    assert_eq!(bench.names().join(" "), names);
 }
 
-fn keys(value: &serde_json::Value) -> Vec<&str> {
-    value
-        .as_object()
-        .unwrap()
-        .keys()
-        .map(String::as_str)
-        .collect()
+fn keys(value: &serde_json::Value) -> String {
+    let keys: Vec<&String> = value.as_object().unwrap().keys().collect();
+    keys.iter().map(|key| format!(" {key}")).collect()
 }
 
 #[test]
 fn json_has_its_keys() {
     let bench = bench();
-    let identified = bench
-        .done(&[&IDENTIFY[..], &["o.joint.json", "--json"]].concat())
-        .json();
+    let command = format!("{IDENTIFY} o.joint.json --json");
+    let identified = bench.done(&command).json();
     assert_eq!(
         keys(&identified),
-        [
-            "output",
-            "figure",
-            "report",
-            "joint_file",
-            "bolts",
-            "starts",
-            "reduced_chi_squared",
-            "warnings",
-            "models",
-            "torques",
-            "models_not_compared"
-        ]
+        " output figure report joint_file bolts starts reduced_chi_squared warnings models torques models_not_compared"
     );
     assert_eq!(identified["joint_file"], bench.json("o.joint.json"));
     assert_eq!(identified["output"], "o.joint.json");
 
     let exported = bench
-        .done(&[
-            "export",
-            "j.joint.json",
-            "-o",
-            "o.fmu",
-            "--as",
-            "lap",
-            "--json",
-        ])
+        .done("export j.joint.json -o o.fmu --as lap --json")
         .json();
     assert_eq!(
         keys(&exported),
-        [
-            "output",
-            "fmi_version",
-            "interface",
-            "model_name",
-            "token",
-            "step_size_max_s",
-            "escape_amplitude",
-            "platforms",
-            "entries",
-            "passive"
-        ]
+        " output fmi_version interface model_name token step_size_max_s escape_amplitude platforms entries passive"
     );
     assert_eq!(exported["interface"], "lap");
     assert_eq!(exported["model_name"], "two bodies");
@@ -149,24 +97,20 @@ fn json_has_its_keys() {
     assert!(exported["step_size_max_s"].as_f64().unwrap() > 0.0);
     assert_eq!(exported["entries"][0]["path"], "modelDescription.xml");
 
-    for (file, of_fmu) in [
-        ("j.joint.json", &[][..]),
-        ("o.fmu", &["platforms", "step_size_max", "run"]),
-    ] {
-        let checked = bench.done(&["check", file, "--json"]).json();
-        let of_all = ["file", "kind", "sound", "facts", "messages", "findings"];
-        assert_eq!(keys(&checked), [&of_all, of_fmu].concat());
-        assert_eq!(
-            (&checked["file"], &checked["sound"]),
-            (&file.into(), &true.into())
-        );
+    let of_fmu = " platforms step_size_max run";
+    for (file, of_fmu) in [("j.joint.json", ""), ("o.fmu", of_fmu)] {
+        let checked = bench.done(&format!("check {file} --json")).json();
+        let of_all = " file kind sound facts messages findings";
+        assert_eq!(keys(&checked), of_all.to_owned() + of_fmu);
+        assert_eq!(checked["file"], file);
+        assert_eq!(checked["sound"], true);
     }
-    bench.write(
-        "active.joint.json",
-        replaced(JOINT, "[[6, 0.05], [0.05, 0.02]]", "[[-6, 0], [0, 0.02]]"),
+    bench.edit(
+        "j.joint.json",
+        "[[6, 0.05], [0.05, 0.02]]",
+        "[[-6, 0], [0, 0.02]]",
     );
-    let outcome = bench.run(&["check", "active.joint.json", "--json"]);
-    assert_eq!(outcome.code, Some(1));
+    let outcome = bench.fails("check j.joint.json --json", &[]);
     assert_eq!(outcome.json()["sound"], false);
     assert_eq!(outcome.json()["findings"].as_array().unwrap().len(), 1);
 }
@@ -174,20 +118,14 @@ fn json_has_its_keys() {
 #[test]
 fn an_error_with_json_leaves_stdout_empty() {
     let bench = bench();
-    bench.refused(
-        &["identify", "no.toml", "-o", "o.json", "--json"],
-        &["no.toml"],
-    );
-    bench.refused(
-        &["export", "no.json", "-o", "o.fmu", "--json"],
-        &["no.json"],
-    );
-    bench.refused(&["check", "no.json", "--json"], &["no.json"]);
+    bench.refused("identify no.toml -o o.json --json", &["no.toml"]);
+    bench.refused("export no.json -o o.fmu --json", &["no.json"]);
+    bench.refused("check no.json --json", &["no.json"]);
 }
 
 /// Runs a command with one stream closed at its other end before anything is written.
 #[cfg(unix)]
-fn exit_code_with_closed(bench: &Bench, arguments: &[&str], stderr_too: bool) -> Option<i32> {
+fn exit_code_with_closed(bench: &Bench, arguments: &str, stderr_too: bool) -> Option<i32> {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
     let mut command = bench.command(arguments);
@@ -205,24 +143,19 @@ fn exit_code_with_closed(bench: &Bench, arguments: &[&str], stderr_too: bool) ->
 fn streams_that_nobody_reads_do_not_matter() {
     let bench = bench();
     for arguments in [
-        ["check", "j.joint.json"].as_slice(),
-        &["check", "j.joint.json", "--json"],
-        &["export", "j.joint.json", "-o", "o.fmu"],
-        &["identify", "study.toml", "-o", "o.joint.json", "--json"],
-        &["--help"],
+        "check j.joint.json",
+        "check j.joint.json --json",
+        "export j.joint.json -o o.fmu",
+        "identify study.toml -o o.joint.json --json",
+        "--help",
     ] {
         for stderr_too in [false, true] {
-            assert_eq!(
-                exit_code_with_closed(&bench, arguments, stderr_too),
-                Some(0),
-                "{arguments:?}"
-            );
+            let code = exit_code_with_closed(&bench, arguments, stderr_too);
+            assert_eq!(code, Some(0), "{arguments}");
         }
     }
-    assert_eq!(
-        exit_code_with_closed(&bench, &["check", "missing"], true),
-        Some(1)
-    );
+    let code = exit_code_with_closed(&bench, "check missing", true);
+    assert_eq!(code, Some(1));
 }
 
 #[cfg(target_os = "linux")]
@@ -230,17 +163,10 @@ fn streams_that_nobody_reads_do_not_matter() {
 fn a_full_disk_is_an_error() {
     let bench = bench();
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
-    let output = bench
-        .command(&["check", "j.joint.json"])
-        .stdout(full)
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    assert!(
-        String::from_utf8(output.stderr)
-            .unwrap()
-            .contains("cannot be printed")
-    );
+    let mut command = bench.command("check j.joint.json");
+    let outcome = Outcome::of(command.stdout(full).output().unwrap());
+    assert_eq!(outcome.code, Some(1));
+    has(&outcome.stderr, &["cannot be printed"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -249,15 +175,8 @@ fn a_name_that_is_no_text_is_as_good_as_any() {
     use std::os::unix::ffi::OsStrExt as _;
     let bench = bench();
     let name = std::ffi::OsStr::from_bytes(b"\xff.fmu");
-    let output = bench
-        .command(&["export", "j.joint.json", "--json", "-o"])
-        .arg(name)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let mut command = bench.command("export j.joint.json --json -o");
+    let outcome = Outcome::of(command.arg(name).output().unwrap());
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     assert!(fs::metadata(bench.path("").join(name)).is_ok());
 }

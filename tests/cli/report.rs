@@ -1,25 +1,9 @@
 //! The report: what it says of studies that are harder than the demo's, and that no text of a user's gets out of its place.
 
 use bolted_joint_testing::has;
-use nalgebra::matrix;
 
-use crate::bench::{Bench, replaced};
-use crate::rig::{FULL, Joint, Quantity, measure, ready, study};
-
-const IDENTIFY: [&str; 6] = [
-    "identify",
-    "study.toml",
-    "-o",
-    "o.joint.json",
-    "--report",
-    "o.html",
-];
-
-fn report(bench: &Bench) -> String {
-    let outcome = bench.done(&IDENTIFY);
-    assert!(outcome.stdout.contains("wrote o.html"));
-    bench.text("o.html")
-}
+use crate::bench::IDENTIFY;
+use crate::rig::{self, ACTIVE, functions_of, ready, study};
 
 /// What stands between a heading and the next one of its rank.
 fn section<'a>(page: &'a str, heading: &str) -> &'a str {
@@ -30,31 +14,19 @@ fn section<'a>(page: &'a str, heading: &str) -> &'a str {
 #[test]
 fn texts_of_the_user_stay_texts() {
     let bench = ready();
-    bench.write(
-        "study.toml",
-        replaced(
-            &study("full", &[21, 22, 23]),
-            "name = \"two bodies\"",
-            "name = '</title></script><script>alert(1)</script>&amp;\"'\nnotes = ['<img src=x onerror=alert(2)>']",
-        ),
-    );
-    let page = report(&bench);
+    let texts = "name = '</title></script><script>alert(1)</script>&amp;\"'\nnotes = ['<img src=x onerror=alert(2)>']";
+    bench.edit("study.toml", "name = \"two bodies\"", texts);
+    let page = bench.report();
     assert!(!page.contains("<script>alert") && !page.contains("<img"));
-    has(
-        &page,
-        &[
-            "<h1>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;amp;&quot;</h1>",
-        ],
-    );
-    assert!(page.contains("&lt;img src=x onerror=alert(2)&gt;"));
+    let heading = "<h1>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;amp;&quot;</h1>";
+    has(&page, &[heading, "&lt;img src=x onerror=alert(2)&gt;"]);
 }
 
 #[test]
 fn the_same_study_gives_the_same_page_at_the_same_time() {
     let bench = ready();
     let write = |name: &str| {
-        let arguments = [&IDENTIFY[..5], &[name]].concat();
-        let mut command = bench.command(&arguments);
+        let mut command = bench.command(&format!("{IDENTIFY} --report {name}"));
         let status = command.env("SOURCE_DATE_EPOCH", "1700000000").output();
         assert!(status.unwrap().status.success());
         bench.text(name)
@@ -70,7 +42,7 @@ fn a_parameter_that_is_not_identified_is_named_without_a_number() {
     // Errors far beyond the receptance: the lines say next to nothing.
     let text = study("full", &[23]) + "\n[noise]\nrelative = 300\nfloor = 0\n";
     bench.write("study.toml", text);
-    let page = report(&bench);
+    let page = bench.report();
     let open = bench.json("o.joint.json")["uncertainty"]["not_identified"].clone();
     let open = open.as_array().unwrap().len();
     assert!(open > 0);
@@ -85,14 +57,7 @@ fn a_parameter_that_is_not_identified_is_named_without_a_number() {
 
 #[test]
 fn an_active_estimate_stands_beside_the_passive_one() {
-    let active = Joint {
-        stiffness: FULL.stiffness,
-        damping: matrix![6.0, 0.3; 0.3, 0.005],
-    };
-    let bench = Bench::new();
-    measure(&bench, &active, [Quantity::Receptance; 3]);
-    bench.write("study.toml", study("full", &[21, 22, 23]));
-    let page = report(&bench);
+    let page = rig::of(&ACTIVE, "full").report();
     let fit = section(&page, "How well it fits");
     assert!(fit.contains("<th>Free estimate</th><th>Passive estimate</th>"));
     let row = fit.split("<i>c</i><sub>yθ</sub></th>").nth(1).unwrap();
@@ -103,15 +68,11 @@ fn an_active_estimate_stands_beside_the_passive_one() {
 #[test]
 fn several_assemblies_and_missing_pairs_are_told_apart() {
     let bench = ready();
-    let text = study("full", &[21, 22, 23]);
-    let several = replaced(
-        &text,
-        "[assembly]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\", \"23:+Y\"]",
-        "[[assembly]]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\"]\ntorque = 10\n\
-         [[assembly]]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\", \"23:+Y\"]\ntorque = 20",
-    );
-    bench.write("study.toml", several);
-    let page = report(&bench);
+    let one = "[assembly]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\", \"23:+Y\"]";
+    let several = "[[assembly]]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\"]\ntorque = 10\n\
+                   [[assembly]]\nfrf = \"c.uff\"\npoints = [\"21:+Y\", \"22:+Y\", \"23:+Y\"]\ntorque = 20";
+    bench.edit("study.toml", one, several);
+    let page = bench.report();
     assert!(page.contains("tightened to 10 N·m") && page.contains("tightened to 20 N·m"));
     // 4 and 9 functions, 9 drawn: as many of each as can be.
     let functions = section(&page, "Frequency response functions");
@@ -133,16 +94,9 @@ fn several_assemblies_and_missing_pairs_are_told_apart() {
 #[test]
 fn a_single_column_has_no_decoupling_and_says_so() {
     let bench = ready();
-    let begin = "    -1\n    58\n";
-    let text = bench.text("c.uff");
-    let column: String = text
-        .split(begin)
-        .skip(1)
-        .step_by(3)
-        .map(|function| format!("{begin}{function}"))
-        .collect();
+    let column = functions_of(&bench.text("c.uff"), |place| place % 3 == 0);
     bench.write("c.uff", column);
-    let page = report(&bench);
+    let page = bench.report();
     let lines = section(&page, "Stiffness and damping line by line");
     assert!(lines.contains("There is no decoupling") && !lines.contains("<figure"));
     assert!(page.contains("<b>Before using the result</b>"));
@@ -151,20 +105,13 @@ fn a_single_column_has_no_decoupling_and_says_so() {
 #[test]
 fn a_report_needs_a_name_of_its_own() {
     let bench = ready();
-    let with = |name| [&IDENTIFY[..5], &[name]].concat();
+    let with = |name| format!("{IDENTIFY} --report {name}");
     bench.refused(&with("o.pdf"), &["--report", "o.pdf", ".html"]);
     bench.refused(&with("no-such-folder/o.html"), &["no-such-folder"]);
     bench.write("both.html", "");
-    let same = [
-        "identify",
-        "study.toml",
-        "-o",
-        "both.html",
-        "--report",
-        "both.html",
-    ];
-    bench.refused(&same, &["both.html", "same file"]);
-    let mut command = bench.command(&IDENTIFY);
+    let same = "identify study.toml -o both.html --report both.html";
+    bench.refused(same, &["both.html", "same file"]);
+    let mut command = bench.command(&with("o.html"));
     command.env("SOURCE_DATE_EPOCH", "yesterday");
     bench.refused_by(&mut command, &["SOURCE_DATE_EPOCH", "yesterday"]);
 }

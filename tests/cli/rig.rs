@@ -33,6 +33,11 @@ pub(crate) const FULL: Joint = Joint {
     stiffness: matrix![8e4, 600.0; 600.0, 120.0],
     damping: matrix![6.0, 0.05; 0.05, 0.02],
 };
+/// Active, as Tol's Table 5.4 is: coupling in the damping without damping of the rotation.
+pub(crate) const ACTIVE: Joint = Joint {
+    stiffness: FULL.stiffness,
+    damping: matrix![6.0, 0.3; 0.3, 0.005],
+};
 /// Without coupling of y and θ.
 pub(crate) const DIAGONAL: Joint = Joint {
     stiffness: matrix![8e4, 0.0; 0.0, 120.0],
@@ -43,6 +48,38 @@ pub(crate) const TRANSLATION: Joint = Joint {
     stiffness: matrix![8e4, 0.0; 0.0, 0.0],
     damping: matrix![6.0, 0.0; 0.0, 0.0],
 };
+
+impl Joint {
+    /// The same joint with everything multiplied.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self {
+            stiffness: self.stiffness * factor,
+            damping: self.damping * factor,
+        }
+    }
+
+    /// The largest error of `stiffness` and `damping` in a file, each entry relative to √(m_ii m_jj) of its matrix.
+    pub(crate) fn error_of(&self, found: &serde_json::Value) -> f64 {
+        let mut largest: f64 = 0.0;
+        for (key, exact) in [("stiffness", self.stiffness), ("damping", self.damping)] {
+            let found = square(&found[key]);
+            for (i, j) in (0..4).map(|place| (place / 2, place % 2)) {
+                if let Some(found) = found.get((i, j)) {
+                    let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
+                    largest = largest.max((found - exact[(i, j)]).abs() / scale);
+                }
+            }
+        }
+        largest
+    }
+
+    /// The joint file of the bench has this joint.
+    #[track_caller]
+    pub(crate) fn is_in(&self, bench: &Bench) {
+        let error = self.error_of(&bench.json("o.joint.json")["joint"]);
+        assert!(error < 1e-6, "{error}");
+    }
+}
 
 /// A rigid body on a support at its centre, by the coordinates y and θ of that centre.
 struct Body {
@@ -333,12 +370,27 @@ to = 200
     )
 }
 
-/// A bench with everything for an identification of `FULL`: files of receptances, and `study.toml`.
-pub(crate) fn ready() -> Bench {
+/// A bench with everything for an identification of `joint`: files of receptances, and `study.toml`.
+pub(crate) fn of(joint: &Joint, model: &str) -> Bench {
     let bench = Bench::new();
-    measure(&bench, &FULL, [Quantity::Receptance; 3]);
-    bench.write("study.toml", study("full", &[21, 22, 23]));
+    measure(&bench, joint, [Quantity::Receptance; 3]);
+    bench.write("study.toml", study(model, &[21, 22, 23]));
     bench
+}
+
+/// The bench of `FULL`.
+pub(crate) fn ready() -> Bench {
+    of(&FULL, "full")
+}
+
+/// Of a universal file the functions for whose place `keep` holds.
+pub(crate) fn functions_of(text: &str, keep: impl Fn(usize) -> bool) -> String {
+    let begin = "    -1\n    58\n";
+    let functions = text.split(begin).skip(1).enumerate();
+    functions
+        .filter(|(place, _)| keep(*place))
+        .map(|(_, function)| format!("{begin}{function}"))
+        .collect()
 }
 
 /// Modes of A at points 1, 2 and 3: it moves in y and turns, each on its own. The shapes are multiplied.
@@ -365,7 +417,10 @@ pub(crate) fn modes_of_a(factor: f64) -> String {
 
 /// The matrix at `key` of a joint file.
 pub(crate) fn matrix_of(joint_file: &serde_json::Value, key: &str) -> DMatrix<f64> {
-    let rows = joint_file["joint"][key].as_array().unwrap();
-    let size = rows.len();
+    square(&joint_file["joint"][key])
+}
+
+fn square(rows: &serde_json::Value) -> DMatrix<f64> {
+    let size = rows.as_array().unwrap().len();
     DMatrix::from_fn(size, size, |i, j| rows[i][j].as_f64().unwrap())
 }

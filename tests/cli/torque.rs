@@ -3,13 +3,11 @@
 use bolted_joint_testing::has;
 use std::fs;
 
-use nalgebra::matrix;
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, replaced};
-use crate::rig::{FULL, Joint, Quantity, measure, study};
+use crate::bench::{Bench, IDENTIFY};
+use crate::rig::{ACTIVE, FULL, Joint, Quantity, measure, study};
 
-const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
 /// Torques in the order of the assemblies, N·m, and how stiff the joint is beside `FULL`.
 const TORQUES: [(f64, f64); 3] = [(20.0, 1.0), (10.0, 0.7), (25.0, 1.05)];
 
@@ -45,27 +43,19 @@ fn ready(torques: &str) -> Bench {
     bench
 }
 
-/// The largest error of matrices beside those of the joint, relative to the diagonal.
-fn error(table: &Value, factor: f64) -> f64 {
-    let exact = at(factor);
-    let mut largest: f64 = 0.0;
-    for (found, exact) in [
-        (&table["stiffness"], exact.stiffness),
-        (&table["damping"], exact.damping),
-    ] {
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let scale = (exact[(i, i)] * exact[(j, j)]).sqrt();
-            let found = found[i][j].as_f64().unwrap();
-            largest = largest.max((found - exact[(i, j)]).abs() / scale);
-        }
-    }
-    largest
+/// The table has the joint of `factor` at a place.
+#[track_caller]
+fn holds(table: &Value, place: usize, factor: f64) {
+    let found =
+        json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
+    let error = at(factor).error_of(&found);
+    assert!(error < 1e-6, "{factor}: {error}");
 }
 
 #[test]
 fn each_torque_has_its_joint_in_the_file_ascending() {
     let bench = ready("separate");
-    let outcome = bench.done(&IDENTIFY);
+    let outcome = bench.done(IDENTIFY);
     has(
         &outcome.stdout,
         &[
@@ -85,31 +75,20 @@ fn each_torque_has_its_joint_in_the_file_ascending() {
     assert_eq!(file["validity"]["level"], "force 0.5 to 2.5 N amplitude");
     let uncertainty = &file["uncertainty"];
     for (place, factor) in [0.7, 1.0, 1.05].into_iter().enumerate() {
-        let own =
-            json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
-        assert!(error(&own, factor) < 1e-6, "{factor}");
+        holds(table, place, factor);
         let own = &uncertainty["over_preload"]["at"][place];
         assert_eq!(own["preload"], table["preload"][place]);
-        assert!(
-            own["standard_deviation"]["stiffness"][0][0]
-                .as_f64()
-                .unwrap()
-                > 0.0
-        );
+        let deviation = &own["standard_deviation"]["stiffness"][0][0];
+        assert!(deviation.as_f64().unwrap() > 0.0);
     }
     let nominal = &uncertainty["over_preload"]["at"][1];
-    assert_eq!(
-        uncertainty["standard_deviation"],
-        nominal["standard_deviation"]
-    );
-    assert_eq!(uncertainty["interval_95"], nominal["interval_95"]);
+    for key in ["standard_deviation", "interval_95"] {
+        assert_eq!(uncertainty[key], nominal[key]);
+    }
     let correlation = &uncertainty["over_preload"]["correlation"];
     let names = correlation["unknowns"].as_array().unwrap();
     assert_eq!(names.len(), 18);
-    assert_eq!(
-        (&names[0], &names[6]),
-        (&json!("k_yy@10"), &json!("k_yy@20"))
-    );
+    assert_eq!([&names[0], &names[6]], ["k_yy@10", "k_yy@20"]);
     // A and B were measured once, so that their errors move the joints of all torques.
     let between = correlation["matrix"][0][6].as_f64().unwrap();
     assert!(between.abs() > 0.05 && between.abs() < 1.0, "{between}");
@@ -120,39 +99,21 @@ fn each_torque_has_its_joint_in_the_file_ascending() {
 #[test]
 fn an_export_is_at_one_preload() {
     let bench = ready("separate");
-    bench.done(&IDENTIFY);
+    bench.done(IDENTIFY);
     let table = bench.json("o.joint.json")["joint"]["over_preload"].clone();
     let start = |name: &str, key: &str| -> f64 {
-        let file = fs::File::open(bench.path(name)).unwrap();
-        let mut archive = zip::ZipArchive::new(file).unwrap();
-        let mut member = archive.by_name("resources/start.txt").unwrap();
-        let mut text = String::new();
-        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
+        let text = bench.member(name, "resources/start.txt");
         let line = text
             .lines()
             .find_map(|line| line.strip_prefix(&format!("{key} ")));
         line.unwrap().parse().unwrap()
     };
-    let outcome = bench.done(&[
-        "export",
-        "o.joint.json",
-        "-o",
-        "nominal.fmu",
-        "--preload",
-        "20",
-    ]);
+    let outcome = bench.done("export o.joint.json -o nominal.fmu --preload 20");
     has(&outcome.stdout, &["two bodies, at 20 N·m"]);
     let entry =
         |place: usize, (i, j): (usize, usize)| table["stiffness"][place][i][j].as_f64().unwrap();
     assert_eq!(start("nominal.fmu", "joint.k_yy"), entry(1, (0, 0)));
-    bench.done(&[
-        "export",
-        "o.joint.json",
-        "-o",
-        "twelve.fmu",
-        "--preload",
-        "12",
-    ]);
+    bench.done("export o.joint.json -o twelve.fmu --preload 12");
     for (key, place) in [("joint.k_yy", (0, 0)), ("joint.k_ytheta", (0, 1))] {
         // a monotone cubic from 10 to 20 N·m, 25 N·m being the next preload
         let values = [0, 1, 2].map(|preload| entry(preload, place));
@@ -175,43 +136,19 @@ fn an_export_is_at_one_preload() {
         let found = start("twelve.fmu", key);
         assert!((found / expected - 1.0).abs() < 1e-13, "{key} {found}");
     }
-    bench.done(&[
-        "export",
-        "o.joint.json",
-        "-o",
-        "highest.fmu",
-        "--preload",
-        "25",
-    ]);
+    bench.done("export o.joint.json -o highest.fmu --preload 25");
     assert_eq!(start("highest.fmu", "joint.k_yy"), entry(2, (0, 0)));
     for preload in ["9.99", "25.1", "-1", "nan"] {
-        bench.refused(
-            &[
-                "export",
-                "o.joint.json",
-                "-o",
-                "o.fmu",
-                "--preload",
-                preload,
-            ],
-            &["o.joint.json: preload: found", "expected 10.0 to 25.0 N·m"],
-        );
+        let expected = ["o.joint.json: preload: found", "expected 10.0 to 25.0 N·m"];
+        let export = format!("export o.joint.json -o o.fmu --preload {preload}");
+        bench.refused(&export, &expected);
     }
     // The FMU is sound in itself, and has the table that it was taken from beside the joint that it is.
-    let checked = bench.done(&["check", "twelve.fmu"]);
+    let checked = bench.done("check twelve.fmu");
     has(&checked.stdout, &["no problem found"]);
-    let file = fs::File::open(bench.path("twelve.fmu")).unwrap();
-    let mut archive = zip::ZipArchive::new(file).unwrap();
-    let mut member = |name: &str| {
-        let mut text = String::new();
-        let mut member = archive.by_name(name).unwrap();
-        std::io::Read::read_to_string(&mut member, &mut text).unwrap();
-        text
-    };
-    assert_eq!(
-        member("resources/joint-over-preload.json"),
-        bench.text("o.joint.json")
-    );
+    let member = |name: &str| bench.member("twelve.fmu", name);
+    let whole = member("resources/joint-over-preload.json");
+    assert_eq!(whole, bench.text("o.joint.json"));
     let constant: Value = serde_json::from_str(&member("resources/joint.json")).unwrap();
     assert_eq!(constant["joint"]["over_preload"], Value::Null);
     assert_eq!(constant["validity"]["torque_n_m"], json!([10.0, 20.0]));
@@ -225,7 +162,7 @@ fn an_export_is_at_one_preload() {
             "10 to 20 N·m",
         ],
     );
-    let checked = bench.done(&["check", "o.joint.json"]);
+    let checked = bench.done("check o.joint.json");
     has(
         &checked.stdout,
         &["preloads: 10, 20, 25 N·m, nominal 20 N·m"],
@@ -235,13 +172,9 @@ fn an_export_is_at_one_preload() {
 #[test]
 fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
     let bench = ready("separate");
-    let active = Joint {
-        stiffness: FULL.stiffness,
-        damping: matrix![6.0, 0.3; 0.3, 0.005],
-    };
-    measure(&bench, &active, [Quantity::Receptance; 3]);
+    measure(&bench, &ACTIVE, [Quantity::Receptance; 3]);
     fs::rename(bench.path("c.uff"), bench.path("c0.uff")).unwrap();
-    let outcome = bench.done(&IDENTIFY);
+    let outcome = bench.done(IDENTIFY);
     has(&outcome.stdout, &["free estimate"]);
     let file = bench.json("o.joint.json");
     let table = &file["joint"]["over_preload"];
@@ -256,38 +189,32 @@ fn a_joint_that_is_active_at_one_torque_is_passive_in_the_file() {
     // That noise does not explain, so the others stay as they are.
     for (place, factor) in [(0, 0.7), (2, 1.05)] {
         assert_eq!(at[place]["free_estimate"], Value::Null);
-        let own =
-            json!({ "stiffness": table["stiffness"][place], "damping": table["damping"][place] });
-        assert!(error(&own, factor) < 1e-6);
+        holds(table, place, factor);
     }
     has(&outcome.stdout, &["The free estimate is active at 20 N·m;"]);
-    bench.done(&["export", "o.joint.json", "-o", "o.fmu"]);
+    bench.done("export o.joint.json -o o.fmu");
 }
 
 #[test]
 fn a_preload_is_refused_where_the_joint_has_none() {
     let bench = crate::rig::ready();
-    bench.done(&IDENTIFY);
-    bench.refused(
-        &["export", "o.joint.json", "-o", "o.fmu", "--preload", "12"],
-        &["does not depend on the preload, expected none"],
-    );
+    bench.done(IDENTIFY);
+    let expected = ["does not depend on the preload, expected none"];
+    bench.refused("export o.joint.json -o o.fmu --preload 12", &expected);
 }
 
 #[test]
 fn a_common_joint_of_different_joints_is_warned_of() {
     let bench = ready("common");
-    let outcome = bench.done(&IDENTIFY);
+    let outcome = bench.done(IDENTIFY);
+    let advice = "torques = \"separate\"";
     has(
         &outcome.stderr,
-        &["the joint depends on the torque", "torques = \"separate\""],
+        &["the joint depends on the torque", advice],
     );
-    assert_eq!(
-        bench.json("o.joint.json")["joint"]["over_preload"],
-        Value::Null
-    );
-    let json = [&IDENTIFY[..], &["--json"]].concat();
-    let found = bench.done(&json).json();
+    let joint = &bench.json("o.joint.json")["joint"];
+    assert_eq!(joint["over_preload"], Value::Null);
+    let found = bench.done(&format!("{IDENTIFY} --json")).json();
     assert_eq!(found["torques"]["used"], "common");
     assert_eq!(found["torques"]["recommended"], "separate");
     let counts = found["torques"]["compared"].as_array().unwrap().iter();
@@ -310,27 +237,20 @@ fn torques_and_levels_that_cannot_be_are_refused() {
         ("{ force = 0.5 }", "{ }", ["found no level", "`acceleration` (m/s²)"]),
         ("{ force = 0.5 }", "{ force = 0.5, measure = \"mean\" }", ["unknown variant `mean`", "rms"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("study.toml", replaced(&good, from, to));
-        bench.refused(&IDENTIFY, &fragments);
-    }
+    bench.refused_edits(IDENTIFY, ("study.toml", &good), &cases);
     let same = good
         .replace("torque = 10\n", "torque = 20\n")
         .replace("torque = 25\n", "torque = 20\n");
     bench.write("study.toml", same);
-    bench.refused(&IDENTIFY, &["`joint.torques`", "and one torque"]);
+    bench.refused(IDENTIFY, &["`joint.torques`", "and one torque"]);
 }
 
 #[test]
 fn levels_of_another_kind_are_told_one_by_one() {
     let bench = ready("separate");
-    let text = replaced(
-        &bench.text("study.toml"),
-        "level = { force = 1.5 }",
-        "level = { acceleration = 2, measure = \"rms\" }",
-    );
-    bench.write("study.toml", text);
-    bench.done(&IDENTIFY);
+    let other = "level = { acceleration = 2, measure = \"rms\" }";
+    bench.edit("study.toml", "level = { force = 1.5 }", other);
+    bench.done(IDENTIFY);
     assert_eq!(
         bench.json("o.joint.json")["validity"]["level"],
         "assembly 1: force 0.5 N amplitude; assembly 2: acceleration 2 m/s² r.m.s.; assembly 3: force 2.5 N amplitude"
@@ -340,8 +260,7 @@ fn levels_of_another_kind_are_told_one_by_one() {
 #[test]
 fn the_report_shows_the_joint_over_the_torque() {
     let bench = ready("separate");
-    bench.done(&[&IDENTIFY[..], &["--report", "o.html"]].concat());
-    let page = bench.text("o.html");
+    let page = bench.report();
     has(
         &page,
         &[

@@ -1,6 +1,7 @@
 //! Flanges and pictures.
 
 use bolted_joint::export::{FmiVersion, Interface};
+use bolted_joint_testing::{begins, ends};
 
 use crate::xml::{Element, elements, named};
 use crate::{bytes, export_as, text};
@@ -39,16 +40,14 @@ fn each_side_has_a_flange_and_an_element_fits_a_lap() {
             let xml = text(&element, "terminalsAndIcons/terminalsAndIcons.xml").unwrap();
             assert!(xml.contains("<fmiTerminalsAndIcons fmiVersion=\"3.0\">"));
             let description = text(&element, "modelDescription.xml").unwrap();
-            let tag = if version == FmiVersion::V2 {
-                "ScalarVariable"
-            } else {
-                "Float64"
+            let tag = match version {
+                FmiVersion::V2 => "ScalarVariable",
+                FmiVersion::V3 => "Float64",
             };
             let variables = named(&description, tag);
             let causality = |name: &str| -> String {
-                let found = variables
-                    .iter()
-                    .find(|e: &&Element| e.get("name") == Some(name));
+                let mut variables = variables.iter();
+                let found = variables.find(|e: &&Element| e.get("name") == Some(name));
                 found.unwrap().get("causality").unwrap().to_owned()
             };
             let flanges = flanges(&xml);
@@ -77,11 +76,8 @@ fn each_side_has_a_flange_and_an_element_fits_a_lap() {
     for ((_, element), (_, lap)) in element.iter().zip(&lap) {
         for ([member, _, kind], [other, _, other_kind]) in element.iter().zip(lap) {
             assert_eq!(member, other);
-            let expected = if kind == "outflow" {
-                "inflow"
-            } else {
-                "signal"
-            };
+            let is_load = kind == "outflow";
+            let expected = if is_load { "inflow" } else { "signal" };
             assert_eq!(other_kind, expected, "{member}");
         }
     }
@@ -97,9 +93,8 @@ fn size(png: &[u8]) -> [u32; 2] {
 fn pictures_are_where_the_standard_wants_them() {
     for interface in [Interface::Element, Interface::Lap] {
         let [two, three] = [FmiVersion::V2, FmiVersion::V3].map(|version| {
-            export_as("pirdayr-ex03.joint.json", interface, version)
-                .unwrap()
-                .0
+            let exported = export_as("pirdayr-ex03.joint.json", interface, version);
+            exported.unwrap().0
         });
         let icon = bytes(&two, "model.png").unwrap();
         assert_eq!(size(&icon), [100, 100]);
@@ -120,14 +115,9 @@ fn pictures_are_where_the_standard_wants_them() {
                 "documentation/diagram.svg",
             ] {
                 let svg = text(fmu, drawing).unwrap();
-                assert!(
-                    svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""),
-                    "{drawing}"
-                );
-                assert!(
-                    svg.trim_end().ends_with("</svg>") && !svg.contains("href"),
-                    "{drawing}"
-                );
+                begins(&svg, "<svg xmlns=\"http://www.w3.org/2000/svg\"");
+                ends(svg.trim_end(), "</svg>");
+                assert!(!svg.contains("href"), "{drawing}");
             }
         }
     }

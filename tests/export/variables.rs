@@ -6,6 +6,15 @@ use bolted_joint_interface::{Expanded, Interface as Declared, Joints};
 
 use crate::{data, declared, export, options, text};
 
+#[track_caller]
+fn starts_at(declared: &Declared, name: &str, value: f64) {
+    assert_eq!(
+        declared.variable(name).unwrap().start,
+        Some(value),
+        "{name}"
+    );
+}
+
 #[test]
 fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
     let (fmu, _) = export("m10-aluminium.joint.json", Interface::Element).unwrap();
@@ -35,11 +44,7 @@ fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
         ("joint.k3_theta", 0.0),
         ("a.y", 0.0),
     ] {
-        assert_eq!(
-            declared.variable(name).unwrap().start,
-            Some(value),
-            "{name}"
-        );
+        starts_at(&declared, name, value);
     }
     assert_eq!(fmu.step, None);
     let xml = text(&fmu, "modelDescription.xml").unwrap();
@@ -68,42 +73,12 @@ fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
 fn a_joint_without_rotation_has_no_rotational_variable() {
     let (fmu, _) = export("pirdayr-ex03.joint.json", Interface::Lap).unwrap();
     let declared = declared(&fmu).unwrap();
-    let names: Vec<&str> = declared
-        .variables
-        .iter()
-        .map(|variable| variable.name.as_str())
-        .collect();
+    let names: Vec<&str> = declared.variables.iter().map(|v| &*v.name).collect();
     assert_eq!(
-        names,
-        [
-            "time",
-            "a.y",
-            "a.v",
-            "b.y",
-            "b.v",
-            "a.F",
-            "b.F",
-            "joint.F",
-            "energy.stored",
-            "power.dissipated",
-            "joint.k_yy",
-            "joint.c_yy",
-            "joint.k3_y",
-            "a.m",
-            "a.k_y",
-            "a.c_y",
-            "b.m",
-            "b.k_y",
-            "b.c_y",
-            "step_size_max",
-            "a.acceleration",
-            "b.acceleration",
-            "joint.k5_y",
-            "joint.k7_y",
-            "joint.c2_y",
-            "joint.c4_y",
-            "joint.escape_amplitude_y",
-        ]
+        names.join(" "),
+        "time a.y a.v b.y b.v a.F b.F joint.F energy.stored power.dissipated joint.k_yy joint.c_yy joint.k3_y \
+         a.m a.k_y a.c_y b.m b.k_y b.c_y step_size_max a.acceleration b.acceleration \
+         joint.k5_y joint.k7_y joint.c2_y joint.c4_y joint.escape_amplitude_y"
     );
     let xml = text(&fmu, "modelDescription.xml").unwrap();
     assert!(!xml.contains("theta") && !xml.contains("omega"));
@@ -120,33 +95,18 @@ fn a_joint_without_rotation_has_no_rotational_variable() {
         ("b.c_y", 1.39),
         ("step_size_max", 3.1e-5),
     ] {
-        assert_eq!(
-            declared.variable(name).unwrap().start,
-            Some(value),
-            "{name}"
-        );
+        starts_at(&declared, name, value);
     }
     let start = text(&fmu, "resources/start.txt").unwrap();
     assert_eq!(
-        start.lines().skip(4).collect::<Vec<_>>(),
-        [
-            "joint.k_yy 4560000.0",
-            "joint.c_yy 0.54",
-            "joint.k3_y 1670.0",
-            "joint.k5_y 0.0",
-            "joint.k7_y 0.0",
-            "joint.c2_y 0.0",
-            "joint.c4_y 0.0",
-            "a.m 2.35",
-            "a.k_y 1056000.0",
-            "a.c_y 1.39",
-            "b.m 2.35",
-            "b.k_y 1056000.0",
-            "b.c_y 1.39",
-            "step_size_max 3.1e-5",
-        ]
+        start,
+        format!(
+            "bolted-joint-start/1\nmodel lap\ndofs 1\ntoken {}\njoint.k_yy 4560000.0\njoint.c_yy 0.54\n\
+             joint.k3_y 1670.0\njoint.k5_y 0.0\njoint.k7_y 0.0\njoint.c2_y 0.0\njoint.c4_y 0.0\n\
+             a.m 2.35\na.k_y 1056000.0\na.c_y 1.39\nb.m 2.35\nb.k_y 1056000.0\nb.c_y 1.39\nstep_size_max 3.1e-5\n",
+            fmu.token
+        )
     );
-    assert!(start.starts_with("bolted-joint-start/1\nmodel lap\ndofs 1\ntoken "));
     assert_eq!(fmu.escape_amplitude, [None]);
 }
 
@@ -158,12 +118,5 @@ fn a_given_stable_step_is_taken() {
         ..options(Interface::Lap).unwrap()
     };
     let fmu = fmu_bytes(&file, "", &options).unwrap();
-    assert_eq!(
-        declared(&fmu)
-            .unwrap()
-            .variable("step_size_max")
-            .unwrap()
-            .start,
-        Some(2e-4)
-    );
+    starts_at(&declared(&fmu).unwrap(), "step_size_max", 2e-4);
 }

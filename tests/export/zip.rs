@@ -6,10 +6,8 @@ use crate::{Failure, export_as};
 
 /// Little-endian number of `N` bytes at `at`.
 fn number<const N: usize>(bytes: &[u8], at: usize) -> usize {
-    bytes[at..at + N]
-        .iter()
-        .rev()
-        .fold(0, |number, &byte| number << 8 | usize::from(byte))
+    let bytes = bytes[at..at + N].iter().rev();
+    bytes.fold(0, |number, &byte| number << 8 | usize::from(byte))
 }
 
 /// What both headers of a file have in common, from "version needed to extract" on: sections 4.3.7 and 4.3.12.
@@ -29,13 +27,8 @@ fn check_common(bytes: &[u8], at: usize, name: &str) {
 }
 
 fn check_name(name: &str) {
-    let characters = name.chars();
-    assert!(
-        characters
-            .clone()
-            .all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c)),
-        "{name}"
-    );
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
+    assert!(name.chars().all(is_plain), "{name}");
     assert!(!name.starts_with('/') && !name.ends_with('/') && !name.contains(".."));
 }
 
@@ -47,10 +40,7 @@ fn check(bytes: &[u8], paths: &[&str]) {
         assert_eq!(number::<2>(bytes, disk), 0, "one disk");
     }
     let count = number::<2>(bytes, end + 10);
-    assert_eq!(
-        (number::<2>(bytes, end + 8), count),
-        (paths.len(), paths.len())
-    );
+    assert_eq!([number::<2>(bytes, end + 8), count], [paths.len(); 2]);
     let directory = number::<4>(bytes, end + 16);
     assert_eq!(directory + number::<4>(bytes, end + 12), end);
 
@@ -70,11 +60,8 @@ fn check(bytes: &[u8], paths: &[&str]) {
         assert_eq!(number::<4>(bytes, local), 0x0403_4b50, "{path}");
         check_common(bytes, local + 4, path);
         // version, flags, method, time, CRC, sizes and name length are the same in both
-        assert_eq!(
-            bytes[local + 4..local + 28],
-            bytes[central + 6..central + 30],
-            "{path}"
-        );
+        let [here, there] = [&bytes[local + 4..], &bytes[central + 6..]];
+        assert_eq!(here[..24], there[..24], "{path}");
         assert_eq!(&bytes[local + 30..local + 30 + length], path.as_bytes());
         local += 30 + length + number::<4>(bytes, local + 18);
         central += 46 + length;

@@ -1,7 +1,8 @@
 //! Curves through folds: where they turn, where they end, and which of their motions persist.
 
 use bolted_joint::harmonic::{
-    CurveOptions, CurvePoint, HarmonicBalance, HarmonicLoads, Harmonics, Observed, Target,
+    CurveOptions, CurvePoint, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics, Observed,
+    Target,
 };
 use bolted_joint_dynamics::Lap;
 use bolted_joint_testing::close;
@@ -19,6 +20,18 @@ const WITH_STABILITY: CurveOptions = CurveOptions {
     },
     with_stability: true,
 };
+
+fn balance<const D: usize>(
+    lap: &Lap<D>,
+    harmonics: Result<Harmonics, HarmonicError>,
+) -> HarmonicBalance<D> {
+    HarmonicBalance::new(lap, harmonics.unwrap()).unwrap()
+}
+
+/// The fundamental of the relative motion.
+fn relative(balance: &HarmonicBalance<1>, point: &CurvePoint<1>) -> Complex64 {
+    balance.amplitude_of(&point.solution, Observed::Relative(0), 1)
+}
 
 fn is_stable<const D: usize>(point: &CurvePoint<D>) -> bool {
     point.stability.as_ref().unwrap().is_stable()
@@ -57,8 +70,7 @@ fn least(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
 #[test]
 fn the_formula_of_one_harmonic_has_the_same_folds() {
     for (duffing, force, range) in [(HARDENING, 3.0, [2.0, 16.0]), (SOFTENING, 0.45, [9.0, 3.0])] {
-        let balance =
-            HarmonicBalance::new(&duffing.symmetric(), Harmonics::odd(1).unwrap()).unwrap();
+        let balance = balance(&duffing.symmetric(), Harmonics::odd(1));
         let loads = HarmonicLoads::opposed(force);
         let curve = balance
             .forced_curve(range, &loads, &WITH_STABILITY)
@@ -67,11 +79,7 @@ fn the_formula_of_one_harmonic_has_the_same_folds() {
         let [first, second] = folds.as_slice() else {
             panic!("{} folds", folds.len());
         };
-        let amplitude = |point: &CurvePoint<1>| {
-            balance
-                .amplitude_of(&point.solution, Observed::Relative(0), 1)
-                .norm()
-        };
+        let amplitude = |point: &CurvePoint<1>| relative(&balance, point).norm();
         // The other fold is that of the branch on the far side of the resonance.
         let branch = usize::from(duffing.cubic > 0.0);
         let sign = if duffing.cubic > 0.0 { 1.0 } else { -1.0 };
@@ -82,7 +90,7 @@ fn the_formula_of_one_harmonic_has_the_same_folds() {
             if value.is_nan() { f64::INFINITY } else { value }
         });
         let omega = (sign * on_branch(turned)).sqrt();
-        assert!((second.solution.omega_rad_s() / omega - 1.0).abs() < 1e-13);
+        close(second.solution.omega_rad_s(), omega, 1e-13);
         close(at_second, turned, 1e-6);
         // The first, near the tip, is where the same branch turns back.
         let at_first = amplitude(first);
@@ -95,7 +103,7 @@ fn the_formula_of_one_harmonic_has_the_same_folds() {
             }
         });
         let omega = (sign * on_branch(highest)).sqrt();
-        assert!((first.solution.omega_rad_s() / omega - 1.0).abs() < 1e-9);
+        close(first.solution.omega_rad_s(), omega, 1e-9);
     }
 }
 
@@ -105,8 +113,7 @@ fn a_curve_passes_both_folds_and_returns_to_the_linear_tail() {
         (HARDENING, 3.0, [2.0, 30.0]),
         (SOFTENING, 0.45, [30.0, 2.0]),
     ] {
-        let balance =
-            HarmonicBalance::new(&duffing.symmetric(), Harmonics::all(9).unwrap()).unwrap();
+        let balance = balance(&duffing.symmetric(), Harmonics::all(9));
         let loads = HarmonicLoads::opposed(force);
         let curve = balance
             .forced_curve(range, &loads, &WITH_STABILITY)
@@ -115,13 +122,10 @@ fn a_curve_passes_both_folds_and_returns_to_the_linear_tail() {
         assert_eq!(curve.iter().filter(|point| point.is_fold).count(), 2);
         assert!((last.solution.omega_rad_s() - range[1]).abs() < 1e-12);
         // There the response is that of the linear oscillator but for k3 X³.
-        let x = balance.amplitude_of(&last.solution, Observed::Relative(0), 1);
+        let x = relative(&balance, last);
         let omega = range[1];
-        let linear = Complex64::from(force)
-            / Complex64::new(
-                duffing.stiffness - omega * omega * duffing.inertia,
-                omega * duffing.damping,
-            );
+        let stiffness = duffing.stiffness - omega * omega * duffing.inertia;
+        let linear = Complex64::from(force) / Complex64::new(stiffness, omega * duffing.damping);
         let bend = 0.75 * duffing.cubic * x.norm().powi(3) / force;
         assert!((x / linear - 1.0).norm() < 1.5 * bend.abs() + 1e-12);
         // Frequency goes on along the tangent only between folds, and stability flips exactly there.
@@ -143,22 +147,19 @@ fn a_curve_passes_both_folds_and_returns_to_the_linear_tail() {
 
 #[test]
 fn the_same_curve_upwards_and_downwards() {
-    let balance = HarmonicBalance::new(&HARDENING.symmetric(), Harmonics::odd(7).unwrap()).unwrap();
+    let balance = balance(&HARDENING.symmetric(), Harmonics::odd(7));
     let loads = HarmonicLoads::opposed(3.0);
-    let folds = |range| {
-        let curve = balance
-            .forced_curve(range, &loads, &CurveOptions::default())
-            .unwrap();
+    let folds = |range| -> Vec<f64> {
+        let curve = balance.forced_curve(range, &loads, &CurveOptions::default());
+        let curve = curve.unwrap();
         let folds = curve.iter().filter(|point| point.is_fold);
-        folds
-            .map(|point| point.solution.omega_rad_s())
-            .collect::<Vec<_>>()
+        folds.map(|point| point.solution.omega_rad_s()).collect()
     };
     let (up, mut down) = (folds([3.0, 20.0]), folds([20.0, 3.0]));
     down.reverse();
     assert_eq!((up.len(), down.len()), (2, 2));
     for (up, down) in up.iter().zip(&down) {
-        assert!((up / down - 1.0).abs() < 1e-12, "{up} {down}");
+        close(*up, *down, 1e-12);
     }
 }
 
@@ -168,11 +169,10 @@ fn multipliers_of_a_linear_lap_are_those_of_its_modes() {
         joint: with_rotation().joint.linear.into(),
         ..with_rotation()
     };
-    let balance = HarmonicBalance::new(&lap, Harmonics::odd(1).unwrap()).unwrap();
+    let balance = balance(&lap, Harmonics::odd(1));
     let omega = 700.0;
-    let solution = balance
-        .forced(omega, &HarmonicLoads::on_a(10.0), None)
-        .unwrap();
+    let loads = HarmonicLoads::on_a(10.0);
+    let solution = balance.forced(omega, &loads, None).unwrap();
     let found = balance.stability(&solution).unwrap().multipliers;
     let period = std::f64::consts::TAU / omega;
     let spectrum = lap.spectrum().unwrap();
@@ -180,10 +180,8 @@ fn multipliers_of_a_linear_lap_are_those_of_its_modes() {
     for eigenvalue in spectrum.eigenvalues() {
         let expected =
             Complex64::new(eigenvalue.real * period, eigenvalue.imaginary * period).exp();
-        let nearest = found
-            .iter()
-            .map(|found| (found - expected).norm())
-            .fold(f64::MAX, f64::min);
+        let distances = found.iter().map(|found| (found - expected).norm());
+        let nearest = distances.fold(f64::MAX, f64::min);
         assert!(nearest < 2e-6, "{expected}: {nearest}");
     }
 }
@@ -211,16 +209,11 @@ fn the_backbone_is_the_conservative_oscillator() {
             damping: 0.0,
             ..duffing
         };
-        let balance =
-            HarmonicBalance::new(&undamped.symmetric(), Harmonics::odd(25).unwrap()).unwrap();
-        let curve = balance
-            .backbone(
-                [1e-3, 0.25],
-                Target::relative(0, 1.0),
-                &CurveOptions::default(),
-            )
-            .unwrap();
-        let end = balance.amplitude_of(&curve.last().unwrap().solution, Observed::Relative(0), 1);
+        let balance = balance(&undamped.symmetric(), Harmonics::odd(25));
+        let target = Target::relative(0, 1.0);
+        let curve = balance.backbone([1e-3, 0.25], target, &CurveOptions::default());
+        let curve = curve.unwrap();
+        let end = relative(&balance, curve.last().unwrap());
         assert!((end.norm() - 0.25).abs() < 1e-12);
         for point in &curve {
             let peak = balance.peak_of(&point.solution, Observed::Relative(0));
@@ -234,26 +227,25 @@ fn the_backbone_is_the_conservative_oscillator() {
 #[test]
 fn phase_resonance_meets_the_forced_curve_and_the_backbone() {
     let lap = pirdayr(1e12);
-    let balance = HarmonicBalance::new(&lap, Harmonics::odd(7).unwrap()).unwrap();
+    let balance = balance(&lap, Harmonics::odd(7));
     let loads = HarmonicLoads::opposed(1.0);
     let target = Target::relative(0, 2e-4);
     let resonance = balance.resonance(&loads, target, None).unwrap();
     let x = balance.amplitude_of(&resonance, Observed::Relative(0), 1);
-    assert!((x.norm() / 2e-4 - 1.0).abs() < 1e-12);
+    close(x.norm(), 2e-4, 1e-12);
     assert!((x.arg() + std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{x}");
     // The same loads at the same frequency give the same motion.
-    let forced = balance
-        .forced(
-            resonance.omega_rad_s(),
-            &resonance.loads(),
-            Some(&resonance),
-        )
-        .unwrap();
+    let forced = balance.forced(
+        resonance.omega_rad_s(),
+        &resonance.loads(),
+        Some(&resonance),
+    );
+    let forced = forced.unwrap();
     let again = balance.amplitude_of(&forced, Observed::Relative(0), 1);
     assert!((again / x - 1.0).norm() < 1e-9);
     // Light damping: the free motion has that frequency, and loses in a period what the loads put in.
     let free = balance.free(target, None).unwrap();
-    assert!((free.omega_rad_s() / resonance.omega_rad_s() - 1.0).abs() < 1e-6);
+    close(free.omega_rad_s(), resonance.omega_rad_s(), 1e-6);
     // Both bodies alike: work of F on x_a and −F on x_b is π F |r|; the force 2ζω M ẋ takes 2ζω · ω · ½m · π ω |r|² a period.
     let omega = free.omega_rad_s();
     let work = resonance.load_factor() * 2e-4;
@@ -265,27 +257,24 @@ fn phase_resonance_meets_the_forced_curve_and_the_backbone() {
         .iter()
         .sum();
     let taken = 2.0 * free.damping_ratio() * omega * omega * 0.5 * 2.35 * 2e-4_f64.powi(2);
-    assert!((taken * (1.0 + higher) / work - 1.0).abs() < 1e-5);
+    close(taken * (1.0 + higher), work, 1e-5);
 }
 
 #[test]
 fn constant_amplitude_passes_where_constant_force_folds() {
-    let balance = HarmonicBalance::new(&pirdayr(1e12), Harmonics::odd(7).unwrap()).unwrap();
+    let balance = balance(&pirdayr(1e12), Harmonics::odd(7));
     let loads = HarmonicLoads::opposed(1.0);
     let target = Target::relative(0, 2e-4);
-    let curve = balance
-        .controlled_curve([1900.0, 2300.0], &loads, target, &CurveOptions::default())
-        .unwrap();
+    let options = CurveOptions::default();
+    let curve = balance.controlled_curve([1900.0, 2300.0], &loads, target, &options);
+    let curve = curve.unwrap();
     assert!(curve.iter().all(|point| !point.is_fold));
     for point in &curve {
-        let x = balance.amplitude_of(&point.solution, Observed::Relative(0), 1);
-        assert!((x.norm() / 2e-4 - 1.0).abs() < 1e-9);
+        close(relative(&balance, point).norm(), 2e-4, 1e-9);
     }
     // The least force is at phase resonance.
-    let least = curve
-        .iter()
-        .map(|point| point.solution.load_factor())
-        .fold(f64::MAX, f64::min);
+    let forces = curve.iter().map(|point| point.solution.load_factor());
+    let least = forces.fold(f64::MAX, f64::min);
     let resonance = balance.resonance(&loads, target, None).unwrap();
     assert!(least >= resonance.load_factor() * (1.0 - 1e-6));
     assert!(least < resonance.load_factor() * 1.05);
@@ -294,18 +283,14 @@ fn constant_amplitude_passes_where_constant_force_folds() {
 #[test]
 fn the_first_mode_of_like_bodies_is_followed_although_the_joint_does_not_move() {
     let lap = pirdayr(1e12);
-    let balance = HarmonicBalance::new(&lap, Harmonics::odd(3).unwrap()).unwrap();
+    let balance = balance(&lap, Harmonics::odd(3));
     let loads = HarmonicLoads::on_b(1.0);
-    let curve = balance
-        .forced_curve([600.0, 750.0], &loads, &CurveOptions::default())
-        .unwrap();
+    let curve = balance.forced_curve([600.0, 750.0], &loads, &CurveOptions::default());
     let on_b = Observed::Body(bolted_joint::harmonic::Side::B, 0);
-    let found = curve
-        .iter()
-        .map(|point| balance.amplitude_of(&point.solution, on_b, 1).norm())
-        .fold(0.0, f64::max);
+    let amplitude = |point: &CurvePoint<1>| balance.amplitude_of(&point.solution, on_b, 1).norm();
+    let found = curve.unwrap().iter().map(amplitude).fold(0.0, f64::max);
     // x_a + x_b is linear and takes F, x_a − x_b is far below its resonance: at the peak x_b = F/(2 c ω) and little more.
     let (k, c, m): (f64, f64, f64) = (10.56e5, 1.39, 2.35);
     let expected = 1.0 / (2.0 * c * (k / m).sqrt());
-    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    close(found, expected, 0.01);
 }

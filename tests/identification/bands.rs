@@ -1,11 +1,11 @@
 //! Bands chosen by sensitivity and distance to resonances, against the median over all lines.
 
 use bolted_joint::identify::{
-    BandChoice, BandChoices, BandOrigin, JointMatrices, JointModel, Options, identify_lines,
+    BandChoice, BandChoices, BandOrigin, JointMatrices, JointModel, Options,
 };
-use nalgebra::dmatrix;
 
-use crate::cases::{axis, beams_4_2_2};
+use crate::beams::identified;
+use crate::cases::{axis, beams_4_2_2, bolt};
 
 const SEEDS: u64 = 20;
 
@@ -19,8 +19,7 @@ fn errors(joint: &JointMatrices, choice: &BandChoice, relative: f64) -> [f64; 6]
     let mut squares = [0.0; 6];
     for seed in 0..SEEDS {
         let lines = pair.lines(joint, relative, seed);
-        let found =
-            identify_lines(std::slice::from_ref(&lines), JointModel::Full, &options).unwrap();
+        let found = identified(&lines, JointModel::Full, &options);
         let average = found.band_average().unwrap();
         let pairs = [
             (&average.stiffness, &joint.stiffness),
@@ -46,10 +45,7 @@ fn errors(joint: &JointMatrices, choice: &BandChoice, relative: f64) -> [f64; 6]
 
 #[test]
 fn chosen_bands_beat_the_median() {
-    let joint = JointMatrices {
-        stiffness: dmatrix![1e5, 2e3; 2e3, 1e3],
-        damping: dmatrix![5.0, 0.1; 0.1, 0.05],
-    };
+    let joint = bolt(1.0);
     for relative in [0.001, 0.01, 0.05] {
         let chosen = errors(&joint, &BandChoice::Automatic, relative);
         let median = errors(&joint, &BandChoice::Median, relative);
@@ -57,10 +53,8 @@ fn chosen_bands_beat_the_median() {
         // At 5 % no choice of lines makes an average of the dampings: they are hidden in the noise of the stiffnesses.
         let entries = if relative < 0.05 { 6 } else { 3 };
         for (entry, (chosen, median)) in chosen.into_iter().zip(median).take(entries).enumerate() {
-            assert!(
-                chosen < median,
-                "entry {entry} at {relative}: {chosen} {median}"
-            );
+            let case = format!("entry {entry} at {relative}: {chosen} {median}");
+            assert!(chosen < median, "{case}");
         }
     }
 }

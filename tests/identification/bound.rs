@@ -1,7 +1,6 @@
 //! The estimate reaches the Cramér–Rao bound, and its intervals hold the truth as often as they say.
 
-use bolted_joint::identify::NoiseLevel;
-
+use crate::beams;
 use crate::cases::axis;
 use crate::measured::{Noisy, Rig, joint, stiff_and_soft, thesis};
 use crate::monte_carlo::{print, run};
@@ -9,10 +8,7 @@ use crate::monte_carlo::{print, run};
 const DRAWS: u64 = 100;
 
 fn check(rig: &Rig, noisy: Noisy, relative: f64, most: f64) {
-    let level = NoiseLevel {
-        relative,
-        floor: 0.0,
-    };
+    let level = beams::relative(relative);
     let outcomes = run(rig, noisy, level, DRAWS, true);
     print(rig, noisy, level, &outcomes);
     for outcome in &outcomes {
@@ -21,11 +17,8 @@ fn check(rig: &Rig, noisy: Noisy, relative: f64, most: f64) {
     }
     // Intervals of all unknowns together; their errors are correlated, so three times the deviation of independent ones.
     let coverage = outcomes.iter().map(|o| o.coverage).sum::<f64>() / outcomes.len() as f64;
-    assert!(
-        (0.90..=0.99).contains(&coverage),
-        "{}: {coverage}",
-        rig.name
-    );
+    let holds = (0.90..=0.99).contains(&coverage);
+    assert!(holds, "{}: {coverage}", rig.name);
 }
 
 #[test]
@@ -41,10 +34,7 @@ fn noise_on_everything_is_told_from_the_joint() {
     const DRAWS: u64 = 25;
     for rig in stiff_and_soft() {
         for (noisy, relative) in [(Noisy::AssemblyAndA, 0.01), (Noisy::Everything, 0.05)] {
-            let level = NoiseLevel {
-                relative,
-                floor: 0.0,
-            };
+            let level = beams::relative(relative);
             let outcomes = run(&rig, noisy, level, DRAWS, true);
             print(&rig, noisy, level, &outcomes);
             for outcome in outcomes {

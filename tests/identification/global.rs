@@ -1,14 +1,13 @@
 //! The search finds the joint from wherever it starts.
 
-use bolted_joint::identify::{JointModel, NoiseLevel, Options, identify_lines};
+use bolted_joint::identify::{JointModel, NoiseLevel, Options};
 
+use crate::beams;
+use crate::beams::identified;
 use crate::cases::axis;
 use crate::measured::{Noisy, Rig, joint, matrices, thesis, unknowns};
 
-const EXACT: NoiseLevel = NoiseLevel {
-    relative: 0.0,
-    floor: 0.0,
-};
+const EXACT: NoiseLevel = beams::relative(0.0);
 
 #[test]
 fn exact_data_give_the_truth_from_any_start_within_a_factor_of_30() {
@@ -28,16 +27,12 @@ fn exact_data_give_the_truth_from_any_start_within_a_factor_of_30() {
                     start: Some(matrices(rig.model, &start)),
                     ..Options::default()
                 };
-                let found =
-                    identify_lines(std::slice::from_ref(&lines), JointModel::Full, &options)
-                        .unwrap();
+                let found = identified(&lines, JointModel::Full, &options);
                 let found = unknowns(rig.model, found.free());
                 for (found, truth) in found.iter().zip(&truth) {
                     let error = (found / truth - 1.0).abs();
-                    assert!(
-                        error < 1e-8,
-                        "{factor} {noisy:?} corner {corner}: {error:e}"
-                    );
+                    let case = format!("{factor} {noisy:?} corner {corner}: {error:e}");
+                    assert!(error < 1e-8, "{case}");
                 }
                 if noisy == Noisy::Everything {
                     break;

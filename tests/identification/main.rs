@@ -6,6 +6,7 @@
 )]
 
 mod bands;
+mod beams;
 mod bolts;
 mod bound;
 mod cases;
@@ -16,3 +17,4 @@ mod monte_carlo;
 mod published;
 mod refined;
 mod torque;
+mod two_step;

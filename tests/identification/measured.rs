@@ -8,14 +8,14 @@ use std::sync::Arc;
 use bolted_joint::identify::{
     JointMatrices, JointModel, Lines, MeasuredSubstructure, NoiseLevel, Receptances,
 };
-use bolted_joint::structure::{
-    Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition, couple,
-};
+use bolted_joint::structure::{Beam, Boundary, ComplexMatrix, Partition, couple};
 use nalgebra::{DMatrix, DVector, dmatrix};
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
+
+use crate::beams::{beam, names, pairs, translations};
 
 /// A test rig: what is measured without noise, and the joint in it.
 pub(crate) struct Rig {
@@ -78,18 +78,6 @@ pub(crate) enum Noisy {
     Everything,
 }
 
-fn beam(length_m: f64, boundary: Boundary, damping_ratio: f64) -> Beam {
-    Beam {
-        length_m,
-        width_m: 0.025,
-        height_m: 0.006,
-        youngs_modulus_pa: 67e9,
-        density_kg_per_m3: 2700.0,
-        boundary,
-        damping: Damping::Ratios(vec![damping_ratio]),
-    }
-}
-
 impl Rig {
     pub(crate) fn new(name: &'static str, joint: JointMatrices, setup: Setup) -> Self {
         let Setup {
@@ -98,13 +86,7 @@ impl Rig {
             frequency_hz,
         } = setup;
         let receptances = |beam: Beam, positions: &[f64]| {
-            let points: Vec<BeamPoint> = positions
-                .iter()
-                .map(|&position_m| BeamPoint {
-                    position_m,
-                    motion: Motion::Translation,
-                })
-                .collect();
+            let points = translations(positions);
             beam.receptances(&points, &frequency_hz).unwrap()
         };
         let slope = 0.5 / spacing_m;
@@ -167,10 +149,12 @@ impl Rig {
             })
         };
         let (mut a, mut b) = (self.a.clone(), self.b.clone());
-        let mut assemblies: Vec<Vec<ComplexMatrix>> = joints
-            .iter()
-            .map(|joint| self.assembly(joint, &a, &b))
-            .collect();
+        let of = |joint: &JointMatrices| -> Vec<ComplexMatrix> {
+            (0..self.frequency_hz.len())
+                .map(|line| self.assembly_at(joint, line, &a[line], &b[line]))
+                .collect()
+        };
+        let mut assemblies: Vec<Vec<ComplexMatrix>> = joints.iter().map(of).collect();
         for matrix in assemblies.iter_mut().flatten() {
             *matrix = polluted(matrix);
         }
@@ -185,11 +169,6 @@ impl Rig {
                 *matrix = (&noisy + noisy.transpose()) * Complex64::from(0.5);
             }
         }
-        let all = |count: usize| {
-            (0..count)
-                .flat_map(|row| (0..count).map(move |column| (row, column)))
-                .collect::<Vec<_>>()
-        };
         let receptances = |w: &DMatrix<f64>, u: &[ComplexMatrix], is_noisy: bool| {
             if !is_noisy {
                 return Receptances::Exact(formed(u, w));
@@ -198,7 +177,7 @@ impl Rig {
             let triangle = (0..count).flat_map(|q| (0..=q).map(move |p| (p, q)));
             let functions = triangle.map(|place| u.iter().map(|u| u[place]).collect());
             let functions = functions.collect();
-            let measured = MeasuredSubstructure::new(w.clone(), functions, all(count), None);
+            let measured = MeasuredSubstructure::new(w.clone(), functions, pairs(count), None);
             Receptances::Measured(Arc::new(measured))
         };
         let first = Lines {
@@ -206,10 +185,8 @@ impl Rig {
             a: receptances(&self.a_transformation, &a, noisy != Noisy::Assembly),
             b: receptances(&self.b_transformation, &b, noisy == Noisy::Everything),
             assembly: Vec::new(),
-            points: (1..=3)
-                .map(|point| format!("{point}:+Y").parse().unwrap())
-                .collect(),
-            measured: all(3),
+            points: names(3),
+            measured: pairs(3),
             relative_variance: None,
             repeats: None,
         };
@@ -218,17 +195,6 @@ impl Rig {
             ..first.clone()
         };
         assemblies.into_iter().map(with).collect()
-    }
-
-    fn assembly(
-        &self,
-        joint: &JointMatrices,
-        a: &[ComplexMatrix],
-        b: &[ComplexMatrix],
-    ) -> Vec<ComplexMatrix> {
-        (0..self.frequency_hz.len())
-            .map(|line| self.assembly_at(joint, line, &a[line], &b[line]))
-            .collect()
     }
 
     fn assembly_at(

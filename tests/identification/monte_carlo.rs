@@ -1,7 +1,8 @@
 //! Errors of the estimate over many draws of noise, beside the Cramér–Rao bound and the band average of (3.21).
 
-use bolted_joint::identify::{Bands, Noise, NoiseLevel, Options, identify_lines};
+use bolted_joint::identify::{Bands, Noise, NoiseLevel, Options};
 
+use crate::beams::identified;
 use crate::measured::{Noisy, Rig, unknowns};
 
 /// What many draws show of each unknown.
@@ -47,15 +48,11 @@ pub(crate) fn run(
     let mut names = Vec::new();
     for seed in 0..draws {
         let lines = rig.lines(noisy, level, 1000 + seed);
-        let found = identify_lines(std::slice::from_ref(&lines), rig.model, &options).unwrap();
+        let found = identified(&lines, rig.model, &options);
         let values = unknowns(rig.model, found.free());
         let average = unknowns(rig.model, found.band_average().unwrap());
         let covariance = found.covariance();
-        names = covariance
-            .unknowns
-            .iter()
-            .map(|unknown| unknown.name)
-            .collect();
+        names = covariance.unknowns.iter().map(|u| u.name).collect();
         let deviation = covariance.standard_deviation();
         let intervals = covariance.intervals();
         for i in 0..size {

@@ -7,25 +7,19 @@ use bolted_joint::identify::{
 use bolted_joint_testing::near;
 use nalgebra::{DMatrix, DVector};
 
+use crate::beams;
 use crate::cases::axis;
 use crate::measured::{Noisy, Rig, joint, thesis, unknowns};
 
-const LEVEL: NoiseLevel = NoiseLevel {
-    relative: 0.01,
-    floor: 0.0,
-};
+const LEVEL: NoiseLevel = beams::relative(0.01);
 
 /// The torques of Tol's Table 5.7, N·m.
 const TORQUES_N_M: [f64; 4] = [10.0, 15.0, 20.0, 25.0];
 
 /// Joints that get stiffer and less damped as they are tightened, more and more slowly.
 fn over_torque() -> [JointMatrices; 4] {
-    [
-        joint(0.80, 1.40),
-        joint(0.93, 1.15),
-        joint(1.00, 1.00),
-        joint(1.04, 0.92),
-    ]
+    [(0.80, 1.40), (0.93, 1.15), (1.00, 1.00), (1.04, 0.92)]
+        .map(|(factor, damping)| joint(factor, damping))
 }
 
 fn rig() -> Rig {
@@ -97,9 +91,8 @@ fn each_torque_has_its_joint_within_its_intervals() {
         }
         // Torques whose substructures are exact have nothing in common.
         for (i, j) in [(0, 6), (8, 20), (3, 21)] {
-            assert!(
-                covariance[(i, j)].abs() < 1e-9 * (covariance[(i, i)] * covariance[(j, j)]).sqrt()
-            );
+            let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            near(covariance[(i, j)], 0.0, 1e-9 * scale);
         }
         squares += distance(&errors, covariance);
         let choice = found.torque_choice().unwrap();
@@ -133,14 +126,9 @@ fn one_joint_at_all_torques_is_recommended_as_common() {
         let cost = 12.0 * f64::ln(2.0 * 27.0 * 200.0);
         let difference = choice.compared[1].bic_difference;
         println!("{noisy:?} {dependence:?}: {difference:.1}");
-        assert!(
-            (cost - difference - 12.0).abs() < 25.0,
-            "{difference} {cost}"
-        );
-        let warned = found
-            .warnings
-            .iter()
-            .any(|w| w.contains("torques = \"common\""));
+        near(difference, cost - 12.0, 25.0);
+        let mut warnings = found.warnings.iter();
+        let warned = warnings.any(|w| w.contains("torques = \"common\""));
         assert_eq!(warned, dependence == TorqueDependence::Separate);
     }
 }

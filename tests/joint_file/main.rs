@@ -43,6 +43,11 @@ fn refusal(from: &str, to: &str) -> String {
     }
 }
 
+/// The message for a text that is no joint file.
+fn refused(text: &str, name: &str) -> String {
+    JointFile::from_json(text, name).unwrap_err().to_string()
+}
+
 /// The message for `GOOD` with further top-level keys.
 fn refusal_with(more: &str) -> String {
     refusal(

@@ -1,52 +1,18 @@
 //! Joints over the preload: taken at one, with their deviations, and tables that do not fit.
 
 use bolted_joint::joint::{JointFile, LawError};
+use bolted_joint_testing::{begins, close, has};
 
-use crate::GOOD;
+use crate::{GOOD, refused};
 
 /// K, C and k₃ of two DOFs at three preloads, with their standard deviations.
-const OVER_PRELOAD: &str = r#"{
-  "format": "bolted-joint/1",
-  "name": "table",
-  "joint": { "dofs": ["y", "theta"], "over_preload": {
-    "preload": [10, 15, 25], "nominal": 15,
-    "stiffness": [[[4e5, 3e3], [3e3, 9e2]], [[6e5, 5e3], [5e3, 1.2e3]], [[7e5, 6e3], [6e3, 1.4e3]]],
-    "damping": [[[12, -0.5], [-0.5, 0.1]], [[8, -0.3], [-0.3, 0.06]], [[7, -0.2], [-0.2, 0.05]]],
-    "cubic": [[0, 0], [-1e9, 0], [-3e9, 20]]
-  } },
-  "uncertainty": {
-    "standard_deviation": { "stiffness": [[200, 2], [2, 0.2]], "damping": [[0.2, 0.02], [0.02, 0.002]] },
-    "basis": "test",
-    "interval_95": { "stiffness": [[[599600, 600400], [4996, 5004]], [[4996, 5004], [1199.6, 1200.4]]],
-                     "damping": [[[7.6, 8.4], [-0.34, -0.26]], [[-0.34, -0.26], [0.056, 0.064]]] },
-    "over_preload": { "at": [
-      { "preload": 10,
-        "standard_deviation": { "stiffness": [[100, 1], [1, 0.1]], "damping": [[0.1, 0.01], [0.01, 0.001]] },
-        "not_identified": ["k_ytheta"] },
-      { "preload": 15,
-        "standard_deviation": { "stiffness": [[200, 2], [2, 0.2]], "damping": [[0.2, 0.02], [0.02, 0.002]] },
-        "free_estimate": { "stiffness": [[6e5, 5e3], [5e3, 1.2e3]], "damping": [[8, -0.4], [-0.4, 0.05]] } },
-      { "preload": 25,
-        "standard_deviation": { "stiffness": [[400, 4], [4, 0.4]], "damping": [[0.4, 0.04], [0.04, 0.004]] } }
-    ] }
-  },
-  "validity": { "frequency_hz": [5, 500], "torque_n_m": [10, 25] },
-  "provenance": { "tool": "t", "version": "1", "method": "m", "model": "full" }
-}"#;
+const OVER_PRELOAD: &str = include_str!("../data/joint/torques.joint.json");
 
 /// K, C and k₃ of it at 17 N·m, from SciPy's `PchipInterpolator`; no slope takes K or C out of the semidefinite matrices.
-const STIFFNESS: [f64; 4] = [
-    632342.8571428572,
-    5323.428571428572,
-    5323.428571428572,
-    1261.4588235294116,
-];
-const DAMPING: [f64; 4] = [
-    7.646918918918919,
-    -0.2676571428571428,
-    -0.2676571428571428,
-    0.05646918918918919,
-];
+#[rustfmt::skip]
+const STIFFNESS: [f64; 4] = [632342.8571428572, 5323.428571428572, 5323.428571428572, 1261.4588235294116];
+#[rustfmt::skip]
+const DAMPING: [f64; 4] = [7.646918918918919, -0.2676571428571428, -0.2676571428571428, 0.05646918918918919];
 const CUBIC: [f64; 2] = [-1400000000.0, 1.0133333333333334];
 
 #[test]
@@ -59,10 +25,7 @@ fn a_joint_over_preload_is_taken_at_one_between_those_of_its_table() {
     let law = file.joint.law::<2>().unwrap();
     let near = |found: &[f64], expected: &[f64]| {
         for (found, expected) in found.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() <= 1e-13 * expected.abs(),
-                "{found} {expected}"
-            );
+            close(*found, *expected, 1e-13);
         }
     };
     near(law.linear.stiffness.as_flattened(), &STIFFNESS);
@@ -71,11 +34,8 @@ fn a_joint_over_preload_is_taken_at_one_between_those_of_its_table() {
     let uncertainty = file.uncertainty.unwrap();
     near(&uncertainty.standard_deviation.stiffness[0], &[240.0, 2.4]);
     near(&uncertainty.standard_deviation.damping[1], &[0.024, 0.0024]);
-    assert!(
-        uncertainty
-            .basis
-            .starts_with("test; between 15 and 25 N·m interpolated")
-    );
+    let basis = "test; between 15 and 25 N·m interpolated";
+    begins(&uncertainty.basis, basis);
     // The free estimate of 25 N·m is the joint itself.
     let free = uncertainty.free_estimate.unwrap();
     near(&free.damping[0], &[7.8, 0.8 * -0.4 + 0.2 * -0.2]);
@@ -95,14 +55,8 @@ fn a_joint_over_preload_is_at_its_own_preloads_what_the_table_says() {
         assert_eq!(file.joint.damping, over_preload.damping[place]);
         assert_eq!(file.joint.cubic, over_preload.cubic[place]);
         assert_eq!(file.validity.unwrap().torque_n_m, Some([preload; 2]));
-        let own = &table
-            .uncertainty
-            .as_ref()
-            .unwrap()
-            .over_preload
-            .as_ref()
-            .unwrap()
-            .at[place];
+        let of_all = table.uncertainty.as_ref().unwrap();
+        let own = &of_all.over_preload.as_ref().unwrap().at[place];
         let uncertainty = file.uncertainty.unwrap();
         assert_eq!(uncertainty.standard_deviation, own.standard_deviation);
         // The nominal preload's interval stands beside the table.
@@ -111,19 +65,15 @@ fn a_joint_over_preload_is_at_its_own_preloads_what_the_table_says() {
     assert_eq!(table.at_preload(None), table.at_preload(Some(15.0)));
     let constant = JointFile::from_json(GOOD, "").unwrap();
     assert_eq!(constant.at_preload(None), Ok(constant.clone()));
-    assert_eq!(
-        constant.at_preload(Some(10.0)),
-        Err(LawError::ConstantJoint { found_n_m: 10.0 })
-    );
+    let at_ten = constant.at_preload(Some(10.0));
+    assert_eq!(at_ten, Err(LawError::ConstantJoint { found_n_m: 10.0 }));
     for found_n_m in [9.9, 25.1, -1.0, f64::INFINITY] {
-        assert_eq!(
-            table.at_preload(Some(found_n_m)),
-            Err(LawError::OutsideTable {
-                found_n_m,
-                first_n_m: 10.0,
-                last_n_m: 25.0
-            })
-        );
+        let outside = LawError::OutsideTable {
+            found_n_m,
+            first_n_m: 10.0,
+            last_n_m: 25.0,
+        };
+        assert_eq!(table.at_preload(Some(found_n_m)), Err(outside));
     }
     assert!(table.at_preload(Some(f64::NAN)).is_err());
 }
@@ -132,9 +82,8 @@ fn a_joint_over_preload_is_at_its_own_preloads_what_the_table_says() {
 fn interpolation_between_passive_joints_is_passive() {
     let table = JointFile::from_json(OVER_PRELOAD, "").unwrap();
     for step in 0..=150 {
-        let file = table
-            .at_preload(Some(10.0 + 0.1 * f64::from(step)))
-            .unwrap();
+        let preload_n_m = 10.0 + 0.1 * f64::from(step);
+        let file = table.at_preload(Some(preload_n_m)).unwrap();
         assert!(file.passivity().is_passive(), "{}", file.name);
     }
 }
@@ -155,7 +104,6 @@ fn deviations_over_preload_that_do_not_fit_the_joint() {
     for (from, to, fragment) in cases {
         assert!(OVER_PRELOAD.contains(from), "{from}");
         let text = OVER_PRELOAD.replacen(from, to, 1);
-        let message = JointFile::from_json(&text, "").unwrap_err().to_string();
-        assert!(message.contains(fragment), "{message}");
+        has(&refused(&text, ""), &[fragment]);
     }
 }

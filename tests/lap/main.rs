@@ -7,7 +7,6 @@
 )]
 
 mod brake_reuss;
-mod command;
 mod free_vibration;
 mod oscillator;
 mod refusals;

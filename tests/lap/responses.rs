@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::path::PathBuf;
 
 use bolted_joint::identify::lap::{
-    Model, Noise, Place, ResponseUnknown, SineLine, SineRun, Term, TermSet, Use, Values,
+    Fit, Model, Noise, Place, ResponseUnknown, SineLine, SineRun, Term, TermSet, Use, Values,
     fit_responses,
 };
 use bolted_joint_dynamics::Polynomial;
@@ -52,13 +52,9 @@ fn model() -> Model {
 }
 
 fn exact(truth: &Truth) -> Vec<Vec<Complex64>> {
-    let at = |force: f64| {
-        omegas()
-            .into_iter()
-            .map(|omega| response(truth, omega, force)[1])
-            .collect()
-    };
-    FORCES.map(at).to_vec()
+    let at = |omega, force| response(truth, omega, force)[1];
+    let run = |force: f64| omegas().iter().map(|&omega| at(omega, force)).collect();
+    FORCES.map(run).to_vec()
 }
 
 fn runs(exact: &[Vec<Complex64>], generator: &mut ChaCha8Rng) -> Vec<SineRun> {
@@ -68,22 +64,39 @@ fn runs(exact: &[Vec<Complex64>], generator: &mut ChaCha8Rng) -> Vec<SineRun> {
                 let sample: f64 = StandardNormal.sample(generator);
                 NOISE * FRAC_1_SQRT_2 * sample
             };
-            let measured = exact * Complex64::new(1.0 + normal(), normal());
-            SineLine {
+            line(
                 omega,
                 force_n,
-                displacement_m: measured.norm(),
-                phase_rad: measured.arg(),
-            }
+                exact * Complex64::new(1.0 + normal(), normal()),
+            )
         });
-        SineRun {
-            name: format!("{force_n} N"),
-            path: PathBuf::new(),
-            used_for: Use::Fit,
-            lines: lines.collect(),
-        }
+        run(force_n, lines.collect())
     });
     runs.collect()
+}
+
+fn line(omega: f64, force_n: f64, displacement: Complex64) -> SineLine {
+    let (displacement_m, phase_rad) = displacement.to_polar();
+    SineLine {
+        omega,
+        force_n,
+        displacement_m,
+        phase_rad,
+    }
+}
+
+fn run(force_n: f64, lines: Vec<SineLine>) -> SineRun {
+    SineRun {
+        name: format!("{force_n} N"),
+        path: PathBuf::new(),
+        used_for: Use::Fit,
+        lines,
+    }
+}
+
+/// Where the noise is stated as it is.
+fn fitted(runs: &[SineRun], noise: &Noise) -> Fit {
+    fit_responses(&model(), runs, noise, &Values::default()).unwrap()
 }
 
 /// The bound on the standard deviations, by central differences of the independent model.
@@ -128,13 +141,7 @@ fn scatter_is_near_the_bound(cubic: f64) {
     let mut squares = [0.0; 6];
     let mut sums = [0.0; 6];
     for _ in 0..DRAWS {
-        let fit = fit_responses(
-            &model(),
-            &runs(&exact, &mut generator),
-            &noise,
-            &Values::default(),
-        )
-        .unwrap();
+        let fit = fitted(&runs(&exact, &mut generator), &noise);
         let reduced = fit.chi_squared / fit.degrees_of_freedom as f64;
         assert!((0.7..1.3).contains(&reduced), "χ²/ν {reduced}");
         for (place, unknown) in UNKNOWNS.into_iter().enumerate() {
@@ -153,11 +160,8 @@ fn scatter_is_near_the_bound(cubic: f64) {
             truth[place],
             bound[place]
         );
-        assert!(
-            (0.75..1.3).contains(&ratio),
-            "{}: {ratio}",
-            unknown.symbol()
-        );
+        let symbol = unknown.symbol();
+        assert!((0.75..1.3).contains(&ratio), "{symbol}: {ratio}");
     }
     // The cubic spring is not only bounded but seen, with its sign.
     assert!(bound[5] < 0.2 * cubic.abs(), "{}", bound[5]);
@@ -184,7 +188,7 @@ fn exact_responses_give_the_exact_model() {
             }
         }
         for noise in [Noise::stated(NOISE, 0.0), Noise::stated(NOISE, NOISE)] {
-            let fit = fit_responses(&model(), &runs, &noise, &Values::default()).unwrap();
+            let fit = fitted(&runs, &noise);
             for (place, unknown) in UNKNOWNS.into_iter().enumerate() {
                 let error = fit.values.of(unknown) / truth[place] - 1.0;
                 assert!(error.abs() < 1e-6, "{}: {error}", unknown.symbol());
@@ -203,21 +207,10 @@ fn many_harmonics_find_what_time_integration_gives() {
         terms: Polynomial::with(&[4e9], &[3e5]),
         ..Values::default()
     };
-    let runs = [4.0, 12.0].map(|force_n| SineRun {
-        name: String::new(),
-        path: PathBuf::new(),
-        used_for: Use::Fit,
-        lines: [40.0, 60.0, 80.0, 130.0, 150.0, 180.0, 220.0]
-            .map(|omega| {
-                let (displacement_m, phase_rad) = steady_state(&truth, omega, force_n).to_polar();
-                SineLine {
-                    omega,
-                    force_n,
-                    displacement_m,
-                    phase_rad,
-                }
-            })
-            .to_vec(),
+    let runs = [4.0, 12.0].map(|force_n| {
+        let omegas = [40.0, 60.0, 80.0, 130.0, 150.0, 180.0, 220.0];
+        let lines = omegas.map(|omega| line(omega, force_n, steady_state(&truth, omega, force_n)));
+        run(force_n, lines.to_vec())
     });
     let terms = [Term::CUBIC, Term::named("c2").unwrap()];
     let unknowns = [
@@ -236,13 +229,8 @@ fn many_harmonics_find_what_time_integration_gives() {
                 .collect(),
             harmonics,
         };
-        let fit = fit_responses(
-            &model,
-            &runs,
-            &Noise::stated(1e-3, 1e-3),
-            &Values::default(),
-        )
-        .unwrap();
+        let noise = Noise::stated(1e-3, 1e-3);
+        let fit = fit_responses(&model, &runs, &noise, &Values::default()).unwrap();
         let errors = model
             .unknowns
             .iter()
@@ -291,13 +279,8 @@ fn the_information_is_that_of_the_bound() {
     let truth = truth(2e12);
     let bound = bound(&truth);
     let mut generator = ChaCha8Rng::seed_from_u64(3);
-    let fit = fit_responses(
-        &model(),
-        &runs(&exact(&truth), &mut generator),
-        &Noise::stated(NOISE, 0.0),
-        &Values::default(),
-    )
-    .unwrap();
+    let runs = runs(&exact(&truth), &mut generator);
+    let fit = fitted(&runs, &Noise::stated(NOISE, 0.0));
     let scaled = SMatrix::<f64, 6, 6>::from_fn(|i, j| {
         fit.information[(i, j)] * truth[i].abs() * truth[j].abs()
     });

@@ -74,10 +74,11 @@ fn an_even_rectangle_has_the_stiffnesses_of_the_textbook() {
     // Σ x² ΔA over the middles of n strips is (1 − 1/n²) l³ w/12
     let coarse = 1.0 - 1.0 / (n * n) as f64;
     let (ix, iy) = (coarse * l * w.powi(3) / 12.0, coarse * w * l.powi(3) / 12.0);
+    let (tangential, normal) = (kt * area, kn * area);
     let expected = [
-        kt * area,
-        kt * area,
-        kn * area,
+        tangential,
+        tangential,
+        normal,
         kn * ix,
         kn * iy,
         kt * (ix + iy),
@@ -125,7 +126,8 @@ fn the_sums_are_those_of_the_definition() {
         let damping = by_definition(&parts, reference, |c| {
             [c.normal_damping_n_per_m3, c.tangential_damping_n_per_m3]
         });
-        for (matrix, expected) in [(found.stiffness, stiffness), (found.hysteretic, damping)] {
+        let matrices = [(found.stiffness, stiffness), (found.hysteretic, damping)];
+        for (matrix, expected) in matrices {
             let difference = (to_matrix(&matrix) - expected).norm();
             assert!(difference < 1e-13 * expected.norm(), "{difference}");
         }
@@ -233,11 +235,8 @@ fn damping_is_converted_at_its_frequency_and_there_alone() {
     assert_eq!(zhao.hysteretic[0][0], found.hysteretic[0][0]);
     // at the frequency of that mass on that spring both conversions are one
     let resonance = (stiffness / mass_kg).sqrt() / std::f64::consts::TAU;
-    let both = [
-        zhao.hysteretic_at(resonance).unwrap(),
-        found.hysteretic_at(resonance).unwrap(),
-    ];
-    let [zhao_there, found_there] = both.map(|matrix| to_matrix(&matrix));
+    let [zhao_there, found_there] =
+        [&zhao, &found].map(|joint| to_matrix(&joint.hysteretic_at(resonance).unwrap()));
     assert!((zhao_there - found_there).norm() < 1e-12 * found_there.norm());
 }
 
@@ -292,10 +291,8 @@ fn the_table_gives_every_matrix_back() {
     assert_eq!(rows[0], ["matrix", "row", "x", "y", "z", "rx", "ry", "rz"]);
     assert_eq!(rows.len(), 1 + 4 * 6);
     let total = found.viscous_at(300.0).unwrap();
-    for (block, matrix) in [found.stiffness, found.hysteretic, found.viscous, total]
-        .into_iter()
-        .enumerate()
-    {
+    let blocks = [found.stiffness, found.hysteretic, found.viscous, total];
+    for (block, matrix) in blocks.into_iter().enumerate() {
         for i in 0..6 {
             for j in 0..6 {
                 let text = rows[1 + 6 * block + i][2 + j];
@@ -314,10 +311,8 @@ fn the_macro_holds_the_upper_triangle_of_both_nodes() {
         .split("KEYOPT,")
         .filter(|part| part.contains("RMORE"))
         .map(|part| {
-            let lines = part
-                .lines()
-                .filter(|line| line.starts_with("R,") || line.starts_with("RMORE"));
-            let lines: Vec<&str> = lines.collect();
+            let is_value = |line: &&str| line.starts_with("R,") || line.starts_with("RMORE");
+            let lines: Vec<&str> = part.lines().filter(is_value).collect();
             assert_eq!(lines.len(), 13);
             let values = lines.iter().flat_map(|line| {
                 let skipped = if line.starts_with("R,") { 2 } else { 1 };
@@ -354,12 +349,7 @@ fn the_macro_holds_the_upper_triangle_of_both_nodes() {
         }
     }
     assert_eq!(sets.len(), 2);
-    for command in [
-        "ET,ARG3,MATRIX27",
-        "KEYOPT,ARG3,3,4",
-        "KEYOPT,ARG3+1,3,5",
-        "E,ARG1,ARG2",
-    ] {
+    for command in "ET,ARG3,MATRIX27 KEYOPT,ARG3,3,4 KEYOPT,ARG3+1,3,5 E,ARG1,ARG2".split(' ') {
         assert!(text.lines().any(|line| line == command), "{command}");
     }
 }

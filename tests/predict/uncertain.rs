@@ -4,15 +4,21 @@ use bolted_joint_testing::near;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use bolted_joint::predict::uncertain::{
-    Distribution, Inputs, MonteCarlo, MonteCarloError, Refusal, Spread, Uncertain,
+    Distribution, Drawn, Inputs, MonteCarlo, MonteCarloError, Outcome, Refusal, Spread, Uncertain,
 };
 
-fn uncertain(value: f64, standard_deviation: f64) -> Uncertain {
-    Uncertain {
+fn spread(spread: Spread, value: f64, standard_deviation: f64) -> Distribution {
+    let uncertain = Uncertain {
         value,
         standard_deviation,
-    }
+    };
+    Distribution::new(spread, uncertain)
 }
+
+const WITHIN_1_AND_2: Spread = Spread::NormalWithin {
+    low: 1.0,
+    high: 2.0,
+};
 
 fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
@@ -20,43 +26,34 @@ fn names(names: &[&str]) -> Vec<String> {
 
 const DRAWS: u64 = 40_000;
 
+/// What so many draws give.
+fn drawn(
+    seed: u64,
+    inputs: &Inputs,
+    results: &[&str],
+    model: impl Fn(&Drawn) -> Vec<f64> + Sync,
+) -> Outcome {
+    let monte_carlo = MonteCarlo { draws: DRAWS, seed };
+    let model = |drawn: &Drawn| Ok(model(drawn));
+    let outcome = monte_carlo.run(inputs, &names(results), model, &|| {});
+    outcome.unwrap()
+}
+
 /// So many standard errors are never met by chance: of a seed that is fixed this is a bound on errors, not on luck.
 const MANY: f64 = 4.5;
 
 #[test]
 fn draws_have_the_moments_and_quantiles_of_their_distributions() {
     let mut inputs = Inputs::default();
-    let normal = inputs.add(
-        "normal",
-        Distribution::new(Spread::Normal, uncertain(-2.0, 0.5)),
-    );
-    let lognormal = inputs.add(
-        "lognormal",
-        Distribution::new(Spread::Lognormal, uncertain(3.0, 1.5)),
-    );
-    let exact = inputs.add(
-        "exact",
-        Distribution::new(Spread::Lognormal, Uncertain::exact(7.0)),
-    );
-    let outcome = MonteCarlo {
-        draws: DRAWS,
-        seed: 3,
-    }
-    .run(
-        &inputs,
-        &names(&["normal", "lognormal", "exact", "logarithm"]),
-        |drawn| {
-            let positive = drawn.of(lognormal);
-            Ok(vec![
-                drawn.of(normal),
-                positive,
-                drawn.of(exact),
-                positive.ln(),
-            ])
-        },
-        &|| {},
-    )
-    .unwrap();
+    let normal = inputs.add("normal", spread(Spread::Normal, -2.0, 0.5));
+    let lognormal = inputs.add("lognormal", spread(Spread::Lognormal, 3.0, 1.5));
+    let exact = Distribution::new(Spread::Lognormal, Uncertain::exact(7.0));
+    let exact = inputs.add("exact", exact);
+    let results = ["normal", "lognormal", "exact", "logarithm"];
+    let outcome = drawn(3, &inputs, &results, |drawn| {
+        let positive = drawn.of(lognormal);
+        vec![drawn.of(normal), positive, drawn.of(exact), positive.ln()]
+    });
     let root = (DRAWS as f64).sqrt();
     let near = |found: f64, expected: f64, error: f64| {
         near(found, expected, MANY * error / root);
@@ -75,11 +72,8 @@ fn draws_have_the_moments_and_quantiles_of_their_distributions() {
     assert!(lognormal.interval_95[0] > 0.0);
     let variance = (1.0_f64 + 0.25).ln();
     near(logarithm.mean, 3_f64.ln() - 0.5 * variance, variance.sqrt());
-    near(
-        logarithm.standard_deviation,
-        variance.sqrt(),
-        variance.sqrt(),
-    );
+    let deviation = variance.sqrt();
+    near(logarithm.standard_deviation, deviation, deviation);
     assert_eq!((exact.mean, exact.standard_deviation), (7.0, 0.0));
     // only what varies is an input that can account for something
     assert_eq!(outcome.inputs, ["normal", "lognormal"]);
@@ -92,19 +86,11 @@ fn draws_have_the_moments_and_quantiles_of_their_distributions() {
 fn shares_of_a_sum_are_those_of_its_variances() {
     // y = 3 a + 4 b with a, b of unit variance: shares 9/25 and 16/25
     let mut inputs = Inputs::default();
-    let a = inputs.add("a", Distribution::new(Spread::Normal, uncertain(0.0, 1.0)));
-    let b = inputs.add("b", Distribution::new(Spread::Normal, uncertain(0.0, 1.0)));
-    let outcome = MonteCarlo {
-        draws: DRAWS,
-        seed: 1,
-    }
-    .run(
-        &inputs,
-        &names(&["y", "a"]),
-        |drawn| Ok(vec![3.0 * drawn.of(a) + 4.0 * drawn.of(b), drawn.of(a)]),
-        &|| {},
-    )
-    .unwrap();
+    let a = inputs.add("a", spread(Spread::Normal, 0.0, 1.0));
+    let b = inputs.add("b", spread(Spread::Normal, 0.0, 1.0));
+    let outcome = drawn(1, &inputs, &["y", "a"], |drawn| {
+        vec![3.0 * drawn.of(a) + 4.0 * drawn.of(b), drawn.of(a)]
+    });
     let shares = &outcome.estimates[0].shares;
     assert!((shares[0] - 0.36).abs() < 0.02, "{shares:?}");
     assert!((shares[1] - 0.64).abs() < 0.02, "{shares:?}");
@@ -115,100 +101,55 @@ fn shares_of_a_sum_are_those_of_its_variances() {
 #[test]
 fn correlated_inputs_are_drawn_so() {
     let mut inputs = Inputs::default();
-    let dimension = inputs.add(
-        "D",
-        Distribution::new(
-            Spread::NormalWithin {
-                low: 1.0,
-                high: 2.0,
-            },
-            uncertain(1.42, 0.02),
-        ),
-    );
-    let roughness = inputs
-        .add_correlated(
-            "G",
-            Distribution::of_logarithm(1.21e-8, 0.4),
-            dimension,
-            -0.9,
-        )
-        .unwrap();
-    let outcome = MonteCarlo {
-        draws: DRAWS,
-        seed: 5,
-    }
-    .run(
-        &inputs,
-        &names(&["D", "ln G"]),
-        |drawn| Ok(vec![drawn.of(dimension), drawn.of(roughness).ln()]),
-        &|| {},
-    )
-    .unwrap();
+    let dimension = inputs.add("D", spread(WITHIN_1_AND_2, 1.42, 0.02));
+    let roughness = Distribution::of_logarithm(1.21e-8, 0.4);
+    let roughness = inputs.add_correlated("G", roughness, dimension, -0.9);
+    let roughness = roughness.unwrap();
+    let outcome = drawn(5, &inputs, &["D", "ln G"], |drawn| {
+        vec![drawn.of(dimension), drawn.of(roughness).ln()]
+    });
     let found = outcome.correlation[0][1];
     assert!((found + 0.9).abs() < 0.01, "{found}");
     let logarithm = &outcome.estimates[1];
     assert!((logarithm.mean - 1.21e-8_f64.ln()).abs() < 0.01);
     assert!((logarithm.standard_deviation / 0.4 - 1.0).abs() < 0.02);
-    assert!(
-        inputs
-            .add_correlated("H", Distribution::of_logarithm(1.0, 0.1), roughness, -1.1)
-            .is_err()
-    );
+    let other = Distribution::of_logarithm(1.0, 0.1);
+    let refused = inputs.add_correlated("H", other, roughness, -1.1);
+    assert!(refused.is_err());
 }
 
 #[test]
 fn refused_draws_are_counted_by_reason_and_left_out() {
     // P(D ≤ 1) with D = 1.1 ± 0.1 is Φ(−1) = 15.87 %
     let mut inputs = Inputs::default();
-    let dimension = inputs.add(
-        "D",
-        Distribution::new(
-            Spread::NormalWithin {
-                low: 1.0,
-                high: 2.0,
-            },
-            uncertain(1.1, 0.1),
-        ),
-    );
+    let dimension = inputs.add("D", spread(WITHIN_1_AND_2, 1.1, 0.1));
     let monte_carlo = MonteCarlo {
         draws: DRAWS,
         seed: 2,
     };
-    let outcome = monte_carlo
-        .run(
-            &inputs,
-            &names(&["D"]),
-            |drawn| match drawn.of(dimension) {
-                // Φ(2) to 1 is 2.28 %
-                d if d > 1.3 => Err(Refusal {
-                    reason: "too large".to_owned(),
-                }),
-                d => Ok(vec![d]),
-            },
-            &|| {},
-        )
-        .unwrap();
+    let refused = |reason: &str| {
+        let reason = reason.to_owned();
+        Err(Refusal { reason })
+    };
+    let results = names(&["D"]);
+    let below = |drawn: &Drawn| match drawn.of(dimension) {
+        // Φ(2) to 1 is 2.28 %
+        d if d > 1.3 => refused("too large"),
+        d => Ok(vec![d]),
+    };
+    let outcome = monte_carlo.run(&inputs, &results, below, &|| {}).unwrap();
     let share = |reason: &str| {
         let refused = outcome.refused.iter().find(|(known, _)| known == reason);
         refused.unwrap().1 as f64 / DRAWS as f64
     };
     assert!((share("D outside its range") - 0.1587).abs() < 0.008);
     assert!((share("too large") - 0.0228).abs() < 0.003);
-    let refused: u64 = outcome.refused.iter().map(|(_, count)| count).sum();
-    assert_eq!(outcome.accepted + refused, DRAWS);
+    let number: u64 = outcome.refused.iter().map(|(_, count)| count).sum();
+    assert_eq!(outcome.accepted + number, DRAWS);
     let estimate = outcome.estimate("D").unwrap();
     assert!(estimate.interval_95[0] > 1.0 && estimate.interval_95[1] < 1.3);
 
-    let nothing = monte_carlo.run(
-        &inputs,
-        &names(&["D"]),
-        |_| {
-            Err(Refusal {
-                reason: "never".to_owned(),
-            })
-        },
-        &|| {},
-    );
+    let nothing = monte_carlo.run(&inputs, &results, |_| refused("never"), &|| {});
     let Err(error @ MonteCarloError::TooFew { .. }) = nothing else {
         panic!("{nothing:?}")
     };
@@ -218,11 +159,8 @@ fn refused_draws_are_counted_by_reason_and_left_out() {
 #[test]
 fn the_draws_do_not_depend_on_the_number_of_threads() {
     let mut inputs = Inputs::default();
-    let a = inputs.add(
-        "a",
-        Distribution::new(Spread::Lognormal, uncertain(1.0, 0.3)),
-    );
-    let b = inputs.add("b", Distribution::new(Spread::Normal, uncertain(1.0, 0.3)));
+    let a = inputs.add("a", spread(Spread::Lognormal, 1.0, 0.3));
+    let b = inputs.add("b", spread(Spread::Normal, 1.0, 0.3));
     let run = |threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let progress = AtomicU64::new(0);

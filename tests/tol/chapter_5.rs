@@ -95,10 +95,8 @@ fn two_published_starts_do_not_and_lie_farther_off() {
         assert!((value(&exact, "k_yy") / published - 1.0).abs() > 0.5);
         assert!(value(&exact, "rounds") == 60.0 && value(&exact, "sum left") > 1e-2);
         // From a start beside the joint the same steps arrive.
-        let noisy = case(
-            found,
-            "updated on logarithms, repeated, 1 % noise, from 3 % off",
-        );
+        let off = "updated on logarithms, repeated, 1 % noise, from 3 % off";
+        let noisy = case(found, off);
         let [k, c] = [Some(0.01), Some(0.10)];
         assert_published(&noisy[..5], &[k, k, k, c, c]);
         let away = value(&noisy, "c_thetatheta") - noisy[5].published.unwrap();
@@ -129,10 +127,8 @@ fn squared_amplitudes_leave_next_to_nothing_at_another_joint() {
 #[test]
 fn points_that_were_not_used_are_regenerated() {
     for table in ARRIVING.into_iter().chain(ASTRAY) {
-        let rows = case(
-            chapter_5(table),
-            "regenerated (logarithms, 1 % noise), r.m.s. deviation",
-        );
+        let regenerated = "regenerated (logarithms, 1 % noise), r.m.s. deviation";
+        let rows = case(chapter_5(table), regenerated);
         assert!(rows.iter().all(|row| mean(row) < 0.2), "{table} {rows:?}");
     }
 }

@@ -5,9 +5,7 @@
     reason = "a test whose preparation fails has nothing better to do than panic"
 )]
 
-mod bolts;
 mod chapter_5;
-mod command;
 mod document;
 mod reproduced;
 mod tables;

@@ -56,17 +56,8 @@ fn table_4_4_is_obtained_where_its_noise_hides_one_singular_value() {
     let rows = case(&found, "(3.21), no noise, y at s alone");
     assert_published(&rows, &[Some(0.07); 6]);
     let rows = case(&found, "(3.18), r, N = 16777216");
-    assert_published(
-        &rows,
-        &[
-            Some(0.03),
-            Some(0.20),
-            Some(0.25),
-            Some(0.10),
-            None,
-            Some(0.05),
-        ],
-    );
+    let [k, kt, ktt, c, ctt] = [0.03, 0.20, 0.25, 0.10, 0.05].map(Some);
+    assert_published(&rows, &[k, kt, ktt, c, None, ctt]);
 }
 
 #[test]
@@ -75,25 +66,14 @@ fn estimated_rotations_give_the_published_answer_at_any_number_of_samples() {
     for samples in [4096, 16_777_216] {
         let rows = case(&found, &format!("2: estimated, N = {samples}"));
         // Couplings come out negative and count as zero, as published.
-        assert_published(
-            &rows,
-            &[
-                Some(0.02),
-                Some(0.0),
-                Some(0.25),
-                Some(0.06),
-                Some(0.0),
-                Some(0.04),
-            ],
-        );
+        let tolerances = [0.02, 0.0, 0.25, 0.06, 0.0, 0.04];
+        assert_published(&rows, &tolerances.map(Some));
     }
     // Too much noise leaves measured rotations no better.
     let measured = case(&found, "1: measured, N = 4096");
     for (row, alone) in measured.iter().zip(case(&found, "no noise, y at r alone")) {
-        assert!(
-            (mean(row) - mean(alone)).abs() <= 0.11 * mean(alone).abs(),
-            "{row:?}"
-        );
+        let away = (mean(row) - mean(alone)).abs();
+        assert!(away <= 0.11 * mean(alone).abs(), "{row:?}");
     }
     // Nor does it take noise: the difference is wrong by itself, and leaves what one translation tells.
     let noisy = case(&found, "2: estimated, N = 16777216");

@@ -1,14 +1,14 @@
 //! Binary data sets: all that pyuff writes, what others make of the format, and what is broken in it.
 
 use bolted_joint::frf::{
-    ByteOrder, Dof, Frf, FrfError, FrfSet, ReadOptions, Selection, UffProblem, read_uff58,
-    write_uff58b, write_uff58b_to,
+    ByteOrder, Dof, FrfError, FrfSet, ReadOptions, Selection, read_uff58, write_uff58b,
+    write_uff58b_to,
 };
-use bolted_joint_testing::has;
+use bolted_joint_testing::{has, near};
 use num_complex::Complex64;
 
 use super::foreign::{is_oscillator, own_file};
-use super::{dof, oscillator, problem_of, read, read_text};
+use super::{dof, is_refused, oscillator, oscillators, read, read_text};
 
 /// Receptance of a real accelerance: its imaginary part is lost before the division by −ω².
 fn real_part_of_accelerance(hz: f64) -> Complex64 {
@@ -35,16 +35,12 @@ fn every_variant_that_pyuff_writes_gives_the_oscillator() {
             assert_eq!(real.frequency_hz(), complex.frequency_hz());
             for (&found, &hz) in real.receptance().iter().zip(real.frequency_hz()) {
                 let expected = real_part_of_accelerance(hz);
-                assert!(
-                    (found - expected).norm() <= tolerance * oscillator(hz).norm(),
-                    "{name}"
-                );
+                let error = (found - expected).norm();
+                assert!(error <= tolerance * oscillator(hz).norm(), "{name}");
             }
         }
-        assert_eq!(
-            (even.frequency_hz().len(), even.frequency_hz()[12]),
-            (13, 35.0)
-        );
+        assert_eq!(even.frequency_hz().len(), 13);
+        assert_eq!(even.frequency_hz()[12], 35.0);
         assert_eq!(uneven.frequency_hz().len(), 10);
         assert!((uneven.frequency_hz()[5] - 31.83).abs() <= tolerance * 31.83);
     }
@@ -64,51 +60,26 @@ fn binary_and_ascii_sets_coherence_and_others_stand_in_any_order() {
     assert!(reading.units_are_stated());
     let set = reading.into_set().unwrap();
     let (y11, y12, y2) = (dof("11:Y"), dof("12:-Y"), dof("2:Y"));
-    is_oscillator(
-        &set.receptance(y11, y2).unwrap(),
-        set.frequency_hz(),
-        1.0,
-        1e-11,
-    );
-    is_oscillator(
-        &set.receptance(y12, y2).unwrap(),
-        set.frequency_hz(),
-        0.5,
-        1e-11,
-    );
+    for (response, factor) in [(y11, 1.0), (y12, 0.5)] {
+        let found = set.receptance(response, y2).unwrap();
+        is_oscillator(&found, set.frequency_hz(), factor, 1e-11);
+    }
     // γ² = 1/(1 + 0.01 i), so that σ²/|H|² = (1 − γ²)/(n γ²) is 0.001 i
     for response in [y11, y11.flipped()] {
         let variance = set.relative_variance(response, y2).unwrap();
         assert_eq!(set.relative_variance(y2, response).unwrap(), variance);
         for (index, found) in variance.iter().enumerate() {
-            let expected = 1e-3 * (index + 1) as f64;
-            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+            near(*found, 1e-3 * (index + 1) as f64, 1e-9);
         }
     }
     assert_eq!(set.relative_variance(y12, y2), None);
-    assert_eq!(
-        set.restricted_to(10.0, 20.0)
-            .unwrap()
-            .coherence(y11, y2)
-            .unwrap()
-            .len(),
-        5
-    );
+    let part = set.restricted_to(10.0, 20.0).unwrap();
+    assert_eq!(part.coherence(y11, y2).unwrap().len(), 5);
 }
 
 fn small_set(frequency_hz: &[f64]) -> FrfSet {
-    let function = |response: &str, reference: &str, factor: f64| {
-        let values = frequency_hz
-            .iter()
-            .map(|&hz| factor * oscillator(hz))
-            .collect();
-        Frf::new(dof(response), dof(reference), frequency_hz.to_vec(), values).unwrap()
-    };
-    FrfSet::new(vec![
-        function("11:Y", "2:Y", 1.0),
-        function("12:RZ", "2:-Y", -0.3),
-    ])
-    .unwrap()
+    let functions = [("11:Y", "2:Y", 1.0), ("12:RZ", "2:-Y", -0.3)];
+    oscillators(frequency_hz, &functions)
 }
 
 fn written(frequency_hz: &[f64], order: ByteOrder) -> Vec<u8> {
@@ -137,14 +108,8 @@ fn what_is_written_in_binary_comes_back_to_the_last_bit() {
 /// Where the values of the first function begin, and how many bytes they are.
 fn values_of_first(file: &[u8], lines: usize, bytes_per_line: usize) -> std::ops::Range<usize> {
     // 6 lines of units, 2 that begin the data set, 11 records
-    let begin = file
-        .iter()
-        .enumerate()
-        .filter(|(_, byte)| **byte == b'\n')
-        .nth(6 + 2 + 11 - 1)
-        .unwrap()
-        .0
-        + 1;
+    let mut ends = (0..file.len()).filter(|&at| file[at] == b'\n');
+    let begin = ends.nth(6 + 2 + 11 - 1).unwrap() + 1;
     begin..begin + lines * bytes_per_line
 }
 
@@ -161,13 +126,9 @@ fn frequencies_in_single_precision_beside_values_in_double_are_told_by_the_lengt
     other.extend_from_slice(&file[range.end..]);
     let reading = read_text(&other).unwrap();
     let found = &reading.functions()[0];
-    assert_eq!(
-        found.receptance(),
-        small_set(&UNEVEN)
-            .receptance(dof("11:Y"), dof("2:Y"))
-            .unwrap()
-            .values()
-    );
+    let set = small_set(&UNEVEN);
+    let expected = set.receptance(dof("11:Y"), dof("2:Y")).unwrap();
+    assert_eq!(found.receptance(), expected.values());
     assert_eq!(found.frequency_hz()[2], 2.25);
     assert_eq!(found.frequency_hz()[3], f64::from(1_234.567_9_f32));
 }
@@ -183,10 +144,8 @@ fn the_closing_line_may_stand_by_itself_and_binary_sets_of_other_types_are_skipp
         other.extend_from_slice(end_of_line.as_bytes());
         other.extend_from_slice(&file[range.end..]);
         let reading = read_text(&other).unwrap();
-        assert_eq!(
-            (reading.functions().len(), reading.skipped_datasets),
-            (2, 1)
-        );
+        assert_eq!(reading.functions().len(), 2);
+        assert_eq!(reading.skipped_datasets, 1);
         assert_eq!(reading.into_set().unwrap(), small_set(&EVEN));
     }
 }
@@ -205,55 +164,22 @@ fn a_binary_file_cut_anywhere_is_an_error() {
 fn a_length_that_does_not_fit_is_refused_with_all_that_would() {
     let file = written(&EVEN, ByteOrder::Little);
     let changed = |from: &str, to: &str| {
-        let at = file
-            .windows(from.len())
-            .position(|w| w == from.as_bytes())
-            .unwrap();
-        let mut other = file[..at].to_vec();
-        other.extend_from_slice(to.as_bytes());
-        other.extend_from_slice(&file[at + from.len()..]);
-        other
+        let mut parts = file.windows(from.len());
+        let at = parts.position(|w| w == from.as_bytes()).unwrap();
+        [&file[..at], to.as_bytes(), &file[at + from.len()..]].concat()
     };
-    let (line, problem) = problem_of(changed(
-        "         6         4         1",
-        "         6         3         1",
-    ));
-    let message = problem.to_string();
-    assert_eq!(line, 7);
-    assert!(matches!(
-        problem,
-        UffProblem::BinaryLength {
-            lines: 3,
-            stated: Some(64),
-            ..
-        }
-    ));
-    has(&message, &["after 48 bytes", "says 64 bytes"]);
+    let four = "         6         4         1";
+    let three = changed(four, "         6         3         1");
+    is_refused(&three, 7, &["BinaryLength {", "lines: 3,", "Some(64)"]);
+    is_refused(&three, 7, &["after 48 bytes", "says 64 bytes"]);
     for count in ["1000000000000", "18446744073709551615"] {
-        let (_, problem) = problem_of(changed(
-            "         6         4         1",
-            &format!("         6 {count} 1"),
-        ));
-        assert!(
-            matches!(problem, UffProblem::BinaryLength { .. }),
-            "{problem}"
-        );
+        let claims = changed(four, &format!("         6 {count} 1"));
+        is_refused(&claims, 7, &["BinaryLength {"]);
         let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("claims.uff");
-        std::fs::write(
-            &path,
-            changed(
-                "         6         4         1",
-                &format!("         6 {count} 1"),
-            ),
-        )
-        .unwrap();
+        std::fs::write(&path, claims).unwrap();
         assert!(read_uff58(&path, &ReadOptions::default()).is_err());
     }
-    let (line, problem) = problem_of(changed("58b     1     2", "58b     1     1"));
-    assert!(
-        line == 8 && problem.to_string().contains("VAX"),
-        "{line}: {problem}"
-    );
+    is_refused(changed("58b     1     2", "58b     1     1"), 8, &["VAX"]);
 }
 
 #[test]
@@ -282,21 +208,13 @@ fn only_what_is_asked_for_is_kept_and_the_rest_is_known_by_name() {
         };
         assert_eq!(function.response(), dof("11:Y"));
         assert_eq!(function.frequency_hz()[0], 1.5);
-        assert!(
-            function
-                .frequency_hz()
-                .iter()
-                .all(|hz| (1.5..=2.0).contains(hz))
-        );
-        let error = reading
-            .into_set()
-            .unwrap()
-            .receptance(dof("99:Y"), dof("2:Y"))
-            .unwrap_err();
-        assert!(error.to_string().contains("12:+RZ / 2:-Y"), "{error}");
+        let mut lines = function.frequency_hz().iter();
+        assert!(lines.all(|hz| (1.5..=2.0).contains(hz)));
+        let set = reading.into_set().unwrap();
+        let error = set.receptance(dof("99:Y"), dof("2:Y")).unwrap_err();
+        has(&error.to_string(), &["12:+RZ / 2:-Y"]);
         let error = select(Selection::everything().within(1.1, 1.2)).unwrap_err();
         assert!(matches!(error, FrfError::InFile { .. }));
-        let message = error.to_string();
-        assert!(message.contains("no line from 1.1 to 1.2 Hz"), "{message}");
+        has(&error.to_string(), &["no line from 1.1 to 1.2 Hz"]);
     }
 }

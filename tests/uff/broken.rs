@@ -1,12 +1,11 @@
 //! Broken files: every fault is named with its line; and harmless differences are no faults.
 
-use bolted_joint::frf::{
-    FrfError, ReadOptions, UffProblem, UnitSystem, read_uff58, read_uff58_from,
-};
+use bolted_joint::frf::{FrfError, ReadOptions, UnitSystem, read_uff58, read_uff58_from};
+use bolted_joint_testing::has;
 use num_complex::Complex64;
 use proptest::prelude::*;
 
-use super::{problem_of, read_text};
+use super::{is_refused, problem_of, read_text};
 
 const HEADER: &str = "    -1\n    58\nNONE\nNONE\nNONE\nNONE\nNONE
     4         0    0         0 NONE              11   2 NONE               2   2
@@ -61,24 +60,21 @@ fn the_small_file_is_good_in_every_dress() {
 
 #[test]
 fn what_is_no_universal_file_is_said_to_be_none() {
-    assert!(matches!(problem_of(""), (1, UffProblem::Empty)));
-    assert!(matches!(problem_of("\n \n"), (1, UffProblem::Empty)));
+    is_refused("", 1, &["Empty"]);
+    is_refused("\n \n", 1, &["Empty"]);
     let png = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR\x00\x00\x01\x00";
     let (line, problem) = problem_of(png);
     assert_eq!(line, 1);
-    assert!(problem.to_string().contains("PNG") && problem.to_string().contains("UFF 58"));
-    assert!(problem.to_string().chars().all(|c| !c.is_control()));
-    let (line, problem) = problem_of("\nfrequency,real,imaginary\n1,2,3\n");
-    assert!(
-        matches!((line, problem), (2, UffProblem::NotUniversalFile { found }) if found == "frequency,real,imaginary")
-    );
+    let message = problem.to_string();
+    has(&message, &["PNG", "UFF 58"]);
+    assert!(message.chars().all(|c| !c.is_control()));
+    let table = "frequency,real,imaginary";
+    let found = format!("NotUniversalFile {{ found: {table:?} }}");
+    is_refused(format!("\n{table}\n1,2,3\n"), 2, &[&found]);
     let random: Vec<u8> = (0..200_000_u32)
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8 | 0x80)
         .collect();
-    assert!(matches!(
-        problem_of(random),
-        (1, UffProblem::LineTooLong { .. })
-    ));
+    is_refused(random, 1, &["LineTooLong {"]);
     let error = read_uff58("no/such.uff", &ReadOptions::default()).unwrap_err();
     assert!(matches!(&error, FrfError::Read { .. }) && error.to_string().contains("no/such.uff"));
 }
@@ -86,36 +82,15 @@ fn what_is_no_universal_file_is_said_to_be_none() {
 #[test]
 fn broken_structure_is_located() {
     let good = small(VALUES);
-    let (line, problem) = problem_of(format!("{good}junk\n"));
-    assert!(
-        matches!((line, problem), (16, UffProblem::BetweenDatasets { found }) if found == "junk")
-    );
-    let (line, problem) = problem_of(good.replacen("    58", "fifty", 1));
-    assert!(
-        matches!((line, problem), (2, UffProblem::DatasetNumber { found }) if found == "fifty")
-    );
-    let header_only: String = good
-        .lines()
-        .take(8)
-        .map(|line| format!("{line}\n"))
-        .collect();
-    let (line, problem) = problem_of(format!("{header_only}    -1\n"));
-    assert!(matches!(
-        (line, problem),
-        (
-            9,
-            UffProblem::HeaderEnds {
-                found: 6,
-                expected: 11,
-                begun_at: 1,
-                ..
-            }
-        )
-    ));
-    assert!(matches!(
-        problem_of("    -1\n   164\n         1\n    -1\n"),
-        (4, UffProblem::HeaderEnds { dataset: 164, .. })
-    ));
+    let junk = "BetweenDatasets { found: \"junk\" }";
+    is_refused(format!("{good}junk\n"), 16, &[junk]);
+    let fifty = "DatasetNumber { found: \"fifty\" }";
+    is_refused(good.replacen("    58", "fifty", 1), 2, &[fifty]);
+    let (header_only, _) = good.split_once("         5         3").unwrap();
+    let ends = ["HeaderEnds {", "begun_at: 1,", "found: 6,", "expected: 11"];
+    is_refused(format!("{header_only}    -1\n"), 9, &ends);
+    let units = "    -1\n   164\n         1\n    -1\n";
+    is_refused(units, 4, &["HeaderEnds {", "dataset: 164"]);
 }
 
 #[test]
@@ -125,104 +100,48 @@ fn a_file_cut_anywhere_is_an_error_and_never_half_a_function() {
         let cut = &good[..length];
         assert!(read_text(cut).is_err(), "cut after {length} bytes: {cut}");
     }
-    let (line, problem) = problem_of(&good[..good.len() - 7]);
-    assert!(matches!(
-        (line, problem),
-        (15, UffProblem::EndsInside { begun_at: 1, .. })
-    ));
+    let cut = &good[..good.len() - 7];
+    is_refused(cut, 15, &["EndsInside {", "begun_at: 1 }"]);
 }
 
 #[test]
 fn broken_values_are_located() {
-    let (line, problem) = problem_of(small(&VALUES.replace("3.00000E+00", "3.0000oE+00")));
-    assert!(
-        matches!((line, problem), (14, UffProblem::NotANumber { column: 29, found }) if found == "3.0000oE+00")
-    );
+    let with = |number: &str| small(&VALUES.replace("3.00000E+00", number));
+    let found = ["NotANumber {", "column: 29", "found: \"3.0000oE+00\""];
+    is_refused(with("3.0000oE+00"), 14, &found);
     for bad in ["        NaN", "   Infinity", "1.0000E+999"] {
-        let (line, problem) = problem_of(small(&VALUES.replace("3.00000E+00", bad)));
-        assert!(
-            matches!((line, problem), (14, UffProblem::NotFinite { .. })),
-            "{bad}"
-        );
+        is_refused(with(bad), 14, &["NotFinite {"]);
     }
-    let (line, problem) = problem_of(small("  1.00000E+00  2.00000E+00\n"));
-    assert!(matches!(
-        (line, problem),
-        (
-            15,
-            UffProblem::TooFewNumbers {
-                found: 2,
-                expected: 6,
-                begun_at: 1
-            }
-        )
-    ));
-    let (line, problem) = problem_of(small(&VALUES.repeat(2)));
-    assert!(matches!(
-        (line, problem),
-        (
-            15,
-            UffProblem::TooManyNumbers {
-                expected: 6,
-                begun_at: 1
-            }
-        )
-    ));
+    let few = ["TooFewNumbers {", "found: 2, expected: 6, begun_at: 1 }"];
+    is_refused(small("  1.00000E+00  2.00000E+00\n"), 15, &few);
+    let many = ["TooManyNumbers {", "expected: 6, begun_at: 1 }"];
+    is_refused(small(&VALUES.repeat(2)), 15, &many);
     // Zeros may fill the last line, but nothing else may, and no further line.
-    let two_lines = |values| {
-        small(values).replacen("         3         1  1.0", "         2         1  1.0", 1)
-    };
+    let three = "         3         1  1.0";
+    let two_lines = |values| small(values).replacen(three, "         2         1  1.0", 1);
     let filled = "  1.00000E+00  2.00000E+00  3.00000E+00  4.00000E+00  0.00000E+00  0.00000E+00\n";
-    assert_eq!(
-        read_text(two_lines(filled)).unwrap().functions()[0]
-            .receptance()
-            .len(),
-        2
-    );
-    assert!(matches!(
-        problem_of(two_lines(VALUES)),
-        (14, UffProblem::TooManyNumbers { .. })
-    ));
+    let reading = read_text(two_lines(filled)).unwrap();
+    assert_eq!(reading.functions()[0].receptance().len(), 2);
+    is_refused(two_lines(VALUES), 14, &["TooManyNumbers {"]);
     let zeros = format!("{VALUES}  0.00000E+00\n");
-    assert!(matches!(
-        problem_of(small(&zeros)),
-        (15, UffProblem::TooManyNumbers { .. })
-    ));
-    let huge = small(VALUES).replacen("         3         1  1.0", "9999999999         1  1.0", 1);
-    assert!(matches!(
-        problem_of(huge),
-        (15, UffProblem::TooFewNumbers { found: 6, .. })
-    ));
+    is_refused(small(&zeros), 15, &["TooManyNumbers {"]);
+    let huge = small(VALUES).replacen(three, "9999999999         1  1.0", 1);
+    is_refused(huge, 15, &["TooFewNumbers {", "found: 6,"]);
 }
 
 #[test]
 fn header_errors_stand_at_the_line_of_their_record() {
-    let (line, problem) = problem_of(small(VALUES).replacen("  11   2 NONE", "  11   9 NONE", 1));
-    assert!(matches!(
-        (line, problem),
-        (
-            8,
-            UffProblem::Dof {
-                role: "response",
-                ..
-            }
-        )
-    ));
-    let (line, problem) =
-        problem_of(small(VALUES).replacen("        18    0", "        17    0", 1));
-    assert!(matches!(
-        (line, problem),
-        (10, UffProblem::AbscissaNotFrequency { .. })
-    ));
-    let (line, problem) =
-        problem_of(small(VALUES).replacen("         8    0", "         3    0", 1));
-    assert!(matches!(
-        (line, problem),
-        (11, UffProblem::NotMotionPerLoad { .. })
-    ));
-    let (line, problem) = problem_of(small(VALUES).replacen("5.00000E-01", "0.00000E+00", 1));
-    assert!(matches!((line, &problem), (1, UffProblem::Function(_))));
-    assert!(problem.to_string().contains("strictly increasing"));
+    let response = ["Dof {", "role: \"response\""];
+    #[rustfmt::skip]
+    let cases = [
+        ("  11   2 NONE", "  11   9 NONE", 8, &response[..]),
+        ("        18    0", "        17    0", 10, &["AbscissaNotFrequency {"]),
+        ("         8    0", "         3    0", 11, &["NotMotionPerLoad {"]),
+        ("5.00000E-01", "0.00000E+00", 1, &["Function(", "strictly increasing"]),
+    ];
+    for (from, to, line, parts) in cases {
+        is_refused(small(VALUES).replacen(from, to, 1), line, parts);
+    }
 }
 
 #[test]
@@ -242,20 +161,11 @@ fn units_hold_for_the_whole_file_and_may_stand_after_the_functions() {
     ] {
         assert!((first(text).unwrap() - Complex64::new(1e-3, 2e-3)).norm() < 1e-18);
     }
-    let (line, problem) = problem_of(format!(
-        "{}{}{good}",
-        units(9, "1.0D+03"),
-        units(1, "1.0D+00")
-    ));
-    assert!(matches!(
-        (line, problem),
-        (7, UffProblem::SecondUnits { first_line: 1 })
-    ));
-    let (line, problem) = problem_of(format!("{}{good}", units(1, "3.28083989501312334D+00")));
-    assert!(matches!(
-        (line, problem),
-        (3, UffProblem::UnitsCode { code: 1, .. })
-    ));
+    let twice = units(9, "1.0D+03") + &units(1, "1.0D+00");
+    let second = "SecondUnits { first_line: 1 }";
+    is_refused(format!("{twice}{good}"), 7, &[second]);
+    let feet = units(1, "3.28083989501312334D+00");
+    is_refused(feet + &good, 3, &["UnitsCode {", "code: 1,"]);
     let inches = UnitSystem::new(1.0 / 0.0254, 1.0).ok();
     let stated = ReadOptions {
         units: inches,
@@ -286,12 +196,8 @@ fn units_that_do_not_end_are_not_held() {
 fn a_set_names_the_file_that_its_functions_come_from() {
     let twice = small(VALUES).repeat(2);
     let error = read_text(twice).unwrap().into_set().unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("memory.uff: found two functions from 2:+Y to 11:+Y"),
-        "{error}"
-    );
+    let expected = "memory.uff: found two functions from 2:+Y to 11:+Y";
+    assert!(error.to_string().starts_with(expected), "{error}");
 }
 
 proptest! {

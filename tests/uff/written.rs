@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use bolted_joint::frf::{Dof, Frf, FrfError, FrfSet, write_uff58, write_uff58_to};
+use bolted_joint_testing::has;
 use num_complex::Complex64;
 use proptest::prelude::*;
 
-use super::{dof, oscillator, read, read_text};
+use super::{oscillators, read, read_text};
 
 fn written(set: &FrfSet, description: &str) -> String {
     let mut bytes = Vec::new();
@@ -15,20 +16,13 @@ fn written(set: &FrfSet, description: &str) -> String {
 }
 
 fn set_over(frequency_hz: &[f64]) -> FrfSet {
-    let function = |response: &str, reference: &str, factor: f64| {
-        let values = frequency_hz
-            .iter()
-            .map(|&hz| factor * oscillator(hz))
-            .collect();
-        Frf::new(dof(response), dof(reference), frequency_hz.to_vec(), values).unwrap()
-    };
-    FrfSet::new(vec![
-        function("11:Y", "2:Y", 1.0),
-        function("11:-RZ", "2:Y", 3.0),
-        function("4294967295:RX", "2:-RZ", -0.1),
-        function("7:0", "2:Y", 2.0),
-    ])
-    .unwrap()
+    let functions = [
+        ("11:Y", "2:Y", 1.0),
+        ("11:-RZ", "2:Y", 3.0),
+        ("4294967295:RX", "2:-RZ", -0.1),
+        ("7:0", "2:Y", 2.0),
+    ];
+    oscillators(frequency_hz, &functions)
 }
 
 /// The standard's columns, to the letter.
@@ -59,12 +53,13 @@ fn the_written_columns_are_those_of_the_standard() {
     assert_eq!(lines[13..19], expected);
     assert_eq!(lines[19].len(), 80);
     assert_eq!(lines[20].len(), 40);
-    assert!(text.contains("         8    0    0    0 Rotation             rad"));
-    assert!(text.contains("        13    0    0    0 Moment               N.m"));
-    assert!(written(&set_over(&[1.0]), "  ").contains("    58\nNONE\n"));
-    assert!(
-        written(&set_over(&[1.0]), &"x".repeat(100)).contains(&format!("\n{}\n", "x".repeat(80)))
-    );
+    let rotation = "         8    0    0    0 Rotation             rad";
+    let moment = "        13    0    0    0 Moment               N.m";
+    has(&text, &[rotation, moment]);
+    let described = |description: &str| written(&set_over(&[1.0]), description);
+    has(&described("  "), &["    58\nNONE\n"]);
+    let cut = format!("\n{}\n", "x".repeat(80));
+    has(&described(&"x".repeat(100)), &[cut]);
 }
 
 fn assert_same(set: &FrfSet, frequency_tolerance: f64) {
@@ -73,8 +68,9 @@ fn assert_same(set: &FrfSet, frequency_tolerance: f64) {
     let back = reading.into_set().unwrap();
     assert_eq!(back.line_count(), set.line_count());
     for (found, expected) in back.frequency_hz().iter().zip(set.frequency_hz()) {
+        let error = (found - expected).abs();
         assert!(
-            (found - expected).abs() <= frequency_tolerance * expected,
+            error <= frequency_tolerance * expected,
             "{found} {expected}"
         );
     }
@@ -117,23 +113,13 @@ fn a_written_file_is_there_whole_or_not_at_all() {
     std::fs::create_dir_all(&folder).unwrap();
     let even = folder.join("even.uff");
     write_uff58(&set_over(&[1.0, 1.5, 2.0]), &even, "even").unwrap();
-    write_uff58(
-        &set_over(&[1.0, 1.503, 2.25, 1_234.567_890_12]),
-        folder.join("uneven.uff"),
-        "uneven",
-    )
-    .unwrap();
+    let uneven = set_over(&[1.0, 1.503, 2.25, 1_234.567_890_12]);
+    write_uff58(&uneven, folder.join("uneven.uff"), "uneven").unwrap();
     assert_eq!(read(&even).functions().len(), 4);
-    let names: Vec<_> = std::fs::read_dir(&folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name())
-        .collect();
-    assert!(
-        names
-            .iter()
-            .all(|name| !name.to_string_lossy().ends_with(".part")),
-        "{names:?}"
-    );
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(!name.ends_with(".part"), "{name}");
+    }
     let error = write_uff58(&set_over(&[1.0]), folder.join("missing/even.uff"), "").unwrap_err();
     assert!(matches!(error, FrfError::Write { .. }));
 }
@@ -165,16 +151,12 @@ fn any_set() -> impl Strategy<Value = FrfSet> {
             pairs.len(),
         );
         values.prop_map(move |values| {
-            let functions = pairs
-                .iter()
-                .zip(values)
-                .map(|(&(response, reference), values)| {
-                    let values = values
-                        .into_iter()
-                        .map(|(re, im)| Complex64::new(re, im))
-                        .collect();
-                    Frf::new(response, reference, frequency_hz.clone(), values).unwrap()
-                });
+            let pairs = pairs.iter().zip(values);
+            let functions = pairs.map(|(&(response, reference), values)| {
+                let values = values.into_iter().map(|(re, im)| Complex64::new(re, im));
+                let axis = frequency_hz.clone();
+                Frf::new(response, reference, axis, values.collect()).unwrap()
+            });
             FrfSet::new(functions.collect()).unwrap()
         })
     })

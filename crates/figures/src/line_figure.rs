@@ -2,8 +2,8 @@
 
 use super::axis::Axis;
 use super::curve;
-use super::strip::{Strip, TEXT, VALUE_LABELS};
-use super::svg::{Manner, PathData, Point, Svg};
+use super::strip::{FONTS, LABELS_BELOW, Strip, VALUE_LABELS};
+use super::svg::{Lettering, Manner, PathData, Point, Svg};
 use super::text;
 
 const WIDTH: f64 = 640.0;
@@ -12,9 +12,7 @@ const MARGIN: f64 = 14.0;
 /// Room for the half of the last label that goes beyond the strip.
 const RIGHT: f64 = 24.0;
 const LEGEND: f64 = 30.0;
-const LABELS_BELOW: f64 = 46.0;
 const FONT: f64 = 12.5;
-const FONTS: &str = "system-ui, sans-serif";
 const SAMPLE_WIDTH: f64 = 26.0;
 const BETWEEN_ENTRIES: f64 = 24.0;
 /// Radius of a point.
@@ -121,9 +119,7 @@ impl LineFigure<'_> {
                     .for_each(|point| draw_mark(point, look.0, &mut svg)),
             }
         }
-        strip.draw_frame(&mut svg);
-        strip.draw_value_labels(self.up.0, &mut svg);
-        strip.draw_labels_below(self.across.0, &mut svg);
+        strip.draw_axes(self.across.0, self.up.0, &mut svg);
         Some(svg.finish())
     }
 
@@ -148,7 +144,11 @@ impl LineFigure<'_> {
                 ),
             }
             x += SAMPLE_WIDTH + 7.0;
-            svg.text(x, baseline, FONT, Manner::Plain, TEXT, &line.name);
+            svg.text(
+                (x, baseline),
+                Lettering::new(FONT, Manner::Plain),
+                &line.name,
+            );
             x += text::width(&line.name, FONT) + BETWEEN_ENTRIES;
         }
     }

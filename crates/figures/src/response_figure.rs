@@ -4,8 +4,8 @@ use super::axis::Axis;
 use super::curve;
 use super::line_figure::{Scale, axis};
 use super::look::Look;
-use super::strip::{FAINT_TEXT, Strip, TEXT, VALUE_LABELS};
-use super::svg::{Manner, PathData, Point, Svg};
+use super::strip::{FAINT_TEXT, FONTS, Strip, VALUE_LABELS};
+use super::svg::{Lettering, Manner, PathData, Point, Svg};
 use super::text;
 
 const WIDTH: f64 = 820.0;
@@ -19,7 +19,6 @@ const LINE: f64 = 20.0;
 const LABELS_BELOW: f64 = 52.0;
 const FONT: f64 = 12.5;
 const TITLE_FONT: f64 = 15.0;
-const FONTS: &str = "system-ui, sans-serif";
 const SAMPLE_WIDTH: f64 = 26.0;
 const BETWEEN_ENTRIES: f64 = 22.0;
 const STROKE: f64 = 1.6;
@@ -113,20 +112,14 @@ impl ResponseFigure<'_> {
         let note = self.note.unwrap_or_default();
         let for_note = text::width(note, FONT) + BETWEEN_ENTRIES;
         svg.text(
-            left,
-            MARGIN + TITLE_FONT,
-            TITLE_FONT,
-            Manner::Bold,
-            TEXT,
+            (left, MARGIN + TITLE_FONT),
+            Lettering::new(TITLE_FONT, Manner::Bold),
             &text::shortened(self.title, TITLE_FONT, room - for_note),
         );
         if !note.is_empty() {
             svg.text(
-                left + room,
-                MARGIN + TITLE_FONT,
-                FONT,
-                Manner::End,
-                FAINT_TEXT,
+                (left + room, MARGIN + TITLE_FONT),
+                Lettering::new(FONT, Manner::End).in_colour(FAINT_TEXT),
                 note,
             );
         }
@@ -194,11 +187,8 @@ impl ResponsePanel {
         let mut key = begin;
         if !self.title.is_empty() {
             svg.text(
-                strip.left,
-                key + LINE - 7.0,
-                FONT,
-                Manner::Bold,
-                TEXT,
+                (strip.left, key + LINE - 7.0),
+                Lettering::new(FONT, Manner::Bold),
                 &text::shortened(&self.title, FONT, strip.width),
             );
             key += LINE;
@@ -211,11 +201,8 @@ impl ResponsePanel {
             sample.polyline(&[left, left + SAMPLE_WIDTH].map(|x| Point { x, y }));
             Look::line(entry.colour, STROKE).draw(&sample, svg);
             svg.text(
-                left + SAMPLE_WIDTH + 7.0,
-                baseline,
-                FONT,
-                Manner::Plain,
-                TEXT,
+                (left + SAMPLE_WIDTH + 7.0, baseline),
+                Lettering::new(FONT, Manner::Plain),
                 entry.name,
             );
         }
@@ -229,9 +216,7 @@ impl ResponsePanel {
                 look.draw(&path, svg);
             }
         }
-        strip.draw_frame(svg);
-        strip.draw_value_labels(&with_power(&self.up.0, power), svg);
-        strip.draw_labels_below(&self.across.0, svg);
+        strip.draw_axes(&self.across.0, &with_power(&self.up.0, power), svg);
     }
 }
 

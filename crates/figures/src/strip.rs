@@ -2,12 +2,16 @@
 
 use super::axis::{Axis, TickLabel, Ticks};
 use super::curve::Sample;
-use super::svg::{PathData, Point, Svg};
+use super::svg::{Lettering, Manner, PathData, Point, Svg};
 
 /// Colour of text.
 pub const TEXT: &str = "#1f2328";
 /// Colour of text that may be overlooked.
 pub const FAINT_TEXT: &str = "#57606a";
+/// Of the texts of a small figure.
+pub const FONTS: &str = "system-ui, sans-serif";
+/// Room below a strip for the labels of its ticks and the name of its axis (pixels).
+pub const LABELS_BELOW: f64 = 46.0;
 const GRID: &str = "#e3e6ea";
 const MINOR_GRID: &str = "#f3f4f6";
 const FRAME: &str = "#6e7781";
@@ -103,6 +107,20 @@ impl Strip {
             .word("stroke", FRAME)
             .empty();
         svg.close();
+    }
+
+    /// Says in the middle of the strip that there is nothing to draw, inside of the group that [`Strip::draw_grid`] opened.
+    pub fn draw_no_data(&self, svg: &mut Svg) {
+        let middle = (0.5 * self.width, 0.5 * self.height);
+        let lettering = Lettering::new(13.0, Manner::Middle).in_colour(FAINT_TEXT);
+        svg.text(middle, lettering, "no data");
+    }
+
+    /// Draws the frame as [`Strip::draw_frame`] does, and names and labels both axes.
+    pub fn draw_axes(&self, across: &str, up: &str, svg: &mut Svg) {
+        self.draw_frame(svg);
+        self.draw_value_labels(up, svg);
+        self.draw_labels_below(across, svg);
     }
 
     /// Writes the value ticks' labels to the left of the strip and `name` upright beside them.

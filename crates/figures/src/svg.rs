@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::strip::TEXT;
+
 /// An SVG document in the making. Elements opened and not closed are closed at the end.
 #[derive(Debug)]
 pub struct Svg {
@@ -28,6 +30,31 @@ pub enum Manner {
     Middle,
     /// It ends there.
     End,
+}
+
+/// How a line of text looks, and how it stands at its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lettering {
+    font: f64,
+    manner: Manner,
+    fill: &'static str,
+}
+
+impl Lettering {
+    /// Of a size in pixels, in the colour of text.
+    pub const fn new(font: f64, manner: Manner) -> Self {
+        Self {
+            font,
+            manner,
+            fill: TEXT,
+        }
+    }
+
+    /// In another colour.
+    #[must_use]
+    pub const fn in_colour(self, fill: &'static str) -> Self {
+        Self { fill, ..self }
+    }
 }
 
 impl Svg {
@@ -70,16 +97,16 @@ impl Svg {
     }
 
     /// A line of text at a place.
-    pub fn text(&mut self, x: f64, y: f64, font: f64, manner: Manner, fill: &str, text: &str) {
+    pub fn text(&mut self, (x, y): (f64, f64), lettering: Lettering, text: &str) {
         let line = self.element("text").number("x", x).number("y", y);
-        let line = line.number("font-size", font);
-        let line = match manner {
+        let line = line.number("font-size", lettering.font);
+        let line = match lettering.manner {
             Manner::Plain => line,
             Manner::Bold => line.word("font-weight", "600"),
             Manner::Middle => line.word("text-anchor", "middle"),
             Manner::End => line.word("text-anchor", "end"),
         };
-        line.word("fill", fill).containing(text);
+        line.word("fill", lettering.fill).containing(text);
     }
 
     /// Escaped text inside the element that is open.

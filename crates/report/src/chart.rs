@@ -5,7 +5,7 @@ use super::frf_figure::FONTS;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
 use bolted_joint_figures::curve::{self, Sample};
-use bolted_joint_figures::{Axis, FAINT_TEXT, Look, Manner, PathData, Strip, Svg, VALUE_LABELS};
+use bolted_joint_figures::{Axis, Look, PathData, Strip, Svg, VALUE_LABELS};
 use num_complex::Complex64;
 
 pub(super) const WIDTH: f64 = 960.0;
@@ -19,7 +19,6 @@ const LINE_TOLERANCE: f64 = 0.15;
 
 const BAND_COLOUR: &str = "#f0e442";
 const LEVEL_COLOUR: &str = "#009e73";
-const NO_DATA_FONT: f64 = 13.0;
 
 /// Curves over frequency.
 #[derive(Debug)]
@@ -121,14 +120,7 @@ impl Chart<'_> {
                 curve.look.draw(&self.path(curve, strip), &mut svg);
             }
             if strip.value.is_none() {
-                svg.text(
-                    0.5 * strip.width,
-                    0.5 * strip.height,
-                    NO_DATA_FONT,
-                    Manner::Middle,
-                    FAINT_TEXT,
-                    "no data",
-                );
+                strip.draw_no_data(&mut svg);
             }
             strip.draw_frame(&mut svg);
             strip.draw_value_labels(&shown.label(), &mut svg);

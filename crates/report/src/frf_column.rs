@@ -6,7 +6,7 @@ use super::frf_figure::FrfPanel;
 use super::legend::Key;
 use super::resonance_labels::{RESONANCE_LABELS, draw_resonance_labels};
 use bolted_joint_figures::curve::{self, Sample};
-use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, PathData, Strip, Svg, TEXT, text};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Lettering, Manner, PathData, Strip, Svg, text};
 use bolted_joint_frf::Resonance;
 
 // Heights of what stands in a column, from the top.
@@ -129,19 +129,13 @@ impl<'a> Column<'a> {
             .unwrap_or_default();
         let room = strip.width - text::width(&note, NOTE_FONT);
         svg.text(
-            strip.left,
-            baseline,
-            PANEL_FONT,
-            Manner::Bold,
-            TEXT,
+            (strip.left, baseline),
+            Lettering::new(PANEL_FONT, Manner::Bold),
             &text::shortened(&self.panel.label, PANEL_FONT, room),
         );
         svg.text(
-            strip.left + strip.width,
-            baseline,
-            NOTE_FONT,
-            Manner::End,
-            FAINT_TEXT,
+            (strip.left + strip.width, baseline),
+            Lettering::new(NOTE_FONT, Manner::End).in_colour(FAINT_TEXT),
             &note,
         );
     }
@@ -154,14 +148,7 @@ impl<'a> Column<'a> {
         Key::Measured.draw(&dots(&samples(self.panel.measured), strip), svg);
         self.draw_lines(|function| line(&[samples(function)], strip), svg);
         if strip.value.is_none() {
-            svg.text(
-                0.5 * strip.width,
-                0.5 * strip.height,
-                PANEL_FONT,
-                Manner::Middle,
-                FAINT_TEXT,
-                "no data",
-            );
+            strip.draw_no_data(svg);
         }
         strip.draw_frame(svg);
     }

@@ -6,7 +6,7 @@ use super::frf_column::{self, Column, ColumnAxes};
 use super::legend::{Key, draw_legend};
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::text::wrapped;
-use bolted_joint_figures::{Axis, FAINT_TEXT, Manner, Svg, TEXT, VALUE_LABELS};
+use bolted_joint_figures::{Axis, FAINT_TEXT, Lettering, Manner, Svg, VALUE_LABELS};
 use bolted_joint_frf::resonances;
 
 pub(super) const FONTS: &str = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
@@ -93,11 +93,8 @@ impl FrfFigure<'_> {
         }
         if self.panels.is_empty() {
             svg.text(
-                0.5 * PAGE_WIDTH,
-                head + 0.5 * row_height,
-                SUBTITLE_FONT,
-                Manner::Middle,
-                FAINT_TEXT,
+                (0.5 * PAGE_WIDTH, head + 0.5 * row_height),
+                Lettering::new(SUBTITLE_FONT, Manner::Middle).in_colour(FAINT_TEXT),
                 "no functions",
             );
         }
@@ -108,16 +105,17 @@ impl FrfFigure<'_> {
         let mut baseline = MARGIN - 6.0;
         for line in title {
             baseline += TITLE_LINE;
-            svg.text(MARGIN, baseline, TITLE_FONT, Manner::Bold, TEXT, line);
+            svg.text(
+                (MARGIN, baseline),
+                Lettering::new(TITLE_FONT, Manner::Bold),
+                line,
+            );
         }
         for line in subtitle {
             baseline += SUBTITLE_LINE;
             svg.text(
-                MARGIN,
-                baseline,
-                SUBTITLE_FONT,
-                Manner::Plain,
-                FAINT_TEXT,
+                (MARGIN, baseline),
+                Lettering::new(SUBTITLE_FONT, Manner::Plain).in_colour(FAINT_TEXT),
                 line,
             );
         }

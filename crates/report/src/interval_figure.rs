@@ -1,7 +1,9 @@
 //! Values with their intervals over a quantity of which there are a few: stiffness and damping over the torque.
 
 use super::chart_data::scaled_unit;
-use bolted_joint_figures::{Axis, Look, Manner, PathData, Point, Strip, Svg, TEXT, VALUE_LABELS};
+use bolted_joint_figures::{
+    Axis, FONTS, LABELS_BELOW, Lettering, Look, Manner, PathData, Point, Strip, Svg, VALUE_LABELS,
+};
 
 const WIDTH: f64 = 960.0;
 const COLUMNS: usize = 2;
@@ -9,8 +11,6 @@ const STRIP_HEIGHT: f64 = 150.0;
 const MARGIN: f64 = 12.0;
 const TITLE: f64 = 24.0;
 const TITLE_FONT: f64 = 13.0;
-const LABELS_BELOW: f64 = 46.0;
-const FONTS: &str = "system-ui, sans-serif";
 /// Room at either end of an axis, as a part of what it shows.
 const ROOM: f64 = 0.08;
 /// Half the length of the bar across the end of an interval.
@@ -76,18 +76,13 @@ impl IntervalFigure<'_> {
                 value: Some(roomy(ends.map(|end| end / factor))),
             };
             svg.text(
-                strip.left,
-                strip.top - 8.0,
-                TITLE_FONT,
-                Manner::Bold,
-                TEXT,
+                (strip.left, strip.top - 8.0),
+                Lettering::new(TITLE_FONT, Manner::Bold),
                 &panel.name,
             );
             strip.draw_grid(&mut svg);
             panel.draw(&strip, factor, &mut svg);
-            strip.draw_frame(&mut svg);
-            strip.draw_value_labels(&unit, &mut svg);
-            strip.draw_labels_below(self.across, &mut svg);
+            strip.draw_axes(self.across, &unit, &mut svg);
         }
         svg.finish()
     }
@@ -95,11 +90,7 @@ impl IntervalFigure<'_> {
 
 impl Panel {
     fn draw(&self, strip: &Strip, factor: f64, svg: &mut Svg) {
-        let (mut join, mut whiskers, mut dots) = (
-            PathData::default(),
-            PathData::default(),
-            PathData::default(),
-        );
+        let [mut join, mut whiskers, mut dots] = [(); 3].map(|()| PathData::default());
         let mut before: Option<Point> = None;
         for Estimated { at, value } in &self.values {
             let placed = value.and_then(|(value, [low, high])| {

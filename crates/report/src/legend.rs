@@ -1,6 +1,6 @@
 //! The look of the curves, and the key that explains it.
 
-use bolted_joint_figures::{Look, Manner, PathData, Point, Svg, TEXT, text};
+use bolted_joint_figures::{Lettering, Look, Manner, PathData, Point, Svg, text};
 
 // Blue and vermilion from the palette of Okabe and Ito, which the colour-blind can tell apart.
 pub(super) const REGENERATED_COLOUR: &str = "#0072b2";
@@ -81,7 +81,11 @@ pub(super) fn draw_legend(keys: &[Key], left: f64, baseline: f64, svg: &mut Svg)
     for key in keys {
         key.draw(&key.sample(x, baseline - 0.36 * FONT), svg);
         x += SAMPLE_WIDTH + 7.0;
-        svg.text(x, baseline, FONT, Manner::Plain, TEXT, key.name());
+        svg.text(
+            (x, baseline),
+            Lettering::new(FONT, Manner::Plain),
+            key.name(),
+        );
         x += text::width(key.name(), FONT) + BETWEEN_ENTRIES;
     }
 }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use bolted_joint_figures::{
-    Axis, Manner, PathData, Point, Strip, Svg, TEXT, TickLabel, VALUE_LABELS,
+    Axis, FONTS, LABELS_BELOW, Lettering, Manner, PathData, Point, Strip, Svg, TEXT, TickLabel,
+    VALUE_LABELS,
 };
 use bolted_joint_predict::pressure::{Bolt, PressureField, Rectangle};
 
@@ -12,12 +13,10 @@ const LARGEST: [f64; 2] = [560.0, 440.0];
 /// Smallest side, so that a strip of a plate still has room for its ticks.
 const SMALLEST: f64 = 60.0;
 const MARGIN: f64 = 14.0;
-const LABELS_BELOW: f64 = 46.0;
 const BAR: f64 = 18.0;
 const BAR_DISTANCE: f64 = 26.0;
 const BAR_LABELS: f64 = 74.0;
 const FONT: f64 = 12.0;
-const FONTS: &str = "system-ui, sans-serif";
 /// Steps of the colour scale.
 const COLOURS: usize = 60;
 /// Where nothing presses.
@@ -99,9 +98,7 @@ impl PressureFigure<'_> {
             .empty();
         self.draw_cells(&place, highest_pa, &mut svg);
         self.draw_bolts(&place, &mut svg);
-        strip.draw_frame(&mut svg);
-        strip.draw_value_labels("y, mm", &mut svg);
-        strip.draw_labels_below("x, mm", &mut svg);
+        strip.draw_axes("x, mm", "y, mm", &mut svg);
         draw_scale(strip, highest_pa / unit_pa, unit, &mut svg);
         Some(svg.finish())
     }
@@ -286,11 +283,8 @@ fn draw_scale(strip: &Strip, highest: f64, unit: &str, svg: &mut Svg) {
         ]);
         bolted_joint_figures::draw_path(svg, &mark, "#6e7781", 1.0);
         svg.text(
-            left + BAR + 7.0,
-            y + 0.36 * FONT,
-            FONT,
-            Manner::Plain,
-            TEXT,
+            (left + BAR + 7.0, y + 0.36 * FONT),
+            Lettering::new(FONT, Manner::Plain),
             &label,
         );
     }

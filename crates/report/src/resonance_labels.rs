@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::legend::REGENERATED_COLOUR;
-use bolted_joint_figures::{Manner, Strip, Svg, text};
+use bolted_joint_figures::{Lettering, Manner, Strip, Svg, text};
 use bolted_joint_frf::{Resonance, resonances};
 
 /// Room that the labels take above the strip (pixels).
@@ -36,11 +36,8 @@ pub(super) fn draw_resonance_labels(
         }
         taken.push((start, end));
         svg.text(
-            strip.left + middle,
-            strip.top - 6.0,
-            FONT,
-            Manner::Middle,
-            REGENERATED_COLOUR,
+            (strip.left + middle, strip.top - 6.0),
+            Lettering::new(FONT, Manner::Middle).in_colour(REGENERATED_COLOUR),
             &label,
         );
         true

@@ -1,6 +1,10 @@
 //! What tests of several crates assert in the same words: texts that hold parts, numbers that are close.
 #![forbid(unsafe_code)]
 
+mod ends;
+
+pub use ends::{begins, ends};
+
 use std::fmt::Debug;
 
 /// Every part stands in the text.

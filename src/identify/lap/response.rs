@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::json;
 
 use super::super::super::error::CliError;
-use super::super::super::output::{message, print, write_file};
+use super::super::super::output::{print, warn, write_file};
 use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
 use super::super::IdentifyArguments;
@@ -20,10 +20,8 @@ pub(in super::super) fn run(
     study: &StudyText,
 ) -> Result<(), CliError> {
     check_options(arguments)?;
-    let written = match arguments.report {
-        Some(_) => Some(Timestamp::from_environment()?),
-        None => None,
-    };
+    let written = arguments.report.as_ref();
+    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = LapResponseStudy::of(study)?;
     let progress = Progress::new("identifying", 0);
     let found = LapResponse::of(&study, &progress)?;
@@ -49,9 +47,7 @@ pub(in super::super) fn run(
         let drawing = bolted_joint::report::level_figure(&study, &found);
         write_file(path, drawing.unwrap_or_default().as_bytes())?;
     }
-    for warning in &warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&warnings);
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),

@@ -1,31 +1,27 @@
 //! `identify` with method `lap-update`: the lap model from natural frequencies.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use serde_json::json;
 
 use super::super::super::error::CliError;
-use super::super::super::output::{check_output, message, print, write_file};
+use super::super::super::output::{check_output, print, warn, write_file};
 use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
-use super::super::IdentifyArguments;
+use super::super::{IdentifyArguments, write_joint_files};
 use super::{Outputs, check_options};
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::lap::{LapParameter, LapUpdate, LapUpdateStudy, TorqueUpdate};
 use bolted_joint::report::LapUpdateReport;
 use bolted_joint::study::StudyText;
-use bolted_joint_files::whole_file;
 
 pub(in super::super) fn run(
     arguments: &IdentifyArguments,
     study: &StudyText,
 ) -> Result<(), CliError> {
     check_options(arguments)?;
-    let written = match arguments.report {
-        Some(_) => Some(Timestamp::from_environment()?),
-        None => None,
-    };
+    let written = arguments.report.as_ref();
+    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = LapUpdateStudy::of(study)?;
     let progress = Progress::new("updating", study.torques.len() * study.firefly.iterations);
     let found = LapUpdate::of(&study, &progress)?;
@@ -36,14 +32,7 @@ pub(in super::super) fn run(
     for output in &outputs {
         check_output(output, &[&arguments.study])?;
     }
-    let texts = joint_files.iter().map(|(_, file)| file.to_json());
-    let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
-    let contents = outputs.iter().zip(&texts);
-    let contents: Vec<(&Path, &[u8])> = contents
-        .map(|(output, text)| (output.as_path(), text.as_bytes()))
-        .collect();
-    whole_file::write_all(&contents)
-        .map_err(|(path, source)| CliError::Unwritable { path, source })?;
+    write_joint_files(&outputs, &joint_files)?;
     let warnings = found.warnings();
     if let (Some(path), Some(written)) = (&arguments.report, written) {
         let page = LapUpdateReport {
@@ -57,18 +46,13 @@ pub(in super::super) fn run(
         let drawing = bolted_joint::report::convergence_figure(&found);
         write_file(path, drawing.unwrap_or_default().as_bytes())?;
     }
-    for warning in &warnings {
-        message(&format!("warning: {warning}"));
-    }
+    warn(&warnings);
     if arguments.json {
         return print(&serde_json::to_string_pretty(&as_json(&found, &outputs))?);
     }
     let mut text = summary(&found);
-    for path in outputs
-        .iter()
-        .chain(&arguments.figure)
-        .chain(&arguments.report)
-    {
+    let also = [&arguments.figure, &arguments.report];
+    for path in outputs.iter().chain(also.into_iter().flatten()) {
         let _ = writeln!(text, "wrote {}", path.display());
     }
     print(&text)
@@ -197,10 +181,7 @@ fn combinations(torque: &TorqueUpdate) -> String {
             number(combination.value, 5)
         );
     }
-    let _ = writeln!(
-        text,
-        "\n  not identified: {}",
-        torque.not_identified().join(", ")
-    );
+    let open = torque.not_identified().join(", ");
+    let _ = writeln!(text, "\n  not identified: {open}");
     text
 }

@@ -36,7 +36,7 @@ fn bench(assembly_file: &str, more: &str) -> Bench {
 }
 
 fn identified(bench: &Bench) -> Value {
-    bench.done(&["identify", "study.toml", "-o", "o.joint.json"]);
+    bench.done("identify study.toml -o o.joint.json");
     bench.json("o.joint.json")
 }
 

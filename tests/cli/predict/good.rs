@@ -1,15 +1,20 @@
 //! Predictions whose result is known from elsewhere, and what follows them: export, check, files for other programs.
 
-use bolted_joint_testing::{has, near};
+use bolted_joint_testing::{close, has, near};
 use std::fs;
 
 use serde_json::Value;
 
-use super::{PREDICT, STUDY, bench, over_torque};
-use crate::bench::replaced;
+use super::{PREDICT, STUDY, bench, over_torque, predicted};
+use crate::bench::{Outcome, replaced};
+use crate::examples::files_of;
 
 fn entry(file: &Value, matrix: &str, i: usize, j: usize) -> f64 {
-    file["joint"][matrix][i][j].as_f64().unwrap()
+    number(&file["joint"][matrix][i][j])
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
 }
 
 /// The study with a pressure from a file.
@@ -23,57 +28,46 @@ fn with_field() -> String {
 #[test]
 fn an_even_field_has_the_stiffness_of_the_published_parameters() {
     // Zhao's surfaces and material, A₀ = 0.06 m²: K_N/A₀ = 6.200e11 N/m³ at 2 MPa, K_T/K_N = 0.461 without tangential force
-    let bench = bench(&replaced(
-        &with_field(),
-        "shear_strength = 1e8",
-        "shear_strength = 0",
-    ));
+    let (with, without) = ("shear_strength = 1e8", "shear_strength = 0");
+    let bench = bench(&replaced(&with_field(), with, without));
     let n = 20;
     let mut field = "x_m,y_m,area_m2,pressure_Pa\n".to_owned();
     for k in 0..n * n {
-        let (x, y) = (
-            0.3 * ((k % n) as f64 + 0.5) / n as f64,
-            0.2 * ((k / n) as f64 + 0.5) / n as f64,
-        );
+        let [x, y] = [(0.3, k % n), (0.2, k / n)]
+            .map(|(length, place)| length * (place as f64 + 0.5) / n as f64);
         field += &format!("{x},{y},{},2e6\n", 0.06 / (n * n) as f64);
     }
     bench.write("field.csv", &field);
-    bench.done(&PREDICT);
+    bench.done(PREDICT);
     let file = bench.json("j.joint.json");
     let area = 0.06;
     let normal = entry(&file, "stiffness", 0, 0);
-    assert!((normal / (6.200e11 * area) - 1.0).abs() < 2e-4, "{normal}");
+    close(normal, 6.200e11 * area, 2e-4);
     // about the centroid: no coupling, and k_n times the second moment of the area
     assert_eq!(entry(&file, "stiffness", 0, 1), 0.0);
     let inertia = 0.2 * 0.3_f64.powi(3) / 12.0 * (1.0 - 1.0 / (n * n) as f64);
     let rotation = entry(&file, "stiffness", 1, 1);
-    assert!((rotation / (normal / area * inertia) - 1.0).abs() < 1e-9);
+    close(rotation, normal / area * inertia, 1e-9);
 
-    bench.write(
-        "study.toml",
-        bench.text("study.toml").replace(
-            "translation = \"z\"\nrotation = \"-y\"",
-            "translation = \"x\"",
-        ),
-    );
-    bench.done(&PREDICT);
+    let along_z = "translation = \"z\"\nrotation = \"-y\"";
+    bench.edit("study.toml", along_z, "translation = \"x\"");
+    bench.done(PREDICT);
     let tangential = entry(&bench.json("j.joint.json"), "stiffness", 0, 0);
-    assert!((tangential / normal - 0.461).abs() < 5e-4);
+    near(tangential / normal, 0.461, 5e-4);
 }
 
 #[test]
 fn the_field_that_is_written_gives_the_same_joint_again() {
     let first = bench(STUDY);
-    let written = ["--field-csv", "field.csv"];
-    first.done(&[&PREDICT[..], &written].concat());
+    first.done(&format!("{PREDICT} --field-csv field.csv"));
     let second = bench(&with_field());
     second.write("field.csv", first.text("field.csv"));
-    second.done(&PREDICT);
+    second.done(PREDICT);
     let [first, second] = [first, second].map(|bench| bench.json("j.joint.json"));
     for matrix in ["stiffness", "damping"] {
         for i in 0..2 {
             let [a, b] = [&first, &second].map(|file| entry(file, matrix, i, i));
-            assert!((a / b - 1.0).abs() < 1e-12, "{matrix} {i}: {a} {b}");
+            close(a, b, 1e-12);
         }
     }
 }
@@ -81,9 +75,8 @@ fn the_field_that_is_written_gives_the_same_joint_again() {
 #[test]
 fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
     let bench = bench(&over_torque());
-    let outcome = bench.done(&PREDICT);
-    assert!(outcome.stdout.contains("at 25 N·m"), "{}", outcome.stdout);
-    has(&outcome.stdout, &["imbalance +0.00 %"]);
+    let outcome = bench.done(PREDICT);
+    has(&outcome.stdout, &["at 25 N·m", "imbalance +0.00 %"]);
     let file = bench.json("j.joint.json");
     let table = &file["joint"]["over_preload"];
     assert_eq!(table["nominal"], 20.0);
@@ -92,26 +85,15 @@ fn a_table_over_the_torque_becomes_an_fmu_that_loosens() {
         assert!(stiffness(place) > stiffness(place - 1));
     }
     // its joint at 20 N·m is that of the study with this torque alone
-    let alone = super::bench(STUDY);
-    alone.done(&PREDICT);
-    assert_eq!(
-        table["stiffness"][3],
-        alone.json("j.joint.json")["joint"]["stiffness"]
-    );
-    bench.done(&["check", "j.joint.json"]);
+    let alone = &predicted(STUDY)["joint"];
+    assert_eq!(table["stiffness"][3], alone["stiffness"]);
+    bench.done("check j.joint.json");
     for version in ["3", "2"] {
-        bench.done(&["export", "j.joint.json", "-o", "j.fmu", "--fmi", version]);
-        bench.done(&["check", "j.fmu"]);
+        bench.done(&format!("export j.joint.json -o j.fmu --fmi {version}"));
+        bench.done("check j.fmu");
     }
-    bench.done(&[
-        "export",
-        "j.joint.json",
-        "-o",
-        "frozen.fmu",
-        "--preload",
-        "12",
-    ]);
-    bench.done(&["check", "frozen.fmu"]);
+    bench.done("export j.joint.json -o frozen.fmu --preload 12");
+    bench.done("check frozen.fmu");
 }
 
 #[test]
@@ -123,30 +105,22 @@ fn intervals_are_those_of_the_only_uncertain_input() {
         "nut_factor = 0.2\n",
         "nut_factor = { value = 0.2, standard_deviation = 0.02 }\nscatter = \"common\"\n",
     ) + "\n[uncertainty]\ndraws = 20000\nseed = 7\n";
-    let bench_of_draws = bench(&uncertain);
-    let outcome = bench_of_draws.done(&PREDICT);
+    let bench = bench(&uncertain);
+    let outcome = bench.done(PREDICT);
     has(&outcome.stdout, &["k_yy scatters with nut factor"]);
-    let file = bench_of_draws.json("j.joint.json");
+    let file = bench.json("j.joint.json");
     let variance = 1.01_f64.ln();
     for (place, score) in [(0, 1.959_964), (1, -1.959_964)] {
         let factor = 0.2 * (score * variance.sqrt() - 0.5 * variance).exp();
-        let at_end = bench(&replaced(
-            STUDY,
-            "nut_factor = 0.2",
-            &format!("nut_factor = {factor}"),
-        ));
-        at_end.done(&PREDICT);
-        let expected = entry(&at_end.json("j.joint.json"), "stiffness", 0, 0);
-        let found = file["uncertainty"]["interval_95"]["stiffness"][0][0][place]
-            .as_f64()
-            .unwrap();
+        let factor = format!("nut_factor = {factor}");
+        let at_end = predicted(&replaced(STUDY, "nut_factor = 0.2", &factor));
+        let intervals = &file["uncertainty"]["interval_95"]["stiffness"];
+        let found = number(&intervals[0][0][place]);
         // the percentile of 20 000 draws is known to about 0.02 standard deviations
-        assert!((found / expected - 1.0).abs() < 0.006, "{found} {expected}");
+        close(found, entry(&at_end, "stiffness", 0, 0), 0.006);
     }
     // the joint itself is the one at the values given
-    let exact = bench(STUDY);
-    exact.done(&PREDICT);
-    assert_eq!(file["joint"], exact.json("j.joint.json")["joint"]);
+    assert_eq!(file["joint"], predicted(STUDY)["joint"]);
     let basis = file["uncertainty"]["basis"].as_str().unwrap();
     has(basis, &["nut factor", "20000 draws", "seed 7"]);
 }
@@ -154,20 +128,10 @@ fn intervals_are_those_of_the_only_uncertain_input() {
 #[test]
 fn bolts_that_scatter_each_on_their_own_scatter_less_together() {
     let deviation = |scatter: &str| {
-        let study = replaced(
-            STUDY,
-            "nut_factor = 0.2\n",
-            &format!("nut_factor = \"0.2 ± 0.03\"\nscatter = \"{scatter}\"\n"),
-        );
-        let bench = bench(&study);
-        bench.done(&PREDICT);
-        let file = bench.json("j.joint.json");
-        let of = |i: usize, j: usize| {
-            file["uncertainty"]["standard_deviation"]["stiffness"][i][j]
-                .as_f64()
-                .unwrap()
-        };
-        (of(0, 0), of(0, 1))
+        let uncertain = format!("nut_factor = \"0.2 ± 0.03\"\nscatter = \"{scatter}\"\n");
+        let file = predicted(&replaced(STUDY, "nut_factor = 0.2\n", &uncertain));
+        let of = &file["uncertainty"]["standard_deviation"]["stiffness"];
+        (number(&of[0][0]), number(&of[0][1]))
     };
     let (each, common) = (deviation("each-bolt"), deviation("common"));
     // four independent bolts: half the deviation, and the coupling that they have in common is none
@@ -186,14 +150,11 @@ fn the_same_seed_gives_the_same_file_and_refused_draws_are_told() {
         |seed: u64| uncertain.clone() + &format!("\n[uncertainty]\ndraws = 3000\nseed = {seed}\n");
     let run = |seed: u64, threads: &str| {
         let bench = bench(&with_seed(seed));
-        let output = bench
-            .command(&PREDICT)
-            .env("RAYON_NUM_THREADS", threads)
-            .output()
-            .unwrap();
-        assert!(output.status.success());
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        (bench.text("j.joint.json"), stderr)
+        let mut command = bench.command(PREDICT);
+        command.env("RAYON_NUM_THREADS", threads);
+        let outcome = Outcome::of(command.output().unwrap());
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        (bench.text("j.joint.json"), outcome.stderr)
     };
     let (file, warnings) = run(1, "1");
     assert_eq!(run(1, "3").0, file);
@@ -205,14 +166,8 @@ fn the_same_seed_gives_the_same_file_and_refused_draws_are_told() {
 #[test]
 fn everything_for_finite_elements_is_written_beside() {
     let bench = bench(STUDY);
-    let outcome = bench.done(
-        &[
-            &PREDICT[..],
-            &["--matrix-csv", "k.csv", "--matrix27", "k.mac"],
-            &["--field-csv", "f.csv", "--report", "r.html", "--json"],
-        ]
-        .concat(),
-    );
+    let outputs = "--matrix-csv k.csv --matrix27 k.mac --field-csv f.csv --report r.html";
+    let outcome = bench.done(&format!("{PREDICT} --json {outputs}"));
     let json = outcome.json();
     let stiffness = &json["states"][0]["stiffness"];
     let file = bench.json("j.joint.json");
@@ -225,16 +180,9 @@ fn everything_for_finite_elements_is_written_beside() {
     let lines = bench.text("f.csv").lines().count();
     assert!((2300..=2402).contains(&lines), "{lines}");
     let page = bench.text("r.html");
-    for part in [
-        "The joint",
-        "Pressure",
-        "The whole interface",
-        "Surfaces",
-        "What was put in",
-        "Provenance",
-    ] {
-        assert!(page.contains(&format!("<h2>{part}</h2>")), "{part}");
-    }
+    #[rustfmt::skip]
+    let parts = ["The joint", "Pressure", "The whole interface", "Surfaces", "What was put in", "Provenance"];
+    has(&page, &parts.map(|part| format!("<h2>{part}</h2>")));
     let references = ["<script src", "<link", "<img", "url(", "@import"];
     assert!(references.iter().all(|reference| !page.contains(reference)));
     let hash = file["provenance"]["inputs"][0]["sha256"].as_str().unwrap();
@@ -245,35 +193,27 @@ fn everything_for_finite_elements_is_written_beside() {
 
 #[test]
 fn viscous_normal_damping_is_that_of_zhao() {
-    let viscous = replaced(
-        STUDY,
-        "frequency = 300",
-        "frequency = 300\nnormal = \"viscous\"\nmass = 12.5",
-    );
-    let bench = bench(&viscous);
-    let json = bench.done(&[&PREDICT[..], &["--json"]].concat()).json();
+    let bench = bench(STUDY);
+    let viscous = "frequency = 300\nnormal = \"viscous\"\nmass = 12.5";
+    bench.edit("study.toml", "frequency = 300", viscous);
+    let json = bench.done(&format!("{PREDICT} --json")).json();
     let state = &json["states"][0];
-    let number = |value: &Value| value.as_f64().unwrap();
     let stiffness = number(&state["stiffness"][2][2]);
     let expected = number(&state["normal_loss_factor"]) * (12.5 * stiffness).sqrt();
-    assert!((number(&state["viscous_damping"][2][2]) / expected - 1.0).abs() < 1e-12);
+    close(number(&state["viscous_damping"][2][2]), expected, 1e-12);
     let file = bench.json("j.joint.json");
-    assert!((entry(&file, "damping", 0, 0) / expected - 1.0).abs() < 1e-12);
+    close(entry(&file, "damping", 0, 0), expected, 1e-12);
 }
 
 /// The study with Tian's layer in place of the contact.
 fn with_layer() -> String {
     let layer = replaced(STUDY, "\"fractal-contact\"", "\"virtual-material\"");
-    let layer = layer.replace(
-        "poissons_ratio = 0.28\n",
-        "poissons_ratio = 0.28\ndensity = 7200\n",
-    );
+    let ratio = "poissons_ratio = 0.28\n";
+    let layer = layer.replace(ratio, &format!("{ratio}density = 7200\n"));
     let contact = "friction = 0.3\nshear_strength = 1e8\n";
-    replaced(
-        &layer,
-        contact,
-        "friction_ratio = 0.2\n[layer]\nthickness = [0.001, 0.0005]\nloss_factor = 0.01\n",
-    )
+    let of_layer =
+        "friction_ratio = 0.2\n[layer]\nthickness = [0.001, 0.0005]\nloss_factor = 0.01\n";
+    replaced(&layer, contact, of_layer)
 }
 
 #[test]
@@ -281,55 +221,50 @@ fn a_virtual_layer_is_the_joint_of_its_material() {
     // As hard as iron is, the moduli are those of no isotropic material: there is a joint, but no card.
     let soft = bench(&with_layer());
     soft.refused(
-        &[&PREDICT[..], &["--material-card", "layer.inp"]].concat(),
+        &format!("{PREDICT} --material-card layer.inp"),
         &["`layer`", "Poisson's ratio", "isotropic"],
     );
-    let outcome = soft.done(&PREDICT);
+    let outcome = soft.done(PREDICT);
     has(&outcome.stderr, &["no isotropic material"]);
-    soft.done(&["check", "j.joint.json"]);
+    soft.done("check j.joint.json");
 
     let bench = bench(&replaced(&with_layer(), "1.96e9", "6e9"));
     let card = |name: &str| {
-        let written = [&PREDICT[..], &["--material-card", name, "--json"]].concat();
-        let json = bench.done(&written).json();
+        let command = format!("{PREDICT} --material-card {name} --json");
+        let json = bench.done(&command).json();
         (bench.text(name), json["states"][0].clone())
     };
     let (abaqus, state) = card("layer.inp");
     assert!(abaqus.contains("*MATERIAL, NAME=bolted_joint"), "{abaqus}");
-    let number = |value: &Value| value.as_f64().unwrap();
     let layer = &state["layer"];
     assert_eq!(number(&layer["thickness_m"]), 0.0015);
-    assert!((number(&layer["density_kg_per_m3"]) - 7200.0).abs() < 1e-9);
+    near(number(&layer["density_kg_per_m3"]), 7200.0, 1e-9);
     let young = number(&layer["youngs_modulus_pa"]);
     let shear = young / (2.0 * (1.0 + number(&layer["poissons_ratio"])));
     // E A/h and G A/h over the area under pressure
-    let ratio = number(&state["stiffness"][2][2]) / number(&state["stiffness"][0][0]);
-    assert!((ratio / (number(&layer["youngs_modulus_pa"]) / shear) - 1.0).abs() < 1e-12);
-    let area = number(&state["stiffness"][2][2]) * 0.0015 / number(&layer["youngs_modulus_pa"]);
+    let [tangential, normal] = [0, 2].map(|i| number(&state["stiffness"][i][i]));
+    close(normal / tangential, young / shear, 1e-12);
+    let area = normal * 0.0015 / young;
     // four zones of 3.5 diameters without their holes; cells at the rim count whole
     let zones = 4.0 * std::f64::consts::PI * 0.004_f64.powi(2) * (3.5_f64.powi(2) - 1.0);
     assert!(area > zones && area < 1.25 * zones, "{area} {zones}");
     // the loss factor that is stated
-    let expected = 0.01 * number(&state["stiffness"][2][2]) / (std::f64::consts::TAU * 300.0);
     let damping = entry(&bench.json("j.joint.json"), "damping", 0, 0);
-    assert!((damping / expected - 1.0).abs() < 1e-12);
+    close(
+        damping,
+        0.01 * normal / (std::f64::consts::TAU * 300.0),
+        1e-12,
+    );
     assert!(card("layer.mac").0.contains("MP,"));
     assert!(card("layer.csv").0.starts_with("quantity,value,unit\n"));
-    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
-    bench.done(&["check", "j.fmu"]);
+    bench.done("export j.joint.json -o j.fmu");
+    bench.done("check j.fmu");
 }
 
 #[test]
 fn the_example_goes_from_profiles_to_an_fmu() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/predict-four-bolts");
-    let bench = crate::bench::Bench::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        bench.write(&name, fs::read(path).unwrap());
-    }
-    let outputs = ["--report", "r.html", "--matrix27", "k.mac"];
-    let outcome = bench.done(&[&PREDICT[..], &outputs].concat());
+    let bench = files_of("predict-four-bolts");
+    let outcome = bench.done(&format!("{PREDICT} --report r.html --matrix27 k.mac"));
     has(&outcome.stdout, &["5000 draws, seed 1, 0 refused"]);
     assert_eq!(outcome.stderr, "");
     let file = bench.json("j.joint.json");
@@ -341,6 +276,6 @@ fn the_example_goes_from_profiles_to_an_fmu() {
     assert_eq!(table["correlation"]["matrix"].as_array().unwrap().len(), 24);
     let page = bench.text("r.html");
     assert_eq!(page.matches("Spectrum of the profiles").count(), 2);
-    bench.done(&["export", "j.joint.json", "-o", "j.fmu"]);
-    bench.done(&["check", "j.fmu"]);
+    bench.done("export j.joint.json -o j.fmu");
+    bench.done("check j.fmu");
 }

@@ -1,7 +1,7 @@
 //! Several bolts and presumed joints that contradict the rest of the study.
 
-use super::{BEAMS, IDENTIFY, beams};
-use crate::bench::replaced;
+use super::{BEAMS, beams};
+use crate::bench::{IDENTIFY, replaced};
 
 /// Modes at five points.
 const MODES: &str = r#"points = ["1:+Y", "2:+Y", "3:+Y", "4:+Y", "5:+Y"]
@@ -23,11 +23,8 @@ const TWO_ON_B: &str = r#"joint = [{ name = "left", x = 0.015 }, { name = "right
 fn two_bolts() -> String {
     let text = replaced(BEAMS, ON_A, TWO_ON_A);
     let text = replaced(&text, ON_B, TWO_ON_B);
-    replaced(
-        &text,
-        "model = \"full\"",
-        "model = \"full\"\nbolts = \"alike\"",
-    )
+    let alike = "model = \"full\"\nbolts = \"alike\"";
+    replaced(&text, "model = \"full\"", alike)
 }
 
 #[test]
@@ -35,12 +32,12 @@ fn the_study_with_two_bolts_is_right() {
     let bench = beams();
     bench.write("a.toml", MODES);
     bench.write("study.toml", two_bolts());
-    bench.done(&IDENTIFY);
+    bench.done(IDENTIFY);
     // The order on B is that of the names, not of the list.
     let first = bench.json("o.joint.json");
     let turned = r#"joint = [{ name = "right", x = 0.045 }, { name = "left", x = 0.015 }]"#;
     bench.write("study.toml", replaced(&two_bolts(), TWO_ON_B, turned));
-    bench.done(&IDENTIFY);
+    bench.done(IDENTIFY);
     assert_eq!(bench.json("o.joint.json")["joint"], first["joint"]);
 }
 
@@ -76,30 +73,16 @@ fn bolts_that_contradict_each_other_are_named() {
          ["`a.joint \"right\".theta`: found nothing", "which joint model \"full\" needs"]),
         ("bolts = \"alike\"", "bolts = \"different\"", ["`bodies`: found them with bolts that differ", "with one joint only"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("study.toml", replaced(&two_bolts(), from, to));
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
-    }
+    bench.refused_edits(IDENTIFY, ("study.toml", &two_bolts()), &cases);
     let named = "joint = { name = \"left\", x = 0.015 }";
     bench.write("study.toml", replaced(BEAMS, ON_B, named));
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "`b.joint.name`: found \"left\" for the only place",
-            "several places",
-        ],
-    );
+    let found = "`b.joint.name`: found \"left\" for the only place";
+    bench.refused(IDENTIFY, &[found, "several places"]);
     let own =
         "frf = \"c.uff\"\nb = { modal = \"a.toml\", joint = { y = \"2:+Y\", theta = \"2:+RZ\" } }";
     bench.write("study.toml", replaced(&two_bolts(), "frf = \"c.uff\"", own));
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "`assembly.b.joint`: found 1 place",
-            "expected 2 places, as on A",
-        ],
-    );
+    let found = "`assembly.b.joint`: found 1 place";
+    bench.refused(IDENTIFY, &[found, "expected 2 places, as on A"]);
 }
 
 #[test]
@@ -116,16 +99,11 @@ fn a_presumed_joint_that_cannot_be_is_refused() {
         let start = format!("[start]\nstiffness = {stiffness}\ndamping = {damping}\n[bodies]");
         bench.write("study.toml", replaced(BEAMS, "[bodies]", &start));
         let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
+        bench.refused(IDENTIFY, &["study.toml: ", one, two]);
     }
     let start = "[start]\nstiffness = [[1e5, 1], [1, 1e3]]\ndamping = [[1, 0], [0, 1]]\n[bodies]";
     let text = replaced(BEAMS, "[bodies]", start);
     bench.write("study.toml", replaced(&text, "\"full\"", "\"diagonal\""));
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "`start.stiffness`: found 1 off the diagonal",
-            "has no coupling",
-        ],
-    );
+    let found = "`start.stiffness`: found 1 off the diagonal";
+    bench.refused(IDENTIFY, &[found, "has no coupling"]);
 }

@@ -3,35 +3,11 @@
 mod bolts;
 mod values;
 
-use crate::bench::{Bench, PNG, replaced};
+use crate::bench::{Bench, IDENTIFY, PNG};
 use crate::rig;
 
 /// A modal substructure and a computed beam, as in the demo.
-const BEAMS: &str = r#"method = "frf-decoupling"
-name = "beams"
-[a]
-modal = "a.toml"
-joint = { y = "2:+Y", theta = { points = ["3:+Y", "2:+Y", "1:+Y"], spacing = 0.015 } }
-[b]
-beam = { length = 0.2, width = 0.02, height = 0.006, youngs_modulus = 7e10, density = 2700, boundary = "free-free", damping_ratio = [0, 0, 0.01] }
-joint = { x = 0.015 }
-points = { "21:+Y" = 0.17, "22:+Y" = 0.2 }
-[assembly]
-frf = "c.uff"
-points = ["21:+Y", "22:+Y"]
-[joint]
-model = "full"
-[frequency]
-from = 5
-to = 200
-[bands]
-yy = [[50, 60]]
-[noise]
-relative = 0.01
-[bodies]
-a = { inertia = [1, 2], stiffness = [0, 0], damping = [0, 0] }
-b = { inertia = [1, 2], stiffness = [0, 0], damping = [0, 0] }
-"#;
+const BEAMS: &str = include_str!("../../data/studies/beams.toml");
 
 const MODES: &str = r#"points = ["1:+Y", "2:+Y", "3:+Y"]
 [[mode]]
@@ -47,12 +23,9 @@ fn beams() -> Bench {
     bench
 }
 
-const IDENTIFY: [&str; 4] = ["identify", "study.toml", "-o", "o.joint.json"];
-
 #[test]
 fn the_study_that_the_others_are_made_from_is_right() {
-    let outcome = beams().run(&IDENTIFY);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    beams().done(IDENTIFY);
 }
 
 #[test]
@@ -60,7 +33,7 @@ fn what_is_no_study_is_said_to_be_none() {
     let bench = beams();
     let cut = BEAMS.find(", width").unwrap();
     bench.refused(
-        &["identify", "missing.toml", "-o", "o.joint.json"],
+        "identify missing.toml -o o.joint.json",
         &["missing.toml: cannot be read", "check the path"],
     );
     #[rustfmt::skip]
@@ -73,11 +46,7 @@ fn what_is_no_study_is_said_to_be_none() {
         (b"{ \"method\": 1 }", ["line 1, column 1", "{ \"method\": 1 }"]),
         (b"method = 1\nmethod = 2\n", ["line 2, column 1", "duplicate key"]),
     ];
-    for (contents, fragments) in cases {
-        bench.write("study.toml", contents);
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
-    }
+    bench.refused_contents(IDENTIFY, "study.toml", &cases);
 }
 
 #[test]
@@ -99,11 +68,8 @@ fn keys_that_do_not_belong_are_named_with_their_line() {
         ("a = { inertia", "c = { inertia", ["line 23, column 1", "unknown field `c`"]),
         ("a = { inertia", "a = { mass", ["line 23, column", "unknown field `mass`"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("study.toml", replaced(BEAMS, from, to));
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two, "expected"]);
-    }
+    let cases = cases.map(|(from, to, [one, two])| (from, to, [one, two, "expected"]));
+    bench.refused_edits(IDENTIFY, ("study.toml", BEAMS), &cases);
 }
 
 #[test]
@@ -132,9 +98,5 @@ fn missing_keys_and_wrong_types_are_named_with_their_line() {
         ("\"21:+Y\" = 0.17", "\"x\" = 0.17", ["line 9", "NODE:DIRECTION"]),
         ("[\"3:+Y\", \"2:+Y\", \"1:+Y\"]", "[\"3:+Y\", \"1:+Y\"]", ["a.joint.theta.points", "expected three points"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("study.toml", replaced(BEAMS, from, to));
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
-    }
+    bench.refused_edits(IDENTIFY, ("study.toml", BEAMS), &cases);
 }

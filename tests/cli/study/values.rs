@@ -1,7 +1,7 @@
 //! Values that cannot be, and ranges without lines.
 
-use super::{BEAMS, IDENTIFY, beams};
-use crate::bench::replaced;
+use super::{BEAMS, beams};
+use crate::bench::{IDENTIFY, replaced};
 
 #[test]
 fn values_that_cannot_be_are_named_by_key() {
@@ -57,11 +57,7 @@ fn values_that_cannot_be_are_named_by_key() {
         ("b = { inertia = [1, 2], stiffness = [0, 0]", "b = { inertia = [1, 2], stiffness = [0, -1]",
          ["`bodies.b.stiffness`: found -1", "not negative"]),
     ];
-    for (from, to, fragments) in cases {
-        bench.write("study.toml", replaced(BEAMS, from, to));
-        let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["study.toml: ", one, two]);
-    }
+    bench.refused_edits(IDENTIFY, ("study.toml", BEAMS), &cases);
 }
 
 #[test]
@@ -78,21 +74,11 @@ fn a_band_without_enough_lines_is_refused() {
     for (range, fragments) in cases {
         bench.write("study.toml", text(range));
         let [one, two] = fragments;
-        bench.refused(&IDENTIFY, &["c.uff: ", one, two]);
+        bench.refused(IDENTIFY, &["c.uff: ", one, two]);
     }
-    bench.write(
-        "study.toml",
-        replaced(
-            &text("from = 10.5\nto = 14.5"),
-            "points = [\"21:+Y\", \"22:+Y\"]",
-            "points = [\"21:+Y\"]",
-        ),
-    );
-    bench.refused(
-        &IDENTIFY,
-        &[
-            "c.uff: found 2 line(s) from 11 to 14 Hz, expected at least 3",
-            "model \"full\"",
-        ],
-    );
+    bench.write("study.toml", text("from = 10.5\nto = 14.5"));
+    let (both, one) = ("points = [\"21:+Y\", \"22:+Y\"]", "points = [\"21:+Y\"]");
+    bench.edit("study.toml", both, one);
+    let found = "c.uff: found 2 line(s) from 11 to 14 Hz, expected at least 3";
+    bench.refused(IDENTIFY, &[found, "model \"full\""]);
 }

@@ -7,12 +7,12 @@ use bolted_joint::predict::layered_beam::{
     normal_force_ratio,
 };
 use bolted_joint::structure::Boundary;
+use bolted_joint_testing::close;
 
-use super::{BOUNDARIES, close, references, rivets, specimen};
+use super::{BOUNDARIES, mode, references, rivets, specimen};
 
 fn damping(beam: &LayeredBeam, rivets: &Fasteners, number: usize, route: Route) -> SlipDamping {
-    let mode = BeamMode::new(beam, rivets, number, None, route, StoredEnergy::Modal).unwrap();
-    SlipDamping::new(beam, rivets, mode, 0.004).unwrap()
+    SlipDamping::new(beam, rivets, mode(beam, rivets, number, route), 0.004).unwrap()
 }
 
 #[test]
@@ -22,11 +22,8 @@ fn normal_forces_are_the_integrated_pressure() {
     }
     // linear in between, nothing beyond
     let middle = normal_force_ratio(1.25).unwrap();
-    close(
-        2.0 * middle,
-        normal_force_ratio(1.0).unwrap() + normal_force_ratio(1.5).unwrap(),
-        1e-13,
-    );
+    let [low, high] = [1.0, 1.5].map(|ratio| normal_force_ratio(ratio).unwrap());
+    close(2.0 * middle, low + high, 1e-13);
     assert_eq!(normal_force_ratio(2.1), None);
     assert_eq!(normal_force_ratio(0.9), None);
     assert_eq!(normal_force_ratio(f64::NAN), None);
@@ -41,11 +38,8 @@ fn damping_is_that_of_independent_finite_elements() {
                 let drive = Some(case.drive_point);
                 let mode = BeamMode::new(&beam, &rivets, number, drive, route, StoredEnergy::Modal);
                 let found = SlipDamping::new(&beam, &rivets, mode.unwrap(), case.alpha_mu).unwrap();
-                close(
-                    found.damping_ratio(case.amplitude),
-                    expected.damping_ratio,
-                    1e-4,
-                );
+                let ratio = found.damping_ratio(case.amplitude);
+                close(ratio, expected.damping_ratio, 1e-4);
             }
         }
     }
@@ -57,10 +51,8 @@ fn both_routes_have_the_same_damping() {
         for count in [1, 4, 7] {
             for number in 1..=5 {
                 let (beam, rivets) = (specimen(boundary), rivets(count));
-                let mode =
-                    |route| BeamMode::new(&beam, &rivets, number, None, route, StoredEnergy::Modal);
-                let [exact, elements] =
-                    [Route::Classical, Route::FiniteElements].map(|r| mode(r).unwrap());
+                let [exact, elements] = [Route::Classical, Route::FiniteElements]
+                    .map(|route| mode(&beam, &rivets, number, route));
                 // equal parts have their middles where this mode has no slope
                 if boundary == Boundary::PinnedPinned && number == count
                     || count == 1 && exact.check_slip().is_err()
@@ -71,11 +63,8 @@ fn both_routes_have_the_same_damping() {
                 }
                 close(elements.slope_sum_per_m(), exact.slope_sum_per_m(), 1e-3);
                 let of = |mode| SlipDamping::new(&beam, &rivets, mode, 0.004).unwrap();
-                close(
-                    of(elements).damping_ratio(1e-4),
-                    of(exact).damping_ratio(1e-4),
-                    1e-3,
-                );
+                let [exact, elements] = [exact, elements].map(|mode| of(mode).damping_ratio(1e-4));
+                close(elements, exact, 1e-3);
             }
         }
     }
@@ -96,16 +85,10 @@ fn a_pinned_beam_by_hand() {
     let stored = 0.25 * amplitude * amplitude * PI.powi(4) * bending / length.powi(3);
     close(found.dissipated_energy_j(amplitude), dissipated, 1e-12);
     close(found.stored_energy_j(amplitude), stored, 1e-12);
-    close(
-        found.logarithmic_decrement(amplitude),
-        0.5 * dissipated / stored,
-        1e-12,
-    );
-    close(
-        found.damping_ratio(amplitude),
-        dissipated / (4.0 * PI * stored),
-        1e-12,
-    );
+    let decrement = found.logarithmic_decrement(amplitude);
+    close(decrement, 0.5 * dissipated / stored, 1e-12);
+    let ratio = found.damping_ratio(amplitude);
+    close(ratio, dissipated / (4.0 * PI * stored), 1e-12);
 }
 
 #[test]
@@ -122,19 +105,13 @@ fn damping_falls_with_the_amplitude_and_grows_with_the_layers() {
         damping(&beam, &rivets, 1, Route::Classical)
     };
     let two = layered(2);
-    close(
-        two.damping_ratio(3e-4),
-        two.damping_ratio(1e-4) / 3.0,
-        1e-14,
-    );
+    let at_100_um = two.damping_ratio(1e-4);
+    close(two.damping_ratio(3e-4), at_100_um / 3.0, 1e-14);
     for count in [3, 4, 8] {
         // (m − 1) interfaces with 2h = H/m each
         let expected = 2.0 * (count as f64 - 1.0) / count as f64;
-        close(
-            layered(count).damping_ratio(1e-4) / two.damping_ratio(1e-4),
-            expected,
-            1e-13,
-        );
+        let found = layered(count).damping_ratio(1e-4);
+        close(found / at_100_um, expected, 1e-13);
     }
 }
 
@@ -142,10 +119,8 @@ fn damping_falls_with_the_amplitude_and_grows_with_the_layers() {
 fn a_balanced_normal_force_is_the_tension() {
     let beam = specimen(Boundary::FixedFixed);
     let balanced = rivets(6).with_rule(NormalForceRule::Tension);
-    assert_eq!(
-        balanced.normal_forces_n(&beam).unwrap(),
-        [balanced.tension_n()]
-    );
+    let forces = balanced.normal_forces_n(&beam).unwrap();
+    assert_eq!(forces, [balanced.tension_n()]);
     close(balanced.tension_n(), 100e6 * PI * 16e-6, 1e-14);
 }
 
@@ -171,15 +146,7 @@ fn static_stiffness_is_less_than_the_modes() {
 fn calibration_comes_back() {
     for boundary in BOUNDARIES {
         let (beam, rivets) = (specimen(boundary), rivets(6));
-        let mode = BeamMode::new(
-            &beam,
-            &rivets,
-            1,
-            None,
-            Route::Classical,
-            StoredEnergy::Modal,
-        )
-        .unwrap();
+        let mode = mode(&beam, &rivets, 1, Route::Classical);
         let found = SlipDamping::calibrated(&beam, &rivets, mode.clone(), 0.0123, 1.7e-4).unwrap();
         close(found.damping_ratio(1.7e-4), 0.0123, 1e-14);
         let again = SlipDamping::new(&beam, &rivets, mode, found.alpha_mu).unwrap();

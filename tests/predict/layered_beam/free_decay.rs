@@ -8,7 +8,7 @@ use bolted_joint::predict::layered_beam::{LayeredBeamStudy, Outcome};
 use bolted_joint::study::StudyText;
 use bolted_joint_dynamics::{LapIntegrator, LapLoads, LapState, Motion};
 
-use super::close;
+use bolted_joint_testing::close;
 
 const STEPS_PER_PERIOD: u32 = 400;
 
@@ -62,35 +62,10 @@ fn peaks(outcome: &Outcome, amplitude: f64, periods: u32) -> Vec<(f64, f64)> {
 }
 
 fn study(boundary: &str, mode: usize, joint: &str) -> String {
-    format!(
-        r#"
-method = "layered-beam"
-name = "decay"
-[beam]
-length = 0.37
-width = 0.04125
-boundary = "{boundary}"
-[[beam.layer]]
-thickness = 0.003
-youngs_modulus = 196e9
-density = 7850
-[[beam.layer]]
-thickness = 0.003
-youngs_modulus = 196e9
-density = 7850
-[fasteners]
-kind = "rivet"
-diameter = 0.008
-count = 6
-[friction.calibration]
-damping_ratio = 0.01
-amplitude = 2e-4
-[motion]
-mode = {mode}
-amplitude = {{ from = 1e-4, to = 3e-4 }}
-{joint}
-"#
-    )
+    include_str!("../../data/studies/decay.toml")
+        .replace("fixed-free", boundary)
+        .replace("mode = 1\n", &format!("mode = {mode}\n"))
+        + joint
 }
 
 #[test]

@@ -3,26 +3,19 @@
 use std::f64::consts::{PI, TAU};
 
 use bolted_joint::predict::layered_beam::{
-    AmplitudeDamping, AmplitudeRange, BeamMode, EquivalentLap, Route, SlipDamping, StoredEnergy,
+    AmplitudeDamping, AmplitudeRange, EquivalentLap, Route, SlipDamping,
 };
+use bolted_joint_testing::close;
 use proptest::prelude::*;
 
-use super::{BOUNDARIES, close, rivets, specimen};
+use super::{BOUNDARIES, mode, rivets, specimen};
 
 #[test]
 fn the_lap_has_the_beams_mode() {
     for boundary in BOUNDARIES {
         for number in [1, 2, 5] {
             let (beam, rivets) = (specimen(boundary), rivets(7));
-            let mode = BeamMode::new(
-                &beam,
-                &rivets,
-                number,
-                None,
-                Route::Classical,
-                StoredEnergy::Modal,
-            );
-            let mode = mode.unwrap();
+            let mode = mode(&beam, &rivets, number, Route::Classical);
             let damping = SlipDamping::new(&beam, &rivets, mode.clone(), 0.004).unwrap();
             let lap = EquivalentLap::of(&damping);
             let k = lap.stiffness_n_per_m;

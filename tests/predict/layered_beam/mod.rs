@@ -1,6 +1,5 @@
 //! Layered beams whose interfaces slip.
 
-mod command;
 mod damping;
 mod free_decay;
 mod lap;
@@ -8,7 +7,9 @@ mod modes;
 mod refusals;
 mod study;
 
-use bolted_joint::predict::layered_beam::{Fasteners, Layer, LayeredBeam};
+use bolted_joint::predict::layered_beam::{
+    BeamMode, Fasteners, Layer, LayeredBeam, Route, StoredEnergy,
+};
 use bolted_joint::structure::Boundary;
 use serde::Deserialize;
 
@@ -97,11 +98,12 @@ pub(crate) fn rivets(count: usize) -> Fasteners {
     Fasteners::rivets(0.008, 100e6, Fasteners::equispaced(count, 0.37)).unwrap()
 }
 
-#[track_caller]
-pub(crate) fn close(found: f64, expected: f64, relative: f64) {
-    assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found}, expected {expected}: {:.2e} of it off",
-        (found / expected - 1.0).abs()
-    );
+/// Mode `number` of a beam, driven where it moves most, by its modal energy.
+pub(crate) fn mode(
+    beam: &LayeredBeam,
+    rivets: &Fasteners,
+    number: usize,
+    route: Route,
+) -> BeamMode {
+    BeamMode::new(beam, rivets, number, None, route, StoredEnergy::Modal).unwrap()
 }

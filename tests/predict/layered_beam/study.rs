@@ -1,46 +1,13 @@
 //! Studies as files: what is read, and what comes out.
 
-use bolted_joint_testing::has;
+use bolted_joint_testing::{close, has};
 use std::path::Path;
 
 use bolted_joint::joint::JointFile;
 use bolted_joint::predict::layered_beam::{Friction, LayeredBeamStudy, Outcome};
 use bolted_joint::study::StudyText;
 
-use super::close;
-
-pub(crate) const STUDY: &str = r#"
-method = "layered-beam"
-name = "two layers"
-notes = ["a note"]
-[beam]
-length = 0.43
-width = 0.04125
-boundary = "fixed-pinned"
-stiffness_ratio = 0.93
-[[beam.layer]]
-thickness = 0.0024
-youngs_modulus = 67.6e9
-density = 2700
-[[beam.layer]]
-thickness = 0.0036
-youngs_modulus = 67.6e9
-density = 2700
-[fasteners]
-kind = "bolt"
-diameter = 0.006
-positions = [0.05, 0.15, 0.25, 0.35]
-torque = 4
-nut_factor = 0.18
-[friction]
-alpha_mu = 0.0021
-[motion]
-mode = 2
-modes = 3
-drive_point = 0.12
-amplitude = { from = 5e-5, to = 1.5e-4, count = 3 }
-route = "finite-elements"
-"#;
+pub(crate) const STUDY: &str = include_str!("../../data/studies/two-layers.toml");
 
 pub(crate) fn run(text: &str) -> Outcome {
     LayeredBeamStudy::of(&StudyText::new(text, Path::new("study.toml")))
@@ -54,22 +21,16 @@ fn a_study_gives_frequencies_damping_and_a_joint_file() {
     let found = run(STUDY);
     assert_eq!(found.modes.len(), 3);
     // E b h³/12 of the bonded section, softened: halves of unlike thickness change nothing if the material is one
-    close(
-        found.bending_stiffness_n_m2,
-        0.93 * 67.6e9 * 0.04125 * 0.006_f64.powi(3) / 12.0,
-        1e-13,
-    );
+    let bending = 0.93 * 67.6e9 * 0.04125 * 0.006_f64.powi(3) / 12.0;
+    close(found.bending_stiffness_n_m2, bending, 1e-13);
     let ratio = 3.926_602_312_047_919_f64.powi(2) / 0.43_f64.powi(2);
     let per_length = 2700.0 * 0.04125 * 0.006;
     let expected =
         ratio * (found.bending_stiffness_n_m2 / per_length).sqrt() / std::f64::consts::TAU;
     close(found.modes[0].frequency_hz, expected, 1e-14);
     close(found.tension_n, 4.0 / (0.18 * 0.006), 1e-14);
-    close(
-        found.normal_forces_n[0],
-        1.133_830_353_454_545_5 * found.tension_n,
-        1e-12,
-    );
+    let normal = 1.133_830_353_454_545_5 * found.tension_n;
+    close(found.normal_forces_n[0], normal, 1e-12);
     assert_eq!(found.modes[1].drive_point_m, 0.12);
     assert_eq!(found.slips.len(), 4);
     for slip in &found.slips {
@@ -109,11 +70,8 @@ fn a_list_of_torques_gives_a_table_over_the_preload() {
     assert_eq!(table.stiffness[0], table.stiffness[2]);
     // friction is proportional to the preload; the mount's share is the same at all
     let damping: Vec<f64> = table.damping.iter().map(|matrix| matrix[0][0]).collect();
-    close(
-        damping[2] - damping[1],
-        2.0 * (damping[1] - damping[0]),
-        1e-9,
-    );
+    let [step, next] = [damping[1] - damping[0], damping[2] - damping[1]];
+    close(next, 2.0 * step, 1e-9);
     close(damping[1], 2.0 * damping[0], 1e-3);
     file.to_json().unwrap();
     // at the nominal torque it is that of one torque alone
@@ -191,23 +149,16 @@ fn standard_deviations_become_intervals_of_the_joint() {
     // of a lognormal: e^(σ²/2 ± 1.96 σ) about the mean
     let sigma = (1.0 + relative * relative).ln().sqrt();
     for (end, sign) in damping.interval_95.iter().zip([-1.0, 1.0]) {
-        close(
-            *end,
-            c * (-0.5 * sigma * sigma + sign * 1.959_964 * sigma).exp(),
-            0.03,
-        );
+        let score = -0.5 * sigma * sigma + sign * 1.959_964 * sigma;
+        close(*end, c * score.exp(), 0.03);
     }
     // they do not change what bends
     assert!(row("k_yy").standard_deviation < 1e-9 * row("k_yy").mean);
     let uncertainty = found.joint_file.uncertainty.as_ref().unwrap();
-    assert_eq!(
-        uncertainty.standard_deviation.damping[0][0],
-        damping.standard_deviation
-    );
-    has(
-        &uncertainty.basis,
-        &["friction.alpha_mu", "fasteners.preload"],
-    );
+    let deviation = uncertainty.standard_deviation.damping[0][0];
+    assert_eq!(deviation, damping.standard_deviation);
+    let inputs = ["friction.alpha_mu", "fasteners.preload"];
+    has(&uncertainty.basis, &inputs);
     JointFile::from_json(&found.joint_file.to_json().unwrap(), "again").unwrap();
     // the same seed, the same draws
     assert_eq!(run(&text).scatter, found.scatter);
@@ -268,11 +219,8 @@ fn a_table_over_the_preload_has_its_scatter() {
 fn the_example_runs() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/kavi-layered-beam/study.toml");
     let found = LayeredBeamStudy::read(&path).unwrap().run().unwrap();
-    close(
-        found.modes[0].frequency_hz,
-        found.modes[0].finite_element_frequency_hz,
-        1e-6,
-    );
+    let mode = &found.modes[0];
+    close(mode.frequency_hz, mode.finite_element_frequency_hz, 1e-6);
     close(found.amplitudes[0].damping_ratio, 0.012, 1e-12);
     found.joint_file.to_json().unwrap();
 }

@@ -104,6 +104,11 @@ pub fn table(headings: &[&str], rows: &[String]) -> String {
     )
 }
 
+/// Headings of a table that are parted by bars.
+pub fn columns(headings: &str) -> Vec<&str> {
+    headings.split('|').collect()
+}
+
 /// A cell of finished HTML.
 pub fn cell(html: &str) -> String {
     format!("<td>{html}</td>")

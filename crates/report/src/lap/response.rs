@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_export::provenance;
-use bolted_joint_figures::html::{beside, cell, escaped, number_cell, shown, spread, table};
+use bolted_joint_figures::html::{
+    beside, cell, columns, escaped, number_cell, shown, spread, table,
+};
 use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapResponse, LapResponseStudy, SineRun, Use};
@@ -132,17 +134,9 @@ impl LapResponseReport<'_> {
             "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90°: measured, and of the model at the force that was \
              measured there. The last column is the error of the acceleration’s amplitude.</p>\n{}{}",
             table(
-                &[
-                    "Run",
-                    "",
-                    "Force, N",
-                    "Measured, Hz",
-                    "Model, Hz",
-                    "Error, Hz",
-                    "Measured, µm",
-                    "Model, µm",
-                    "Error"
-                ],
+                &columns(
+                    "Run||Force, N|Measured, Hz|Model, Hz|Error, Hz|Measured, µm|Model, µm|Error"
+                ),
                 &rows
             ),
             self.backbone().unwrap_or_default()

@@ -1,7 +1,7 @@
 //! The report of a lap model updated from natural frequencies.
 
 use bolted_joint_export::provenance;
-use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, table};
+use bolted_joint_figures::html::{beside, cell, columns, escaped, number, number_cell, table};
 use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapParameter, LapUpdate, TorqueUpdate};
@@ -65,13 +65,7 @@ impl LapUpdateReport<'_> {
              k/m = ω₁² and k<sub>12</sub>/m = (ω₂² − ω₁²)/2. They do not depend on c, c<sub>12</sub> and k<sub>N</sub>. A mass that is \
              stated makes both stiffnesses known. Where the last column differs, the bounds do not admit the measured frequencies.</p>\n{}",
             table(
-                &[
-                    "Torque, N·m",
-                    "Ratio",
-                    "Measured, 1/s²",
-                    "± std. dev.",
-                    "Updated model, 1/s²"
-                ],
+                &columns("Torque, N·m|Ratio|Measured, 1/s²|± std. dev.|Updated model, 1/s²"),
                 &rows
             )
         )
@@ -107,14 +101,7 @@ impl LapUpdateReport<'_> {
             "<h2>Parameters</h2>\n<p>Values in brackets are not results: of all values that fit as well they are those nearest to the \
              prior. The fireflies stop at another of them, which depends on their seed.</p>\n{}",
             table(
-                &[
-                    "Torque, N·m",
-                    "",
-                    "Least squares",
-                    "Fireflies",
-                    "Unit",
-                    "What the frequencies say"
-                ],
+                &columns("Torque, N·m||Least squares|Fireflies|Unit|What the frequencies say"),
                 &rows
             )
         )
@@ -146,15 +133,7 @@ impl LapUpdateReport<'_> {
         format!(
             "<h2>Frequencies</h2>\n{}",
             table(
-                &[
-                    "Torque, N·m",
-                    "",
-                    "Measured, rad/s",
-                    "Least squares",
-                    "Error",
-                    "Fireflies",
-                    "Error"
-                ],
+                &columns("Torque, N·m||Measured, rad/s|Least squares|Error|Fireflies|Error"),
                 &rows
             )
         )

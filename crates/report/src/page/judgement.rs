@@ -11,16 +11,10 @@ use bolted_joint_joint::JointFile;
 /// The result in a few sentences, and what to beware of.
 pub(super) fn summary(report: &IdentificationReport<'_>, files: &[JointFile]) -> String {
     let found = report.found;
-    let functions: usize = report
-        .assemblies()
-        .iter()
-        .map(|assembly| assembly.fits.len())
-        .sum();
-    let lines: usize = report
-        .assemblies()
-        .iter()
-        .map(|assembly| assembly.lines.frequency_hz.len())
-        .sum();
+    let assemblies = report.assemblies();
+    let functions: usize = assemblies.iter().map(|one| one.fits.len()).sum();
+    let lines = assemblies.iter().map(|one| one.lines.frequency_hz.len());
+    let lines: usize = lines.sum();
     let is_passive = files.iter().all(|file| file.passivity().is_passive());
     let verdict = match (files.len(), is_passive) {
         (1, true) => "the joint is passive",
@@ -32,10 +26,10 @@ pub(super) fn summary(report: &IdentificationReport<'_>, files: &[JointFile]) ->
     let identified = || joints.iter().flat_map(|joint| &joint.covariance.identified);
     let determined = match identified().filter(|identified| !**identified).count() {
         0 => "the data determine every parameter".to_owned(),
-        open => format!(
-            "{open} of {} parameters are not identified",
-            identified().count()
-        ),
+        open => {
+            let all = identified().count();
+            format!("{open} of {all} parameters are not identified")
+        }
     };
     let mut html = format!(
         "<p>From {} and {}: the regenerated functions are within {} r.m.s. of the measured ones; {determined}; \
@@ -71,40 +65,29 @@ fn fit(report: &IdentificationReport<'_>) -> String {
     let found = report.found;
     let assessment = &found.estimate.assessment;
     let (tried, agreeing) = found.starts;
-    let mut rows = vec![
-        row(
-            "Residual, r.m.s. of the receptance",
-            &percent(found.relative_rms),
+    let residual = percent(found.relative_rms);
+    let starts = format!("{agreeing} of {tried}");
+    let chi_squared = match (found.reduced_chi_squared, assessment.noise_is_stated) {
+        (Some(chi_squared), true) => format!(
+            "{}, {} of its standard deviations from 1",
+            shown(chi_squared, 4),
+            shown(assessment.chi_squared_excess, 2)
         ),
-        row(
-            "Starts that led to this estimate",
-            &format!("{agreeing} of {tried}"),
+        (Some(chi_squared), false) => format!(
+            "{}, with the noise that coherence tells; no test, because coherence is an estimate itself: with <i>n</i> averages \
+             <i>n</i>/(<i>n</i> − 2) is to be expected",
+            shown(chi_squared, 4)
         ),
-    ];
-    match (found.reduced_chi_squared, assessment.noise_is_stated) {
-        (Some(chi_squared), true) => {
-            rows.push(row(
-                "χ² per degree of freedom",
-                &format!(
-                    "{}, {} of its standard deviations from 1",
-                    shown(chi_squared, 4),
-                    shown(assessment.chi_squared_excess, 2)
-                ),
-            ));
+        (None, _) => {
+            "no test: the study does not state the noise, its level follows from the residual"
+                .to_owned()
         }
-        (Some(chi_squared), false) => rows.push(row(
-            "χ² per degree of freedom",
-            &format!(
-                "{}, with the noise that coherence tells; no test, because coherence is an estimate itself: with <i>n</i> averages \
-                 <i>n</i>/(<i>n</i> − 2) is to be expected",
-                shown(chi_squared, 4)
-            ),
-        )),
-        (None, _) => rows.push(row(
-            "χ² per degree of freedom",
-            "no test: the study does not state the noise, its level follows from the residual",
-        )),
-    }
+    };
+    let mut rows = vec![
+        row("Residual, r.m.s. of the receptance", &residual),
+        row("Starts that led to this estimate", &starts),
+        row("χ² per degree of freedom", &chi_squared),
+    ];
     if assessment.line_correlation.is_finite() {
         rows.push(row(
             "Correlation of the residuals of neighbouring lines",
@@ -145,6 +128,48 @@ fn bare_table(rows: &[String]) -> String {
     table(&[], rows).replace("<thead><tr></tr></thead>\n", "")
 }
 
+/// One of several ways to see the data, which are compared by BIC.
+pub(super) struct Compared<'a> {
+    pub(super) name: &'a str,
+    pub(super) unknowns: usize,
+    pub(super) bic_difference: f64,
+    pub(super) reduced_chi_squared: Option<f64>,
+    pub(super) adequate: bool,
+    pub(super) is_used: bool,
+    pub(super) is_recommended: bool,
+}
+
+impl Compared<'_> {
+    /// Its row below [`COMPARED`].
+    pub(super) fn row(&self, any_is_adequate: bool) -> String {
+        let recommended = match any_is_adequate {
+            true => "recommended",
+            false => "comes closest",
+        };
+        let remarks = [(self.is_used, "used"), (self.is_recommended, recommended)];
+        let remarks = remarks
+            .into_iter()
+            .filter_map(|(is, word)| is.then_some(word));
+        let chi_squared = self.reduced_chi_squared.map(|chi| shown(chi, 4));
+        let leaves = match self.adequate {
+            true => "noise",
+            false => "more than noise",
+        };
+        [
+            cell(self.name),
+            number_cell(&self.unknowns.to_string()),
+            number_cell(&format!("{:.1}", self.bic_difference)),
+            number_cell(chi_squared.as_deref().unwrap_or("–")),
+            cell(leaves),
+            cell(&remarks.collect::<Vec<_>>().join(", ")),
+        ]
+        .concat()
+    }
+}
+
+/// Headings of what is compared, after that of the first column.
+pub(super) const COMPARED: [&str; 5] = ["Unknowns", "BIC", "χ²/ν", "Leaves", ""];
+
 fn choice(report: &IdentificationReport<'_>) -> String {
     let Some(choice) = report.found.estimate.model_choice() else {
         return String::new();
@@ -160,33 +185,16 @@ fn choice(report: &IdentificationReport<'_>) -> String {
         .models
         .iter()
         .map(|fit| {
-            let mut remarks = Vec::new();
-            if fit.model == used {
-                remarks.push("used");
+            Compared {
+                name: &fit.model.to_string(),
+                unknowns: fit.unknowns,
+                bic_difference: fit.bic_difference,
+                reduced_chi_squared: fit.reduced_chi_squared,
+                adequate: fit.adequate,
+                is_used: fit.model == used,
+                is_recommended: fit.model == choice.recommended,
             }
-            if fit.model == choice.recommended {
-                remarks.push(if choice.any_is_adequate {
-                    "recommended"
-                } else {
-                    "comes closest"
-                });
-            }
-            [
-                cell(&fit.model.to_string()),
-                number_cell(&fit.unknowns.to_string()),
-                number_cell(&format!("{:.1}", fit.bic_difference)),
-                number_cell(
-                    &fit.reduced_chi_squared
-                        .map_or_else(|| "–".to_owned(), |chi| shown(chi, 4)),
-                ),
-                cell(if fit.adequate {
-                    "noise"
-                } else {
-                    "more than noise"
-                }),
-                cell(&remarks.join(", ")),
-            ]
-            .concat()
+            .row(choice.any_is_adequate)
         })
         .collect();
     let advice = if !choice.any_is_adequate {
@@ -202,7 +210,7 @@ fn choice(report: &IdentificationReport<'_>) -> String {
     format!(
         "<h3>Choice of the joint model</h3>\n{}<p>{advice} BIC is Schwarz's criterion, −2 ln <i>L</i> + <i>p</i> ln <i>n</i>, \
          less that of the best model; the lowest is best.</p>\n",
-        table(&["Model", "Unknowns", "BIC", "χ²/ν", "Leaves", ""], &rows)
+        table(&[&["Model"], &COMPARED[..]].concat(), &rows)
     )
 }
 

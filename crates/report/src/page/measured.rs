@@ -8,7 +8,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, Boundary, Damping};
 use bolted_joint_identify::{
     Bolts, FrfFile, JointModel, Level, Lines, NoiseLevel, Receptances, Rotation, Source,
-    StatedLevel, Substructure,
+    Substructure,
 };
 
 pub(super) fn section(report: &IdentificationReport<'_>) -> String {
@@ -20,16 +20,10 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         row("Substructure B", &substructure(&study.b, &study.bolts)),
     ];
     let assemblies = report.assemblies();
-    let further = study
-        .further
-        .iter()
-        .map(|own| (&own.file, own.repeats.len(), own.torque_n_m, own.level));
-    let first = (
-        &study.assembly,
-        study.repeats.len(),
-        study.torque_n_m,
-        study.level,
-    );
+    let further = study.further.iter();
+    let further = further.map(|own| (&own.file, own.repeats.len(), own.torque_n_m, own.level));
+    let repeats = study.repeats.len();
+    let first = (&study.assembly, repeats, study.torque_n_m, study.level);
     let sources = std::iter::once(first);
     for (number, (source, measured)) in sources.chain(further).zip(&assemblies).enumerate() {
         let name = match assemblies.len() {
@@ -40,38 +34,26 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
     for (number, further) in study.further.iter().enumerate() {
         for (name, own, common) in [("A", &further.a, &study.a), ("B", &further.b, &study.b)] {
-            let (own, common) = (
-                substructure(own, &study.bolts),
-                substructure(common, &study.bolts),
-            );
+            let [own, common] = [own, common].map(|of| substructure(of, &study.bolts));
             if own != common {
-                rows.push(row(
-                    &format!("Substructure {name} of assembly {}", number + 2),
-                    &own,
-                ));
+                let name = format!("Substructure {name} of assembly {}", number + 2);
+                rows.push(row(&name, &own));
             }
         }
     }
     for found in &report.found.from_modes {
-        rows.push(row(
-            &format!(
-                "From modes, substructure {}",
-                found.substructure.to_uppercase()
-            ),
-            &beside::from_modes(found),
-        ));
+        let name = format!(
+            "From modes, substructure {}",
+            found.substructure.to_uppercase()
+        );
+        rows.push(row(&name, &beside::from_modes(found)));
     }
     if let Some(start) = &study.start {
-        rows.push(row(
-            "Presumed joint, a start of the search",
-            &beside::start(start),
-        ));
+        let name = "Presumed joint, a start of the search";
+        rows.push(row(name, &beside::start(start)));
     }
-    let [from, to] = study.frequency_range_hz;
-    rows.push(row(
-        "Frequency range",
-        &format!("{} to {} Hz", number(from), number(to)),
-    ));
+    let [from, to] = study.frequency_range_hz.map(number);
+    rows.push(row("Frequency range", &format!("{from} to {to} Hz")));
     rows.push(row("Bands of the average", &beside::bands(report)));
     rows.push(row("Noise", &noise(report)));
     for note in &study.notes {
@@ -135,11 +117,8 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
         Substructure::Measured { source, joints } => {
             let origin = match source {
                 Source::Frf { file, modes } => {
-                    let modes = modes.as_deref().map(|path| {
-                        format!(
-                            ", those not measured from the modes in <code>{}</code>",
-                            file_name(path)
-                        )
+                    let modes = modes.as_deref().map(file_name).map(|name| {
+                        format!(", those not measured from the modes in <code>{name}</code>")
                     });
                     let file = file_name(&file.path);
                     format!("FRFs in <code>{file}</code>{}", modes.unwrap_or_default())
@@ -313,32 +292,20 @@ fn noise(report: &IdentificationReport<'_>) -> String {
         ("A", measured(&found.lines.a), noise.a),
         ("B", measured(&found.lines.b), noise.b),
     ] {
-        let words = match (measured, stated) {
+        let words = match (measured, (stated.relative, stated.floor)) {
             (None, _) => "taken as exact".to_owned(),
-            (
-                Some(_),
-                StatedLevel {
-                    relative: Some(0.0),
-                    floor: Some(0.0),
-                },
-            ) => "stated to be exact".to_owned(),
+            (Some(_), (Some(0.0), Some(0.0))) => "stated to be exact".to_owned(),
             (Some(true), _) => "from coherence, line by line".to_owned(),
-            (
-                Some(false),
-                StatedLevel {
-                    relative: None,
-                    floor: None,
-                },
-            ) => "as the assembly's".to_owned(),
-            (Some(false), stated) => {
+            (Some(false), (None, None)) => "as the assembly's".to_owned(),
+            (Some(false), (relative, floor)) => {
                 let part = |value: Option<f64>, unit: &str| match value {
                     Some(value) => format!("{}{unit}", shown(value, 3)),
                     None => "as the assembly's".to_owned(),
                 };
                 format!(
                     "stated: fraction of the receptance {}, floor {}",
-                    part(stated.relative, ""),
-                    part(stated.floor, " m/N")
+                    part(relative, ""),
+                    part(floor, " m/N")
                 )
             }
         };

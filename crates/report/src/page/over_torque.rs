@@ -2,8 +2,9 @@
 
 use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::IdentificationReport;
+use super::judgement::{COMPARED, Compared};
 use super::parameters;
-use bolted_joint_figures::html::{cell, number, number_cell, quantity, shown, table};
+use bolted_joint_figures::html::{number, number_cell, quantity, table};
 use bolted_joint_identify::{JointEstimate, TorqueDependence, Unknown};
 
 const STIFFNESS: &str = "#0072b2";
@@ -132,36 +133,19 @@ pub(super) fn choice(report: &IdentificationReport<'_>) -> String {
         .compared
         .iter()
         .map(|fit| {
-            let mut remarks = Vec::new();
-            if fit.dependence == used {
-                remarks.push("used");
-            }
-            if fit.dependence == choice.recommended {
-                remarks.push(if choice.any_is_adequate {
-                    "recommended"
-                } else {
-                    "comes closest"
-                });
-            }
-            [
-                cell(match fit.dependence {
+            Compared {
+                name: match fit.dependence {
                     TorqueDependence::Common => "one joint at all torques",
                     TorqueDependence::Separate => "a joint for each torque",
-                }),
-                number_cell(&fit.unknowns.to_string()),
-                number_cell(&format!("{:.1}", fit.bic_difference)),
-                number_cell(
-                    &fit.reduced_chi_squared
-                        .map_or_else(|| "–".to_owned(), |chi| shown(chi, 4)),
-                ),
-                cell(if fit.adequate {
-                    "noise"
-                } else {
-                    "more than noise"
-                }),
-                cell(&remarks.join(", ")),
-            ]
-            .concat()
+                },
+                unknowns: fit.unknowns,
+                bic_difference: fit.bic_difference,
+                reduced_chi_squared: fit.reduced_chi_squared,
+                adequate: fit.adequate,
+                is_used: fit.dependence == used,
+                is_recommended: fit.dependence == choice.recommended,
+            }
+            .row(choice.any_is_adequate)
         })
         .collect();
     let advice = match (choice.recommended == used, choice.recommended) {
@@ -178,6 +162,6 @@ pub(super) fn choice(report: &IdentificationReport<'_>) -> String {
     };
     format!(
         "<h3>Dependence on the torque</h3>\n{}<p>{advice}</p>\n",
-        table(&["", "Unknowns", "BIC", "χ²/ν", "Leaves", ""], &rows)
+        table(&[&[""], &COMPARED[..]].concat(), &rows)
     )
 }

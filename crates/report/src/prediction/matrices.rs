@@ -2,7 +2,7 @@
 
 use super::super::PressureFigure;
 use super::super::lap::figure;
-use bolted_joint_figures::html::{cell, escaped, number, number_cell, shown, table};
+use bolted_joint_figures::html::{cell, columns, escaped, number, number_cell, shown, table};
 use bolted_joint_predict::patch::Matrix6;
 use bolted_joint_predict::study::Prediction;
 
@@ -65,17 +65,9 @@ pub(super) fn pressure(found: &Prediction<'_>) -> String {
         )),
         drawing(found),
         table(
-            &[
-                "Torque, N·m",
-                "Preloads, kN",
-                "Field, kN",
-                "Imbalance",
-                "Largest pressure, MPa",
-                "Area under pressure",
-                "Real area, at most",
-                "η normal",
-                "η tangential",
-            ],
+            &columns(
+                "Torque, N·m|Preloads, kN|Field, kN|Imbalance|Largest pressure, MPa|Area under pressure|Real area, at most|η normal|η tangential"
+            ),
             &rows
         ),
         layer(found)
@@ -137,14 +129,7 @@ fn layer(found: &Prediction<'_>) -> String {
         false => format!(
             "<h3>Virtual layer</h3>\n{}",
             table(
-                &[
-                    "Torque, N·m",
-                    "E, Pa",
-                    "G, Pa",
-                    "ν",
-                    "ρ, kg/m³",
-                    "Thickness, m"
-                ],
+                &columns("Torque, N·m|E, Pa|G, Pa|ν|ρ, kg/m³|Thickness, m"),
                 &rows
             )
         ),

@@ -1,80 +1,20 @@
 //! Several bolts, sensitivities, and the two-step update, against joints that are known.
 
 use bolted_joint::identify::{
-    Amplitudes, Bands, JointMatrices, JointModel, Lines, Receptances, choose_bands, from_ss,
-    of_bolt, sensitivities, update_in_two_steps,
+    Amplitudes, Bands, JointMatrices, JointModel, choose_bands, from_ss, of_bolt, sensitivities,
+    update_in_two_steps,
 };
-use bolted_joint::structure::{
-    Beam, BeamPoint, Boundary, ComplexMatrix, Damping, Motion, Partition,
-};
-use nalgebra::{DMatrix, dmatrix};
+use bolted_joint::structure::{ComplexMatrix, Partition};
+use nalgebra::DMatrix;
 
-fn beam(length_m: f64, boundary: Boundary) -> Beam {
-    Beam {
-        length_m,
-        width_m: 0.025,
-        height_m: 0.006,
-        youngs_modulus_pa: 67e9,
-        density_kg_per_m3: 2700.0,
-        boundary,
-        damping: Damping::Ratios(vec![0.01]),
-    }
+use crate::cases::{bolt, bolted};
+
+#[track_caller]
+fn close(found: &DMatrix<f64>, exact: &DMatrix<f64>, tolerance: f64) {
+    assert!(is_close(found, exact, tolerance), "{found}");
 }
 
-/// Two beams that overlap, with a bolt at each place of the overlap (m from B's first end), measured at points of B.
-fn lines(
-    at_bolts: &[f64],
-    points_m: &[f64],
-    joint: &JointMatrices,
-    frequency_hz: Vec<f64>,
-) -> Lines {
-    let bolted = |offset: f64| {
-        at_bolts.iter().flat_map(move |x| {
-            [Motion::Translation, Motion::Rotation].map(|motion| BeamPoint {
-                position_m: offset + x,
-                motion,
-            })
-        })
-    };
-    let a: Vec<BeamPoint> = bolted(0.2).collect();
-    let motion = Motion::Translation;
-    let points = points_m
-        .iter()
-        .map(|&position_m| BeamPoint { position_m, motion });
-    let b: Vec<BeamPoint> = bolted(0.0).chain(points).collect();
-    let a = beam(0.3, Boundary::FixedFree)
-        .receptances(&a, &frequency_hz)
-        .unwrap();
-    let b = beam(0.3, Boundary::FreeFree)
-        .receptances(&b, &frequency_hz)
-        .unwrap();
-    let count = points_m.len();
-    let mut lines = Lines {
-        frequency_hz,
-        a: Receptances::Exact(a),
-        b: Receptances::Exact(b),
-        assembly: Vec::new(),
-        points: (0..count)
-            .map(|p| format!("{}:+Y", p + 1).parse().unwrap())
-            .collect(),
-        measured: (0..count)
-            .flat_map(|q| (0..count).map(move |p| (p, q)))
-            .collect(),
-        relative_variance: None,
-        repeats: None,
-    };
-    lines.assembly = lines.regenerated(joint).unwrap();
-    lines
-}
-
-fn bolt(factor: f64) -> JointMatrices {
-    JointMatrices {
-        stiffness: dmatrix![1e5, 2e3; 2e3, 1e3] * factor,
-        damping: dmatrix![5.0, 0.1; 0.1, 0.05] * factor,
-    }
-}
-
-fn close(found: &DMatrix<f64>, exact: &DMatrix<f64>, tolerance: f64) -> bool {
+fn is_close(found: &DMatrix<f64>, exact: &DMatrix<f64>, tolerance: f64) -> bool {
     let scale = |i: usize, j: usize| (exact[(i, i)] * exact[(j, j)]).abs().sqrt();
     (0..exact.nrows()).all(|i| {
         (0..exact.ncols()).all(|j| (found[(i, j)] - exact[(i, j)]).abs() <= tolerance * scale(i, j))
@@ -89,7 +29,7 @@ fn two_bolts_return_from_the_decoupling_as_a_block_diagonal_joint() {
     assert_eq!(joint.bolts(2), bolts);
     // Beyond the last bolt a beam with a free end moves in two ways only: four DOFs need points between the bolts, too.
     let points = [0.0, 0.04, 0.06, 0.2, 0.3];
-    let lines = lines(
+    let lines = bolted(
         &[0.02, 0.08],
         &points,
         &joint,
@@ -111,14 +51,8 @@ fn two_bolts_return_from_the_decoupling_as_a_block_diagonal_joint() {
         for (line, found) in of_bolt(&decoupled, index, 2).iter().enumerate() {
             let found = found.as_ref().unwrap();
             let omega = std::f64::consts::TAU * lines.frequency_hz[line];
-            assert!(
-                close(&found.map(|k| k.re), &bolt.stiffness, 1e-4),
-                "{found}"
-            );
-            assert!(
-                close(&found.map(|k| k.im / omega), &bolt.damping, 1e-2),
-                "{found}"
-            );
+            close(&found.map(|k| k.re), &bolt.stiffness, 1e-4);
+            close(&found.map(|k| k.im / omega), &bolt.damping, 1e-2);
         }
     }
 }
@@ -128,7 +62,7 @@ fn sensitivities_are_the_slopes_of_the_coupled_receptances() {
     let bolts = [bolt(1.0), bolt(2.5)];
     let joint = JointMatrices::of_bolts(&bolts);
     let frequency_hz = vec![60.0, 140.0, 410.0];
-    let exact = lines(&[0.02, 0.08], &[0.2, 0.3], &joint, frequency_hz);
+    let exact = bolted(&[0.02, 0.08], &[0.2, 0.3], &joint, frequency_hz);
     let found = sensitivities(&exact, JointModel::Full, &joint).unwrap();
     // 2 bolts × 3 entries × 3 distinct receptances (two of the four are reciprocal copies).
     assert_eq!(found.len() % 6, 0);
@@ -160,7 +94,7 @@ fn the_two_step_update_returns_the_joint_from_a_start_beside_it() {
     // Dampings of the start are right, as the first step holds them; the stiffnesses are 3 % off.
     let frequency_hz: Vec<f64> = (20..900).map(|line| 0.5 * f64::from(line)).collect();
     let joint = bolt(1.0);
-    let exact = lines(&[0.03], &[0.2, 0.25, 0.3], &joint, frequency_hz);
+    let exact = bolted(&[0.03], &[0.2, 0.25, 0.3], &joint, frequency_hz);
     let start = JointMatrices {
         stiffness: &joint.stiffness * 1.03,
         damping: joint.damping.clone(),
@@ -168,14 +102,8 @@ fn the_two_step_update_returns_the_joint_from_a_start_beside_it() {
     for amplitudes in [Amplitudes::Squared, Amplitudes::Logarithmic] {
         let found = update_in_two_steps(&exact, JointModel::Full, &start, amplitudes).unwrap();
         assert_eq!(found.converged, [true; 2], "{found:?}");
-        assert!(
-            close(&found.joint.stiffness, &joint.stiffness, 1e-5),
-            "{found:?}"
-        );
-        assert!(
-            close(&found.joint.damping, &joint.damping, 1e-3),
-            "{found:?}"
-        );
+        close(&found.joint.stiffness, &joint.stiffness, 1e-5);
+        close(&found.joint.damping, &joint.damping, 1e-3);
         assert!(found.objective[1] < 1e-12 * found.objective[0]);
     }
     // Dampings of the start 20 % off: the stiffnesses take the error up in the first step, and keep some of it.
@@ -185,11 +113,8 @@ fn the_two_step_update_returns_the_joint_from_a_start_beside_it() {
     };
     let found =
         update_in_two_steps(&exact, JointModel::Full, &start, Amplitudes::Logarithmic).unwrap();
-    assert!(
-        close(&found.joint.stiffness, &joint.stiffness, 0.02),
-        "{found:?}"
-    );
-    assert!(!close(&found.joint.stiffness, &joint.stiffness, 1e-6));
+    close(&found.joint.stiffness, &joint.stiffness, 0.02);
+    assert!(!is_close(&found.joint.stiffness, &joint.stiffness, 1e-6));
 }
 
 #[test]
@@ -197,7 +122,7 @@ fn two_bolts_are_updated_together() {
     let bolts = [bolt(1.0), bolt(2.5)];
     let joint = JointMatrices::of_bolts(&bolts);
     let frequency_hz: Vec<f64> = (20..300).map(|line| 1.5 * f64::from(line)).collect();
-    let exact = lines(
+    let exact = bolted(
         &[0.02, 0.08],
         &[0.12, 0.17, 0.21, 0.25, 0.3],
         &joint,
@@ -209,10 +134,7 @@ fn two_bolts_are_updated_together() {
     };
     let found =
         update_in_two_steps(&exact, JointModel::Full, &start, Amplitudes::Logarithmic).unwrap();
-    assert!(
-        close(&found.joint.stiffness, &joint.stiffness, 1e-4),
-        "{found:?}"
-    );
+    close(&found.joint.stiffness, &joint.stiffness, 1e-4);
     assert_eq!(found.joint.stiffness[(0, 2)], 0.0);
 }
 
@@ -220,7 +142,7 @@ fn two_bolts_are_updated_together() {
 fn bands_avoid_the_substructures_resonances_and_can_be_given() {
     let frequency_hz: Vec<f64> = (20..1000).map(|line| 0.5 * f64::from(line)).collect();
     let joint = bolt(1.0);
-    let lines = lines(&[0.03], &[0.2, 0.25, 0.3], &joint, frequency_hz);
+    let lines = bolted(&[0.03], &[0.2, 0.25, 0.3], &joint, frequency_hz);
     let given = Bands {
         ytheta: vec![[100.0, 120.0]],
         ..Bands::default()

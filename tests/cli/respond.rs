@@ -1,21 +1,13 @@
 //! `respond` with studies of laps: the examples, what they must show, and what is refused.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail as the tests do"
-)]
-
-use bolted_joint_testing::{close, has};
+use bolted_joint_testing::close;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
-use tempfile::TempDir;
+use num_complex::Complex64;
 
-const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/pirdayr");
+use crate::bench::Bench;
+use crate::examples::files_of;
 
 /// m, c, k, k12, c12 of Table 3.
 const TABLE_3: [(&str, [f64; 5]); 4] = [
@@ -25,25 +17,13 @@ const TABLE_3: [(&str, [f64; 5]); 4] = [
     ("Ex.04, 8 N·m", [2.38, 1.54, 11.86e5, 4.07e6, 0.69]),
 ];
 
-fn respond(arguments: &[&Path]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bolted-joint"))
-        .arg("respond")
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
 /// Rows by lap, each by the name of its column without the unit.
 type Table = Vec<(String, BTreeMap<String, f64>)>;
 
 fn table(text: &str) -> Table {
     let mut lines = text.lines();
-    let names: Vec<String> = lines
-        .next()
-        .unwrap()
-        .split(',')
-        .map(|name| name.split(" [").next().unwrap().to_owned())
-        .collect();
+    let names = lines.next().unwrap().split(',').skip(1);
+    let names: Vec<&str> = names.map(|name| name.split(" [").next().unwrap()).collect();
     lines
         .map(|line| {
             // names of laps may be quoted
@@ -52,28 +32,19 @@ fn table(text: &str) -> Table {
                 None => line.split_once(',').unwrap(),
             };
             let numbers = rest.split(',').map(|n| n.parse().unwrap_or(f64::NAN));
-            (
-                lap.to_owned(),
-                names[1..].iter().cloned().zip(numbers).collect(),
-            )
+            let names = names.iter().map(|&name| name.to_owned());
+            (lap.to_owned(), names.zip(numbers).collect())
         })
         .collect()
 }
 
 fn example(name: &str) -> Table {
-    let folder = tempfile::tempdir().unwrap();
-    let (csv, svg) = (folder.path().join("out.csv"), folder.path().join("out.svg"));
-    let study = PathBuf::from(EXAMPLES).join(name);
-    let done = respond(&[&study, Path::new("-o"), &csv, Path::new("--report"), &svg]);
-    assert!(
-        done.status.success(),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
-    let drawing = fs::read_to_string(svg).unwrap();
+    let bench = files_of("pirdayr");
+    bench.done(&format!("respond {name} -o out.csv --report out.svg"));
+    let drawing = bench.text("out.svg");
     assert!(drawing.starts_with("<svg") && drawing.trim_end().ends_with("</svg>"));
     roxmltree::Document::parse(&drawing).unwrap();
-    table(&fs::read_to_string(csv).unwrap())
+    table(&bench.text("out.csv"))
 }
 
 #[test]
@@ -82,15 +53,13 @@ fn receptances_are_those_of_two_coupled_oscillators() {
     for (lap, row) in table.iter().step_by(97) {
         let (_, [m, c, k, k12, c12]) = TABLE_3.iter().find(|(name, _)| name == lap).unwrap();
         let omega = TAU * row["frequency"];
-        let one = num_complex::Complex64::new(k - omega * omega * m, omega * c);
-        let other = one + 2.0 * num_complex::Complex64::new(*k12, omega * c12);
+        let one = Complex64::new(k - omega * omega * m, omega * c);
+        let other = one + 2.0 * Complex64::new(*k12, omega * c12);
         // x_b = F/2 (1/z₁ + 1/z₂), acceleration −ω² x_b
         let expected = -0.5 * omega * omega * (one.inv() + other.inv());
-        let found = num_complex::Complex64::new(row["b.y real"], row["b.y imaginary"]);
-        assert!(
-            (found - expected).norm() < 1e-9 * expected.norm(),
-            "{lap} {omega}"
-        );
+        let found = Complex64::new(row["b.y real"], row["b.y imaginary"]);
+        let error = (found - expected).norm();
+        assert!(error < 1e-9 * expected.norm(), "{lap} {omega}");
     }
 }
 
@@ -99,23 +68,17 @@ fn figure_10_is_the_same_at_every_load_and_stable() {
     let table = example("figure-10.toml");
     for (lap, [m, c, k, ..]) in TABLE_3 {
         for level in [1.0, 10.0, 100.0] {
-            let rows: Vec<_> = table
-                .iter()
-                .filter(|(name, row)| name == lap && row["level"] == level)
-                .collect();
+            let rows = table.iter().filter(|(name, _)| name == lap);
+            let rows = rows.map(|(_, row)| row).filter(|row| row["level"] == level);
+            let amplitude = |row: &BTreeMap<String, f64>| row["b.y amplitude"];
             let highest = rows
-                .iter()
-                .max_by(|(_, one), (_, other)| {
-                    one["b.y amplitude"].total_cmp(&other["b.y amplitude"])
-                })
-                .map(|(_, row)| row)
-                .unwrap();
-            assert!(
-                rows.iter()
-                    .all(|(_, row)| row["stable"] == 1.0 && row["fold"] == 0.0)
-            );
+                .clone()
+                .max_by(|a, b| amplitude(a).total_cmp(&amplitude(b)));
+            let highest = highest.unwrap();
+            let mut each = rows.map(|row| (row["stable"], row["fold"]));
+            assert!(each.all(|stable_and_fold| stable_and_fold == (1.0, 0.0)));
             let omega = (k / m).sqrt();
-            assert!((TAU * highest["frequency"] / omega - 1.0).abs() < 1e-3);
+            close(TAU * highest["frequency"], omega, 1e-3);
             let expected = level / (2.0 * c * omega);
             close(highest["b.y amplitude"], expected, 0.02);
         }
@@ -174,50 +137,18 @@ fn a_softening_lap_stepped_down_jumps_where_its_curve_folds() {
 
 #[test]
 fn every_example_can_be_run_and_drawn() {
-    for name in [
-        "figures-7-to-9-decay.toml",
-        "figure-11a.toml",
-        "figure-11b.toml",
-        "figure-11c.toml",
-        "softening-backbone.toml",
-    ] {
-        assert!(!example(name).is_empty(), "{name}");
+    let names = "figures-7-to-9-decay figure-11a figure-11b figure-11c softening-backbone";
+    for name in names.split(' ') {
+        assert!(!example(&format!("{name}.toml")).is_empty(), "{name}");
     }
 }
 
-/// A study with its joint files in a folder of its own.
-struct Studies {
-    folder: TempDir,
-}
+const RESPOND: &str = "respond study.toml -o out.csv";
 
-impl Studies {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["ex02", "softening"] {
-            let file = format!("{name}.joint.json");
-            fs::copy(Path::new(EXAMPLES).join(&file), folder.path().join(&file)).unwrap();
-        }
-        Self { folder }
-    }
-
-    fn run(&self, text: &str) -> Output {
-        let study = self.folder.path().join("study.toml");
-        fs::write(&study, text).unwrap();
-        let output = self.folder.path().join("out.csv");
-        let done = respond(&[&study, Path::new("-o"), &output]);
-        assert_eq!(output.exists(), done.status.success());
-        done
-    }
-
-    fn refused(&self, text: &str, fragments: &[&str]) {
-        let done = self.run(text);
-        let message = String::from_utf8(done.stderr).unwrap();
-        assert_eq!(done.status.code(), Some(1), "{text}: {message}");
-        assert!(message.starts_with("error: "), "{message}");
-        for fragment in fragments {
-            has(&message, &[fragment]);
-        }
-    }
+/// The study is refused, and no file is written.
+fn refused(bench: &Bench, study: &str, fragments: &[&str]) {
+    bench.write("study.toml", study);
+    bench.refused(RESPOND, fragments);
 }
 
 fn study(kind: &str, rest: &str) -> String {
@@ -228,7 +159,7 @@ fn study(kind: &str, rest: &str) -> String {
 
 #[test]
 fn what_makes_no_sense_is_refused_with_file_and_key() {
-    let studies = Studies::new();
+    let bench = files_of("pirdayr");
     let band = "[frequency]\nfrom = 300\nto = 400\n";
     let balance = |rest: &str| study("harmonic-balance", rest);
     #[rustfmt::skip]
@@ -252,44 +183,30 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
         (study("dwell", &format!("{band}[load]\namplitude = 1\n[time]\nduration = 1\ninterval = 1\n")), ["`frequency`", "`at` alone"]),
     ];
     for (text, fragments) in cases {
-        studies.refused(&text, &fragments);
+        refused(&bench, &text, &fragments);
     }
     let text = study("linear", "[frequency]\nfrom = 1\nto = 2\n");
-    studies.refused(
-        &text.replace("ex02", "ex99"),
-        &["ex99.joint.json", "cannot be read"],
-    );
-    studies.refused(
-        &text.replace("[[lap]]\njoint", "# "),
-        &["`lap`", "at least one"],
-    );
+    let absent = text.replace("ex02", "ex99");
+    refused(&bench, &absent, &["ex99.joint.json", "cannot be read"]);
+    let none = text.replace("[[lap]]\njoint", "# ");
+    refused(&bench, &none, &["`lap`", "at least one"]);
 }
 
 #[test]
 fn a_softening_joint_that_lets_go_is_said_with_the_time() {
-    let text = study(
-        "free-decay",
-        "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"a.y\" = 0.05\n",
-    );
-    let text = text.replace("ex02", "softening");
-    Studies::new().refused(&text, &["not finite any more at", "softening"]);
+    let wide = "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"a.y\" = 0.05\n";
+    let text = study("free-decay", wide).replace("ex02", "softening");
+    let expected = ["not finite any more at", "softening"];
+    refused(&files_of("pirdayr"), &text, &expected);
 }
 
 #[test]
 fn what_belongs_to_assemblies_is_refused_beside_laps() {
-    let studies = Studies::new();
-    let path = studies.folder.path().join("study.toml");
-    fs::write(&path, study("linear", "[frequency]\nfrom = 1\nto = 2\n")).unwrap();
-    let output = studies.folder.path().join("out.csv");
-    for (more, fragment) in [
-        (vec!["--joint", "x.joint.json"], "--joint"),
-        (vec!["--step", "1"], "--step"),
-        (vec!["--report", "x.pdf"], "--report"),
-    ] {
-        let mut arguments = vec![path.as_path(), Path::new("-o"), &output];
-        arguments.extend(more.iter().map(Path::new));
-        let done = respond(&arguments);
-        assert_eq!(done.status.code(), Some(1));
-        assert!(String::from_utf8_lossy(&done.stderr).contains(fragment));
+    let bench = files_of("pirdayr");
+    let study = study("linear", "[frequency]\nfrom = 1\nto = 2\n");
+    bench.write("study.toml", study);
+    for option in ["--joint x.joint.json", "--step 1", "--report x.pdf"] {
+        let name = option.split(' ').next().unwrap();
+        bench.fails(&format!("{RESPOND} {option}"), &[name]);
     }
 }

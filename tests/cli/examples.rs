@@ -1,0 +1,108 @@
+//! Studies of laps, layered beams and planned tests, from the study to what is made of its joint.
+
+use std::path::Path;
+
+use bolted_joint_testing::{close, has};
+
+use crate::bench::{Bench, IDENTIFY};
+
+/// A bench with the files of an example.
+pub(crate) fn files_of(name: &str) -> Bench {
+    let bench = Bench::new();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("examples")
+        .join(name);
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let file = path.file_name().unwrap().to_str().unwrap();
+        bench.write(file, std::fs::read(&path).unwrap());
+    }
+    bench
+}
+
+#[test]
+fn each_torque_with_its_own_bodies_gets_a_file_that_exports() {
+    let bench = files_of("pirdayr-update");
+    let outcome = bench.done("identify study.toml -o x.joint.json --report x.html --figure x.svg");
+    let unknown = "not identified: k, m, k12, c, c12, kN";
+    has(&outcome.stdout, &["wrote x.8Nm.joint.json", unknown]);
+    let cannot = "c, c12, kN cannot be identified";
+    has(
+        &outcome.stderr,
+        &["no parameters within the bounds", cannot],
+    );
+    let prior = "not identifiable, at its prior";
+    has(
+        &bench.text("x.html"),
+        &["Convergence of the fireflies", prior],
+    );
+    for torque in [2, 4, 6, 8] {
+        bench.done(&format!("export x.{torque}Nm.joint.json -o x.fmu --as lap"));
+    }
+    bench.fails("identify study.toml -o y.joint.json --bootstrap 9", &[]);
+}
+
+#[test]
+fn a_layered_beam_becomes_an_fmu() {
+    let bench = files_of("kavi-layered-beam");
+    let files = "--damping-csv damping.csv --figure damping.svg";
+    let outcome = bench.done(&format!("predict study.toml -o beam.joint.json {files}"));
+    let damping = "mode 1 at 1.000e-4 m: damping ratio 0.01200";
+    has(&outcome.stdout, &[damping]);
+    assert_eq!(bench.text("damping.csv").lines().count(), 1 + 5 * 21);
+    let figure = bench.text("damping.svg");
+    assert!(figure.starts_with("<svg") && figure.contains("joint file"));
+    bench.done("check beam.joint.json");
+    for interface in ["lap", "element"] {
+        bench.done(&format!(
+            "export beam.joint.json -o beam.fmu --as {interface}"
+        ));
+        has(&bench.done("check beam.fmu").stdout, &["no problem found"]);
+    }
+}
+
+#[test]
+fn a_layered_beam_over_torques_loosens() {
+    let bench = Bench::new();
+    bench.write(
+        "study.toml",
+        include_str!("../data/studies/two-layers.toml"),
+    );
+    bench.edit("study.toml", "torque = 4", "torque = [2, 4, 8]");
+    bench.edit(
+        "study.toml",
+        "[motion]",
+        "[joint]\ndamping = \"linear\"\n[motion]",
+    );
+    bench.done("predict study.toml -o beam.joint.json");
+    bench.done("export beam.joint.json -o beam.fmu --as lap");
+    has(&bench.done("check beam.fmu").stdout, &["no problem found"]);
+}
+
+#[test]
+fn a_planned_test_identifies_the_joint_that_it_was_planned_with() {
+    let bench = files_of("tol-m10x16");
+    bench.edit("study.toml", "\"assembly.uff\"", "\"plan.uff\"");
+    let joint = r#"{"format":"bolted-joint/1","name":"presumed","joint":{"dofs":["y","theta"],
+        "stiffness":[[5.73e5,5.82e3],[5.82e3,1.29e3]],"damping":[[10.83,-0.83],[-0.83,0.083]]}}"#;
+    bench.write("presumed.joint.json", joint);
+    let respond = "respond study.toml --joint presumed.joint.json --step 1";
+    let planned = bench.done(&format!("{respond} -o plan.uff noise frf --level 0.01"));
+    // The study names bands; they stay.
+    has(&planned.stdout, &["yy = [[330, 360]]  # as in the study"]);
+    bench.done(IDENTIFY);
+    let found = &bench.json("o.joint.json")["joint"]["stiffness"];
+    close(found[0][0].as_f64().unwrap(), 5.73e5, 0.01);
+
+    bench.done(&format!("{respond} -o plan.csv"));
+    let table = bench.text("plan.csv");
+    let lines: Vec<&str> = table.lines().collect();
+    // 5 to 512 Hz in steps of 1 Hz, nine functions of two columns.
+    assert_eq!(lines.len(), 1 + 508);
+    assert_eq!(lines[0].split(',').count(), 1 + 18);
+    assert!(lines[0].starts_with("frequency [Hz],11:+Y/11:+Y receptance real [m/N]"));
+    bench.fails(
+        &format!("{respond} -o plan.csv noise response --samples 2"),
+        &[],
+    );
+}

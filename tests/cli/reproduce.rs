@@ -1,0 +1,111 @@
+//! `reproduce`: published and obtained values for people and machines, and the documents that it writes.
+
+use std::fs;
+use std::path::Path;
+
+use bolted_joint::reproduce::PublishedTable;
+use bolted_joint_testing::has;
+
+use crate::bench::Bench;
+
+fn document(name: &str) -> String {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    fs::read_to_string(docs.join(name)).unwrap()
+}
+
+#[test]
+fn documents_are_what_the_command_writes() {
+    let bench = Bench::new();
+    for (case, name) in [
+        ("kavi --figure kavi.svg", "kavi.md"),
+        ("pirdayr", "pirdayr.md"),
+        ("tian", "tian.md"),
+    ] {
+        let written = bench.done(&format!("reproduce {case} --markdown")).stdout;
+        assert_eq!(written, document(name), "{name}");
+    }
+    assert_eq!(bench.text("kavi.svg"), document("images/kavi.svg"));
+}
+
+#[test]
+fn quick_tables_are_in_the_document_as_the_command_writes_them() {
+    let keys = ["4.2", "4.3", "two-m6x30"];
+    let command = format!("reproduce --markdown {}", keys.join(" "));
+    let written = Bench::new().done(&command).stdout;
+    let document = document("tol.md");
+    let before: Vec<&str> = document.split("\n## ").collect();
+    let (first, tables) = written.split_once("\n## ").unwrap();
+    assert_eq!(first, before[0]);
+    let tables: Vec<&str> = tables.split("\n## ").map(str::trim).collect();
+    assert_eq!(tables.len(), keys.len());
+    for (key, table) in keys.into_iter().zip(tables) {
+        let published: PublishedTable = key.parse().unwrap();
+        assert!(table.starts_with(&published.to_string()), "{key}");
+        assert!(
+            before.iter().any(|section| section.trim() == table),
+            "{key}"
+        );
+    }
+}
+
+#[test]
+fn tables_are_printed_for_people_and_machines() {
+    let bench = Bench::new();
+    let command = "reproduce 4.2 --draws 3 --samples 4096";
+    let text = bench.done(command).stdout;
+    has(&text, &["published", "obtained", "2008", "Differences"]);
+    has(&text, &["Not given in the thesis"]);
+    let found = bench.done(&format!("{command} --json")).json();
+    let row = &found[0]["rows"][0];
+    assert_eq!(found[0]["table"], "4.2");
+    assert_eq!(row["quantity"], "k_yy");
+    assert_eq!(row["published"], 2008.0);
+    assert_eq!(row["obtained"]["draws"], 3);
+    for refused in ["reproduce 4.1", "reproduce 4.3 --json --markdown"] {
+        assert_eq!(bench.run(refused).code, Some(2), "{refused}");
+    }
+}
+
+#[test]
+fn help_names_every_table() {
+    let text = Bench::new().done("reproduce --help").stdout;
+    for table in PublishedTable::ALL {
+        has(&text, &[table.title(), table.key()]);
+        has(&text, table.aliases());
+    }
+}
+
+#[test]
+fn cases_without_tables_stand_alone() {
+    let bench = Bench::new();
+    bench.fails("reproduce kavi 4.6", &["kavi: found 1 tables beside it"]);
+    bench.fails("reproduce tian 4.2", &["1 tables beside it"]);
+    bench.fails("reproduce pirdayr --figure x.svg", &["--figure"]);
+}
+
+#[test]
+fn json_of_kavi_has_every_specimen_and_claim() {
+    let json = Bench::new().done("reproduce kavi --json").json();
+    assert_eq!(json["specimens"].as_array().unwrap().len(), 22);
+    let claims = json["claims"].as_array().unwrap();
+    let opposite = claims.iter().filter(|claim| claim["verdict"] == "opposite");
+    assert_eq!(opposite.count(), 1);
+}
+
+#[test]
+fn json_of_tian_has_published_and_obtained_values_side_by_side() {
+    let bench = Bench::new();
+    let value = bench.done("reproduce tian --json").json();
+    let fits = value["fits"].as_array().unwrap();
+    assert_eq!(fits.len(), 3);
+    for fit in fits {
+        let layers = fit["layers"].as_array().unwrap();
+        let printed = |layer: &serde_json::Value| layer["published_youngs_modulus_pa"].as_f64();
+        let printed: Vec<f64> = layers.iter().filter_map(printed).collect();
+        assert_eq!(printed, [0.352e9, 0.541e9, 0.885e9]);
+        let mut ratios = layers.iter().map(|layer| &layer["poissons_ratio"]);
+        assert!(ratios.all(serde_json::Value::is_number));
+    }
+    let text = bench.done("reproduce tian").stdout;
+    has(&text, &["E obtained"]);
+}

@@ -10,6 +10,7 @@ use super::{Assembly, IdentificationReport, counted};
 use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::html::{cell, escaped, number_cell, percent, table};
+use bolted_joint_identify::FunctionFit;
 
 /// Functions that are drawn at most.
 const MOST_FIGURES: usize = 9;
@@ -123,10 +124,7 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
         strips: vec![
             strip(
                 "magnitude",
-                unit(
-                    fit.response.direction().is_rotation(),
-                    fit.reference.direction().is_rotation(),
-                ),
+                unit(fit),
                 MAGNITUDE,
                 Axis::logarithmic(both.map(|value| value.norm()), MAGNITUDE_DECADES),
                 vec![
@@ -166,11 +164,11 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
 }
 
 /// Unit of a receptance, by whether response and reference are rotations.
-fn unit(response_rotates: bool, reference_rotates: bool) -> &'static str {
-    match (response_rotates, reference_rotates) {
-        (false, false) => "m/N",
-        (false, true) => "m/(N·m)",
-        (true, false) => "rad/N",
-        (true, true) => "rad/(N·m)",
+pub(super) fn unit(fit: &FunctionFit) -> &'static str {
+    match [fit.response, fit.reference].map(|dof| dof.direction().is_rotation()) {
+        [false, false] => "m/N",
+        [false, true] => "m/(N·m)",
+        [true, false] => "rad/N",
+        [true, true] => "rad/(N·m)",
     }
 }

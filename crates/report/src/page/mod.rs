@@ -7,6 +7,7 @@ mod files;
 mod functions;
 mod judgement;
 mod measured;
+mod nyquist;
 mod origin;
 mod over_torque;
 mod parameters;
@@ -48,6 +49,7 @@ impl IdentificationReport<'_> {
             parameters::section(self),
             judgement::section(self, &files),
             functions::section(self),
+            nyquist::section(self),
             decoupled::section(self),
             sensitivity::section(self),
             files.first().map(origin::section).unwrap_or_default(),

@@ -1,0 +1,211 @@
+//! The strongest resonance in the complex plane: a mode draws a circle there, and a residual that is no noise is seen at once.
+
+use num_complex::Complex64;
+
+use super::super::legend::{Key, REGENERATED_COLOUR};
+use super::functions::unit;
+use super::{Assembly, IdentificationReport};
+use bolted_joint_figures::html::{escaped, number};
+use bolted_joint_figures::{
+    Axis, FONTS, LABELS_BELOW, PathData, Strip, Svg, VALUE_LABELS, draw_path,
+};
+use bolted_joint_frf::resonances;
+
+/// Side of the square that is drawn, pixels.
+const SIDE: f64 = 380.0;
+const MARGIN: f64 = 14.0;
+/// Half-power bandwidths that are drawn on each side of a resonance: nine tenths of its circle.
+const BANDWIDTHS: f64 = 3.0;
+/// Length of an axis over that of what it shows.
+const ROOM: f64 = 1.1;
+/// Fewer measured lines than this show no circle.
+const FEWEST: usize = 5;
+
+/// The strongest resonance at the first point of excitation of each assembly.
+pub(super) fn section(report: &IdentificationReport<'_>) -> String {
+    let assemblies = report.assemblies();
+    let figures: String = (assemblies.iter().enumerate())
+        .filter_map(|(number, assembly)| figure(assembly, number + 1))
+        .collect();
+    match figures.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<h3>Resonances in the complex plane</h3>\n<p>A mode draws a circle. Dots are measured, the line is regenerated: dots \
+             on another circle mean another damping, dots turned about the origin a wrong phase.</p>\n{figures}"
+        ),
+    }
+}
+
+fn figure(assembly: &Assembly<'_>, number_of: usize) -> Option<String> {
+    let fit = &assembly.fits[*assembly.drive_points_first().first()?];
+    let frequency_hz = &assembly.lines.frequency_hz;
+    let regenerated: Vec<Complex64> = assembly.regenerated.iter().map(|h| h[fit.place]).collect();
+    let shown = around_resonance(frequency_hz, &regenerated)?;
+    let measured = assembly.lines.assembly[shown.clone()].iter();
+    let measured: Vec<Complex64> = measured.map(|h| h[fit.place]).collect();
+    let name = format!("{} / {}", fit.response, fit.reference);
+    let title = format!("{name} around its strongest resonance, imaginary over real part");
+    let unit = unit(fit);
+    let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
+    let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
+    Some(format!(
+        "<figure class=\"chart\" id=\"nyquist-{number_of}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
+         <div class=\"picture\">\n{svg}</div>\n</figure>\n",
+        escaped(&name)
+    ))
+}
+
+/// The lines around the resonance that stands out most; `None` if it has too few of them.
+fn around_resonance(
+    frequency_hz: &[f64],
+    function: &[Complex64],
+) -> Option<std::ops::Range<usize>> {
+    let strongest = resonances(frequency_hz, function)
+        .into_iter()
+        .max_by(|one, other| one.prominence_decades.total_cmp(&other.prominence_decades))?;
+    let peak = frequency_hz.partition_point(|&hz| hz < strongest.frequency_hz);
+    let peak = (peak.saturating_sub(1)..=peak)
+        .filter(|&line| line < function.len())
+        .max_by(|&one, &other| function[one].norm().total_cmp(&function[other].norm()))?;
+    // half the power: |H| ≥ |H|max/√2
+    let is_inside =
+        |value: &Complex64| value.norm() * std::f64::consts::SQRT_2 >= function[peak].norm();
+    let below = function[..peak]
+        .iter()
+        .rev()
+        .take_while(|h| is_inside(h))
+        .count();
+    let above = function[peak..].iter().take_while(|h| is_inside(h)).count();
+    let half_width = (BANDWIDTHS * (below + above) as f64).ceil() as usize;
+    let shown = peak.saturating_sub(half_width)..(peak + half_width + 1).min(function.len());
+    (shown.len() >= FEWEST).then_some(shown)
+}
+
+/// Both axes have the same scale, so that a circle is one.
+fn draw(
+    title: &str,
+    unit: &str,
+    measured: &[Complex64],
+    regenerated: &[Complex64],
+) -> Option<String> {
+    let parts = measured
+        .iter()
+        .chain(regenerated)
+        .flat_map(|h| [h.re, h.im]);
+    let largest = parts.map(f64::abs).fold(0.0, f64::max);
+    if !(largest.is_normal() && largest.is_finite()) {
+        return None;
+    }
+    // numbers from 1 to 1000 beside a power of a thousand
+    let power = 3 * (largest.log10() / 3.0).floor() as i32;
+    let scale = 10_f64.powi(-power);
+    let shown = || measured.iter().chain(regenerated);
+    let [across, up] = [
+        shown().map(|h| h.re * scale).collect::<Vec<_>>(),
+        shown().map(|h| h.im * scale).collect(),
+    ]
+    .map(|values| {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        (low, values.into_iter().fold(low, f64::max))
+    });
+    let half = ROOM * 0.5 * (across.1 - across.0).max(up.1 - up.0);
+    let [across, up] = [across, up].map(|(low, high)| Axis::Linear {
+        low: 0.5 * (low + high) - half,
+        high: 0.5 * (low + high) + half,
+    });
+    let strip = Strip {
+        // Half a pixel off, thin lines are sharp.
+        left: MARGIN + VALUE_LABELS + 0.5,
+        top: MARGIN + 0.5,
+        width: SIDE,
+        height: SIDE,
+        frequency: across,
+        value: Some(up),
+    };
+    let [width, height] = [
+        2.0 * MARGIN + VALUE_LABELS + SIDE,
+        MARGIN + SIDE + LABELS_BELOW,
+    ];
+    let mut svg = Svg::new(width, height, title);
+    svg.paper(width, height, Some(6.0), FONTS);
+    strip.draw_grid(&mut svg);
+    let places = |values: &[Complex64]| -> Vec<_> {
+        values
+            .iter()
+            .filter_map(|h| strip.place((h.re * scale, h.im * scale)))
+            .collect()
+    };
+    let mut line = PathData::default();
+    line.polyline(&places(regenerated));
+    draw_path(&mut svg, &line, REGENERATED_COLOUR, 1.5);
+    let mut dots = PathData::default();
+    for place in places(measured) {
+        dots.move_to(place);
+        dots.dot();
+    }
+    Key::Measured.draw(&dots, &mut svg);
+    let [across, up] =
+        ["real", "imaginary"].map(|part| format!("{part} part, 10{} {unit}", raised(power)));
+    strip.draw_axes(&across, &up, &mut svg);
+    Some(svg.finish())
+}
+
+/// A power of ten, raised.
+fn raised(power: i32) -> String {
+    let digits = power.to_string();
+    let raised = digits.chars().map(|c| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        other => char::from_u32('⁰' as u32 + (other as u32 - '0' as u32)).unwrap_or(other),
+    });
+    raised.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One mode on lines of 0.25 Hz: (k − ω² m + jωc)⁻¹ with f₀ = 100 Hz and ζ = 0.01.
+    fn mode() -> (Vec<f64>, Vec<Complex64>) {
+        let frequency_hz: Vec<f64> = (0..400).map(|line| 50.0 + 0.25 * f64::from(line)).collect();
+        let function = frequency_hz.iter().map(|hz| {
+            let ratio = hz / 100.0;
+            1e-6 / Complex64::new(1.0 - ratio * ratio, 0.02 * ratio)
+        });
+        let function = function.collect();
+        (frequency_hz, function)
+    }
+
+    #[test]
+    fn three_bandwidths_on_each_side_of_the_resonance_are_shown() {
+        let (frequency_hz, function) = mode();
+        let shown = around_resonance(&frequency_hz, &function).unwrap();
+        // the half-power bandwidth is 2ζf₀ = 2 Hz
+        let [from, to] = [frequency_hz[shown.start], frequency_hz[shown.end - 1]];
+        assert!(
+            (93.0..94.5).contains(&from) && (105.5..107.0).contains(&to),
+            "{from} {to}"
+        );
+    }
+
+    #[test]
+    fn a_mode_is_a_circle_of_equal_scales() {
+        let (_, function) = mode();
+        let svg = draw("mode", "m/N", &function, &function).unwrap();
+        assert!(
+            svg.contains("real part, 10⁻⁶ m/N") && svg.contains(">−40</text>"),
+            "{svg}"
+        );
+        assert_eq!(raised(-12), "⁻¹²");
+        assert_eq!(draw("mode", "m/N", &[], &[]), None);
+    }
+
+    #[test]
+    fn without_a_resonance_nothing_is_drawn() {
+        let flat = vec![Complex64::new(1.0, -0.1); 50];
+        let frequency_hz: Vec<f64> = (1..=50).map(f64::from).collect();
+        assert_eq!(around_resonance(&frequency_hz, &flat), None);
+    }
+}

@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// What a lap's parameters give when they are taken into use, and the way of the lap through a communication step. Its
-/// methods do what those of [`Model`] with their names do.
+/// methods do what those of `Model` with their names do.
 pub(in crate::models) trait Way<const D: usize>: Sized + Send {
     /// Prepares `lap` for Runge–Kutta steps of `step_size_max_s` (s) at most, with its escape amplitudes, and the
     /// relative displacements up to which there is nothing to tell the user.

@@ -88,13 +88,17 @@ impl<'a> Choices<'a> {
             9 => -0.0,
             10 => 1.0,
             11 => -1.0,
-            12 => 1e9,
-            13 => -1e9,
+            12 => 1e10,
+            13 => -1e10,
             14 => 1e300,
             15 => 1e-300,
             16 => f64::EPSILON,
             17 => f64::from_bits(0x7ff0_0000_0000_0001), // signalling
-            _ => f64::from_bits(self.bits()),
+            // as a longest internal step these would ask for up to 4e9 steps, which take minutes
+            _ => match f64::from_bits(self.bits()) {
+                tiny if (1e-15..1e-7).contains(&tiny.abs()) => 1e-300,
+                any => any,
+            },
         }
     }
 

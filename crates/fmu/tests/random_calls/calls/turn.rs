@@ -338,8 +338,13 @@ impl Turn<'_, '_> {
     /// A communication step size or a time ahead, in seconds.
     pub(crate) fn step_size(&mut self) -> f64 {
         if self.a.wrong(3) {
-            let any = self.a.choices.any_number();
-            self.a.choices.pick(&[0.0, -1e-4, 1e9, 1e-300, any])
+            // so would these as a communication step
+            let any = match self.a.choices.any_number() {
+                long if (0.1..1e6).contains(&long.abs()) && long != 1.0 => 1e10,
+                any => any,
+            };
+            // 1e10 s are more internal steps than are taken even at a length of 1 s, which any number may be
+            self.a.choices.pick(&[0.0, -1e-4, 1e10, 1e-300, any])
         } else {
             self.a.choices.pick(&[1e-4, 3e-5, 2e-5, 1e-3])
         }

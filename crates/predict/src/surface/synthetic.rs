@@ -23,7 +23,7 @@ use super::{Profile, Roughness, SurfaceError};
 /// };
 /// let profiles = [1, 2, 3].map(|seed| surface.gaussian(seed)).into_iter().collect::<Result<Vec<_>, _>>()?;
 /// let fit = ProfileFit::new(&profiles, &FitSettings::default())?;
-/// let [low, high] = fit.dimension_interval();
+/// let [low, high] = fit.dimension_interval;
 /// assert!(low < 1.4 && 1.4 < high);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

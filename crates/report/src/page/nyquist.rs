@@ -49,7 +49,7 @@ fn figure(assembly: &Assembly<'_>, number_of: usize) -> Option<String> {
     let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
     let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
     Some(format!(
-        "<figure class=\"chart\" id=\"nyquist-{number_of}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
+        "<figure class=\"still\" id=\"nyquist-{number_of}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
          <div class=\"picture\">\n{svg}</div>\n</figure>\n",
         escaped(&name)
     ))

@@ -1,6 +1,6 @@
 //! Converts a file of functions to a universal file of receptances in SI: `frf_to_uff IN OUT [little|big]`.
 //!
-//! IN is a universal file, a table (CSV) or a NumPy archive. With a byte order OUT is binary (58b), without one it is ASCII.
+//! IN is a universal file, a table (CSV), a NumPy archive or a MATLAB file. With a byte order OUT is binary (58b), without one it is ASCII.
 #![forbid(unsafe_code)]
 
 use std::error::Error;

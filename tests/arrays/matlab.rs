@@ -17,6 +17,7 @@ fn refusal(bytes: &[u8]) -> String {
 #[test]
 fn every_order_precision_and_form_of_names_gives_the_oscillator() {
     is_oscillator(&set("cells.mat"), &FACTORS, 1e-14);
+    is_oscillator(&set("beside.mat"), &FACTORS, 1e-14);
     is_oscillator(&set("big_endian.mat"), &FACTORS[..4], 1e-14);
     let single = set("single.mat");
     is_oscillator(&single, &FACTORS, 1e-6);
@@ -64,5 +65,27 @@ fn what_is_no_file_of_functions_is_refused_by_name() {
         (&good[..190], ["damaged", "save or copy it again"]),
     ] {
         has(&refusal(bytes), &parts);
+    }
+}
+
+/// A few bytes that stand for four thousand million rows without a character, or with one that is not there.
+#[test]
+fn texts_that_take_no_room_are_refused_before_room_is_made_for_them() {
+    let good = fs::read(own_file("cells.mat")).unwrap();
+    for columns in [0_u32, 1] {
+        let element = |number: u32, data: &[u8]| {
+            let tag = [number, data.len() as u32].map(u32::to_le_bytes).concat();
+            let filling = vec![0; data.len().next_multiple_of(8) - data.len()];
+            [tag, data.to_vec(), filling].concat()
+        };
+        let words = |words: [u32; 2]| words.map(u32::to_le_bytes).concat();
+        let names = [
+            element(6, &words([4, 0])),
+            element(5, &words([u32::MAX, columns])),
+            element(1, b"unit"),
+            element(4, &[]),
+        ];
+        let bytes = [good.clone(), element(14, &names.concat())].concat();
+        has(&refusal(&bytes), &["found an array of [4294967295"]);
     }
 }

@@ -9,6 +9,7 @@ import struct
 
 import numpy as np
 import scipy.io
+import scipy.sparse
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FREQUENCY = 5.0 + 2.5 * np.arange(7)
@@ -60,6 +61,9 @@ def mat_files(matrix, names):
         "coherence": np.broadcast_to(GAMMA_SQUARED[:, None, None], (7, 3, 2)).astype("float32"),
     })
     scipy.io.savemat(path("structure.mat"), {"frf": {"values": matrix}, **cells}, do_compression=True)
+    scipy.io.savemat(path("beside.mat"), {
+        "history": scipy.sparse.coo_matrix(([1.0], ([0], [0])), shape=(10**6, 10**6)), "setup": {"date": "today"}, "empty": [], "frf": matrix, **cells,
+    }, do_compression=True)
     with open(path("big_endian.mat"), "wb") as file:
         file.write(big_endian_mat({
             "f": FREQUENCY, "accelerance": matrix[:2], "response": RESPONSE[:2], "reference": REFERENCE,

@@ -30,21 +30,21 @@ pub(crate) fn functions<F: ArrayFile>(
     path: &Path,
     options: &ReadOptions,
 ) -> Result<FrfReading, TableProblem> {
-    let mut archive = Members(file);
-    let frequency = archive.required(FREQUENCY, "frequency (Hz)")?;
-    let matrix = archive.required(MATRIX, "frf, the matrix of functions")?;
-    let response = archive.required(RESPONSE, "response, degrees of freedom such as \"11:+Y\"")?;
+    let mut members = Members(file);
+    let frequency = members.required(FREQUENCY, "frequency (Hz)")?;
+    let matrix = members.required(MATRIX, "frf, the matrix of functions")?;
+    let response = members.required(RESPONSE, "response, degrees of freedom such as \"11:+Y\"")?;
     let reference =
-        archive.required(REFERENCE, "reference, degrees of freedom such as \"2:+Y\"")?;
-    let frequency_hz = archive.frequencies(&frequency)?;
-    let responses = archive.dofs(&response)?;
-    let references = archive.dofs(&reference)?;
+        members.required(REFERENCE, "reference, degrees of freedom such as \"2:+Y\"")?;
+    let frequency_hz = members.frequencies(&frequency)?;
+    let responses = members.dofs(&response)?;
+    let references = members.dofs(&reference)?;
     let counts = Counts {
         responses: responses.len(),
         references: references.len(),
         frequencies: frequency_hz.len(),
     };
-    let axes = archive.text("axes")?.map(|text| named(&text)).transpose()?;
+    let axes = members.text("axes")?.map(|text| named(&text)).transpose()?;
     let place = |name: &str, array: &F::Array<'_>| {
         order(name, array.shape(), counts, axes.as_deref()).map(|order| Place {
             order,
@@ -52,13 +52,13 @@ pub(crate) fn functions<F: ArrayFile>(
             fortran_order: array.fortran_order(),
         })
     };
-    let quantity = archive
+    let quantity = members
         .text("quantity")?
         .map(|text| quantity(&text))
         .transpose()?;
-    let unit = archive.text("unit")?;
-    let averages = archive.averages()?;
-    let array = archive.numbers(&matrix)?;
+    let unit = members.text("unit")?;
+    let averages = members.averages()?;
+    let array = members.numbers(&matrix)?;
     // Before anything is reserved for them: as many functions as the names make are in the file, and not too many, since a
     // swollen matrix takes next to no room there.
     let matrix_place = place(&matrix, &array)?;
@@ -86,10 +86,10 @@ pub(crate) fn functions<F: ArrayFile>(
     };
     let stated = functions.stated(quantity.or_else(|| by_name(&matrix)), unit.as_deref())?;
     let lines = functions.gather(array, &matrix_place)?;
-    let coherence = match archive.find(&["coherence"])? {
+    let coherence = match members.find(&["coherence"])? {
         None => None,
         Some(name) => {
-            let array = archive.numbers(&name)?;
+            let array = members.numbers(&name)?;
             let coherence_place = place(&name, &array)?;
             Some(functions.gather(array, &coherence_place)?)
         }

@@ -20,6 +20,8 @@ use element::{COMPRESSED, Elements, MATRIX, UTF8, invalid};
 const HEADER: u64 = 128;
 /// Deflate cannot make data smaller than by this factor; an array that claims more is damaged or made to harm.
 const LARGEST_RATIO: u64 = 1100;
+/// More characters than the names of any test's degrees of freedom have.
+const MOST_CHARACTERS: u64 = 1 << 22;
 const SAVE: &str = "save('file.mat', 'frequency', 'frf', 'response', 'reference', '-v7')";
 
 /// Reads the functions of a MATLAB file (`.mat`) of level 5: MATLAB's `save` with `-v7` or `-v6`, Octave's, or SciPy's `savemat`.
@@ -111,7 +113,10 @@ impl<R: Read + Seek> MatFile<R> {
         let data = BufReader::new((&mut self.reader).take(tag.bytes));
         let mut most = tag.bytes;
         let mut elements: Elements<Box<dyn Read>> = match tag.number {
-            COMPRESSED => Elements::new(Box::new(ZlibDecoder::new(data)), big_endian),
+            COMPRESSED => {
+                let inflated = BufReader::new(ZlibDecoder::new(data));
+                Elements::new(Box::new(inflated), big_endian)
+            }
             _ => Elements::new(Box::new(data), big_endian),
         };
         if tag.number == COMPRESSED {
@@ -185,6 +190,8 @@ struct Matrix<R> {
     complex: bool,
     shape: Vec<usize>,
     elements: Elements<R>,
+    /// More bytes than this its elements do not have.
+    most_bytes: u64,
 }
 
 impl<R: Read> Matrix<R> {
@@ -196,15 +203,6 @@ impl<R: Read> Matrix<R> {
             17 => Vec::new(),
             _ => elements.words()?,
         };
-        let count = lengths
-            .iter()
-            .try_fold(1_u64, |count, &n| count.checked_mul(n.into()));
-        // a number takes at least a byte
-        if count.is_none_or(|count| count > most_bytes) {
-            return Err(invalid(format!(
-                "an array of {lengths:?} in {most_bytes} bytes"
-            )));
-        }
         let (_, name) = elements.short()?;
         Ok(Self {
             name: String::from_utf8_lossy(&name).into_owned(),
@@ -212,11 +210,35 @@ impl<R: Read> Matrix<R> {
             complex: flags & 0x0800 != 0,
             shape: lengths.into_iter().map(|n| n as usize).collect(),
             elements,
+            most_bytes,
         })
+    }
+
+    /// Refuses a shape that the bytes cannot hold. Asked only of arrays that are read, since others may be as large as they like.
+    fn check_size(&self) -> io::Result<()> {
+        let most = match self.class {
+            Class::Characters => self.most_bytes.min(MOST_CHARACTERS),
+            _ => self.most_bytes,
+        };
+        let shape = &self.shape;
+        // a number takes at least a byte, and rows without columns take room here
+        let count = shape
+            .iter()
+            .try_fold(1_u64, |count, &n| count.checked_mul(n.max(1) as u64));
+        match count.is_some_and(|count| count <= most.max(1)) {
+            true => Ok(()),
+            false => Err(invalid(format!(
+                "an array of {shape:?} in {} bytes, expected at most {most} elements",
+                self.most_bytes
+            ))),
+        }
     }
 
     /// This array, if it holds numbers or texts; a matrix of characters is a column with a text in each row.
     fn usable(mut self) -> Result<Self, TableProblem> {
+        if !matches!(self.class, Class::Other(_)) {
+            self.check_size().map_err(damaged)?;
+        }
         match self.class {
             Class::Other(found) => Err(TableProblem::at(
                 format_args!("array {}", self.name),
@@ -237,8 +259,14 @@ impl<R: Read> Matrix<R> {
         let mut units = Vec::new();
         let tag = self.elements.numbers(|unit| {
             units.push(unit as u16);
-            io::Result::Ok(())
+            match units.len() as u64 > MOST_CHARACTERS {
+                true => Err(cut_short()),
+                false => Ok(()),
+            }
         })?;
+        if rows > 1 && units.len() < rows {
+            return Err(cut_short());
+        }
         let text = |row: usize| {
             let row = units.iter().skip(row).step_by(rows);
             let text = match tag.number {
@@ -256,6 +284,7 @@ impl<R: Read> Matrix<R> {
         let (tag, big_endian) = (self.elements.tag()?, self.elements.big_endian);
         let data = Elements::new(self.elements.data(tag), big_endian);
         let mut cell = Matrix::begin(data, tag.bytes)?;
+        cell.check_size()?;
         match (cell.class, cell.shape.first()) {
             (Class::Characters, Some(0 | 1)) => Ok(cell.rows(1)?.concat()),
             _ => Err(invalid("a cell that is no line of text".to_owned())),
@@ -347,6 +376,7 @@ impl From<io::Error> for Stop {
     }
 }
 
+/// More or fewer elements than the array states.
 fn cut_short() -> io::Error {
     invalid("another number of elements".to_owned())
 }

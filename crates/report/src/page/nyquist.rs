@@ -1,4 +1,4 @@
-//! The strongest resonance in the complex plane: a mode draws a circle there, and a residual that is no noise is seen at once.
+//! The most prominent resonance in the complex plane: a mode draws a circle there, and a residual that is no noise is seen at once.
 
 use num_complex::Complex64;
 
@@ -10,6 +10,7 @@ use bolted_joint_figures::{
     Axis, FONTS, LABELS_BELOW, PathData, Strip, Svg, VALUE_LABELS, draw_path,
 };
 use bolted_joint_frf::resonances;
+use bolted_joint_joint::superscript;
 
 /// Side of the square that is drawn, pixels.
 const SIDE: f64 = 380.0;
@@ -21,11 +22,11 @@ const ROOM: f64 = 1.1;
 /// Fewer measured lines than this show no circle.
 const FEWEST: usize = 5;
 
-/// The strongest resonance at the first point of excitation of each assembly.
+/// The most prominent resonance at the first point of excitation of each assembly.
 pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let assemblies = report.assemblies();
     let figures: String = (assemblies.iter().enumerate())
-        .filter_map(|(number, assembly)| figure(assembly, number + 1))
+        .filter_map(|(index, assembly)| figure(assembly, index + 1))
         .collect();
     match figures.is_empty() {
         true => String::new(),
@@ -36,7 +37,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     }
 }
 
-fn figure(assembly: &Assembly<'_>, number_of: usize) -> Option<String> {
+fn figure(assembly: &Assembly<'_>, assembly_number: usize) -> Option<String> {
     let fit = &assembly.fits[*assembly.drive_points_first().first()?];
     let frequency_hz = &assembly.lines.frequency_hz;
     let regenerated: Vec<Complex64> = assembly.regenerated.iter().map(|h| h[fit.place]).collect();
@@ -44,12 +45,12 @@ fn figure(assembly: &Assembly<'_>, number_of: usize) -> Option<String> {
     let measured = assembly.lines.assembly[shown.clone()].iter();
     let measured: Vec<Complex64> = measured.map(|h| h[fit.place]).collect();
     let name = format!("{} / {}", fit.response, fit.reference);
-    let title = format!("{name} around its strongest resonance, imaginary over real part");
+    let title = format!("{name} around its most prominent resonance, imaginary over real part");
     let unit = unit(fit);
     let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
     let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
     Some(format!(
-        "<figure class=\"still\" id=\"nyquist-{number_of}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
+        "<figure class=\"still\" id=\"nyquist-{assembly_number}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
          <div class=\"picture\">\n{svg}</div>\n</figure>\n",
         escaped(&name)
     ))
@@ -60,10 +61,10 @@ fn around_resonance(
     frequency_hz: &[f64],
     function: &[Complex64],
 ) -> Option<std::ops::Range<usize>> {
-    let strongest = resonances(frequency_hz, function)
+    let most_prominent = resonances(frequency_hz, function)
         .into_iter()
         .max_by(|one, other| one.prominence_decades.total_cmp(&other.prominence_decades))?;
-    let peak = frequency_hz.partition_point(|&hz| hz < strongest.frequency_hz);
+    let peak = frequency_hz.partition_point(|&hz| hz < most_prominent.frequency_hz);
     let peak = (peak.saturating_sub(1)..=peak)
         .filter(|&line| line < function.len())
         .max_by(|&one, &other| function[one].norm().total_cmp(&function[other].norm()))?;
@@ -152,27 +153,21 @@ fn draw(
 
 /// A power of ten, raised.
 fn raised(power: i32) -> String {
-    let digits = power.to_string();
-    let raised = digits.chars().map(|c| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        other => char::from_u32('⁰' as u32 + (other as u32 - '0' as u32)).unwrap_or(other),
-    });
-    raised.collect()
+    let sign = if power < 0 { "⁻" } else { "" };
+    format!("{sign}{}", superscript(power.unsigned_abs() as u8))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Matrix3, Vector3};
 
-    /// One mode on lines of 0.25 Hz: (k − ω² m + jωc)⁻¹ with f₀ = 100 Hz and ζ = 0.01.
+    /// One mode on lines of 0.25 Hz: (k (1 + jη) − ω² m)⁻¹ with f₀ = 100 Hz and η = 0.02, which is a circle to the last digit.
     fn mode() -> (Vec<f64>, Vec<Complex64>) {
         let frequency_hz: Vec<f64> = (0..400).map(|line| 50.0 + 0.25 * f64::from(line)).collect();
         let function = frequency_hz.iter().map(|hz| {
             let ratio = hz / 100.0;
-            1e-6 / Complex64::new(1.0 - ratio * ratio, 0.02 * ratio)
+            1e-6 / Complex64::new(1.0 - ratio * ratio, 0.02)
         });
         let function = function.collect();
         (frequency_hz, function)
@@ -182,7 +177,7 @@ mod tests {
     fn three_bandwidths_on_each_side_of_the_resonance_are_shown() {
         let (frequency_hz, function) = mode();
         let shown = around_resonance(&frequency_hz, &function).unwrap();
-        // the half-power bandwidth is 2ζf₀ = 2 Hz
+        // the half-power bandwidth is ηf₀ = 2 Hz
         let [from, to] = [frequency_hz[shown.start], frequency_hz[shown.end - 1]];
         assert!(
             (93.0..94.5).contains(&from) && (105.5..107.0).contains(&to),
@@ -190,10 +185,46 @@ mod tests {
         );
     }
 
+    /// Points of the longest line of a picture, in pixels.
+    fn longest_line(svg: &str) -> Vec<(f64, f64)> {
+        let paths = svg.split(" d=\"m").skip(1);
+        let path = paths.max_by_key(|path| path.matches('l').count()).unwrap();
+        let steps = path.split('"').next().unwrap().split('l');
+        let mut pen = (0.0, 0.0);
+        steps
+            .map(|step| {
+                let numbers = step.replace('-', " -");
+                let mut numbers = numbers
+                    .split_whitespace()
+                    .map(|n| n.parse::<f64>().unwrap());
+                pen.0 += numbers.next().unwrap();
+                pen.1 += numbers.next().unwrap();
+                pen
+            })
+            .collect()
+    }
+
     #[test]
     fn a_mode_is_a_circle_of_equal_scales() {
         let (_, function) = mode();
         let svg = draw("mode", "m/N", &function, &function).unwrap();
+        let points = longest_line(&svg);
+        assert_eq!(points.len(), function.len());
+        // through three points of it, [x y 1] (2x₀, 2y₀, r² − x₀² − y₀²)ᵀ = x² + y²
+        let three = [0, 196, 204].map(|line| points[line]);
+        let rows = Matrix3::from_fn(|i, j| [three[i].0, three[i].1, 1.0][j]);
+        let squares = Vector3::from_fn(|i, _| three[i].0.powi(2) + three[i].1.powi(2));
+        let found = rows.lu().solve(&squares).unwrap();
+        let (x0, y0) = (0.5 * found.x, 0.5 * found.y);
+        let radius = (found.z + x0 * x0 + y0 * y0).sqrt();
+        assert!(radius > 100.0);
+        for &(x, y) in &points {
+            let distance = (x - x0).hypot(y - y0);
+            assert!(
+                (distance - radius).abs() < 0.05,
+                "{x} {y}: {distance}, not {radius}"
+            );
+        }
         assert!(
             svg.contains("real part, 10⁻⁶ m/N") && svg.contains(">−40</text>"),
             "{svg}"

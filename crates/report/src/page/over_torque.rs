@@ -76,7 +76,7 @@ fn figure(
     }
     .to_svg();
     format!(
-        "<figure class=\"chart\" id=\"over-torque\">\n<figcaption><b>Stiffness and damping over the torque</b> with their 95 % \
+        "<figure class=\"still\" id=\"over-torque\">\n<figcaption><b>Stiffness and damping over the torque</b> with their 95 % \
          intervals. The dashed line is the linear interpolation that an export between the torques uses.</figcaption>\n\
          <div class=\"picture\">\n{svg}</div>\n</figure>\n"
     )

@@ -1,5 +1,6 @@
 //! `identify`: a study becomes a joint file.
 
+mod budget;
 mod lap;
 
 use std::fmt::Write as _;
@@ -130,6 +131,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "bolts": (bolts.len() > 1).then_some(&bolts),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
+            "budget": budget::json(&found),
             "warnings": warnings,
             "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
@@ -216,6 +218,7 @@ fn summary(found: &Identification, study: &Study) -> String {
         text += &averaged(joint, bolts);
     }
     text += &from_modes(found);
+    text += &budget::budget(found);
     let _ = writeln!(text, "\n{}", fit(found));
     text += &models(found, study);
     text += &torques(found);

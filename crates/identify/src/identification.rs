@@ -6,6 +6,7 @@ use bolted_joint_joint::Provenance;
 
 use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
+use super::budget::Systematic;
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::layout::Bolts;
@@ -53,6 +54,8 @@ pub struct Identification {
     pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
     pub estimate: LinesEstimate,
+    /// What errors of the set-up do to the estimate, where they take part.
+    pub systematic: Option<Systematic>,
     /// What each file of functions states.
     pub files: Vec<FileSummary>,
     /// Of each bolt's joint.
@@ -123,6 +126,11 @@ pub fn identify_and_draw(
         progress: Some(&|| watch.drawn()),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
+    let systematic = Systematic::of(study, &all, &estimate);
+    let estimate = match &systematic {
+        Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),
+        None => estimate,
+    };
     let mut fitted = Vec::with_capacity(all.len());
     for (number, lines) in all.into_iter().enumerate() {
         let regenerated = lines.regenerated(&estimate.joint_of(number).whole)?;
@@ -167,6 +175,7 @@ pub fn identify_and_draw(
         starts: estimate.starts,
         warnings,
         from_modes,
+        systematic,
         files,
         provenance,
         torque_n_m: torques(study).and_then(range),

@@ -6,10 +6,12 @@ use nalgebra::{DMatrix, DVector};
 use super::assessment;
 use super::bands::UsedBands;
 use super::bootstrap::Bootstrap;
+use super::budget::Systematic;
 use super::data::Misfit;
 use super::layout::Layout;
 use super::model::{JointMatrices, JointModel, is_positive_semidefinite};
 use super::noise::Noise;
+use super::passive;
 use super::search::Found;
 use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
@@ -79,6 +81,22 @@ impl JointEstimate {
     pub fn standard_deviation(&self, model: JointModel) -> JointMatrices {
         let deviation = self.covariance.standard_deviation();
         JointMatrices::from_unknowns(model, &self.layout.of_joint(&deviation, 0))
+    }
+
+    /// The same with the joint and the deviations of an estimate in which the set-up's errors take part.
+    pub(super) fn with_systematic_errors(self, found: &Systematic) -> Self {
+        let layout = &self.layout;
+        let free = layout.matrices(&found.unknowns);
+        let passive = passive::nearest(layout, &found.unknowns, &found.covariance);
+        let passive = passive.map(|unknowns| layout.matrices(&unknowns));
+        let covariance = self.covariance.with_systematic_errors(layout, found);
+        Self {
+            whole: layout.whole(passive.as_ref().unwrap_or(&free)),
+            free,
+            passive,
+            covariance,
+            ..self
+        }
     }
 
     /// Where the unknowns of one bolt's joint stand among those of the covariance.
@@ -225,6 +243,7 @@ impl CovarianceOfAll {
             values,
             coverage_factor: self.coverage_factor,
             inflation: self.inflation[own].to_vec(),
+            sizes,
             identified,
             matrix,
         }

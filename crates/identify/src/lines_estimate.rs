@@ -9,6 +9,7 @@ use super::assessment::Assessment;
 use super::averages::{Decoupled, band_averages, first_bands, used_bands};
 use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
+use super::budget::Systematic;
 use super::choice::{self, ModelChoice};
 use super::decoupling;
 use super::error::IdentifyError;
@@ -17,7 +18,7 @@ use super::layout::{Bolts, Layout};
 use super::line_by_line::{decouple, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::noise::{Noise, NoiseLevel};
+use super::noise::{Levels, Noise, NoiseLevel};
 use super::parallel;
 use super::passive;
 use super::search::{Effort, Found};
@@ -66,10 +67,14 @@ pub struct LinesEstimate {
     pub noise_level: Option<NoiseLevel>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
+    /// Noise of everything measured, stated or estimated.
+    pub(super) levels: Levels,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
     pub warnings: Vec<String>,
+    /// Those of the warnings that speak of the values of the joint.
+    joint_warnings: Vec<String>,
 }
 
 /// What is said of *the* joint is that of the first assembly, which all have in common unless each torque has its own, and
@@ -86,6 +91,31 @@ impl LinesEstimate {
                 .collect()
         };
         self.layout.bolts_with(bolt).map(at).collect()
+    }
+
+    /// The same with joint, deviations and warnings of an estimate in which the set-up's errors take part; one torque has one
+    /// joint.
+    #[must_use]
+    pub(super) fn with_systematic_errors(self, found: &Systematic, bolts: &[String]) -> Self {
+        let plain = self.joints.into_iter();
+        let joints: Vec<JointEstimate> = plain
+            .map(|joint| joint.with_systematic_errors(found))
+            .collect();
+        let mut warnings = self.warnings;
+        warnings.retain(|warning| !self.joint_warnings.contains(warning));
+        let joint_warnings: Vec<String> = joints
+            .iter()
+            .flat_map(|joint| joint.warnings(bolts))
+            .collect();
+        warnings.extend(joint_warnings.iter().cloned());
+        warnings.extend(found.warnings());
+        Self {
+            joints,
+            warnings,
+            joint_warnings,
+            covariance_of_all: found.covariance.clone(),
+            ..self
+        }
     }
 
     /// The joint in one of the assemblies; the first one's if there are not so many.
@@ -308,6 +338,7 @@ pub fn identify_lines(
     let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
         .then_some(estimate.levels.assembly)
         .filter(|_| !found.assessment.noise_is_known);
+    let levels = estimate.levels;
     let found = found.without_corrections();
     let choice = options
         .compare_models
@@ -317,7 +348,11 @@ pub fn identify_lines(
         .filter(|_| options.compare_models)
         .and_then(|torques| torque::compare(all, &torques, noise, &layout, dependence, &found));
     let mut warnings = warnings(all, &layout, &found, &joints);
-    warnings.extend(joints.iter().flat_map(|joint| joint.warnings(names)));
+    let joint_warnings: Vec<String> = joints
+        .iter()
+        .flat_map(|joint| joint.warnings(names))
+        .collect();
+    warnings.extend(joint_warnings.iter().cloned());
     warnings.extend(
         torque_choice
             .as_ref()
@@ -326,6 +361,7 @@ pub fn identify_lines(
     Ok(LinesEstimate {
         decoupled,
         noise_level,
+        levels,
         joints,
         joint_of_assembly,
         layout,
@@ -335,6 +371,7 @@ pub fn identify_lines(
         choice,
         torque_choice,
         warnings,
+        joint_warnings,
     })
 }
 

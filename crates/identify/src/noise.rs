@@ -115,6 +115,21 @@ pub(super) struct Levels {
     pub(super) b: NoiseLevel,
 }
 
+impl Levels {
+    /// All of them multiplied by a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        let scaled = |level: NoiseLevel| NoiseLevel {
+            relative: level.relative * factor,
+            floor: level.floor * factor,
+        };
+        Self {
+            assembly: scaled(self.assembly),
+            a: scaled(self.a),
+            b: scaled(self.b),
+        }
+    }
+}
+
 /// One squared residual and what its variance is made of: relative²·α + floor²·β + known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {

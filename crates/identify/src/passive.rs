@@ -13,6 +13,7 @@ use super::estimator::{Chart, Estimate, estimate};
 use super::layout::Layout;
 use super::model::JointModel;
 use super::noise::Noise;
+use super::normal::scaled_by;
 
 /// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
 const MOST_COMBINATIONS: usize = 256;
@@ -185,6 +186,73 @@ pub(super) fn passive(
     together
         .filter(|estimate| alone || estimate.misfit <= free.misfit + CHANCE)
         .or_else(|| constrained(objective, layout, noise, free, Others::Stay))
+}
+
+/// Steps towards the nearest point of a face.
+const STEPS: usize = 50;
+
+/// The passive joint that is nearest to unknowns in the metric of their covariance: the unknowns themselves where they are
+/// passive. `None` if no face has a passive point.
+pub(super) fn nearest(
+    layout: &Layout,
+    unknowns: &[f64],
+    covariance: &DMatrix<f64>,
+) -> Option<Vec<f64>> {
+    let passive = is_passive(layout, unknowns);
+    if !passive.contains(&false) {
+        return Some(unknowns.to_vec());
+    }
+    let entries = layout.model().entries().len();
+    let scale = covariance
+        .diagonal()
+        .map(|variance| variance.sqrt().recip());
+    let weight = scaled_by(&scaled_by(covariance, &scale).try_inverse()?, &scale);
+    let target = DVector::from_column_slice(unknowns);
+    let mut combinations: Vec<Vec<Face>> = vec![Vec::new()];
+    for &is_passive in &passive {
+        let mut faces = if is_passive {
+            vec![Face::Free]
+        } else {
+            Vec::new()
+        };
+        faces.extend(Face::of(layout.model()));
+        let longer = |combination: &Vec<Face>| -> Vec<Vec<Face>> {
+            let with = |face: &Face| combination.iter().chain([face]).cloned().collect();
+            faces.iter().map(with).collect()
+        };
+        combinations = combinations
+            .iter()
+            .flat_map(longer)
+            .take(MOST_COMBINATIONS)
+            .collect();
+    }
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    for faces in combinations {
+        let faces = Faces { entries, faces };
+        let mut x = faces.near(&target);
+        for _ in 0..STEPS {
+            let (rest, Some(slope)) = (&target - faces.unknowns(&x), faces.derivative(&x)) else {
+                break;
+            };
+            let weighted = slope.transpose() * &weight;
+            let Some(step) = (&weighted * &slope)
+                .cholesky()
+                .map(|normal| normal.solve(&(weighted * rest)))
+            else {
+                break;
+            };
+            x += step;
+        }
+        let found = faces.unknowns(&x);
+        let rest = &target - &found;
+        let distance = rest.dot(&(&weight * &rest));
+        let found = found.as_slice().to_vec();
+        let is_better = best.as_ref().is_none_or(|(least, _)| distance < *least);
+        if distance.is_finite() && is_better && !is_passive(layout, &found).contains(&false) {
+            best = Some((distance, found));
+        }
+    }
+    best.map(|(_, found)| found)
 }
 
 /// What the joints of the torques do that are not being constrained.

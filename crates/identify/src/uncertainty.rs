@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+use super::budget::Systematic;
 use super::layout::Layout;
 use super::normal::scaled_by;
 use super::unknown::Unknown;
@@ -35,6 +36,8 @@ pub struct Covariance {
     pub identified: Vec<bool>,
     /// What of the others is determined together, in words.
     pub determined_together: Vec<String>,
+    /// Below these standard deviations the unknowns count as determined.
+    pub(super) sizes: Vec<f64>,
 }
 
 impl Covariance {
@@ -42,6 +45,32 @@ impl Covariance {
     #[must_use]
     pub fn standard_deviation(&self) -> Vec<f64> {
         self.matrix.diagonal().iter().map(|v| v.sqrt()).collect()
+    }
+
+    /// The same of an estimate in which the set-up's errors take part.
+    pub(super) fn with_systematic_errors(self, layout: &Layout, found: &Systematic) -> Self {
+        let deviation = found.covariance.diagonal().map(f64::sqrt);
+        let pairs = deviation.iter().zip(&self.sizes);
+        let identified: Vec<bool> = pairs.map(|(deviation, size)| deviation <= size).collect();
+        let names: Vec<String> = self
+            .unknowns
+            .iter()
+            .map(|unknown| unknown.label(&[]))
+            .collect();
+        debug_assert_eq!(layout.unknowns(), found.unknowns.len());
+        Self {
+            values: found.unknowns.clone(),
+            determined_together: determined_together(
+                &names,
+                &identified,
+                &self.sizes,
+                &found.covariance,
+            ),
+            matrix: found.covariance.clone(),
+            inflation: vec![1.0; found.unknowns.len()],
+            identified,
+            ..self
+        }
     }
 
     /// Correlation of the unknowns.

@@ -46,6 +46,17 @@ pub fn chi_squared_95(degrees_of_freedom: usize) -> f64 {
     })
 }
 
+/// Probability that χ² with so many degrees of freedom exceeds a value; 1 without degrees of freedom.
+///
+/// ```
+/// // SciPy's chi2.sf(58.1, 42)
+/// assert!((bolted_joint_statistics::chi_squared_tail(58.1, 42) - 0.050_218_571_201_709).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn chi_squared_tail(value: f64, degrees_of_freedom: usize) -> f64 {
+    ChiSquared::new(degrees_of_freedom as f64).map_or(1.0, |distribution| distribution.sf(value))
+}
+
 /// ψ(x) − ln x for x > 0: the mean of the logarithm of a gamma variable of shape x and mean 1.
 #[must_use]
 pub fn digamma_less_log(x: f64) -> f64 {

@@ -23,6 +23,7 @@ use labelled::{Completeness, labelled_functions};
 use reader::{Reader, in_file};
 use repeats::repeated;
 use substructure::substructures;
+pub(super) use substructure::{beam_at, measured_labels};
 
 /// What the files of a study hold.
 pub(super) struct Assembled {

@@ -19,6 +19,7 @@ use bolted_joint_frf::structure::{
     Beam, BeamPoint, ComplexMatrix, ModalModel, Motion, StructureError,
 };
 use bolted_joint_study::StudyError;
+use bolted_joint_systematic::Change;
 
 /// Lines without the assembly: what A and B contribute.
 pub(super) fn substructures(
@@ -56,7 +57,7 @@ fn joint_and_points(
             positions_m,
         } => {
             let dofs = beam_dofs(dofs_of_a_bolt, joints_m, points, positions_m);
-            let receptances = beam_receptances(beam, &dofs, axis);
+            let receptances = beam_receptances(beam, &dofs, axis.frequency_hz);
             let refused = |source| StudyError::model(&study.path, Some(key), source);
             Ok(Receptances::Exact(receptances.map_err(refused)?))
         }
@@ -81,6 +82,51 @@ fn joint_and_points(
             Ok(Receptances::Measured(Arc::new(measured)))
         }
     }
+}
+
+/// Labels of a measured substructure's functions, in their order; none of one that is computed.
+pub(in super::super) fn measured_labels(
+    substructure: &Substructure,
+    dofs_of_a_bolt: usize,
+    points: &[Dof],
+) -> Vec<Dof> {
+    match substructure {
+        Substructure::Measured { joints, .. } => {
+            Motions::new(joints, dofs_of_a_bolt, points).labels
+        }
+        Substructure::Beam { .. } => Vec::new(),
+    }
+}
+
+/// Receptances of a changed beam; `None` where it is no beam, or one that cannot be computed.
+pub(in super::super) fn beam_at(
+    substructure: &Substructure,
+    dofs_of_a_bolt: usize,
+    points: &[Dof],
+    change: &Change,
+    frequency_hz: &[f64],
+) -> Option<Vec<ComplexMatrix>> {
+    let Substructure::Beam {
+        beam,
+        joints_m,
+        positions_m,
+    } = substructure
+    else {
+        return None;
+    };
+    let beam = Beam {
+        youngs_modulus_pa: beam.youngs_modulus_pa * (1.0 + change.youngs_modulus),
+        density_kg_per_m3: beam.density_kg_per_m3 * (1.0 + change.density),
+        ..beam.clone()
+    };
+    let moved = joints_m.iter().zip(&change.joint_m);
+    let joints_m: Vec<f64> = moved.map(|(position_m, by)| position_m + by).collect();
+    let mut positions_m = positions_m.clone();
+    for (point, by) in points.iter().zip(&change.points_m) {
+        *positions_m.get_mut(point)? += by;
+    }
+    let dofs = beam_dofs(dofs_of_a_bolt, &joints_m, points, &positions_m);
+    beam_receptances(&beam, &dofs, frequency_hz).ok()
 }
 
 /// Motions of the joint's DOFs and of the points as combinations of labelled ones. A label that serves several of them,
@@ -173,10 +219,10 @@ fn beam_dofs(
 fn beam_receptances(
     beam: &Beam,
     dofs: &[(BeamPoint, f64)],
-    axis: &Axis<'_>,
+    frequency_hz: &[f64],
 ) -> Result<Vec<ComplexMatrix>, StructureError> {
     let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
-    let mut receptances = beam.receptances(&points, axis.frequency_hz)?;
+    let mut receptances = beam.receptances(&points, frequency_hz)?;
     for receptance in &mut receptances {
         for (p, (_, row_sign)) in dofs.iter().enumerate() {
             for (q, (_, column_sign)) in dofs.iter().enumerate() {

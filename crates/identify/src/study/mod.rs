@@ -1,5 +1,6 @@
 //! A study: what the user's TOML file asks for, checked before anything is read or computed.
 
+mod budget;
 mod check;
 mod tables;
 
@@ -10,6 +11,7 @@ use bolted_joint_frf::structure::{Beam, FiniteDifference};
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_joint::Bodies;
 use bolted_joint_study::{Method, StudyText};
+use bolted_joint_systematic::Budget;
 
 use super::band_choice;
 use super::bands::{BandChoices, Bands};
@@ -57,6 +59,8 @@ pub struct Study {
     pub bands: BandChoices,
     /// Noise of the measured receptances, as far as the study states it.
     pub noise: Noise,
+    /// How well the set-up of the test is known.
+    pub budget: Budget,
     /// A presumed joint, one of the starts of the search at every bolt.
     pub start: Option<JointMatrices>,
     /// Bodies of a lap model, which go into the joint file.
@@ -332,6 +336,7 @@ impl Study {
             .map(|table| check::noise(study, &table))
             .transpose()?
             .unwrap_or_default();
+        let budget = budget::budget(study, file.budget)?;
         let start = file
             .start
             .map(|table| check::start(study, &table, model))
@@ -356,6 +361,7 @@ impl Study {
             frequency_range_hz,
             bands: file.bands.0,
             noise,
+            budget,
             start,
             bodies: file.bodies,
             notes: file.notes,

@@ -17,6 +17,7 @@ use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
 use super::super::torque::TorqueDependence;
+use super::budget::BudgetKey;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -33,6 +34,7 @@ pub(super) struct StudyFile {
     #[serde(default)]
     pub(super) bands: BandsTable,
     pub(super) noise: Option<NoiseTable>,
+    pub(super) budget: Option<BudgetKey>,
     pub(super) start: Option<StartTable>,
     pub(super) bodies: Option<Bodies>,
     #[serde(default)]

@@ -1,0 +1,172 @@
+//! A study and its lines as an experiment with systematic errors.
+
+use bolted_joint_systematic::{
+    Change, Compute, Computed, Entry, Experiment, JointShape, Measured, MeasuredFunctions, Side,
+    Structure,
+};
+use num_complex::Complex64;
+
+use bolted_joint_frf::Dof;
+
+use super::super::assemble::{beam_at, measured_labels};
+use super::super::layout::Layout;
+use super::super::lines::Lines;
+use super::super::noise::{Levels, NoiseLevel};
+use super::super::receptances::{MeasuredSubstructure, Receptances};
+use super::super::study::{Study, Substructure};
+
+/// `None` where a structure's labels are not known.
+pub(super) fn of<'a>(
+    study: &'a Study,
+    lines: &'a Lines,
+    layout: &Layout,
+    levels: Levels,
+) -> Option<Experiment<'a>> {
+    let entries = layout
+        .places()
+        .iter()
+        .map(|place| place.all().collect())
+        .collect();
+    let dofs = lines.joint_dofs();
+    Some(Experiment {
+        omega: lines
+            .frequency_hz
+            .iter()
+            .map(|hz| std::f64::consts::TAU * hz)
+            .collect(),
+        joint: JointShape {
+            dofs,
+            dofs_of_a_bolt: dofs / study.bolts.count(),
+            entries,
+        },
+        a: structure(study, Side::A, lines, levels.a)?,
+        b: structure(study, Side::B, lines, levels.b)?,
+        assembly: assembly(lines, levels.assembly),
+    })
+}
+
+/// The measured functions of the assembly, each on its own: reciprocity speaks for the channels' gains.
+fn assembly(lines: &Lines, level: NoiseLevel) -> MeasuredFunctions {
+    let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
+    let entry = |place: (usize, usize)| {
+        let values: Vec<Complex64> = lines.assembly.iter().map(|matrix| matrix[place]).collect();
+        let known = lines.relative_variance.as_ref().and_then(|known| {
+            let index = lines
+                .measured
+                .iter()
+                .position(|&measured| measured == place)?;
+            known.get(index)
+        });
+        Entry {
+            place,
+            measurements: vec![place],
+            variance: variances(&values, known.map(Vec::as_slice), level, repeats),
+            values,
+        }
+    };
+    MeasuredFunctions {
+        is_translation: translations(&lines.points),
+        positions_m: None,
+        entries: lines.independent().into_iter().map(entry).collect(),
+    }
+}
+
+fn variances(
+    values: &[Complex64],
+    known: Option<&[f64]>,
+    level: NoiseLevel,
+    count: u32,
+) -> Vec<f64> {
+    let of = |(line, value): (usize, &Complex64)| {
+        let power = value.norm_sqr();
+        let one = known.map_or_else(|| level.variance(power), |known| known[line] * power);
+        one / f64::from(count)
+    };
+    values.iter().enumerate().map(of).collect()
+}
+
+fn translations(labels: &[Dof]) -> Vec<bool> {
+    labels
+        .iter()
+        .map(|label| !label.direction().is_rotation())
+        .collect()
+}
+
+/// Labels of a measured structure in the order of its functions.
+pub(super) fn labels(study: &Study, side: Side, lines: &Lines) -> Vec<Dof> {
+    let (substructure, points): (_, &[Dof]) = match side {
+        Side::A => (&study.a, &[]),
+        Side::B => (&study.b, &lines.points),
+    };
+    measured_labels(substructure, study.dofs_of_a_bolt(), points)
+}
+
+fn structure<'a>(
+    study: &'a Study,
+    side: Side,
+    lines: &'a Lines,
+    level: NoiseLevel,
+) -> Option<Structure<'a>> {
+    let (substructure, receptances, points): (_, _, &[Dof]) = match side {
+        Side::A => (&study.a, &lines.a, &[]),
+        Side::B => (&study.b, &lines.b, &lines.points),
+    };
+    match (substructure, receptances) {
+        (Substructure::Beam { .. }, _) => {
+            let dofs = study.dofs_of_a_bolt();
+            let compute: Box<Compute<'a>> = Box::new(move |change: &Change| {
+                beam_at(substructure, dofs, points, change, &lines.frequency_hz)
+            });
+            Some(Structure::Computed(Computed { compute }))
+        }
+        (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
+        (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured {
+            functions: functions(measured, &labels(study, side, lines), level)?,
+            transformation: measured.transformation().clone(),
+            correction: None,
+        })),
+    }
+}
+
+/// The upper triangle of U, reciprocals averaged.
+fn functions(
+    measured: &MeasuredSubstructure,
+    labels: &[Dof],
+    level: NoiseLevel,
+) -> Option<MeasuredFunctions> {
+    let count = measured.transformation().ncols();
+    if labels.len() != count {
+        return None;
+    }
+    let places = (0..count).flat_map(|column| (0..=column).map(move |row| (row, column)));
+    let entry = |place: (usize, usize)| {
+        let values = measured.function(place.0, place.1).as_ref().clone();
+        let own: Vec<usize> = (0..measured.measured().len())
+            .filter(|&index| {
+                let (p, q) = measured.measured()[index];
+                (p.min(q), p.max(q)) == place
+            })
+            .collect();
+        let known: Option<Vec<f64>> = measured.relative_variance().map(|known| {
+            let mean = |line: usize| {
+                own.iter().map(|&index| known[index][line]).sum::<f64>() / own.len() as f64
+            };
+            (0..values.len()).map(mean).collect()
+        });
+        let known = known.filter(|_| !own.is_empty());
+        Entry {
+            place,
+            measurements: own
+                .iter()
+                .map(|&index| measured.measured()[index])
+                .collect(),
+            variance: variances(&values, known.as_deref(), level, own.len().max(1) as u32),
+            values,
+        }
+    };
+    Some(MeasuredFunctions {
+        is_translation: translations(labels),
+        positions_m: None,
+        entries: places.map(entry).collect(),
+    })
+}

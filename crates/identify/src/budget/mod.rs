@@ -1,0 +1,252 @@
+//! The estimate with the error budget: what the set-up of the test leaves unknown takes part in it.
+
+mod experiment;
+
+use bolted_joint_statistics::chi_squared_tail;
+use bolted_joint_systematic::{
+    BandConsistency, Budget, Cause, CauseEstimate, Estimate, Group, MeasuredSet, Settings, Shares,
+    Suspect, consistency, estimate, suspects,
+};
+use nalgebra::DMatrix;
+
+use bolted_joint_frf::Dof;
+
+use super::layout::Layout;
+use super::lines::Lines;
+use super::lines_estimate::LinesEstimate;
+use super::noise::Levels;
+use super::study::Study;
+
+/// Bands that are asked whether they agree on the joint.
+const BANDS: [usize; 2] = [2, 8];
+/// A p-value below this is no chance.
+const CHANCE: f64 = 0.01;
+/// Below this χ² per degree of freedom the noise is less than it was taken for.
+const LESS_NOISE: f64 = 0.95;
+/// How often its level is corrected.
+const ROUNDS: usize = 2;
+
+/// What systematic errors do to an estimate.
+#[derive(Clone, Debug)]
+pub struct Systematic {
+    /// How well the study says that its set-up is known.
+    pub budget: Budget,
+    /// The unknowns that are most likely together with the causes: stiffness of each entry, then damping, joint by joint.
+    pub unknowns: Vec<f64>,
+    /// Covariance of the unknowns, systematic errors included.
+    pub covariance: DMatrix<f64>,
+    /// Covariance of the unknowns if the set-up were known exactly.
+    pub noise_covariance: DMatrix<f64>,
+    /// Parts of the noise and of each group of causes in each unknown's variance.
+    pub shares: Shares,
+    /// What is known of each cause after the measurement, with its name.
+    pub causes: Vec<(String, CauseEstimate)>,
+    /// What speaks against the data without systematic errors, with its name, the most telling first.
+    pub suspects: Vec<(String, Suspect)>,
+    /// Whether bands agree on the joint, with the p-value.
+    pub consistency: Vec<(BandConsistency, f64)>,
+    /// χ² over degrees of freedom.
+    pub reduced_chi_squared: Option<f64>,
+    /// Lines that were used, of how many.
+    pub lines: (usize, usize),
+    /// Whether the search came to rest.
+    pub converged: bool,
+}
+
+impl Systematic {
+    /// Estimates joint and causes from the `start` that an estimate without causes gives. `None` where the budget is none, where
+    /// there are several assemblies, or where no estimate is found.
+    pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
+        let [lines] = all else { return None };
+        if study.budget == Budget::none() {
+            return None;
+        }
+        let start = estimate.covariance().values.clone();
+        let layout = study.layout();
+        let mut levels = estimate.levels;
+        let mut found = Self::at_levels(study, lines, &layout, levels, &start)?;
+        // Errors of the set-up have raised the noise that the residual seemed to show.
+        for _ in 0..ROUNDS {
+            let Some(reduced) = found
+                .reduced_chi_squared
+                .filter(|&reduced| !study.noise.is_stated() && reduced < LESS_NOISE)
+            else {
+                break;
+            };
+            levels = levels.scaled(reduced.sqrt());
+            found = Self::at_levels(study, lines, &layout, levels, &start)?;
+        }
+        Some(found)
+    }
+
+    fn at_levels(
+        study: &Study,
+        lines: &Lines,
+        layout: &Layout,
+        levels: Levels,
+        start: &[f64],
+    ) -> Option<Self> {
+        let experiment = experiment::of(study, lines, layout, levels)?;
+        let settings = Settings::default();
+        let plain = estimate(&experiment, &[], start, &settings)?;
+        let suspects = suspects(&experiment, &plain, &settings);
+        let mut priors = study.budget.priors(&experiment);
+        // A cause that stands out is let free from the beginning: a search that it keeps from converging finds nothing.
+        let mut contradicted: Option<(Cause, f64)> = None;
+        let first = suspects
+            .first()
+            .filter(|suspect| suspect.reduced_chi_squared.is_some());
+        if let Some(first) = first
+            && let Some(prior) = priors.iter_mut().find(|prior| prior.cause == first.cause)
+        {
+            let pull = first.value / prior.standard_deviation;
+            if pull.abs() > WIDENED {
+                prior.standard_deviation = first.value.abs();
+                contradicted = Some((first.cause, pull));
+            }
+        }
+        let mut found = estimate(&experiment, &priors, &plain.unknowns, &settings)?;
+        for cause in &mut found.causes {
+            if let Some((of, pull)) = contradicted
+                && of == cause.prior.cause
+            {
+                cause.contradicted = Some(pull);
+            }
+        }
+        let name = |cause: Cause| name(cause, study, lines);
+        let consistency = BANDS.iter().filter_map(|&bands| consistency(&plain, bands));
+        Some(Self {
+            budget: study.budget.clone(),
+            causes: found
+                .causes
+                .iter()
+                .map(|cause| (name(cause.prior.cause), *cause))
+                .collect(),
+            suspects: suspects
+                .iter()
+                .map(|suspect| (name(suspect.cause), *suspect))
+                .collect(),
+            consistency: consistency
+                .map(|found| {
+                    let tail = chi_squared_tail(found.q, found.freedom);
+                    (found, tail)
+                })
+                .collect(),
+            ..Self::from(study.budget.clone(), found)
+        })
+    }
+
+    fn from(budget: Budget, found: Estimate) -> Self {
+        // Noise that is larger than it is said to be widens everything.
+        let scale = found.reduced_chi_squared.unwrap_or(1.0).max(1.0);
+        Self {
+            budget,
+            unknowns: found.unknowns,
+            covariance: found.covariance * scale,
+            noise_covariance: found.noise_covariance * scale,
+            shares: found.shares,
+            causes: Vec::new(),
+            suspects: Vec::new(),
+            consistency: Vec::new(),
+            reduced_chi_squared: found.reduced_chi_squared,
+            lines: found.lines,
+            converged: found.converged,
+        }
+    }
+
+    /// Parts of each unknown's standard deviation: groups by the part of the variance that they have in the worst unknown.
+    #[must_use]
+    pub fn largest_groups(&self) -> Vec<(Group, f64)> {
+        let groups = self.shares.groups.iter();
+        let mut groups: Vec<(Group, f64)> = groups
+            .map(|(group, parts)| (*group, parts.iter().copied().fold(0.0, f64::max)))
+            .collect();
+        groups.sort_by(|one, other| other.1.total_cmp(&one.1));
+        groups
+    }
+
+    /// What a technician should know and do.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (name, cause) in &self.causes {
+            if let Some(pull) = cause.contradicted {
+                let ([value, deviation], unit) =
+                    shown(cause.prior.cause, [cause.value, cause.standard_deviation]);
+                warnings.push(format!(
+                    "the data contradict the error budget: {name} is {value:.3} ± {deviation:.2} {unit}, {:.0} times what the budget \
+                     allows; its limit was widened for this estimate; {}",
+                    pull.abs(),
+                    cause.prior.cause.group().remedy(),
+                ));
+            }
+        }
+        for (found, p) in &self.consistency {
+            if *p < CHANCE {
+                let suspect = match self.suspects.first() {
+                    None => "none of the known causes explains it".to_owned(),
+                    Some((name, suspect)) => {
+                        let ([value, _], unit) = shown(suspect.cause, [suspect.value, 0.0]);
+                        format!("most likely: {name} {value:+.3} {unit}")
+                    }
+                };
+                warnings.push(format!(
+                    "{} bands do not agree on the joint (p = {p:.1e}) if the set-up is taken as exact; {suspect}",
+                    found.bands.len(),
+                ));
+                break;
+            }
+        }
+        if !self.converged {
+            warnings.push("the estimate with the error budget has not converged: do not rely on its deviations".to_owned());
+        }
+        warnings
+    }
+}
+
+/// A prior that a suspect exceeds so many times is widened before the search.
+const WIDENED: f64 = 2.5;
+
+/// Values of a cause in a unit for people.
+pub(super) fn shown(cause: Cause, values: [f64; 2]) -> ([f64; 2], &'static str) {
+    let unit = cause.shown(0.0).1;
+    (values.map(|value| cause.shown(value).0), unit)
+}
+
+/// What a cause is, with the labels of the study.
+fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
+    let label = |set: MeasuredSet, row: usize| -> String {
+        let point = match set {
+            MeasuredSet::Assembly => lines.points.get(row).map(Dof::to_string),
+            MeasuredSet::Of(side) => experiment::labels(study, side, lines)
+                .get(row)
+                .map(Dof::to_string),
+        };
+        point.unwrap_or_else(|| format!("number {}", row + 1))
+    };
+    let bolt = |bolt: usize| match study.bolts.names().get(bolt) {
+        Some(name) => format!(" at bolt {name}"),
+        None => String::new(),
+    };
+    match cause {
+        Cause::Gain(set) => format!("gain of {set}"),
+        Cause::CommonGain => "gain of all sets".to_owned(),
+        Cause::ChannelGain(set, row) => format!("gain of the channel {} of {set}", label(set, row)),
+        Cause::Delay(set) => format!("delay of {set}"),
+        Cause::Phase(set) => format!("phase of {set}"),
+        Cause::Accelerometer(set) => format!("mass of the accelerometer on {set}"),
+        Cause::Position(point) => format!(
+            "position of {} on the assembly",
+            label(MeasuredSet::Assembly, point)
+        ),
+        Cause::JointPosition(side, of) => format!("position of the joint on {side}{}", bolt(of)),
+        Cause::Frequency(side) => format!("frequencies of {side} in the assembly"),
+        Cause::YoungsModulus(side) => format!("Young's modulus of {side}"),
+        Cause::Density(side) => format!("density of {side}"),
+        Cause::JointMass(side, of) => format!("mass at the joint on {side}{}", bolt(of)),
+        Cause::LossFactor => "loss factor of the joint".to_owned(),
+        Cause::DifferenceStiffness(side) => {
+            format!("bending stiffness of {side} behind its rotation")
+        }
+    }
+}

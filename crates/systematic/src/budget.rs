@@ -1,0 +1,160 @@
+//! How well a laboratory knows its set-up: a prior standard deviation for each kind of cause.
+
+use super::cause::{Cause, MeasuredSet, Side};
+use super::experiment::{Experiment, Structure};
+
+/// Prior standard deviations; 0 says that a quantity is known exactly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Budget {
+    /// Gain of each set, relative.
+    pub gain: f64,
+    /// Gain that all sets have in common, relative.
+    pub common_gain: f64,
+    /// Gain of each response channel, relative.
+    pub channel_gain: f64,
+    /// Delay of each set, s.
+    pub delay_s: f64,
+    /// Constant phase of each set, rad.
+    pub phase_rad: f64,
+    /// Mass of the moving accelerometer beyond what the data are corrected for, kg.
+    pub accelerometer_mass_kg: f64,
+    /// Position of each point and of the joint, m.
+    pub position_m: f64,
+    /// Frequencies of a measured structure in the assembly over those in its own test, relative.
+    pub frequency: f64,
+    /// Young's modulus of a computed structure, relative.
+    pub youngs_modulus: f64,
+    /// Density of a computed structure, relative.
+    pub density: f64,
+    /// Mass at the joint that only the assembly has, kg.
+    pub joint_mass_kg: f64,
+    /// Loss factor of the joint.
+    pub loss_factor: f64,
+    /// Bending stiffness behind the correction of rotations by differences, relative.
+    pub difference_stiffness: f64,
+}
+
+impl Default for Budget {
+    /// A careful laboratory.
+    fn default() -> Self {
+        Self {
+            gain: 0.01,
+            common_gain: 0.01,
+            channel_gain: 0.005,
+            delay_s: 5e-6,
+            phase_rad: 0.0,
+            accelerometer_mass_kg: 3e-4,
+            position_m: 5e-4,
+            frequency: 0.002,
+            youngs_modulus: 0.01,
+            density: 0.005,
+            joint_mass_kg: 0.010,
+            loss_factor: 0.02,
+            difference_stiffness: 0.05,
+        }
+    }
+}
+
+/// A cause that takes part in an estimate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prior {
+    /// The cause.
+    pub cause: Cause,
+    /// Standard deviation before the measurement, in the unit of the cause.
+    pub standard_deviation: f64,
+}
+
+impl Budget {
+    /// Everything is exact.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            gain: 0.0,
+            common_gain: 0.0,
+            channel_gain: 0.0,
+            delay_s: 0.0,
+            phase_rad: 0.0,
+            accelerometer_mass_kg: 0.0,
+            position_m: 0.0,
+            frequency: 0.0,
+            youngs_modulus: 0.0,
+            density: 0.0,
+            joint_mass_kg: 0.0,
+            loss_factor: 0.0,
+            difference_stiffness: 0.0,
+        }
+    }
+
+    /// The causes of an experiment that are not exact.
+    #[must_use]
+    pub fn priors(&self, experiment: &Experiment<'_>) -> Vec<Prior> {
+        causes(experiment)
+            .into_iter()
+            .map(|cause| Prior {
+                cause,
+                standard_deviation: self.standard_deviation(cause),
+            })
+            .filter(|prior| prior.standard_deviation > 0.0)
+            .collect()
+    }
+
+    /// Prior standard deviation of a cause, in its unit.
+    #[must_use]
+    pub fn standard_deviation(&self, cause: Cause) -> f64 {
+        match cause {
+            Cause::Gain(_) => self.gain,
+            Cause::CommonGain => self.common_gain,
+            Cause::ChannelGain(..) => self.channel_gain,
+            Cause::Delay(_) => self.delay_s,
+            Cause::Phase(_) => self.phase_rad,
+            Cause::Accelerometer(_) => self.accelerometer_mass_kg,
+            Cause::Position(_) | Cause::JointPosition(..) => self.position_m,
+            Cause::Frequency(_) => self.frequency,
+            Cause::YoungsModulus(_) => self.youngs_modulus,
+            Cause::Density(_) => self.density,
+            Cause::JointMass(..) => self.joint_mass_kg,
+            Cause::LossFactor => self.loss_factor,
+            Cause::DifferenceStiffness(_) => self.difference_stiffness,
+        }
+    }
+}
+
+/// Every cause that can act on an experiment.
+pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
+    let mut causes = vec![Cause::CommonGain, Cause::LossFactor];
+    let mut measured = vec![(MeasuredSet::Assembly, &experiment.assembly)];
+    for side in [Side::A, Side::B] {
+        let bolts = 0..experiment.joint.bolts();
+        match experiment.side(side) {
+            Structure::Measured(structure) => {
+                measured.push((MeasuredSet::Of(side), &structure.functions));
+                causes.push(Cause::Frequency(side));
+                if structure.correction.is_some() {
+                    causes.push(Cause::DifferenceStiffness(side));
+                }
+                if experiment.joint.has_rotation() {
+                    causes.extend(bolts.clone().map(|bolt| Cause::JointPosition(side, bolt)));
+                }
+            }
+            Structure::Computed(_) => {
+                causes.extend([Cause::YoungsModulus(side), Cause::Density(side)]);
+                causes.extend(bolts.clone().map(|bolt| Cause::JointPosition(side, bolt)));
+            }
+            Structure::Exact(_) => {}
+        }
+        causes.extend(bolts.map(|bolt| Cause::JointMass(side, bolt)));
+    }
+    for (set, functions) in measured {
+        causes.extend([Cause::Gain(set), Cause::Delay(set), Cause::Phase(set)]);
+        if functions.is_translation.iter().any(|&is| is) {
+            causes.push(Cause::Accelerometer(set));
+        }
+        let rows = functions.responses().into_iter();
+        causes.extend(rows.map(|row| Cause::ChannelGain(set, row)));
+    }
+    if experiment.knows_slopes() {
+        let points = 0..experiment.assembly.labels();
+        causes.extend(points.map(Cause::Position));
+    }
+    causes
+}

@@ -1,0 +1,173 @@
+//! What causes do to measured functions: z = φ (h + a), with a factor φ and a part a beside the true receptances h.
+
+use num_complex::Complex64;
+
+use super::budget::Prior;
+use super::cause::{Cause, MeasuredSet};
+use super::experiment::{ComplexMatrix, Entry, MeasuredFunctions};
+
+const ZERO: Complex64 = Complex64::new(0.0, 0.0);
+
+/// The functions of one set at one line.
+pub(crate) struct At<'f> {
+    pub(crate) set: MeasuredSet,
+    pub(crate) functions: &'f MeasuredFunctions,
+    /// True receptances over the labels.
+    pub(crate) truth: &'f ComplexMatrix,
+    pub(crate) omega: f64,
+    /// Weights of the labels in the slope at each label, where positions are known.
+    pub(crate) slopes: Option<&'f nalgebra::DMatrix<f64>>,
+}
+
+impl At<'_> {
+    /// φ of an entry with these values of the causes.
+    pub(crate) fn factor(&self, entry: &Entry, priors: &[Prior], values: &[f64]) -> Complex64 {
+        let mut gain = 1.0;
+        let mut phase = 0.0;
+        for (prior, &value) in priors.iter().zip(values) {
+            match prior.cause {
+                Cause::CommonGain => gain += value,
+                Cause::Gain(set) if set == self.set => gain += value,
+                Cause::ChannelGain(set, row) if set == self.set => {
+                    gain += value * share_of_row(entry, row)
+                }
+                Cause::Delay(set) if set == self.set => phase -= self.omega * value,
+                Cause::Phase(set) if set == self.set => phase += value,
+                _ => {}
+            }
+        }
+        Complex64::from_polar(gain, phase)
+    }
+
+    /// a of every entry with these values of the causes.
+    pub(crate) fn beside(&self, priors: &[Prior], values: &[f64]) -> Vec<Complex64> {
+        let mut beside = vec![ZERO; self.functions.entries.len()];
+        for (prior, &value) in priors.iter().zip(values) {
+            if value == 0.0 {
+                continue;
+            }
+            match prior.cause {
+                Cause::Accelerometer(set) if set == self.set => {
+                    for (sum, entry) in beside.iter_mut().zip(&self.functions.entries) {
+                        *sum += self.loaded(entry, value);
+                    }
+                }
+                Cause::Position(point) if self.set == MeasuredSet::Assembly => {
+                    for (sum, entry) in beside.iter_mut().zip(&self.functions.entries) {
+                        *sum += self.shifted(entry, point) * value;
+                    }
+                }
+                _ => {}
+            }
+        }
+        beside
+    }
+
+    /// ∂z/∂ν of every entry at no cause; `None` where the cause does not act on what was measured.
+    pub(crate) fn by_cause(&self, cause: Cause) -> Option<Vec<Complex64>> {
+        let truth = |entry: &Entry| self.truth[entry.place];
+        let of: Box<dyn Fn(&Entry) -> Complex64> = match cause {
+            Cause::CommonGain => Box::new(truth),
+            Cause::Gain(set) if set == self.set => Box::new(truth),
+            Cause::ChannelGain(set, row) if set == self.set => {
+                Box::new(move |entry| truth(entry) * share_of_row(entry, row))
+            }
+            Cause::Delay(set) if set == self.set => {
+                Box::new(move |entry| truth(entry) * Complex64::new(0.0, -self.omega))
+            }
+            Cause::Phase(set) if set == self.set => {
+                Box::new(move |entry| truth(entry) * Complex64::i())
+            }
+            Cause::Accelerometer(set) if set == self.set => Box::new(|entry| self.by_mass(entry)),
+            Cause::Position(point)
+                if self.set == MeasuredSet::Assembly && self.slopes.is_some() =>
+            {
+                Box::new(move |entry| self.shifted(entry, point))
+            }
+            _ => return None,
+        };
+        // What is not measured has no error.
+        let measured = |entry: &Entry| {
+            if entry.measurements.is_empty() {
+                ZERO
+            } else {
+                of(entry)
+            }
+        };
+        Some(self.functions.entries.iter().map(measured).collect())
+    }
+
+    /// What a mass m at the response adds: h_ij ω² m h_ii/(1 − ω² m h_ii), over the measurements of an entry.
+    fn loaded(&self, entry: &Entry, mass_kg: f64) -> Complex64 {
+        let of = |row: usize| {
+            let load = self.truth[(row, row)] * self.omega * self.omega * mass_kg;
+            load / (1.0 - load)
+        };
+        self.truth[entry.place] * self.mean_over_translations(entry, of)
+    }
+
+    /// ω² h_ii h_ij
+    fn by_mass(&self, entry: &Entry) -> Complex64 {
+        let square = self.omega * self.omega;
+        self.truth[entry.place]
+            * self.mean_over_translations(entry, |row| self.truth[(row, row)] * square)
+    }
+
+    fn mean_over_translations(&self, entry: &Entry, of: impl Fn(usize) -> Complex64) -> Complex64 {
+        let rows = entry.measurements.iter().map(|&(row, _)| row);
+        let acting = rows.filter(|&row| self.functions.is_translation[row]);
+        acting.map(of).sum::<Complex64>() / entry.measurements.len().max(1) as f64
+    }
+
+    /// e_i sᵀ + s e_iᵀ with the slope s at the point: a sensor that is not where it is said to be.
+    fn shifted(&self, entry: &Entry, point: usize) -> Complex64 {
+        let Some(slopes) = self.slopes else {
+            return ZERO;
+        };
+        let (row, column) = entry.place;
+        let slope = |label: usize| -> Complex64 {
+            (0..slopes.ncols())
+                .map(|other| self.truth[(other, label)] * slopes[(point, other)])
+                .sum()
+        };
+        let at_row = if row == point { slope(column) } else { ZERO };
+        let at_column = if column == point { slope(row) } else { ZERO };
+        at_row + at_column
+    }
+}
+
+/// Part of an entry's measurements whose response is this row.
+fn share_of_row(entry: &Entry, row: usize) -> f64 {
+    let with = entry
+        .measurements
+        .iter()
+        .filter(|measurement| measurement.0 == row);
+    with.count() as f64 / entry.measurements.len().max(1) as f64
+}
+
+/// Weights of the labels in the slope at each label: the derivative of the parabola through it and its neighbours, or of the
+/// line through two.
+pub(crate) fn slopes(positions_m: &[f64]) -> nalgebra::DMatrix<f64> {
+    let count = positions_m.len();
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&one, &other| positions_m[one].total_cmp(&positions_m[other]));
+    let mut weights = nalgebra::DMatrix::zeros(count, count);
+    for (rank, &label) in order.iter().enumerate() {
+        let first = rank.saturating_sub(1).min(count.saturating_sub(3));
+        let near = &order[first..(first + 3).min(count)];
+        let x = positions_m[label];
+        for &j in near {
+            // Lagrange: Σ_{i≠j} 1/(x_j − x_i) Π_{k≠i,j} (x − x_k)/(x_j − x_k)
+            let others: Vec<usize> = near.iter().copied().filter(|&other| other != j).collect();
+            let term = |&i: &usize| {
+                let rest = others.iter().filter(|&&k| k != i);
+                let product: f64 = rest
+                    .map(|&k| (x - positions_m[k]) / (positions_m[j] - positions_m[k]))
+                    .product();
+                product / (positions_m[j] - positions_m[i])
+            };
+            weights[(label, j)] = others.iter().map(term).sum();
+        }
+    }
+    weights
+}

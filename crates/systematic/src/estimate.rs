@@ -1,0 +1,201 @@
+//! Joint and causes that are most likely together, with how sure both are.
+
+use nalgebra::DMatrix;
+
+use super::budget::Prior;
+use super::experiment::Experiment;
+use super::line::Task;
+use super::search::{Found, inverse, search, with_priors};
+use super::shares::Shares;
+
+/// How an estimate is found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Gauss–Newton steps at most.
+    pub most_iterations: usize,
+    /// Lines where the substructures' noise moves what is predicted by more than this part of it are left out.
+    pub most_nonlinear: f64,
+    /// Lines that a frequency scale of two prior standard deviations moves by more than this part are left out.
+    pub most_shifted: f64,
+    /// Above this χ² per degree of freedom the search starts again with the assembly's noise inflated.
+    pub most_reduced_chi_squared: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            most_iterations: 40,
+            most_nonlinear: 0.3,
+            most_shifted: 0.3,
+            most_reduced_chi_squared: 1.3,
+        }
+    }
+}
+
+/// A pull beyond so many prior standard deviations contradicts the prior.
+const CONTRADICTED: f64 = 2.5;
+/// A prior that is contradicted is made so much wider.
+const WIDER: f64 = 10.0;
+/// Priors that are made wider at most.
+const MOST_WIDENED: usize = 4;
+/// First inflations of the assembly's standard deviation, one after the other until the data are fitted.
+const INFLATIONS: [f64; 3] = [1.0, 30.0, 100.0];
+
+/// What is known of a cause after the measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CauseEstimate {
+    /// The cause with the prior that the estimate used.
+    pub prior: Prior,
+    /// Most likely value, in the unit of the cause.
+    pub value: f64,
+    /// Standard deviation after the measurement.
+    pub standard_deviation: f64,
+    /// The value over the standard deviation of the budget, where the data contradicted that and it was made wider.
+    pub contradicted: Option<f64>,
+}
+
+/// The estimate with systematic errors.
+pub struct Estimate {
+    /// Stiffness of each unknown entry, then its damping.
+    pub unknowns: Vec<f64>,
+    /// Covariance of the unknowns, systematic errors included.
+    pub covariance: DMatrix<f64>,
+    /// Covariance of the unknowns if the causes were known exactly.
+    pub noise_covariance: DMatrix<f64>,
+    /// What is known of each cause.
+    pub causes: Vec<CauseEstimate>,
+    /// What each group of causes contributes to each variance.
+    pub shares: Shares,
+    /// χ² over degrees of freedom; `None` without degrees of freedom.
+    pub reduced_chi_squared: Option<f64>,
+    /// Lines that were used, of how many.
+    pub lines: (usize, usize),
+    /// Gauss–Newton steps.
+    pub iterations: usize,
+    /// Whether the search came to rest.
+    pub converged: bool,
+    pub(crate) found: Found,
+}
+
+/// Finds the joint and the causes from `start` (stiffness of each unknown entry, then its damping). Of the priors that the data
+/// contradict the worst is made wider, one after the other. `None` where the assembly is singular, the data do not determine
+/// the joint or a structure cannot be computed.
+#[must_use]
+pub fn estimate(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &[f64],
+    settings: &Settings,
+) -> Option<Estimate> {
+    let mut priors = priors.to_vec();
+    let mut contradicted: Vec<Option<f64>> = vec![None; priors.len()];
+    for _ in 0..MOST_WIDENED {
+        let task = Task::new(experiment, &priors);
+        let found = best(&task, start, settings)?;
+        let pulls = std::iter::zip(&found.point.causes, &priors)
+            .map(|(value, prior)| value / prior.standard_deviation)
+            .enumerate()
+            .filter(|(number, pull)| pull.abs() > CONTRADICTED && contradicted[*number].is_none());
+        let Some((number, pull)) =
+            pulls.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()))
+        else {
+            return of(&task, found, &contradicted);
+        };
+        contradicted[number] = Some(pull);
+        priors[number].standard_deviation *= WIDER;
+    }
+    let task = Task::new(experiment, &priors);
+    of(&task, best(&task, start, settings)?, &contradicted)
+}
+
+/// As [`estimate`], with the priors as they are.
+pub(crate) fn estimate_with(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &[f64],
+    settings: &Settings,
+) -> Option<Estimate> {
+    let task = Task::new(experiment, priors);
+    of(
+        &task,
+        best(&task, start, settings)?,
+        &vec![None; priors.len()],
+    )
+}
+
+impl Estimate {
+    /// χ² of each of its lines that another estimate uses, too.
+    pub(crate) fn costs_at<'e>(&'e self, other: &'e Self) -> impl Iterator<Item = f64> + 'e {
+        let own = self.found.lines.iter().zip(&self.found.shares);
+        own.filter(|(line, _)| other.found.lines.binary_search(line).is_ok())
+            .map(|(_, share)| share.cost)
+    }
+}
+
+fn best(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
+    let mut best: Option<(f64, Found)> = None;
+    for inflation in INFLATIONS {
+        let Some(found) = search(task, start, settings, inflation) else {
+            continue;
+        };
+        let reduced = reduced_chi_squared(task, &found).unwrap_or(0.0);
+        let reduced = if found.converged {
+            reduced
+        } else {
+            f64::MAX.min(1e6 + reduced)
+        };
+        if best.as_ref().is_none_or(|(least, _)| reduced < *least) {
+            best = Some((reduced, found));
+        }
+        if reduced < settings.most_reduced_chi_squared {
+            break;
+        }
+    }
+    best.map(|(_, found)| found)
+}
+
+/// Degrees of freedom: as many causes as priors, so that the joint's unknowns alone cost some.
+fn freedom(task: &Task<'_>, found: &Found) -> Option<f64> {
+    let numbers = 2 * found.lines.len() * task.experiment.assembly.entries.len();
+    let freedom = numbers.checked_sub(task.unknowns());
+    freedom
+        .filter(|&freedom| freedom > 0)
+        .map(|freedom| freedom as f64)
+}
+
+/// χ² of residuals and priors over the degrees of freedom.
+fn reduced_chi_squared(task: &Task<'_>, found: &Found) -> Option<f64> {
+    let pulls = task.priors.iter().zip(&found.point.causes);
+    let priors: f64 = pulls
+        .map(|(prior, value)| (value / prior.standard_deviation).powi(2))
+        .sum();
+    Some((found.cost + priors) / freedom(task, found)?)
+}
+
+fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Estimate> {
+    let size = task.unknowns();
+    let whole = inverse(&with_priors(task, &found.information))?;
+    let joint = found.information.view((0, 0), (size, size)).into_owned();
+    let causes = task
+        .priors
+        .iter()
+        .enumerate()
+        .map(|(number, &prior)| CauseEstimate {
+            prior,
+            value: found.point.causes[number],
+            standard_deviation: whole[(size + number, size + number)].sqrt(),
+            contradicted: contradicted[number],
+        });
+    Some(Estimate {
+        unknowns: found.point.unknowns.clone(),
+        covariance: whole.view((0, 0), (size, size)).into_owned(),
+        noise_covariance: inverse(&joint)?,
+        causes: causes.collect(),
+        shares: Shares::of(task, &whole, &found.information),
+        reduced_chi_squared: reduced_chi_squared(task, &found),
+        lines: (found.lines.len(), task.lines()),
+        iterations: found.iterations,
+        converged: found.converged,
+        found,
+    })
+}

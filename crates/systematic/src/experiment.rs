@@ -1,0 +1,166 @@
+//! What an estimate with systematic errors works on: functions of the structures and of the assembly at the same lines.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use super::cause::Side;
+
+/// Receptances of one line.
+pub type ComplexMatrix = DMatrix<Complex64>;
+
+/// A joint between two structures, and what was measured of all three.
+pub struct Experiment<'a> {
+    /// Angular frequency of each line, rad/s.
+    pub omega: Vec<f64>,
+    /// What of the joint is unknown.
+    pub joint: JointShape,
+    /// Structure A at the joint's DOFs.
+    pub a: Structure<'a>,
+    /// Structure B at the joint's DOFs, then the points.
+    pub b: Structure<'a>,
+    /// The assembly at the points.
+    pub assembly: MeasuredFunctions,
+}
+
+/// The unknown entries of the joint's matrices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointShape {
+    /// DOFs of the whole joint, bolt by bolt.
+    pub dofs: usize,
+    /// DOFs of a bolt: its translation, and then its rotation if there are two.
+    pub dofs_of_a_bolt: usize,
+    /// The entries above and on the diagonal that each unknown stands for.
+    pub entries: Vec<Vec<(usize, usize)>>,
+}
+
+/// Functions that were measured between labelled DOFs.
+#[derive(Clone, Debug, Default)]
+pub struct MeasuredFunctions {
+    /// For each label, whether it is a translation.
+    pub is_translation: Vec<bool>,
+    /// Position of each label along the structure, m, where all of them are known.
+    pub positions_m: Option<Vec<f64>>,
+    /// The functions.
+    pub entries: Vec<Entry>,
+}
+
+/// One function, or the mean of two that are each other's reciprocal.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Row and column.
+    pub place: (usize, usize),
+    /// Response and reference of each measurement that it is the mean of; none if it is not measured and taken as exact.
+    pub measurements: Vec<(usize, usize)>,
+    /// Value at each line.
+    pub values: Vec<Complex64>,
+    /// Variance of the complex error at each line.
+    pub variance: Vec<f64>,
+}
+
+/// A structure that the joint connects.
+pub enum Structure<'a> {
+    /// Formed from measured functions.
+    Measured(Measured),
+    /// Computed from dimensions and material.
+    Computed(Computed<'a>),
+    /// Known, with nothing to say about why.
+    Exact(Vec<ComplexMatrix>),
+}
+
+/// A structure formed from measured functions.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The upper triangle of U, every entry of it once.
+    pub functions: MeasuredFunctions,
+    /// W: motion of the joint's DOFs, then of the points, by that of the labels: H = W U Wᵀ.
+    pub transformation: DMatrix<f64>,
+    /// What rotations by differences lack, with its derivative by ln EI: real, at the joint's DOFs, rad/(N·m) and so on.
+    pub correction: Option<[DMatrix<f64>; 2]>,
+}
+
+/// A change of a computed structure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    /// Of Young's modulus and the shear modulus, relative.
+    pub youngs_modulus: f64,
+    /// Of the density, relative.
+    pub density: f64,
+    /// Of the position of the joint at each bolt, m; empty for none.
+    pub joint_m: Vec<f64>,
+    /// Of the position of each point, m; empty for none.
+    pub points_m: Vec<f64>,
+}
+
+/// Receptances of a changed structure at each line, at the joint's DOFs and then the points.
+pub type Compute<'a> = dyn Fn(&Change) -> Option<Vec<ComplexMatrix>> + Sync + 'a;
+
+/// A structure computed from dimensions and material.
+pub struct Computed<'a> {
+    /// Computes it anew; `None` where a change is impossible, such as a point beyond its end.
+    pub compute: Box<Compute<'a>>,
+}
+
+impl Experiment<'_> {
+    pub(crate) fn side(&self, side: Side) -> &Structure<'_> {
+        match side {
+            Side::A => &self.a,
+            Side::B => &self.b,
+        }
+    }
+
+    /// Whether it can be told what a shift of an assembly's point does.
+    pub(crate) fn knows_slopes(&self) -> bool {
+        self.assembly.positions_m.is_some() || matches!(self.b, Structure::Computed(_))
+    }
+}
+
+impl JointShape {
+    pub(crate) fn bolts(&self) -> usize {
+        self.dofs / self.dofs_of_a_bolt.max(1)
+    }
+
+    pub(crate) fn has_rotation(&self) -> bool {
+        self.dofs_of_a_bolt == 2
+    }
+
+    /// The DOF that is a bolt's translation.
+    pub(crate) fn translation(&self, bolt: usize) -> usize {
+        bolt * self.dofs_of_a_bolt
+    }
+}
+
+impl MeasuredFunctions {
+    /// Labels, rows and columns.
+    #[must_use]
+    pub fn labels(&self) -> usize {
+        self.is_translation.len()
+    }
+
+    /// Labels that are the response of a measurement.
+    pub(crate) fn responses(&self) -> Vec<usize> {
+        let measured = self.entries.iter().flat_map(|entry| &entry.measurements);
+        let mut rows: Vec<usize> = measured.map(|&(row, _)| row).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    }
+
+    /// Values at a line, entry by entry.
+    pub(crate) fn at(&self, line: usize) -> Vec<Complex64> {
+        self.entries
+            .iter()
+            .map(|entry| entry.values[line])
+            .collect()
+    }
+
+    /// The symmetric matrix over the labels with these values of the entries.
+    pub(crate) fn matrix(&self, values: &[Complex64]) -> ComplexMatrix {
+        let mut matrix = ComplexMatrix::zeros(self.labels(), self.labels());
+        for (entry, &value) in self.entries.iter().zip(values) {
+            let (row, column) = entry.place;
+            matrix[(row, column)] = value;
+            matrix[(column, row)] = value;
+        }
+        matrix
+    }
+}

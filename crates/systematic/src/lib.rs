@@ -1,0 +1,35 @@
+//! Systematic errors of a test: every quantity of the set-up that a laboratory does not know exactly is a [`Cause`] with a
+//! prior standard deviation, and enters the estimate beside the joint.
+//!
+//! An [`Experiment`] holds what was measured, a [`Budget`] how well the set-up is known. [`estimate`] finds the joint and the
+//! causes that are most likely together, with what each group of causes contributes to the variance of each unknown;
+//! [`score_tests`] name what is wrong where something is.
+#![forbid(unsafe_code)]
+
+mod budget;
+mod cause;
+mod consistency;
+mod coupling;
+mod effect;
+mod estimate;
+mod experiment;
+mod line;
+mod modal_fit;
+mod normal;
+mod score;
+mod search;
+mod shares;
+mod structures;
+mod suspect;
+
+pub use budget::{Budget, Prior};
+pub use cause::{Cause, Group, MeasuredSet, Side};
+pub use consistency::{BandConsistency, consistency};
+pub use estimate::{CauseEstimate, Estimate, Settings, estimate};
+pub use experiment::{
+    Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
+    MeasuredFunctions, Structure,
+};
+pub use score::{Score, score_tests};
+pub use shares::Shares;
+pub use suspect::{Suspect, TELLING, suspects};

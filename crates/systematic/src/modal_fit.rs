@@ -1,0 +1,246 @@
+//! A smooth fit of a structure's measured functions: with it it is known, without their noise, how they change with frequency.
+//!
+//! Derivatives by a frequency scale, by a position and the like that were taken from noisy functions would read the noise as
+//! information. All functions have their poles in common: H_e(s) = Σ_n R_en/(s − p_n) + B_e0/s² + B_e1 + B_e2 s², found by
+//! relocating the poles until they rest (vector fitting; Gustavsen and Semlyen 1999).
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use super::experiment::{Entry, MeasuredFunctions};
+use super::line::variance;
+
+/// Beside the poles: rigid body, modes below and above the range.
+const BESIDE: usize = 3;
+/// Numbers of poles that are tried, one after the other, until more of them are in vain.
+const FEWEST: usize = 2;
+const MOST: usize = 16;
+const RELOCATIONS: usize = 12;
+/// So many further poles may be in vain before no more are tried.
+const PATIENCE: usize = 3;
+/// Above this χ² per degree of freedom a fit is none.
+const NO_FIT: f64 = 4.0;
+/// Damping ratio of the first poles.
+const FIRST_DAMPING: f64 = 0.01;
+
+/// The fit of all functions of a structure.
+#[derive(Clone, Debug)]
+pub(crate) struct ModalFit {
+    /// Angular frequency that s is divided by, rad/s.
+    scale: f64,
+    /// p_n over the scale
+    poles: Vec<Complex64>,
+    /// R_en and B_e of each entry; none where it is zero or not measured.
+    residues: Vec<Option<DVector<Complex64>>>,
+    /// χ² per degree of freedom.
+    reduced_chi_squared: f64,
+    /// n ln(χ²/n) + k ln n for n numbers and k unknowns: what poles have to pay for (BIC; Schwarz 1978).
+    criterion: f64,
+}
+
+impl ModalFit {
+    /// `None` where no fit comes near the functions.
+    pub(crate) fn of(functions: &MeasuredFunctions, omega: &[f64]) -> Option<Self> {
+        let mut best: Option<Self> = None;
+        let mut worse = 0;
+        for count in FEWEST..=MOST.min(omega.len() / 4) {
+            let fit = Self::with_poles(functions, omega, count);
+            let criterion = |fit: &Self| fit.criterion;
+            let is_better = match (&fit, &best) {
+                (Some(fit), Some(best)) => criterion(fit) < criterion(best),
+                (fit, None) => fit.is_some(),
+                (None, _) => false,
+            };
+            worse = if is_better { 0 } else { worse + 1 };
+            if is_better {
+                best = fit;
+            }
+            if worse >= PATIENCE {
+                break;
+            }
+        }
+        best.filter(|best| best.reduced_chi_squared < NO_FIT)
+    }
+
+    fn with_poles(functions: &MeasuredFunctions, omega: &[f64], count: usize) -> Option<Self> {
+        let scale = *omega.last()?;
+        let s: Vec<Complex64> = omega
+            .iter()
+            .map(|omega| Complex64::new(0.0, omega / scale))
+            .collect();
+        let (first, last) = (s[0].im, 1.0);
+        let mut poles: Vec<Complex64> = (0..count)
+            .map(|n| first + (last - first) * (n as f64 + 0.5) / count as f64)
+            .map(|at| Complex64::new(-FIRST_DAMPING * at, at))
+            .collect();
+        let samples: Vec<Option<Samples>> = functions.entries.iter().map(Samples::of).collect();
+        for _ in 0..RELOCATIONS {
+            poles = relocated(&poles, &s, &samples)?;
+        }
+        // the poles are shared: each costs one complex number in all
+        let (mut chi_squared, mut numbers, mut unknowns) = (0.0, 0.0, 2.0 * count as f64);
+        let mut residues = Vec::with_capacity(samples.len());
+        for sample in &samples {
+            let Some(sample) = sample else {
+                residues.push(None);
+                continue;
+            };
+            let basis = weighted(&poles, &s, sample);
+            let target = sample.weighted();
+            let solved = least_squares(&basis, &target)?;
+            numbers += 2.0 * s.len() as f64;
+            unknowns += 2.0 * solved.len() as f64;
+            chi_squared += 2.0 * (basis * &solved - target).norm_squared();
+            residues.push(Some(solved));
+        }
+        (numbers > unknowns).then(|| Self {
+            scale,
+            poles,
+            residues,
+            reduced_chi_squared: chi_squared / (numbers - unknowns),
+            criterion: numbers * (chi_squared / numbers).ln() + unknowns * numbers.ln(),
+        })
+    }
+
+    /// H of an entry; `None` where it is not measured.
+    pub(crate) fn value(&self, entry: usize, omega: f64) -> Option<Complex64> {
+        let residues = self.residues[entry].as_ref()?;
+        let s = Complex64::new(0.0, omega / self.scale);
+        let row = basis(&self.poles, s);
+        Some(
+            row.zip(residues.iter())
+                .map(|(part, residue)| part * residue)
+                .sum(),
+        )
+    }
+
+    /// R(ε) = (1 + ε)⁻² H(ω/(1 + ε))/H(ω) of an entry.
+    pub(crate) fn ratio(&self, entry: usize, omega: f64, epsilon: f64) -> Complex64 {
+        let value = |omega| self.value(entry, omega).unwrap_or(Complex64::from(1.0));
+        value(omega / (1.0 + epsilon)) / value(omega) / (1.0 + epsilon).powi(2)
+    }
+}
+
+/// One function with its weights.
+struct Samples {
+    values: Vec<Complex64>,
+    /// 1/σ
+    weights: Vec<f64>,
+}
+
+impl Samples {
+    fn of(entry: &Entry) -> Option<Self> {
+        let weights: Vec<f64> = (0..entry.values.len())
+            .map(|line| variance(entry, line).sqrt().recip())
+            .collect();
+        let is_usable =
+            !entry.measurements.is_empty() && weights.iter().all(|weight| weight.is_finite());
+        is_usable.then(|| Self {
+            values: entry.values.clone(),
+            weights,
+        })
+    }
+
+    fn weighted(&self) -> DVector<Complex64> {
+        DVector::from_iterator(
+            self.values.len(),
+            self.values.iter().zip(&self.weights).map(|(v, w)| v * w),
+        )
+    }
+}
+
+/// 1/(s − p_n), then 1/s², 1, s².
+fn basis(poles: &[Complex64], s: Complex64) -> impl Iterator<Item = Complex64> {
+    let squared = s * s;
+    let beside = [squared.inv(), Complex64::from(1.0), squared];
+    poles.iter().map(move |pole| (s - pole).inv()).chain(beside)
+}
+
+fn weighted(poles: &[Complex64], s: &[Complex64], sample: &Samples) -> DMatrix<Complex64> {
+    let rows: Vec<Complex64> = s
+        .iter()
+        .zip(&sample.weights)
+        .flat_map(|(s, w)| basis(poles, *s).map(move |part| part * w))
+        .collect();
+    DMatrix::from_row_slice(s.len(), poles.len() + BESIDE, &rows)
+}
+
+/// Poles that fit better: zeros of σ(s) = 1 + Σ c_n/(s − p_n), where σH and σ are fitted together.
+fn relocated(
+    poles: &[Complex64],
+    s: &[Complex64],
+    samples: &[Option<Samples>],
+) -> Option<Vec<Complex64>> {
+    let count = poles.len();
+    let mut stacked: Vec<DMatrix<Complex64>> = Vec::new();
+    let mut right: Vec<Complex64> = Vec::new();
+    for sample in samples.iter().flatten() {
+        let own = weighted(poles, s, sample);
+        let target = sample.weighted();
+        // what the function's own residues cannot take up is left for σ
+        let orthogonal = own.qr().q();
+        let rest =
+            |column: DVector<Complex64>| &column - &orthogonal * (orthogonal.adjoint() * &column);
+        let columns: Vec<DVector<Complex64>> = poles
+            .iter()
+            .map(|pole| rest(DVector::from_fn(s.len(), |i, _| target[i] / (s[i] - pole))))
+            .collect();
+        let projected = DMatrix::from_columns(&columns);
+        let goal = rest(-target);
+        // the triangle says as much as all lines
+        let triangle = projected.clone().qr();
+        right.extend((triangle.q().adjoint() * goal).iter());
+        stacked.push(triangle.r());
+    }
+    let rows = stacked.iter().map(|matrix| matrix.nrows()).sum();
+    let mut system = DMatrix::zeros(rows, count);
+    let mut row = 0;
+    for matrix in &stacked {
+        system.view_mut((row, 0), matrix.shape()).copy_from(matrix);
+        row += matrix.nrows();
+    }
+    let c = least_squares(&system, &DVector::from_vec(right))?;
+    // zeros of σ: eigenvalues of diag(p) − 1 cᵀ
+    let companion = DMatrix::from_fn(count, count, |i, j| {
+        let diagonal = if i == j {
+            poles[i]
+        } else {
+            Complex64::from(0.0)
+        };
+        diagonal - c[j]
+    });
+    if !companion
+        .iter()
+        .all(|value| value.re.is_finite() && value.im.is_finite())
+    {
+        return None;
+    }
+    let zeros = nalgebra::linalg::Schur::try_new(companion, f64::EPSILON, 10_000)?
+        .unpack()
+        .1
+        .diagonal();
+    // a pole that would grow is mirrored
+    let stable = zeros
+        .iter()
+        .map(|zero| Complex64::new(-zero.re.abs().max(1e-9), zero.im));
+    Some(stable.collect())
+}
+
+/// By QR with columns of equal length.
+fn least_squares(
+    matrix: &DMatrix<Complex64>,
+    right: &DVector<Complex64>,
+) -> Option<DVector<Complex64>> {
+    let lengths: Vec<f64> = matrix
+        .column_iter()
+        .map(|column| column.norm().max(f64::MIN_POSITIVE))
+        .collect();
+    let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+        matrix[(i, j)] / lengths[j]
+    });
+    let svd = scaled.svd(true, true);
+    let solved = svd.solve(right, 1e-13).ok()?;
+    Some(DVector::from_fn(solved.len(), |i, _| {
+        solved[i] / lengths[i]
+    }))
+}

@@ -1,0 +1,113 @@
+//! The normal equations of all lines in marginal form: the structures' receptances are eliminated line by line.
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use super::experiment::Structure;
+use super::line::{Labelled, Point, Task, Terms, variance};
+
+/// What one line adds.
+pub(crate) struct Share {
+    /// 2 Re Σ Aᴴ S⁻¹ A
+    pub(crate) information: DMatrix<f64>,
+    /// 2 Re Σ Aᴴ S⁻¹ r
+    pub(crate) gradient: DVector<f64>,
+    /// 2 rᴴ S⁻¹ r: twice, as a variance is that of a complex error.
+    pub(crate) cost: f64,
+}
+
+/// A line whose covariance S = Σ_C + J Σ_H Jᴴ is factorised.
+pub(crate) struct Whitened<'l> {
+    terms: &'l Terms,
+    factor: nalgebra::Cholesky<Complex64, nalgebra::Dyn>,
+    labelled_variance: Vec<f64>,
+}
+
+impl<'l> Whitened<'l> {
+    /// `inflation` multiplies the variances of the assembly.
+    pub(crate) fn of(
+        task: &Task<'_>,
+        line: usize,
+        terms: &'l Terms,
+        inflation: f64,
+    ) -> Option<Self> {
+        let labelled_variance = task.labelled_variance(line);
+        let mut scaled = terms.by_labelled.clone();
+        for (mut column, variance) in scaled.column_iter_mut().zip(&labelled_variance) {
+            column *= Complex64::from(*variance);
+        }
+        let mut covariance = scaled * terms.by_labelled.adjoint();
+        for (e, entry) in task.experiment.assembly.entries.iter().enumerate() {
+            covariance[(e, e)] += inflation * variance(entry, line);
+        }
+        Some(Self {
+            terms,
+            factor: covariance.cholesky()?,
+            labelled_variance,
+        })
+    }
+
+    pub(crate) fn share(&self) -> Share {
+        let lower = self.factor.l_dirty();
+        let mut rows = self.terms.rows.clone();
+        lower.solve_lower_triangular_mut(&mut rows);
+        let mut residual = self.terms.residual.clone();
+        lower.solve_lower_triangular_mut(&mut residual);
+        let product = rows.adjoint() * &rows;
+        let right = rows.adjoint() * &residual;
+        Share {
+            information: product.map(|value| 2.0 * value.re),
+            gradient: right.map(|value| 2.0 * value.re),
+            cost: 2.0 * residual.norm_squared(),
+        }
+    }
+
+    /// The receptances that go with a step of unknowns and causes: h₀ + Σ_H Jᴴ S⁻¹ (r − A δ), h₀ moving with the causes.
+    pub(crate) fn followed(&self, unknowns: usize, step: &DVector<f64>) -> Labelled {
+        let rest = &self.terms.residual - &self.terms.rows * step.map(Complex64::from);
+        let solved = self.factor.solve(&rest);
+        let pulled = self.terms.by_labelled.adjoint() * solved;
+        let mut index = 0;
+        [0, 1].map(|side| {
+            let mut labelled = self.terms.measured[side].clone();
+            for (number, by) in self.terms.measured_by_cause[side].iter().enumerate() {
+                if let Some(by) = by {
+                    labelled
+                        .iter_mut()
+                        .zip(by)
+                        .for_each(|(value, by)| *value += by * step[unknowns + number]);
+                }
+            }
+            for value in &mut labelled {
+                *value += pulled[index] * self.labelled_variance[index];
+                index += 1;
+            }
+            labelled
+        })
+    }
+}
+
+/// Whether the substructures' noise moves what is predicted by less than this part of it, at every entry: beyond, a line is not
+/// linear in them. Decided by data and variances alone, never by the residual.
+pub(crate) fn is_linear(task: &Task<'_>, line: usize, terms: &Terms, most: f64) -> bool {
+    let variances = task.labelled_variance(line);
+    (0..terms.magnitude.len()).all(|e| {
+        let moved: f64 = variances
+            .iter()
+            .enumerate()
+            .map(|(s, variance)| terms.by_labelled[(e, s)].norm_sqr() * variance)
+            .sum();
+        moved.sqrt() < most * terms.magnitude[e]
+    })
+}
+
+/// The structures' receptances as measured, without the causes.
+pub(crate) fn as_measured(task: &Task<'_>, line: usize, point: &Point) -> Labelled {
+    [super::cause::Side::A, super::cause::Side::B].map(|side| match task.experiment.side(side) {
+        Structure::Measured(measured) => {
+            let raw = measured.functions.at(line);
+            task.without_causes(side, line, point, &raw)
+        }
+        _ => Vec::new(),
+    })
+}

@@ -1,0 +1,295 @@
+//! The search for the joint and the causes that are most likely together: Gauss–Newton in marginal form.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::cause::{Cause, Side};
+use super::estimate::Settings;
+use super::experiment::Structure;
+use super::line::{Labelled, Point, Task, Terms};
+use super::normal::{Share, Whitened, as_measured, is_linear};
+use super::structures::Recomputations;
+
+/// Steps in which the structures' receptances stay what was measured.
+const FROZEN: usize = 4;
+/// Part of a step that a line may take, best first.
+const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.0];
+/// Steps below this part of a standard deviation are none.
+const TOLERANCE: f64 = 1e-3;
+/// Prior standard deviations that a cause may move in one step.
+const LARGEST_STEP: f64 = 1.5;
+/// Part of its size that an unknown of the joint may move in one step, first and later.
+const LARGEST_PARTS: [f64; 2] = [0.3, 1.0];
+/// By what inflated noise of the assembly shrinks from step to step.
+const ANNEALING: f64 = 0.6;
+/// Of two shifts of the frequency by two prior standard deviations at most this is looked at.
+const LARGEST_SHIFT: f64 = 0.008;
+
+/// Where a search came to rest.
+pub(crate) struct Found {
+    pub(crate) point: Point,
+    pub(crate) labelled: Vec<Labelled>,
+    /// Lines that were used.
+    pub(crate) lines: Vec<usize>,
+    /// Of unknowns and causes, without the priors.
+    pub(crate) information: DMatrix<f64>,
+    /// Σ r̃ᴴ S⁻¹ r̃ of the lines, without the priors.
+    pub(crate) cost: f64,
+    /// What each used line adds.
+    pub(crate) shares: Vec<Share>,
+    pub(crate) iterations: usize,
+    pub(crate) converged: bool,
+}
+
+/// Searches from `start`; the assembly's standard deviations begin `inflation` times as large as they are. `None` where an
+/// assembly is singular or a structure cannot be computed.
+pub(crate) fn search(
+    task: &Task<'_>,
+    start: &[f64],
+    settings: &Settings,
+    inflation: f64,
+) -> Option<Found> {
+    let experiment = task.experiment;
+    let has_labelled = [&experiment.a, &experiment.b]
+        .iter()
+        .any(|side| matches!(side, Structure::Measured(_)));
+    let mut point = Point {
+        unknowns: start.to_vec(),
+        causes: vec![0.0; task.priors.len()],
+    };
+    let all: Vec<usize> = (0..task.lines())
+        .filter(|&line| keeps_its_frequency(task, line, settings))
+        .collect();
+    let mut labelled: Vec<Labelled> = Vec::new();
+    let mut proposed: Option<Vec<Labelled>> = None;
+    let mut lines: Vec<usize> = all.clone();
+    let mut inflated = inflation;
+    for iteration in 0..settings.most_iterations {
+        let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
+        let frozen = has_labelled && (iteration < FROZEN || inflated > 1.0);
+        let variance_factor = inflated.max(1.0).powi(2);
+        if frozen || labelled.is_empty() {
+            labelled = (0..task.lines())
+                .map(|line| as_measured(task, line, &point))
+                .collect();
+        } else if let Some(proposed) = proposed.take() {
+            labelled = chosen(task, &point, &recomputed, &labelled, &proposed);
+        }
+        let mut terms: Vec<(usize, Terms)> = (if frozen { &all } else { &lines })
+            .par_iter()
+            .map(|&line| {
+                Some((
+                    line,
+                    task.terms(line, &point, &labelled[line], &recomputed)?,
+                ))
+            })
+            .collect::<Option<_>>()?;
+        if frozen {
+            terms.retain(|(line, terms)| is_linear(task, *line, terms, settings.most_nonlinear));
+            lines = terms.iter().map(|(line, _)| *line).collect();
+        }
+        let whitened: Vec<Whitened<'_>> = terms
+            .par_iter()
+            .map(|(line, terms)| Whitened::of(task, *line, terms, variance_factor))
+            .collect::<Option<_>>()?;
+        let shares: Vec<Share> = whitened.par_iter().map(Whitened::share).collect();
+        let (information, gradient, cost) = summed(&shares, task.unknowns() + task.priors.len())?;
+        let (step, deviation) = step(task, &point, &information, &gradient)?;
+        let relative = step
+            .iter()
+            .zip(deviation.iter())
+            .map(|(s, d)| (s / d).abs());
+        let largest = relative.fold(0.0, f64::max);
+        let part = allowed(task, &point, &step, &deviation, iteration);
+        if !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1 {
+            drop(whitened);
+            return Some(Found {
+                point,
+                labelled,
+                lines,
+                information,
+                cost,
+                shares,
+                iterations: iteration + 1,
+                converged: true,
+            });
+        }
+        if iteration + 1 == settings.most_iterations {
+            drop(whitened);
+            return Some(Found {
+                point,
+                labelled,
+                lines,
+                information,
+                cost,
+                shares,
+                iterations: iteration + 1,
+                converged: largest < 100.0 * TOLERANCE && !frozen,
+            });
+        }
+        let step = step * part;
+        if has_labelled && !frozen {
+            let mut next = labelled.clone();
+            for ((line, _), whitened) in terms.iter().zip(&whitened) {
+                next[*line] = whitened.followed(task.unknowns(), &step);
+            }
+            proposed = Some(next);
+        }
+        let (joint, causes) = step.as_slice().split_at(task.unknowns());
+        point
+            .unknowns
+            .iter_mut()
+            .zip(joint)
+            .for_each(|(value, step)| *value += step);
+        point
+            .causes
+            .iter_mut()
+            .zip(causes)
+            .for_each(|(value, step)| *value += step);
+        inflated *= ANNEALING;
+    }
+    None
+}
+
+/// Each line takes the part of the step that leaves least: near a structure's resonance it is not linear in the receptances.
+fn chosen(
+    task: &Task<'_>,
+    point: &Point,
+    recomputed: &Recomputations,
+    now: &[Labelled],
+    proposed: &[Labelled],
+) -> Vec<Labelled> {
+    (0..task.lines())
+        .into_par_iter()
+        .map(|line| {
+            let at = |part: f64| -> Labelled {
+                [0, 1].map(|side| {
+                    let pairs = now[line][side].iter().zip(&proposed[line][side]);
+                    pairs
+                        .map(|(now, proposed)| now + (proposed - now) * part)
+                        .collect()
+                })
+            };
+            let mut best: Option<(f64, Labelled)> = None;
+            for candidate in PARTS.map(at) {
+                let cost = task
+                    .cost(line, point, &candidate, recomputed)
+                    .unwrap_or(f64::INFINITY);
+                if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                    best = Some((cost, candidate));
+                }
+            }
+            best.map_or_else(|| now[line].clone(), |(_, labelled)| labelled)
+        })
+        .collect()
+}
+
+fn summed(shares: &[Share], size: usize) -> Option<(DMatrix<f64>, DVector<f64>, f64)> {
+    let mut information = DMatrix::zeros(size, size);
+    let mut gradient = DVector::zeros(size);
+    let mut cost = 0.0;
+    for share in shares {
+        information += &share.information;
+        gradient += &share.gradient;
+        cost += share.cost;
+    }
+    let is_finite = information.iter().all(|value: &f64| value.is_finite()) && cost.is_finite();
+    (is_finite && !shares.is_empty()).then_some((information, gradient, cost))
+}
+
+/// The step of unknowns and causes, and their standard deviations.
+fn step(
+    task: &Task<'_>,
+    point: &Point,
+    information: &DMatrix<f64>,
+    gradient: &DVector<f64>,
+) -> Option<(DVector<f64>, DVector<f64>)> {
+    let whole = with_priors(task, information);
+    let first = task.unknowns();
+    let mut right = gradient.clone();
+    for (number, prior) in task.priors.iter().enumerate() {
+        right[first + number] -= point.causes[number] / prior.standard_deviation.powi(2);
+    }
+    let covariance = inverse(&whole)?;
+    let deviation = covariance.diagonal().map(f64::sqrt);
+    Some((covariance * right, deviation))
+}
+
+/// N + P
+pub(crate) fn with_priors(task: &Task<'_>, information: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut whole = information.clone();
+    let first = task.unknowns();
+    for (number, prior) in task.priors.iter().enumerate() {
+        whole[(first + number, first + number)] += prior.standard_deviation.powi(-2);
+    }
+    whole
+}
+
+/// Inverse of an information matrix, scaled to a diagonal of ones first; `None` if it is singular.
+pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let scale = information.diagonal().map(|value| value.sqrt().recip());
+    if !scale.iter().all(|value| value.is_finite()) {
+        return None;
+    }
+    let scaled = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            matrix[(i, j)] * scale[i] * scale[j]
+        })
+    };
+    let inverse = scaled(information).cholesky()?.inverse();
+    Some(scaled(&inverse))
+}
+
+/// Part of a step that is not too long.
+fn allowed(
+    task: &Task<'_>,
+    point: &Point,
+    step: &DVector<f64>,
+    deviation: &DVector<f64>,
+    iteration: usize,
+) -> f64 {
+    let count = task.unknowns() / 2;
+    let entries = &task.experiment.joint.entries;
+    let mut part: f64 = 1.0;
+    for index in 0..2 * count {
+        let matrix = index / count * count;
+        let of = |i: usize, j: usize| {
+            let place = entries.iter().position(|places| places.contains(&(i, j)));
+            place.map_or(0.0, |place| point.unknowns[matrix + place].abs())
+        };
+        let (i, j) = entries[index % count][0];
+        let size = point.unknowns[index]
+            .abs()
+            .max((of(i, i) * of(j, j)).sqrt())
+            .max(deviation[index]);
+        let most = LARGEST_PARTS[usize::from(iteration > 1)] * size;
+        part = part.min(most / step[index].abs());
+    }
+    for (number, prior) in task.priors.iter().enumerate() {
+        let moved = step[2 * count + number].abs() / prior.standard_deviation;
+        part = part.min(LARGEST_STEP / moved);
+    }
+    part
+}
+
+/// Whether a line is not moved much by the frequency scales that the budget allows: there the first order in them fails.
+fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Settings) -> bool {
+    [Side::A, Side::B].into_iter().all(|side| {
+        let prior = task
+            .priors
+            .iter()
+            .find(|prior| prior.cause == Cause::Frequency(side));
+        let (Some(prior), Structure::Measured(measured)) = (prior, task.experiment.side(side))
+        else {
+            return true;
+        };
+        let shift = (2.0 * prior.standard_deviation).min(LARGEST_SHIFT);
+        let entries = (0..measured.functions.entries.len())
+            .filter(|&e| !measured.functions.entries[e].measurements.is_empty());
+        entries
+            .flat_map(|entry| [shift, -shift].map(|epsilon| (entry, epsilon)))
+            .all(|(entry, epsilon)| {
+                (task.ratio(side, line, entry, epsilon) - 1.0).norm() < settings.most_shifted
+            })
+    })
+}

@@ -1,0 +1,198 @@
+//! The structures at one moment of the search: formed from corrected functions, or computed anew with another material.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use super::budget::Prior;
+use super::cause::{Cause, Side};
+use super::experiment::{Change, ComplexMatrix, Computed, Experiment, Measured, Structure};
+
+/// Part of a prior standard deviation over which a computed structure is differentiated.
+const STEP: f64 = 0.02;
+
+/// A computed structure with the present causes.
+pub(crate) struct Recomputed {
+    pub(crate) receptances: Vec<ComplexMatrix>,
+    /// Derivative by each cause that changes it: number of the cause, value at each line.
+    pub(crate) by_cause: Vec<(usize, Vec<ComplexMatrix>)>,
+}
+
+/// Both structures, where they are computed.
+pub(crate) struct Recomputations {
+    pub(crate) a: Option<Recomputed>,
+    pub(crate) b: Option<Recomputed>,
+}
+
+impl Recomputations {
+    /// `None` where a structure cannot be computed with these causes.
+    pub(crate) fn of(
+        experiment: &Experiment<'_>,
+        priors: &[Prior],
+        values: &[f64],
+    ) -> Option<Self> {
+        let side = |side: Side| match experiment.side(side) {
+            Structure::Computed(computed) => {
+                recomputed(computed, experiment, side, priors, values).map(Some)
+            }
+            _ => Some(None),
+        };
+        Some(Self {
+            a: side(Side::A)?,
+            b: side(Side::B)?,
+        })
+    }
+
+    pub(crate) fn side(&self, side: Side) -> Option<&Recomputed> {
+        match side {
+            Side::A => self.a.as_ref(),
+            Side::B => self.b.as_ref(),
+        }
+    }
+}
+
+fn recomputed(
+    computed: &Computed<'_>,
+    experiment: &Experiment<'_>,
+    side: Side,
+    priors: &[Prior],
+    values: &[f64],
+) -> Option<Recomputed> {
+    let change = change(experiment, side, priors, values);
+    let receptances = (computed.compute)(&change)?;
+    let acting = priors
+        .iter()
+        .enumerate()
+        .filter(|(_, prior)| acts_on(prior.cause, side));
+    let mut by_cause = Vec::new();
+    for (number, prior) in acting {
+        let step = STEP * prior.standard_deviation;
+        let at = |offset: f64| {
+            let mut moved = values.to_vec();
+            moved[number] += offset;
+            (computed.compute)(&self::change(experiment, side, priors, &moved))
+        };
+        // one-sided where the other side is beyond the structure's end
+        let (above, below, width) = match (at(step), at(-step)) {
+            (Some(above), Some(below)) => (above, below, 2.0 * step),
+            (Some(above), None) => (above, receptances.clone(), step),
+            (None, Some(below)) => (receptances.clone(), below, step),
+            (None, None) => continue,
+        };
+        let slope = above
+            .iter()
+            .zip(&below)
+            .map(|(above, below)| (above - below) / Complex64::from(width));
+        by_cause.push((number, slope.collect()));
+    }
+    Some(Recomputed {
+        receptances,
+        by_cause,
+    })
+}
+
+/// Whether a cause changes a computed structure.
+fn acts_on(cause: Cause, side: Side) -> bool {
+    match cause {
+        Cause::YoungsModulus(of) | Cause::Density(of) | Cause::JointPosition(of, _) => of == side,
+        Cause::Position(_) => side == Side::B,
+        _ => false,
+    }
+}
+
+fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f64]) -> Change {
+    let points = match side {
+        Side::A => 0,
+        Side::B => experiment.assembly.labels(),
+    };
+    let mut change = Change {
+        joint_m: vec![0.0; experiment.joint.bolts()],
+        points_m: vec![0.0; points],
+        ..Change::default()
+    };
+    for (prior, &value) in priors.iter().zip(values) {
+        match prior.cause {
+            Cause::YoungsModulus(of) if of == side => change.youngs_modulus = value,
+            Cause::Density(of) if of == side => change.density = value,
+            Cause::JointPosition(of, bolt) if of == side => change.joint_m[bolt] = value,
+            Cause::Position(point) if side == Side::B => change.points_m[point] = value,
+            _ => {}
+        }
+    }
+    change
+}
+
+impl Measured {
+    /// H = W U Wᵀ at the joint and the points, with what the differences lack and the joint where it is.
+    pub(crate) fn formed(
+        &self,
+        dofs_of_a_bolt: usize,
+        side: Side,
+        labelled: &[Complex64],
+        priors: &[Prior],
+        values: &[f64],
+    ) -> ComplexMatrix {
+        let whole = self.transformation.map(Complex64::from);
+        let mut formed = &whole * self.functions.matrix(labelled) * whole.transpose();
+        if let Some([correction, by_stiffness]) = &self.correction {
+            let stiffness = value_of(Cause::DifferenceStiffness(side), priors, values);
+            add_at_joint(&mut formed, &(correction + by_stiffness * stiffness));
+        }
+        for (prior, &value) in priors.iter().zip(values) {
+            if let Cause::JointPosition(of, bolt) = prior.cause
+                && of == side
+                && value != 0.0
+            {
+                formed =
+                    &formed - displaced(&formed, dofs_of_a_bolt, bolt) * Complex64::from(value);
+            }
+        }
+        formed
+    }
+
+    /// What a cause does to the formed receptances beyond what it does to the measured functions.
+    pub(crate) fn formed_by_cause(
+        &self,
+        dofs_of_a_bolt: usize,
+        side: Side,
+        formed: &ComplexMatrix,
+        cause: Cause,
+    ) -> Option<ComplexMatrix> {
+        match cause {
+            Cause::DifferenceStiffness(of) if of == side => {
+                let [_, by_stiffness] = self.correction.as_ref()?;
+                let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
+                add_at_joint(&mut change, by_stiffness);
+                Some(change)
+            }
+            Cause::JointPosition(of, bolt) if of == side => {
+                Some(-displaced(formed, dofs_of_a_bolt, bolt))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// T H + H Tᵀ, T having the bolt's rotation in the row of its translation: what was measured a unit away from the joint.
+fn displaced(formed: &ComplexMatrix, dofs_of_a_bolt: usize, bolt: usize) -> ComplexMatrix {
+    let (y, theta) = (bolt * dofs_of_a_bolt, bolt * dofs_of_a_bolt + 1);
+    let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
+    for other in 0..formed.nrows() {
+        change[(y, other)] += formed[(theta, other)];
+        change[(other, y)] += formed[(other, theta)];
+    }
+    change
+}
+
+fn add_at_joint(formed: &mut ComplexMatrix, part: &DMatrix<f64>) {
+    for i in 0..part.nrows() {
+        for j in 0..part.ncols() {
+            formed[(i, j)] += part[(i, j)];
+        }
+    }
+}
+
+/// Value of a cause; zero where it takes no part.
+pub(crate) fn value_of(cause: Cause, priors: &[Prior], values: &[f64]) -> f64 {
+    let found = priors.iter().position(|prior| prior.cause == cause);
+    found.map_or(0.0, |index| values[index])
+}

@@ -102,7 +102,12 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         .as_ref()
         .map(|path| (path, figure(&found, "")));
     let warnings = warnings(&found);
-    let page = written.map(|written| report(&study, &found, &warnings, written));
+    let page = written.map(|written| {
+        let against = found.reasons_against.iter();
+        let against = against.map(|reason| format!("not to be relied on: {reason}"));
+        let all: Vec<String> = against.chain(warnings.iter().cloned()).collect();
+        report(&study, &found, &all, written)
+    });
     write_joint_files(&outputs, &joint_files)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
@@ -130,6 +135,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "bolts": (bolts.len() > 1).then_some(&bolts),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
+            "usable": found.reasons_against.is_empty(),
+            "reasons_against": found.reasons_against,
             "warnings": warnings,
             "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
@@ -151,7 +158,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             })),
             "models_not_compared": not_compared,
         });
-        return print(&serde_json::to_string_pretty(&value)?);
+        print(&serde_json::to_string_pretty(&value)?)?;
+        return CliError::unless_usable(&outputs[0], &found.reasons_against);
     }
     let mut text = summary(&found, &study);
     text.push('\n');
@@ -161,7 +169,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
         let _ = writeln!(text, "wrote {}", path.display());
     }
-    print(&text)
+    print(&text)?;
+    CliError::unless_usable(&outputs[0], &found.reasons_against)
 }
 
 /// Writes every joint file or, if one cannot be written, none.

@@ -14,6 +14,7 @@ use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
 use super::provenance;
+use super::reliability;
 use super::study::Study;
 use super::watch::Watch;
 
@@ -49,6 +50,8 @@ pub struct Identification {
     pub starts: (usize, usize),
     /// What the user should know before using the result.
     pub warnings: Vec<String>,
+    /// Why the result is not to be relied on; empty if nothing speaks against it.
+    pub reasons_against: Vec<String>,
     /// What modes supplied beside measured functions of a substructure.
     pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
@@ -145,6 +148,7 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
+    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, &fitted);
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
     let first = fitted.remove(0);
@@ -166,6 +170,7 @@ pub fn identify_and_draw(
             .flatten(),
         starts: estimate.starts,
         warnings,
+        reasons_against,
         from_modes,
         files,
         provenance,

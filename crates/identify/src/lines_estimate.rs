@@ -66,6 +66,8 @@ pub struct LinesEstimate {
     pub noise_level: Option<NoiseLevel>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
+    /// Whether the search has come to an end.
+    pub converged: bool,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
@@ -332,6 +334,7 @@ pub fn identify_lines(
         covariance_of_all: covariance.matrix,
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
+        converged: found.estimate.converged,
         choice,
         torque_choice,
         warnings,
@@ -403,9 +406,6 @@ fn warnings(
             );
             once(&mut warnings, warning);
         }
-    }
-    if !found.estimate.converged {
-        warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
     }
     if let Some(complaint) = found.assessment.complaint() {
         let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);

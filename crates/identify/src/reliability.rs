@@ -57,10 +57,11 @@ fn median_difference(fitted: &[AssemblyFit]) -> Option<f64> {
             lines.flat_map(|(measured, computed)| of_line(assembly, measured, computed))
         })
         .collect();
+    if differences.is_empty() {
+        return None;
+    }
     let middle = differences.len() / 2;
-    let middle = (middle < differences.len())
-        .then(|| *differences.select_nth_unstable_by(middle, f64::total_cmp).1);
-    middle
+    Some(*differences.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 fn of_line<'a>(

@@ -247,7 +247,7 @@ fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
     }
     header.extend(["band average", "unit"]);
     let mut table = Table::new(&header);
-    let intervals = covariance.intervals();
+    let intervals = joint.intervals();
     for (index, unknown) in covariance.unknowns.iter().enumerate() {
         let [low, high] = intervals[index];
         let mut cells = vec![unknown.label(bolts)];

@@ -191,7 +191,7 @@ impl Identification {
         let covariance = &joint.covariance;
         let own = joint.unknowns_of(bolt);
         let open = own.iter().filter(|&&index| !covariance.identified[index]);
-        let (deviation, ends) = (covariance.standard_deviation(), covariance.intervals());
+        let (deviation, ends) = (covariance.standard_deviation(), joint.intervals());
         let (free, passive) = (&joint.free[bolt], &joint.bolts()[bolt]);
         UncertaintyAtPreload {
             preload: torque(joint),

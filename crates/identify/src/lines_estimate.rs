@@ -410,9 +410,13 @@ fn warnings(
     if let Some(complaint) = found.assessment.complaint() {
         let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
         let most = inflation.copied().fold(1.0, f64::max);
+        let wider = match most {
+            ..1.05 => String::new(),
+            _ => format!("; the intervals are wider for it, by up to a factor of {most:.1}"),
+        };
         warnings.push(format!(
             "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
-             fit, or every one of {} starts ended in a local minimum; the intervals are wider for it, by up to a factor of {most:.1}",
+             fit, or every one of {} starts ended in a local minimum{wider}",
             found.tried
         ));
     }

@@ -175,7 +175,7 @@ fn plausible(study: &StudyText, key: &str, table: &BeamTable) -> Result<(), Stud
             "a density in kg/m³, from 50 to 30000 (is it in g/cm³ or t/mm³?)",
         ),
     ] {
-        let is_plausible = (least..=most).contains(&found) || found.is_nan() || found <= 0.0;
+        let is_plausible = (least..=most).contains(&found) || !found.is_finite() || found <= 0.0;
         study.ensure(
             is_plausible,
             format_args!("{key}.beam.{name}"),

@@ -228,6 +228,9 @@ fn summary(found: &Identification, study: &Study) -> String {
     let _ = writeln!(text, "\n{}", fit(found));
     text += &models(found, study);
     text += &torques(found);
+    if let Some(about) = found.about_the_residual() {
+        let _ = writeln!(text, "{about}");
+    }
     for joint in joints {
         if let Some(result) = &joint.bootstrap {
             text += &bootstrap(result, joint, bolts);
@@ -387,6 +390,10 @@ pub(super) fn fit(found: &Identification) -> String {
         .reduced_chi_squared
         .map(|value| format!("; χ² per degree of freedom {value:.3}"))
         .unwrap_or_default();
+    let typical = found
+        .median_difference
+        .map(|off| format!(", half of the values within {:.2} %", 100.0 * off))
+        .unwrap_or_default();
     let files = found.joint_files();
     let is_passive = files.iter().all(|(_, file)| file.passivity().is_passive());
     let verdict = match (files.len(), is_passive) {
@@ -397,7 +404,7 @@ pub(super) fn fit(found: &Identification) -> String {
     };
     let (tried, agreeing) = found.starts;
     format!(
-        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
+        "residual {:.2} % r.m.s. of the receptance{typical}{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
         100.0 * found.relative_rms
     )
 }

@@ -36,7 +36,13 @@ fn what_comes_of_a_slip_is_marked_wherever_it_goes() {
     );
     let file = bench.json("o.joint.json");
     assert_eq!(file["status"]["usable"], false);
-    has(&bench.text("o.html"), &["Not to be relied on"]);
+    has(
+        &bench.text("o.html"),
+        &[
+            "Not to be relied on",
+            "The residual in % is relative to each",
+        ],
+    );
 
     let checked = bench.run("check o.joint.json");
     assert_eq!(checked.code, Some(3));

@@ -44,6 +44,8 @@ pub struct Identification {
     pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
+    /// Median of |measured − computed|/max(|measured|, |computed|) over all values; `None` without values.
+    pub median_difference: Option<f64>,
     /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
     pub reduced_chi_squared: Option<f64>,
     /// How many starts were tried, and how many of them led to this estimate.
@@ -148,9 +150,12 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
-    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, &fitted);
+    let median_difference = reliability::median_difference(&fitted);
+    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, median_difference);
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
+    let large = reliability::warning(&estimate, study.model, relative_rms, median_difference);
+    warnings.extend(large);
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
@@ -164,6 +169,7 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
+        median_difference,
         reduced_chi_squared: (estimate.assessment.noise_is_stated
             || estimate.assessment.noise_is_known)
             .then_some(estimate.assessment.reduced_chi_squared)

@@ -20,6 +20,7 @@ use super::model::{JointMatrices, JointModel};
 use super::noise::{Noise, NoiseLevel};
 use super::parallel;
 use super::passive;
+use super::reliability::{NOTABLE_UNREST, TOLERABLE_UNREST};
 use super::search::{Effort, Found};
 use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
@@ -66,8 +67,9 @@ pub struct LinesEstimate {
     pub noise_level: Option<NoiseLevel>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
-    /// Whether the search has come to an end.
-    pub converged: bool,
+    /// By how many standard deviations an unknown still moved when the search ended: zero where it had come to rest, infinite
+    /// where nothing can be said.
+    pub unrest: f64,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
@@ -332,13 +334,22 @@ pub fn identify_lines(
         joint_of_assembly,
         layout,
         covariance_of_all: covariance.matrix,
+        unrest: unrest(&found),
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
-        converged: found.estimate.converged,
         choice,
         torque_choice,
         warnings,
     })
+}
+
+/// By how many standard deviations an unknown still moved when the search ended. Exact data leave rounding alone, in which a
+/// search cannot come to rest.
+fn unrest(found: &Found) -> f64 {
+    match found.estimate.converged || found.assessment.is_exact {
+        true => 0.0,
+        false => found.estimate.unrest,
+    }
 }
 
 /// Starts from a `given` joint and from the `averages` at one torque.
@@ -406,6 +417,12 @@ fn warnings(
             );
             once(&mut warnings, warning);
         }
+    }
+    let unrest = unrest(found);
+    if (NOTABLE_UNREST..=TOLERABLE_UNREST).contains(&unrest) {
+        warnings.push(format!(
+            "the search ended while the values still moved by up to {unrest:.2} of their standard deviations"
+        ));
     }
     if let Some(complaint) = found.assessment.complaint() {
         let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);

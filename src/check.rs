@@ -53,6 +53,8 @@ const TIME_LIMIT: Duration = Duration::from_secs(60);
 struct Report {
     kind: String,
     facts: Vec<String>,
+    /// Why the joint is not to be relied on.
+    reasons_against: Vec<String>,
     findings: Vec<String>,
     /// What the FMU logged.
     messages: Vec<String>,
@@ -75,6 +77,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
             "facts": report.facts,
             "messages": report.messages,
             "findings": report.findings,
+            "usable": report.reasons_against.is_empty(),
+            "reasons_against": report.reasons_against,
         });
         if let Value::Object(object) = &mut value {
             object.extend(report.details);
@@ -88,13 +92,16 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
         for message in &report.messages {
             let _ = writeln!(text, "  the FMU logged: {message}");
         }
-        if report.findings.is_empty() {
+        for reason in &report.reasons_against {
+            let _ = writeln!(text, "  not to be relied on: {reason}");
+        }
+        if report.findings.is_empty() && report.reasons_against.is_empty() {
             text += "  no problem found\n";
         }
         print(&text)?;
     }
     if report.findings.is_empty() {
-        Ok(())
+        CliError::unless_usable(path, &report.reasons_against)
     } else {
         Err(CliError::Check {
             path: path.clone(),
@@ -150,6 +157,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
     Ok(Report {
         kind: "joint file".to_owned(),
         facts,
+        reasons_against: file.reasons_against().to_vec(),
         findings,
         messages: Vec::new(),
         details,
@@ -243,6 +251,7 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
     Ok(Report {
         kind: format!("FMU (FMI {version}, Co-Simulation and Model Exchange)"),
         facts,
+        reasons_against: inspection.joint.reasons_against().to_vec(),
         findings,
         messages,
         details,

@@ -1,9 +1,9 @@
-//! Everything that can end a command with exit code 1.
+//! Everything that can end a command with exit code 1 or 3.
 
 use std::error::Error;
 use std::fmt::Display;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -42,6 +42,8 @@ pub(super) enum CliError {
     },
     #[error("{}:\n  {findings}", path.display())]
     Check { path: PathBuf, findings: String },
+    #[error("{}: not to be relied on:\n  {reasons}", path.display())]
+    NotUsable { path: PathBuf, reasons: String },
     #[error("the result cannot be printed: {0}")]
     Output(#[from] io::Error),
     #[error("the result cannot be written as JSON: {0}")]
@@ -75,6 +77,25 @@ impl CliError {
     /// Whether the reader of stdout has gone away, as `head` does: no error of the user's.
     pub(super) fn is_closed_output(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// What the program ends with: 3 where it did its work but the result is not to be relied on.
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            Self::NotUsable { .. } => 3,
+            _ => 1,
+        }
+    }
+
+    /// Nothing, unless these reasons speak against the joint in a file.
+    pub(super) fn unless_usable(path: &Path, reasons: &[String]) -> Result<(), Self> {
+        match reasons {
+            [] => Ok(()),
+            reasons => Err(Self::NotUsable {
+                path: path.to_owned(),
+                reasons: reasons.join("\n  "),
+            }),
+        }
     }
 
     /// An option that does not go with the others.

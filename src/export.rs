@@ -49,6 +49,9 @@ pub(super) struct ExportArguments {
     /// Export a joint that can feed energy into a simulation
     #[arg(long)]
     allow_active: bool,
+    /// Export even a joint that is not to be relied on, as its file says
+    #[arg(long)]
+    unusable: bool,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
@@ -98,10 +101,14 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         preload_n_m: arguments.preload,
         extrapolate: arguments.extrapolate,
         allow_active: arguments.allow_active,
+        allow_unusable: arguments.unusable,
         ..options(arguments.interface.into())?
     };
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
+    for reason in &exported.reasons_against {
+        message(&format!("warning: not to be relied on: {reason}"));
+    }
     for matrix in exported.passivity.active() {
         message(&format!(
             "warning: {matrix}: this FMU can feed energy into a simulation"
@@ -126,6 +133,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
         preload_n_m: None,
         extrapolate: false,
         allow_active: false,
+        allow_unusable: false,
         date: Timestamp::from_environment()?,
     })
 }
@@ -138,12 +146,13 @@ pub(super) fn export_to(
 ) -> Result<Exported, CliError> {
     let (file, text) = JointFile::read_with_source(joint_file)?;
     let exported = fmu_bytes(&file, &text, options).map_err(|source| match source {
-        ExportError::Active { .. } | ExportError::Law(_) | ExportError::NoSpectrum => {
-            CliError::Unexportable {
-                path: joint_file.to_owned(),
-                source,
-            }
-        }
+        ExportError::Active { .. }
+        | ExportError::NotUsable { .. }
+        | ExportError::Law(_)
+        | ExportError::NoSpectrum => CliError::Unexportable {
+            path: joint_file.to_owned(),
+            source,
+        },
         _ => source.into(),
     })?;
     exported.write(fmu)?;

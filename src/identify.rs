@@ -103,7 +103,12 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         .as_ref()
         .map(|path| (path, figure(&found, "")));
     let warnings = warnings(&found);
-    let page = written.map(|written| report(&study, &found, &warnings, written));
+    let page = written.map(|written| {
+        let against = found.reasons_against.iter();
+        let against = against.map(|reason| format!("not to be relied on: {reason}"));
+        let all: Vec<String> = against.chain(warnings.iter().cloned()).collect();
+        report(&study, &found, &all, written)
+    });
     write_joint_files(&outputs, &joint_files)?;
     if let Some((path, drawing)) = drawing {
         write_file(path, drawing.as_bytes())?;
@@ -132,6 +137,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "reduced_chi_squared": found.reduced_chi_squared,
             "budget": budget::json(&found),
+            "usable": found.reasons_against.is_empty(),
+            "reasons_against": found.reasons_against,
             "warnings": warnings,
             "models": models.filter(|_| not_compared.is_none()).map(|choice| json!({
                 "recommended": choice.recommended,
@@ -153,7 +160,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             })),
             "models_not_compared": not_compared,
         });
-        return print(&serde_json::to_string_pretty(&value)?);
+        print(&serde_json::to_string_pretty(&value)?)?;
+        return CliError::unless_usable(&outputs[0], &found.reasons_against);
     }
     let mut text = summary(&found, &study);
     text.push('\n');
@@ -163,7 +171,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
         let _ = writeln!(text, "wrote {}", path.display());
     }
-    print(&text)
+    print(&text)?;
+    CliError::unless_usable(&outputs[0], &found.reasons_against)
 }
 
 /// Writes every joint file or, if one cannot be written, none.
@@ -222,6 +231,9 @@ fn summary(found: &Identification, study: &Study) -> String {
     let _ = writeln!(text, "\n{}", fit(found));
     text += &models(found, study);
     text += &torques(found);
+    if let Some(about) = found.about_the_residual() {
+        let _ = writeln!(text, "{about}");
+    }
     for joint in joints {
         if let Some(result) = &joint.bootstrap {
             text += &bootstrap(result, joint, bolts);
@@ -241,7 +253,7 @@ fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
     }
     header.extend(["band average", "unit"]);
     let mut table = Table::new(&header);
-    let intervals = covariance.intervals();
+    let intervals = joint.intervals();
     for (index, unknown) in covariance.unknowns.iter().enumerate() {
         let [low, high] = intervals[index];
         let mut cells = vec![unknown.label(bolts)];
@@ -381,6 +393,10 @@ pub(super) fn fit(found: &Identification) -> String {
         .reduced_chi_squared
         .map(|value| format!("; χ² per degree of freedom {value:.3}"))
         .unwrap_or_default();
+    let typical = found
+        .median_difference
+        .map(|off| format!(", half of the values within {:.2} %", 100.0 * off))
+        .unwrap_or_default();
     let files = found.joint_files();
     let is_passive = files.iter().all(|(_, file)| file.passivity().is_passive());
     let verdict = match (files.len(), is_passive) {
@@ -391,7 +407,7 @@ pub(super) fn fit(found: &Identification) -> String {
     };
     let (tried, agreeing) = found.starts;
     format!(
-        "residual {:.2} % r.m.s. of the receptance{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
+        "residual {:.2} % r.m.s. of the receptance{typical}{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
         100.0 * found.relative_rms
     )
 }

@@ -31,6 +31,7 @@
 //!     preload_n_m: None,
 //!     extrapolate: false,
 //!     allow_active: false,
+//!     allow_unusable: false,
 //!     date: Timestamp::from_environment()?,
 //! };
 //! let exported = fmu_bytes(file, &file.to_json()?, &options)?;

@@ -35,7 +35,8 @@ use respond::RespondArguments;
 #[command(
     name = "bolted-joint",
     version,
-    after_help = "Exit codes: 0 done, 1 the input is wrong (the message says where, and what to do), 2 wrong usage."
+    after_help = "Exit codes: 0 done, 1 the input is wrong (the message says where, and what to do), 2 wrong usage, \
+                  3 done, but the result is not to be relied on (the message says why)."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -80,7 +81,7 @@ fn main() -> ExitCode {
         Err(error) if error.is_closed_output() => ExitCode::SUCCESS,
         Err(error) => {
             output::message(&format!("error: {error}"));
-            ExitCode::from(1)
+            ExitCode::from(error.exit_code())
         }
     }
 }

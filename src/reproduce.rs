@@ -21,8 +21,8 @@ use super::table::{Table, number};
 #[derive(Debug, Args)]
 #[command(after_help = names())]
 pub(super) struct ReproduceArguments {
-    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis [default: all]; or one of `pirdayr`, `tian`
-    /// and `kavi` for the tables of their papers and the specimens of his thesis
+    /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis, or `tol` for all of them [default: tol]; or
+    /// one of `pirdayr`, `tian` and `kavi` for the tables of their papers and the specimens of his thesis
     tables: Vec<Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
@@ -48,7 +48,9 @@ pub(super) struct ReproduceArguments {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Source {
     /// A table of Tol's thesis.
-    Tol(PublishedTable),
+    Table(PublishedTable),
+    /// All tables of Tol's thesis.
+    Tol,
     /// Tables 3 and 4 of Pirdayr's paper.
     Pirdayr,
     /// Table I of Tian's paper.
@@ -58,18 +60,25 @@ pub(super) enum Source {
 }
 
 impl FromStr for Source {
-    type Err = UnknownTable;
+    type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
+            TOL => Ok(Self::Tol),
             PIRDAYR => Ok(Self::Pirdayr),
             TIAN => Ok(Self::Tian),
             KAVI => Ok(Self::Kavi),
-            table => table.parse().map(Self::Tol),
+            table => table
+                .parse()
+                .map(Self::Table)
+                .map_err(|unknown: UnknownTable| {
+                    format!("{unknown}, or {TOL} for all of these, or {PIRDAYR}, {TIAN} or {KAVI}")
+                }),
         }
     }
 }
 
+const TOL: &str = "tol";
 const PIRDAYR: &str = "pirdayr";
 const TIAN: &str = "tian";
 const KAVI: &str = "kavi";
@@ -99,17 +108,18 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
             ));
         }
         match source {
-            Source::Tol(_) => {}
+            Source::Table(_) | Source::Tol => {}
             Source::Pirdayr => return pirdayr::run(arguments),
             Source::Tian => return tian::run(arguments),
             Source::Kavi => return kavi::run(arguments),
         }
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
-        Source::Tol(table) => Some(*table),
-        Source::Pirdayr | Source::Tian | Source::Kavi => None,
+        Source::Table(table) => Some(*table),
+        Source::Tol | Source::Pirdayr | Source::Tian | Source::Kavi => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
+    let all = arguments.tables.contains(&Source::Tol);
     if arguments.draws == 0 {
         return Err(CliError::option(
             "--draws",
@@ -122,7 +132,7 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         seed: arguments.seed,
         samples: arguments.samples.clone(),
     };
-    let tables = if wanted.is_empty() {
+    let tables = if all || wanted.is_empty() {
         PublishedTable::ALL.to_vec()
     } else {
         wanted
@@ -155,6 +165,7 @@ pub(super) fn names() -> String {
         let names = [&[table.key()], table.aliases()].concat().join(", ");
         let _ = writeln!(text, "  {names:<18}{table}");
     }
+    let _ = writeln!(text, "  {TOL:<18}all of these");
     let _ = writeln!(
         text,
         "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"

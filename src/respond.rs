@@ -164,7 +164,8 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
                 all.collect::<serde_json::Map<_, _>>().into(),
             );
         }
-        return print(&serde_json::to_string_pretty(&value)?);
+        print(&serde_json::to_string_pretty(&value)?)?;
+        return judged(joint, &study);
     }
     print(&format!(
         "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\nwrote {}",
@@ -174,7 +175,15 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         frequency_hz[frequency_hz.len() - 1],
         band_tables(&bands, &study),
         arguments.output.display()
-    ))
+    ))?;
+    judged(joint, &study)
+}
+
+/// Says of joints that are not to be relied on that they are not.
+fn judged(joint: &Path, study: &Study) -> Result<(), CliError> {
+    of_bolts(joint, &study.bolts).iter().try_for_each(|path| {
+        CliError::unless_usable(path, JointFile::read(path)?.reasons_against())
+    })
 }
 
 /// The bands of each joint as the study's own table, to be copied there.

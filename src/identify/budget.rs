@@ -25,7 +25,7 @@ pub(super) fn budget(found: &Identification) -> String {
         .iter()
         .filter(|(_, parts)| parts.iter().any(|part| *part > WORTH_NAMING))
         .collect();
-    let mut header = vec!["", "± noise alone", "± with the budget", "noise"];
+    let mut header = vec!["", "± noise alone", "± with the budget"];
     header.extend(groups.iter().map(|(group, _)| group.name()));
     header.push("unit");
     let mut table = Table::new(&header);
@@ -36,7 +36,6 @@ pub(super) fn budget(found: &Identification) -> String {
             unknown.label(bolts),
             deviation(&systematic.noise_covariance),
             deviation(&systematic.covariance),
-            percent(systematic.shares.noise[index]),
         ];
         cells.extend(groups.iter().map(|(_, parts)| percent(parts[index])));
         cells.push(unknown.unit.to_owned());
@@ -44,14 +43,14 @@ pub(super) fn budget(found: &Identification) -> String {
     }
     let (used, all) = systematic.lines;
     let mut text = format!(
-        "\nerror budget: {} causes take part; {used} of {all} lines used; percentages are parts of the variance\n{}",
+        "\nerror budget: {} causes take part; {used} of {all} lines used; percentages are what a variance would fall by if a group were exact\n{}",
         systematic.causes.len(),
         table.render()
     );
     if let Some((group, part)) = systematic.largest_groups().first() {
         let _ = writeln!(
             text,
-            "largest group: {} ({} of a variance); to make it smaller, {}",
+            "{} matter most ({} of a variance): {}",
             group.name(),
             percent(*part),
             group.remedy()
@@ -112,7 +111,6 @@ pub(super) fn json(found: &Identification) -> Value {
         "standard_deviation": deviations(&systematic.covariance),
         "standard_deviation_of_noise": deviations(&systematic.noise_covariance),
         "shares": {
-            "noise": systematic.shares.noise,
             "groups": systematic.shares.groups.iter().map(|(group, parts)| json!({
                 "group": group.name(),
                 "parts": parts,

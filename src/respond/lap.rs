@@ -81,14 +81,22 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
             "series": summary(&table),
         });
-        return print(&serde_json::to_string_pretty(&value)?);
+        print(&serde_json::to_string_pretty(&value)?)?;
+        return judged(&study);
     }
     print(&format!(
         "{}: {} series, {rows} rows\nwrote {}",
         study.name,
         table.series.len(),
         arguments.output.display()
-    ))
+    ))?;
+    judged(&study)
+}
+
+/// Says of joints that are not to be relied on that they are not.
+fn judged(study: &RespondStudy) -> Result<(), CliError> {
+    let mut laps = study.laps.iter();
+    laps.try_for_each(|lap| CliError::unless_usable(&lap.path, lap.file.reasons_against()))
 }
 
 fn summary(table: &ResponseTable) -> Vec<serde_json::Value> {

@@ -111,6 +111,22 @@ impl Bench {
         self.text("o.html")
     }
 
+    /// Identifies where nothing that anyone may rely on comes of it, for this reason among others, and gives the report.
+    pub(crate) fn report_not_to_be_relied_on(&self, reason: &str) -> String {
+        let outcome = self.unusable(&format!("{IDENTIFY} --report o.html"), &[reason]);
+        has(&outcome.stdout, &["wrote o.html"]);
+        self.text("o.html")
+    }
+
+    /// Runs a command that does its work and must end with 3, because its result is not to be relied on, as `fragments` say.
+    pub(crate) fn unusable(&self, arguments: &str, fragments: &[&str]) -> Outcome {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.code, Some(3), "{arguments}: {}", outcome.stderr);
+        has(&outcome.stderr, &["not to be relied on"]);
+        has(&outcome.stderr, fragments);
+        outcome
+    }
+
     /// Runs a command that must end with 1 and say all `fragments`.
     pub(crate) fn fails(&self, arguments: &str, fragments: &[&str]) -> Outcome {
         let outcome = self.run(arguments);

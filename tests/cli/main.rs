@@ -22,6 +22,7 @@ mod model_choice;
 mod modes_beside;
 mod output;
 mod predict;
+mod reliability;
 mod report;
 mod reproduce;
 mod respond;

@@ -79,7 +79,7 @@ fn json_has_its_keys() {
     let identified = bench.done(&command).json();
     assert_eq!(
         keys(&identified),
-        " output figure report joint_file bolts starts reduced_chi_squared warnings models torques models_not_compared"
+        " output figure report joint_file bolts starts reduced_chi_squared usable reasons_against warnings models torques models_not_compared"
     );
     assert_eq!(identified["joint_file"], bench.json("o.joint.json"));
     assert_eq!(identified["output"], "o.joint.json");
@@ -100,7 +100,7 @@ fn json_has_its_keys() {
     let of_fmu = " platforms step_size_max run";
     for (file, of_fmu) in [("j.joint.json", ""), ("o.fmu", of_fmu)] {
         let checked = bench.done(&format!("check {file} --json")).json();
-        let of_all = " file kind sound facts messages findings";
+        let of_all = " file kind sound facts messages findings usable reasons_against";
         assert_eq!(keys(&checked), of_all.to_owned() + of_fmu);
         assert_eq!(checked["file"], file);
         assert_eq!(checked["sound"], true);

@@ -109,3 +109,16 @@ fn json_of_tian_has_published_and_obtained_values_side_by_side() {
     let text = bench.done("reproduce tian").stdout;
     has(&text, &["E obtained"]);
 }
+
+#[test]
+fn a_name_that_is_none_brings_all_that_are() {
+    let outcome = Bench::new().run("reproduce foo");
+    assert_eq!(outcome.code, Some(2));
+    has(
+        &outcome.stderr,
+        &[
+            "4.2, 4.3",
+            "or tol for all of these, or pirdayr, tian or kavi",
+        ],
+    );
+}

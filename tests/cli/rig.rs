@@ -345,6 +345,7 @@ pub(crate) fn study(model: &str, points: &[u32]) -> String {
     let points: Vec<String> = points.iter().map(|node| format!("\"{node}:+Y\"")).collect();
     format!(
         r#"method = "frf-decoupling"
+budget = "none"
 name = "two bodies"
 
 [a]

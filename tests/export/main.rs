@@ -41,6 +41,7 @@ fn options(interface: Interface) -> Result<ExportOptions, ExportError> {
         preload_n_m: None,
         extrapolate: false,
         allow_active: false,
+        allow_unusable: false,
         date: Timestamp::from_epoch_text("1260282802")?,
     })
 }

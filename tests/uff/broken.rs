@@ -210,3 +210,27 @@ proptest! {
         let _ = read_text(&spoiled);
     }
 }
+
+#[test]
+fn a_unit_that_cannot_be_read_is_quoted_unless_the_caller_states_it() {
+    let text = small(VALUES).replacen(
+        "         8    0    0    0 NONE                 NONE\n        13",
+        "         8    0    0    0 NONE                 (m/s<=)/N\n        13",
+        1,
+    );
+    let (_, problem) = problem_of(&text);
+    has(&problem.to_string(), &["the unit \"(m/s<=)/N\""]);
+    let options = ReadOptions {
+        units: UnitSystem::named("m", "N"),
+        ..ReadOptions::default()
+    };
+    assert!(read_uff58_from(text.as_bytes(), "x.uff", &options).is_ok());
+}
+
+#[test]
+fn a_file_with_a_coherence_alone_is_not_called_empty() {
+    let coherence = small(VALUES).replacen("\n    4         0", "\n    6         0", 1);
+    let reading = read_uff58_from(coherence.as_bytes(), "x.uff", &ReadOptions::default());
+    let error = reading.and_then(|reading| reading.into_set()).unwrap_err();
+    assert!(!error.to_string().contains("empty file"), "{error}");
+}

@@ -21,6 +21,15 @@ pub enum ExportError {
         /// The matrices that are not positive semidefinite.
         matrices: Vec<MatrixPassivity>,
     },
+    /// Whoever found the joint says that it is not to be relied on.
+    #[error(
+        "the joint is not to be relied on: {}; mend that and identify it again, or insist with --unusable",
+        reasons.join("; ")
+    )]
+    NotUsable {
+        /// Why, a line each.
+        reasons: Vec<String>,
+    },
     /// The joint file contradicts itself, has no such preload, or does not give the equations of this FMU.
     #[error(transparent)]
     Law(#[from] LawError),

@@ -38,6 +38,8 @@ pub struct ExportOptions {
     pub extrapolate: bool,
     /// Whether a joint that can feed energy into a simulation is exported all the same.
     pub allow_active: bool,
+    /// Whether a joint that is not to be relied on, as its file says, is exported all the same.
+    pub allow_unusable: bool,
     /// Date in the FMU.
     pub date: Timestamp,
 }
@@ -60,6 +62,8 @@ pub struct Exported {
     pub escape_amplitude: Vec<Option<f64>>,
     /// Whether the joint is passive, by matrix.
     pub passivity: Passivity,
+    /// Why the joint is not to be relied on; empty where it may be used.
+    pub reasons_against: Vec<String>,
     /// Libraries in it.
     pub libraries: Vec<Library>,
     /// Its files.
@@ -195,6 +199,12 @@ fn fmu(
     options: &ExportOptions,
 ) -> Result<Exported, ExportError> {
     let file = subject.file;
+    let reasons = subject.source().reasons_against();
+    if !reasons.is_empty() && !options.allow_unusable {
+        return Err(ExportError::NotUsable {
+            reasons: reasons.to_vec(),
+        });
+    }
     let passivity = subject.source().passivity();
     if !passivity.is_passive() && !options.allow_active {
         return Err(ExportError::Active {
@@ -288,6 +298,7 @@ fn fmu(
         step,
         escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
         passivity,
+        reasons_against: subject.source().reasons_against().to_vec(),
         libraries,
         bytes: archive(&files, options.date)?,
         entries: files

@@ -61,6 +61,8 @@ pub(super) struct Estimate {
     pub(super) information: DMatrix<f64>,
     pub(super) levels: Levels,
     pub(super) converged: bool,
+    /// By how many standard deviations the last round moved an unknown, at most; infinite where that round did not end.
+    pub(super) unrest: f64,
     pub(super) corrections: Corrections,
 }
 
@@ -119,6 +121,7 @@ pub(super) fn estimate(
     let unknowns = start.len();
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
+    let mut unrest = f64::INFINITY;
     let mut damping = FIRST_DAMPING;
     for round in 0..MAX_REWEIGHTINGS {
         if objective.is_independent() && !estimates_level {
@@ -126,6 +129,7 @@ pub(super) fn estimate(
             (coordinates, weights, state) = near.point;
             if near.has_settled {
                 converged = true;
+                unrest = 0.0;
                 break;
             }
         }
@@ -143,6 +147,7 @@ pub(super) fn estimate(
         let step = (&rest.coordinates - &coordinates).component_div(&deviation);
         let shift = step.amax();
         let settled = rest.settled;
+        unrest = if settled { shift } else { f64::INFINITY };
         coordinates = rest.coordinates;
         // Two sets of them at a time would be much memory.
         drop(weights);
@@ -187,6 +192,7 @@ pub(super) fn estimate(
         information: state.normal.matrix,
         levels,
         converged,
+        unrest,
         corrections: state.corrections,
     })
 }

@@ -15,6 +15,7 @@ use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
 use super::provenance;
+use super::reliability;
 use super::study::Study;
 use super::watch::Watch;
 
@@ -44,12 +45,16 @@ pub struct Identification {
     pub further: Vec<AssemblyFit>,
     /// Root mean square of |measured − computed|/|computed| over all lines and functions.
     pub relative_rms: f64,
+    /// Median of |measured − computed|/max(|measured|, |computed|) over all values; `None` without values.
+    pub median_difference: Option<f64>,
     /// χ² over degrees of freedom, where the study states the noise or coherence tells it: about 1 if the model fits.
     pub reduced_chi_squared: Option<f64>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
     /// What the user should know before using the result.
     pub warnings: Vec<String>,
+    /// Why the result is not to be relied on; empty if nothing speaks against it.
+    pub reasons_against: Vec<String>,
     /// What modes supplied beside measured functions of a substructure.
     pub from_modes: Vec<FromModes>,
     /// The estimate with its covariance, the free and the passive one, the comparison of joint models.
@@ -153,8 +158,12 @@ pub fn identify_and_draw(
     let functions = || fitted.iter().flat_map(|assembly| &assembly.fits);
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
+    let median_difference = reliability::median_difference(&fitted);
+    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, median_difference);
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
+    let large = reliability::warning(&estimate, study.model, relative_rms, median_difference);
+    warnings.extend(large);
     let first = fitted.remove(0);
     Ok(Identification {
         name: study.name.clone(),
@@ -168,12 +177,14 @@ pub fn identify_and_draw(
         fits: first.fits,
         further: fitted,
         relative_rms,
+        median_difference,
         reduced_chi_squared: (estimate.assessment.noise_is_stated
             || estimate.assessment.noise_is_known)
             .then_some(estimate.assessment.reduced_chi_squared)
             .flatten(),
         starts: estimate.starts,
         warnings,
+        reasons_against,
         from_modes,
         systematic,
         files,

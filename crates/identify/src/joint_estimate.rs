@@ -99,6 +99,20 @@ impl JointEstimate {
         }
     }
 
+    /// The interval of 95 % of each unknown: that of the free estimate, extended to the passive one where that lies beyond it. The
+    /// constraint only ever moves the estimate, it does not say how sure it is; so the interval stays as wide as without it.
+    #[must_use]
+    pub fn intervals(&self) -> Vec<[f64; 2]> {
+        let intervals = self.covariance.intervals().into_iter();
+        intervals
+            .zip(&self.covariance.unknowns)
+            .map(|([low, high], unknown)| {
+                let estimate = unknown.value(&self.bolts()[unknown.joint]);
+                [low.min(estimate), high.max(estimate)]
+            })
+            .collect()
+    }
+
     /// Where the unknowns of one bolt's joint stand among those of the covariance.
     #[must_use]
     pub fn unknowns_of(&self, bolt: usize) -> Vec<usize> {

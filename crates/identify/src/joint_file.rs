@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use bolted_joint_joint::{
     BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, Intervals, Joint,
-    JointFile, NoiseRecord, OverPreload, Residual, StandardDeviation, Uncertainty,
+    JointFile, NoiseRecord, OverPreload, Residual, StandardDeviation, Status, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
@@ -42,6 +42,7 @@ impl Identification {
         JointFile {
             format: Format::V1,
             name,
+            status: Status::against(&self.reasons_against),
             joint: self.joint_record(bolt),
             bodies: self.bodies.clone(),
             uncertainty: self.uncertainty(bolt),
@@ -190,7 +191,7 @@ impl Identification {
         let covariance = &joint.covariance;
         let own = joint.unknowns_of(bolt);
         let open = own.iter().filter(|&&index| !covariance.identified[index]);
-        let (deviation, ends) = (covariance.standard_deviation(), covariance.intervals());
+        let (deviation, ends) = (covariance.standard_deviation(), joint.intervals());
         let (free, passive) = (&joint.free[bolt], &joint.bolts()[bolt]);
         UncertaintyAtPreload {
             preload: torque(joint),

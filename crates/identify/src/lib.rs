@@ -43,6 +43,7 @@ pub mod parallel;
 mod passive;
 mod provenance;
 mod receptances;
+mod reliability;
 mod residuals;
 mod search;
 mod sensitivity;

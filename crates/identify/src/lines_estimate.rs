@@ -21,6 +21,7 @@ use super::model::{JointMatrices, JointModel};
 use super::noise::{Levels, Noise, NoiseLevel};
 use super::parallel;
 use super::passive;
+use super::reliability::{NOTABLE_UNREST, TOLERABLE_UNREST};
 use super::search::{Effort, Found};
 use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
@@ -69,6 +70,9 @@ pub struct LinesEstimate {
     pub starts: (usize, usize),
     /// Noise of everything measured, stated or estimated.
     pub(super) levels: Levels,
+    /// By how many standard deviations an unknown still moved when the search ended: zero where it had come to rest, infinite
+    /// where nothing can be said.
+    pub unrest: f64,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
@@ -366,6 +370,7 @@ pub fn identify_lines(
         joint_of_assembly,
         layout,
         covariance_of_all: covariance.matrix,
+        unrest: unrest(&found),
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
         choice,
@@ -373,6 +378,15 @@ pub fn identify_lines(
         warnings,
         joint_warnings,
     })
+}
+
+/// By how many standard deviations an unknown still moved when the search ended. Exact data leave rounding alone, in which a
+/// search cannot come to rest.
+fn unrest(found: &Found) -> f64 {
+    match found.estimate.converged || found.assessment.is_exact {
+        true => 0.0,
+        false => found.estimate.unrest,
+    }
 }
 
 /// Starts from a `given` joint and from the `averages` at one torque.
@@ -441,15 +455,22 @@ fn warnings(
             once(&mut warnings, warning);
         }
     }
-    if !found.estimate.converged {
-        warnings.push("the refined estimate has not converged; do not rely on it".to_owned());
+    let unrest = unrest(found);
+    if (NOTABLE_UNREST..=TOLERABLE_UNREST).contains(&unrest) {
+        warnings.push(format!(
+            "the search ended while the values still moved by up to {unrest:.2} of their standard deviations"
+        ));
     }
     if let Some(complaint) = found.assessment.complaint() {
         let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
         let most = inflation.copied().fold(1.0, f64::max);
+        let wider = match most {
+            ..1.05 => String::new(),
+            _ => format!("; the intervals are wider for it, by up to a factor of {most:.1}"),
+        };
         warnings.push(format!(
             "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
-             fit, or every one of {} starts ended in a local minimum; the intervals are wider for it, by up to a factor of {most:.1}",
+             fit, or every one of {} starts ended in a local minimum{wider}",
             found.tried
         ));
     }

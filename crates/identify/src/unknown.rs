@@ -43,6 +43,12 @@ impl Unknown {
             .collect()
     }
 
+    /// Whether it is a diagonal entry of K.
+    #[must_use]
+    pub fn is_direct_stiffness(&self) -> bool {
+        self.matrix == Matrix::Stiffness && self.place.0 == self.place.1
+    }
+
     /// Its name, after that of its bolt where `bolts` have joints of their own: `left k_yy`.
     #[must_use]
     pub fn label(&self, bolts: &[String]) -> String {

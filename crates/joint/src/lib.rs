@@ -17,6 +17,7 @@ mod read;
 mod record;
 #[cfg(test)]
 mod schema;
+mod status;
 mod units;
 mod validate;
 mod write;
@@ -35,5 +36,6 @@ pub use record::{
     NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
     UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
+pub use status::Status;
 pub use units::{description, superscript, unit, unit_for_people, with_symbols};
 pub use validate::is_one_line;

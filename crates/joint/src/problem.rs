@@ -15,6 +15,22 @@ pub enum JointProblem {
         /// What should be there.
         expected: &'static str,
     },
+    /// A joint that may be used for reasons, or may not be used for none.
+    #[error(
+        "status: found usable = {usable} with {reasons} reasons, expected reasons where the joint is not usable, and none where it is"
+    )]
+    Status {
+        /// Whether it may be used.
+        usable: bool,
+        /// Number of reasons.
+        reasons: usize,
+    },
+    /// A reason that is not one line of text.
+    #[error("status.reasons: found {found:?}, expected one line of text each")]
+    Reason {
+        /// The reason.
+        found: String,
+    },
     /// A list has not one entry for each DOF.
     #[error(
         "{path}: found {found} {}, expected {}, one for each of joint.dofs = {dofs}",

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
 use super::schema::{entries_above_zero, with_friction};
-use super::{DofSet, Friction, HigherTerms};
+use super::{DofSet, Friction, HigherTerms, Status};
 
 /// A bolted joint, with what is known about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,9 @@ pub struct JointFile {
     /// Name of the joint, one line.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub name: String,
+    /// Whether the joint may be relied on; without it, it may.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub status: Option<Status>,
     /// The joint itself: stiffness and damping, linear and beyond.
     pub joint: Joint,
     /// The two bodies of a lap model that the joint connects.

@@ -4,7 +4,7 @@ use bolted_joint_dynamics::law::Range;
 
 use super::{
     Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, JointProblem, OverPreload,
-    StandardDeviation, UncertaintyOverPreload,
+    StandardDeviation, Status, UncertaintyOverPreload,
 };
 
 /// Whether a name is one line of text. It becomes an attribute in XML, which has no control characters and none of the two
@@ -29,6 +29,9 @@ impl JointFile {
             check.problems.push(JointProblem::Name {
                 found: self.name.clone(),
             });
+        }
+        if let Some(status) = &self.status {
+            check.status(status);
         }
         check.joint(&self.joint);
         if let Some(bodies) = &self.bodies {
@@ -80,6 +83,20 @@ struct Check {
 }
 
 impl Check {
+    fn status(&mut self, status: &Status) {
+        if status.usable != status.reasons.is_empty() {
+            self.problems.push(JointProblem::Status {
+                usable: status.usable,
+                reasons: status.reasons.len(),
+            });
+        }
+        if let Some(found) = status.reasons.iter().find(|reason| !is_one_line(reason)) {
+            self.problems.push(JointProblem::Reason {
+                found: found.clone(),
+            });
+        }
+    }
+
     fn joint(&mut self, joint: &Joint) {
         let replaced = joint.over_preload.is_some();
         for (path, matrix) in [

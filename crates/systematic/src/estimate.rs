@@ -64,7 +64,7 @@ pub struct Estimate {
     pub noise_covariance: DMatrix<f64>,
     /// What is known of each cause.
     pub causes: Vec<CauseEstimate>,
-    /// What each group of causes contributes to each variance.
+    /// What each group of causes does to each variance.
     pub shares: Shares,
     /// χ² over degrees of freedom; `None` without degrees of freedom.
     pub reduced_chi_squared: Option<f64>,
@@ -191,7 +191,7 @@ fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Est
         covariance: whole.view((0, 0), (size, size)).into_owned(),
         noise_covariance: inverse(&joint)?,
         causes: causes.collect(),
-        shares: Shares::of(task, &whole, &found.information),
+        shares: Shares::of(task, &whole),
         reduced_chi_squared: reduced_chi_squared(task, &found),
         lines: (found.lines.len(), task.lines()),
         iterations: found.iterations,

@@ -5,40 +5,34 @@ use nalgebra::DMatrix;
 use super::cause::Group;
 use super::line::Task;
 
-/// Parts of each unknown's variance; together with the noise they add up to one.
+/// What the variance of each unknown would fall by, as a part of it, if a group of causes were known exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shares {
-    /// Part of the noise in each unknown's variance.
-    pub noise: Vec<f64>,
-    /// Part of each group of causes that takes part.
+    /// For each group of causes that takes part, a part of each unknown's variance. They need not add up to one.
     pub groups: Vec<(Group, Vec<f64>)>,
 }
 
 impl Shares {
-    /// With V = (N + P)⁻¹ the error is V (noise − P ν), so that V = V N V + Σ_g V P_g V.
-    pub(crate) fn of(task: &Task<'_>, whole: &DMatrix<f64>, information: &DMatrix<f64>) -> Self {
+    /// With the group exact, V_qq becomes V_qq − V_qg V_gg⁻¹ V_gq, V = (N + P)⁻¹.
+    pub(crate) fn of(task: &Task<'_>, whole: &DMatrix<f64>) -> Self {
         let size = task.unknowns();
-        let noise = whole * information * whole;
-        let part = |of: f64, unknown: usize| of / whole[(unknown, unknown)];
         let of_group = |group: Group| {
             let own: Vec<usize> = (0..task.priors.len())
-                .filter(|&n| task.priors[n].cause.group() == group)
+                .filter(|&number| task.priors[number].cause.group() == group)
+                .map(|number| size + number)
                 .collect();
-            let variance = |unknown: usize| -> f64 {
-                let one = |&n: &usize| {
-                    (whole[(unknown, size + n)] / task.priors[n].standard_deviation).powi(2)
-                };
-                own.iter().map(one).sum()
-            };
-            let shares: Vec<f64> = (0..size)
-                .map(|unknown| part(variance(unknown), unknown))
-                .collect();
-            (!own.is_empty()).then_some((group, shares))
+            if own.is_empty() {
+                return None;
+            }
+            let across = whole.rows(0, size).select_columns(&own);
+            let inner = whole.select_rows(&own).select_columns(&own);
+            let solved = inner.cholesky()?.solve(&across.transpose());
+            let falls =
+                |unknown: usize| across.row(unknown).transpose().dot(&solved.column(unknown));
+            let part = |unknown: usize| falls(unknown) / whole[(unknown, unknown)];
+            Some((group, (0..size).map(part).collect()))
         };
         Self {
-            noise: (0..size)
-                .map(|unknown| part(noise[(unknown, unknown)], unknown))
-                .collect(),
             groups: Group::ALL.into_iter().filter_map(of_group).collect(),
         }
     }

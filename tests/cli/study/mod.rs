@@ -5,6 +5,7 @@ mod values;
 
 use crate::bench::{Bench, IDENTIFY, PNG};
 use crate::rig;
+use bolted_joint_testing::has;
 
 /// A modal substructure and a computed beam, as in the demo.
 const BEAMS: &str = include_str!("../../data/studies/beams.toml");
@@ -23,9 +24,13 @@ fn beams() -> Bench {
     bench
 }
 
+/// Why nothing comes of these studies that anyone may rely on: the beams are others than the bodies that the rig measures.
+const OF_OTHER_BODIES: &str = "% off the model";
+
 #[test]
 fn the_study_that_the_others_are_made_from_is_right() {
-    beams().done(IDENTIFY);
+    let outcome = beams().unusable(IDENTIFY, &[OF_OTHER_BODIES]);
+    has(&outcome.stdout, &["wrote o.joint.json"]);
 }
 
 #[test]

@@ -18,7 +18,8 @@ pub(super) fn section(page: &Page<'_>) -> String {
     let dofs = page.file.joint.dofs;
     let escape = page.lap.map(|lap| escape(lap, dofs)).unwrap_or_default();
     format!(
-        "<h2>Running it</h2>\n{steps}<h3>Passivity</h3>\n{}<h3>Range of validity</h3>\n{}{escape}{}",
+        "<h2>Running it</h2>\n{steps}{}<h3>Passivity</h3>\n{}<h3>Range of validity</h3>\n{}{escape}{}",
+        status(page),
         passivity(page),
         validity(page),
         page.reference_tolerance
@@ -82,6 +83,20 @@ fn modes(lap: &LapFacts) -> String {
         "<p>Its modes about rest:</p>\n{}",
         table(&["Natural frequency, Hz", "Damping ratio"], &rows)
     )
+}
+
+/// What speaks against the joint, if anything does.
+fn status(page: &Page<'_>) -> String {
+    let reasons = page.file.reasons_against().iter();
+    let reasons: String = reasons
+        .map(|reason| format!("<li>{}</li>\n", escaped(reason)))
+        .collect();
+    match reasons.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<p class=\"warning\">This joint is not to be relied on. Whoever exported this FMU insisted.</p>\n<ul>\n{reasons}</ul>\n"
+        ),
+    }
 }
 
 fn passivity(page: &Page<'_>) -> String {

@@ -227,6 +227,7 @@ impl<R: BufRead> Rows<'_, R> {
             _ => Decimal::Either,
         };
         let mut tokeniser = Cells::separated_by(header.separator);
+        let mut before_hz = None;
         while self.advance()? {
             let text = self.text();
             if text.trim().is_empty() || text.starts_with('#') {
@@ -258,6 +259,15 @@ impl<R: BufRead> Rows<'_, R> {
                 Ok::<f64, FrfError>(number)
             };
             let hz = number(0)?;
+            if !hz.is_finite() || hz < 0.0 || before_hz.is_some_and(|before| hz <= before) {
+                let after = before_hz.map(|before| format!(" after {before} Hz"));
+                return Err(self.problem(TableProblem::at(
+                    "column 1",
+                    format_args!("frequency {hz} Hz{}", after.unwrap_or_default()),
+                    "finite frequencies, not negative and strictly increasing; sort the lines and remove repeated ones",
+                )));
+            }
+            before_hz = Some(hz);
             for function in &mut *wanted {
                 let value = match function.columns.form {
                     Form::Cartesian { real, imaginary } => {
@@ -279,6 +289,13 @@ impl<R: BufRead> Rows<'_, R> {
                         Complex64::from_polar(found, number(phase)? * radians)
                     }
                 };
+                if !value.is_finite() && options.selection.wants_line(hz) {
+                    return Err(self.problem(TableProblem::of_function(
+                        (function.columns.response, function.columns.reference),
+                        format_args!("value {value} at {hz} Hz"),
+                        "a finite number; remove the line from the measurement",
+                    )));
+                }
                 function.lines.push(&options.selection, hz, value);
                 if let Some(column) = function.columns.coherence {
                     let gamma_squared = Complex64::from(number(column)?);

@@ -213,6 +213,15 @@ pub enum UffProblem {
         /// Its factor to SI.
         second_factor: f64,
     },
+    /// A unit that is none of those that are read, where nothing else tells the units.
+    #[error(
+        "found the unit \"{found}\", expected one such as m/N, (m/s^2)/N, 1/kg or g, or none at all; correct the file, or state \
+         the units in the study, such as units = {{ length = \"mm\", force = \"N\" }} beside frf"
+    )]
+    UnreadUnit {
+        /// The label.
+        found: String,
+    },
     /// A unit that does not fit the degrees of freedom.
     #[error(
         "found {statement}, which does not fit a response along {response} and a reference along {reference}; \

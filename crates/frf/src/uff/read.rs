@@ -70,6 +70,7 @@ pub(crate) fn read_uff58_of(
         units: None,
         skipped_functions: Vec::new(),
         skipped_datasets: 0,
+        datasets: 0,
     };
     while scan.dataset()? {}
     scan.finish(options)
@@ -96,6 +97,8 @@ struct Scan<'options, R> {
     units: Option<(usize, UnitSystem)>,
     skipped_functions: Vec<SkippedFunction>,
     skipped_datasets: usize,
+    /// Data sets of any kind that have been met.
+    datasets: usize,
 }
 
 impl<R: BufRead> Scan<'_, R> {
@@ -149,16 +152,12 @@ impl<R: BufRead> Scan<'_, R> {
                 return Err(self.lines.problem(UffProblem::DatasetNumber { found }));
             }
         }
+        self.datasets += 1;
         Ok(true)
     }
 
     fn nothing_yet(&self) -> bool {
-        self.pending.is_empty()
-            && self.coherences.is_empty()
-            && self.not_selected.is_empty()
-            && self.units.is_none()
-            && self.skipped_functions.is_empty()
-            && self.skipped_datasets == 0
+        self.datasets == 0
     }
 
     fn ends_inside(&self, dataset: &str, begun_at: usize) -> FrfError {

@@ -39,6 +39,9 @@ impl UnitLabels {
     }
 }
 
+/// What analysers write where they know no unit, in lower case.
+const NO_UNIT: &[&str] = &["", "-", "none", "no units", "unitless", "unknown", "n/a"];
+
 /// Length and force exponents of one axis: from its direction, or from its record where there is no direction.
 fn exponents(
     axis: &Axis,
@@ -119,7 +122,10 @@ pub(super) fn decide_scale(
     );
     Ok(match (labels.ratio, labels.numerator, labels.denominator) {
         (Some(ratio), ..) => (ratio.to_si, UnitStatement::Label(above.clone())),
-        (None, None, None) => (1.0, UnitStatement::Assumed),
+        (None, None, None) => match unread(header) {
+            None => (1.0, UnitStatement::Assumed),
+            Some(problem) => return Err(problem),
+        },
         (None, Some(above_unit), None) => (above_unit.to_si, UnitStatement::Label(above.clone())),
         (None, numerator, Some(below_unit)) => {
             let (to_si, label) = match numerator {
@@ -129,6 +135,18 @@ pub(super) fn decide_scale(
             (to_si / below_unit.to_si, UnitStatement::Label(label))
         }
     })
+}
+
+/// A label that says something, but not what was understood. Taken as SI it would be wrong by a factor that nobody sees.
+fn unread(header: &Header) -> Option<InRecord> {
+    [(9, &header.numerator), (10, &header.denominator)]
+        .into_iter()
+        .map(|(record, axis)| (record, axis.units_label.trim()))
+        .find(|(_, label)| !NO_UNIT.contains(&label.to_lowercase().as_str()))
+        .map(|(record, label)| {
+            let found = crate::shown(label);
+            (record, UffProblem::UnreadUnit { found })
+        })
 }
 
 /// Checks that labelled units have the length dimension that the two directions give the ratio.
@@ -185,7 +203,22 @@ mod tests {
             let found = scale(unit, load, None).unwrap();
             assert_eq!(found, (to_si, UnitStatement::Label(label.to_owned())));
         }
-        assert_eq!(scale("V", "", None).unwrap(), (1.0, UnitStatement::Assumed));
+        for none in ["", "NONE", "-"] {
+            assert_eq!(
+                scale(none, "", None).unwrap(),
+                (1.0, UnitStatement::Assumed)
+            );
+        }
+        // a volt per newton is no receptance, and a superscript that was read in another encoding is no unit
+        for (unit, load, named) in [
+            ("V", "", "\"V\""),
+            ("(m/s≤)/N", "", "\"(m/s≤)/N\""),
+            ("", "pond", "\"pond\""),
+        ] {
+            let problem = scale(unit, load, None).unwrap_err().to_string();
+            assert!(problem.contains(named), "{problem}");
+            assert!(scale(unit, load, Some(millimetres)).is_ok());
+        }
         for (unit, load) in [("g", ""), ("m/s^2/N", ""), ("", "kN")] {
             let problem = scale(unit, load, Some(millimetres)).unwrap_err();
             assert!(

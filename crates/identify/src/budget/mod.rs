@@ -37,7 +37,7 @@ pub struct Systematic {
     pub covariance: DMatrix<f64>,
     /// Covariance of the unknowns if the set-up were known exactly.
     pub noise_covariance: DMatrix<f64>,
-    /// Parts of the noise and of each group of causes in each unknown's variance.
+    /// What each unknown's variance would fall by if a group of causes were exact.
     pub shares: Shares,
     /// What is known of each cause after the measurement, with its name.
     pub causes: Vec<(String, CauseEstimate)>,

@@ -34,6 +34,7 @@ impl LapResponse {
         JointFile {
             format: Format::V1,
             name: self.name.clone(),
+            status: None,
             joint: Joint {
                 cubic: vec![values.term(Term::CUBIC)],
                 higher: has_higher.then_some(higher),

@@ -52,6 +52,7 @@ impl LapUpdate {
         JointFile {
             format: Format::V1,
             name,
+            status: None,
             joint: Joint {
                 cubic: vec![torque.file_value(LapParameter::JointCubic)],
                 ..Joint::linear(

@@ -129,6 +129,7 @@ pub(super) fn lap_file(
     let file = JointFile {
         format: Format::V1,
         name: study.name.clone(),
+        status: None,
         joint,
         bodies: Some(Bodies {
             a: lap.a.clone(),

@@ -23,6 +23,7 @@ impl Prediction<'_> {
         JointFile {
             format: Format::V1,
             name: self.study.name.clone(),
+            status: None,
             joint: match self.study.nominal_n_m {
                 Some(nominal_n_m) => self.over_preload(joint, nominal_n_m),
                 None => joint,

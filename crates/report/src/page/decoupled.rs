@@ -109,7 +109,7 @@ fn strip(
     let found = report.found;
     let covariance = found.estimate.covariance();
     let estimate = report.value(unknown);
-    let interval = covariance.intervals()[index];
+    let interval = found.estimate.joints[0].intervals()[index];
     let values: Vec<f64> = joints.iter().map(|joint| unknown.value(joint)).collect();
     let identified = covariance.identified[index];
     let mut shown: Vec<f64> = values
@@ -168,7 +168,7 @@ fn caption(
 ) -> String {
     let found = report.found;
     let covariance = found.estimate.covariance();
-    let intervals = covariance.intervals();
+    let intervals = found.estimate.joints[0].intervals();
     let deviations = covariance.standard_deviation();
     let entries = unknowns.len() / 2;
     let sentences = [entry, entries + entry].map(|index| {

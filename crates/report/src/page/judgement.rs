@@ -66,6 +66,9 @@ fn fit(report: &IdentificationReport<'_>) -> String {
     let assessment = &found.estimate.assessment;
     let (tried, agreeing) = found.starts;
     let residual = percent(found.relative_rms);
+    let typical = found
+        .median_difference
+        .map_or_else(|| "–".to_owned(), percent);
     let starts = format!("{agreeing} of {tried}");
     let chi_squared = match (found.reduced_chi_squared, assessment.noise_is_stated) {
         (Some(chi_squared), true) => format!(
@@ -85,6 +88,7 @@ fn fit(report: &IdentificationReport<'_>) -> String {
     };
     let mut rows = vec![
         row("Residual, r.m.s. of the receptance", &residual),
+        row("Half of the values are within", &typical),
         row("Starts that led to this estimate", &starts),
         row("χ² per degree of freedom", &chi_squared),
     ];
@@ -117,7 +121,11 @@ fn fit(report: &IdentificationReport<'_>) -> String {
     } else {
         " class=\"warning\""
     };
-    format!("{}<p{class}>{verdict}</p>\n", bare_table(&rows))
+    let about = found
+        .about_the_residual()
+        .map(|about| format!("<p>{}</p>\n", escaped(&about)))
+        .unwrap_or_default();
+    format!("{}<p{class}>{verdict}</p>\n{about}", bare_table(&rows))
 }
 
 fn row(name: &str, html: &str) -> String {

@@ -56,7 +56,7 @@ fn figure(
             at: joint.torque_n_m.unwrap_or(0.0),
             value: joint.covariance.identified[index].then(|| {
                 let value = unknown.value(&joint.bolts()[unknown.joint]);
-                (value, joint.covariance.intervals()[index])
+                (value, joint.intervals()[index])
             }),
         });
         Panel {

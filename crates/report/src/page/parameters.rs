@@ -71,7 +71,7 @@ pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> S
                 deviation,
             )),
             number_cell(&spread(deviation)),
-            number_cell(&interval(covariance.intervals()[index], deviation)),
+            number_cell(&interval(joint.intervals()[index], deviation)),
         ]
         .concat()
     } else {
@@ -139,7 +139,7 @@ fn basis(report: &IdentificationReport<'_>) -> String {
     }
     let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
     let inflation = inflation.copied().fold(1.0, f64::max);
-    if inflation > 1.0 {
+    if inflation >= 1.05 {
         let _ = write!(
             html,
             " The residual is not the assumed noise, so the standard deviations were raised, by up to a factor of {}.",

@@ -7,6 +7,9 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Difference, FiniteDifference, Order};
 use bolted_joint_study::{StudyError, StudyText};
 
+/// Sensors that are farther apart than this tell no rotation of a joint, m.
+const MOST_SPACING_M: f64 = 2.0;
+
 pub(super) fn rotation(
     study: &StudyText,
     key: &str,
@@ -45,6 +48,12 @@ fn difference(
     } = table;
     let expected = "the distance between neighbouring points in m";
     study.positive(format_args!("{key}.spacing"), spacing, expected)?;
+    study.ensure(
+        spacing <= MOST_SPACING_M,
+        format_args!("{key}.spacing"),
+        spacing,
+        "a distance in m, at most 2 (is it in millimetres?)",
+    )?;
     let order = match points.len() {
         2 => Some(Order::First),
         3 => Some(Order::Second),

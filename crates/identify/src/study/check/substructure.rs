@@ -117,6 +117,7 @@ fn on_the_beam(study: &StudyText, key: &str, x_m: f64, length_m: f64) -> Result<
 }
 
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {
+    plausible(study, key, &table)?;
     let damping = match (table.damping_ratio, table.loss_factor) {
         (Some(ratio), None) => Damping::Ratios(ratio.list()),
         (None, Some(eta)) => Damping::LossFactor(eta),
@@ -137,6 +138,52 @@ fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, Stud
         boundary: table.boundary,
         damping,
     })
+}
+
+/// Refuses numbers that no joint's test has, and names the slip that they look like. What is no number at all is left to the
+/// beam's own check.
+fn plausible(study: &StudyText, key: &str, table: &BeamTable) -> Result<(), StudyError> {
+    for (name, found, [least, most], expected) in [
+        (
+            "length",
+            table.length,
+            [1e-3, 20.0],
+            "a length in m, from 0.001 to 20 (is it in millimetres?)",
+        ),
+        (
+            "width",
+            table.width,
+            [1e-4, 2.0],
+            "a width in m, from 0.0001 to 2 (is it in millimetres?)",
+        ),
+        (
+            "height",
+            table.height,
+            [1e-4, 2.0],
+            "a height in m, from 0.0001 to 2 (is it in millimetres?)",
+        ),
+        (
+            "youngs_modulus",
+            table.youngs_modulus,
+            [1e8, 2e12],
+            "Young's modulus in Pa, from 1e8 to 2e12 (is it in GPa or MPa?)",
+        ),
+        (
+            "density",
+            table.density,
+            [50.0, 30e3],
+            "a density in kg/m³, from 50 to 30000 (is it in g/cm³ or t/mm³?)",
+        ),
+    ] {
+        let is_plausible = (least..=most).contains(&found) || !found.is_finite() || found <= 0.0;
+        study.ensure(
+            is_plausible,
+            format_args!("{key}.beam.{name}"),
+            found,
+            expected,
+        )?;
+    }
+    Ok(())
 }
 
 fn keys_given(joint: &JointPlaceTable) -> String {

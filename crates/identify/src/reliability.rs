@@ -1,0 +1,155 @@
+//! Whether an estimate may be relied on at all: whether the search came to an end, whether the data determine the stiffness, and
+//! whether the model has anything to do with the measurement. What is merely worse than it could be is warned of instead.
+
+use bolted_joint_frf::structure::ComplexMatrix;
+
+use super::assessment::Assessment;
+use super::identification::{AssemblyFit, Identification};
+use super::layout::Bolts;
+use super::lines_estimate::LinesEstimate;
+use super::model::JointModel;
+
+/// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
+/// cent around the resonances; beyond this the computed structure is another one than the measured one.
+const MISFIT: f64 = 0.5;
+
+/// Standard deviations that an unknown may still move when the search ends: added to its error, √(1 + 0.3²), they widen it by less
+/// than a twentieth. Where the noise follows from a residual that is none, renewed weights may go to and fro for ever.
+pub(super) const TOLERABLE_UNREST: f64 = 0.3;
+
+/// The same below which nobody has to know of it.
+pub(super) const NOTABLE_UNREST: f64 = 0.05;
+
+/// χ² per degree of freedom up to which coherence, an estimate itself, accounts for a residual: n/(n − 2) of four averages.
+const MOST_OF_COHERENCE: f64 = 2.0;
+
+/// What speaks against the estimate, a line each; empty if nothing does.
+pub(super) fn reasons_against(
+    estimate: &LinesEstimate,
+    bolts: &Bolts,
+    median_difference: Option<f64>,
+) -> Vec<String> {
+    let mut reasons = Vec::new();
+    if estimate.unrest > TOLERABLE_UNREST {
+        reasons.push("the search for the estimate has not converged".to_owned());
+    }
+    let names = bolts.with_own_joint();
+    for joint in &estimate.joints {
+        let covariance = &joint.covariance;
+        let unknowns = covariance.unknowns.iter().zip(&covariance.identified);
+        let open: Vec<String> = unknowns
+            .filter(|(unknown, identified)| unknown.is_direct_stiffness() && !**identified)
+            .map(|(unknown, _)| unknown.label(names))
+            .collect();
+        if !open.is_empty() {
+            reasons.push(format!(
+                "the data do not determine {}{}",
+                open.join(" and "),
+                joint.place()
+            ));
+        }
+        let diagonal = joint.free.iter().map(|free| free.stiffness.diagonal());
+        for (bolt, _) in diagonal.enumerate().filter(|(_, k)| k.max() <= 0.0) {
+            let bolt = names.get(bolt).map(|name| format!("{name}: "));
+            reasons.push(format!(
+                "{}the joint that fits best has no stiffness{}",
+                bolt.unwrap_or_default(),
+                joint.place()
+            ));
+        }
+    }
+    let misfit = median_difference.filter(|off| *off > MISFIT);
+    if let Some(off) = misfit.filter(|_| !is_known_noise(&estimate.assessment)) {
+        reasons.push(format!(
+            "half of the measured values are more than {:.0} % off the model: substructures and assembly do not belong together \
+             as the study says (lengths in mm, moduli in GPa, points, directions, units?)",
+            100.0 * off
+        ));
+    }
+    reasons
+}
+
+/// Whether the residual is noise of a size that somebody knows. Where its size follows from the residual, no test tells it from a
+/// model that has nothing to do with the measurement.
+fn is_known_noise(assessment: &Assessment) -> bool {
+    let is_of_coherence = || {
+        let chi = assessment.reduced_chi_squared;
+        assessment.noise_is_known && chi.is_some_and(|chi| chi <= MOST_OF_COHERENCE)
+    };
+    assessment.is_certain() && (assessment.noise_is_stated || is_of_coherence())
+}
+
+/// A warning of a residual that is large and not noise, though not so large that nothing is to be relied on.
+pub(super) fn warning(
+    estimate: &LinesEstimate,
+    model: JointModel,
+    relative_rms: f64,
+    median_difference: Option<f64>,
+) -> Option<String> {
+    let typical = median_difference.filter(|off| *off <= MISFIT)?;
+    let choice = estimate.model_choice();
+    let fit = choice.and_then(|choice| choice.models.iter().find(|fit| fit.model == model));
+    let is_noise = fit.map_or(estimate.assessment.fits(), |fit| fit.adequate);
+    (relative_rms > MISFIT && !is_noise).then(|| {
+        format!(
+            "the residual is {:.0} % r.m.s. of the receptance and more than noise, though half of the values are within {:.1} %: the \
+             joint model is too simple, or the study does not describe what was measured (lengths in mm, moduli in GPa, points, \
+             directions, units?)",
+            100.0 * relative_rms,
+            100.0 * typical
+        )
+    })
+}
+
+impl Identification {
+    /// What the relative residual is and what is called noise, where the two seem to contradict each other; a few sentences.
+    #[must_use]
+    pub fn about_the_residual(&self) -> Option<String> {
+        let assessment = &self.estimate.assessment;
+        let size = match (assessment.noise_is_known, assessment.noise_is_stated) {
+            (true, _) => "as coherence tells it",
+            (false, true) => "as the study states it",
+            (false, false) => {
+                "which here follows from the residual itself: what counts then is whether neighbouring lines agree, and whether \
+                 another joint model fits better"
+            }
+        };
+        (self.relative_rms > MISFIT).then(|| {
+            format!(
+                "The residual in % is relative to each computed value, so that small values, as near antiresonances, weigh most. \
+                 Whether it is noise is judged beside the noise's standard deviation, {size}."
+            )
+        })
+    }
+}
+
+/// Median of |measured − computed|/max(|measured|, |computed|) over all values.
+pub(super) fn median_difference(fitted: &[AssemblyFit]) -> Option<f64> {
+    let mut differences: Vec<f64> = fitted
+        .iter()
+        .flat_map(|assembly| {
+            let lines = assembly.lines.assembly.iter().zip(&assembly.regenerated);
+            lines.flat_map(|(measured, computed)| of_line(assembly, measured, computed))
+        })
+        .collect();
+    if differences.is_empty() {
+        return None;
+    }
+    let middle = differences.len() / 2;
+    Some(*differences.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+fn of_line<'a>(
+    assembly: &'a AssemblyFit,
+    measured: &'a ComplexMatrix,
+    computed: &'a ComplexMatrix,
+) -> impl Iterator<Item = f64> {
+    assembly.fits.iter().map(move |fit| {
+        let (measured, computed) = (measured[fit.place], computed[fit.place]);
+        let size = measured.norm().max(computed.norm());
+        match size > 0.0 {
+            true => (measured - computed).norm() / size,
+            false => 0.0,
+        }
+    })
+}

@@ -3,10 +3,12 @@
 use nalgebra::DMatrix;
 
 use bolted_joint_joint::{
-    BootstrapRecord, Correlation, Format, FreeEstimate, FunctionResidual, Intervals, Joint,
-    JointFile, NoiseRecord, OverPreload, Residual, StandardDeviation, Status, Uncertainty,
-    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+    BootstrapRecord, BudgetRecord, Correlation, Format, FreeEstimate, FunctionResidual,
+    GroupRecord, Intervals, Joint, JointFile, NoiseRecord, OverPreload, Residual,
+    StandardDeviation, Status, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
+
+use bolted_joint_systematic::Group;
 
 use super::identification::{FunctionFit, Identification};
 use super::joint_estimate::{BootstrapResult, JointEstimate};
@@ -137,10 +139,14 @@ impl Identification {
             .iter()
             .map(|&index| nominal.covariance.unknowns[index].name);
         let nominal = self.at_torque(nominal, bolt);
+        let budget = match self.systematic {
+            Some(_) => ", and errors of the set-up within the error budget",
+            None => "",
+        };
         Some(Uncertainty {
             standard_deviation: nominal.standard_deviation,
             basis: format!(
-                "information matrix of the maximum-likelihood estimate with {noise}; random errors of the receptances of {of}"
+                "information matrix of the maximum-likelihood estimate with {noise}; random errors of the receptances of {of}{budget}"
             ),
             correlation: Some(Correlation {
                 unknowns: names.map(str::to_owned).collect(),
@@ -148,10 +154,35 @@ impl Identification {
             }),
             interval_95: nominal.interval_95,
             inflation: (inflation > 1.0).then_some(inflation),
+            budget: self.budget(&own),
             not_identified: nominal.not_identified,
             free_estimate: nominal.free_estimate,
             bootstrap: nominal.bootstrap,
             over_preload: (joints.len() > 1).then(|| self.uncertainty_over_preload(bolt)),
+        })
+    }
+
+    /// What errors of the set-up do to the unknowns number `own`.
+    fn budget(&self, own: &[usize]) -> Option<BudgetRecord> {
+        let found = self.systematic.as_ref()?;
+        let noise: Vec<f64> = found
+            .noise_covariance
+            .diagonal()
+            .iter()
+            .map(|v| v.sqrt())
+            .collect();
+        let group = |(group, parts): &(Group, Vec<f64>)| {
+            let matrices = JointMatrices::from_unknowns(self.model, &chosen(parts, own));
+            GroupRecord {
+                group: group.name().to_owned(),
+                stiffness: rows(&matrices.stiffness),
+                damping: rows(&matrices.damping),
+            }
+        };
+        Some(BudgetRecord {
+            noise_alone: deviations(self.model, &chosen(&noise, own)),
+            groups: found.shares.groups.iter().map(group).collect(),
+            contradicted: found.contradicted(),
         })
     }
 

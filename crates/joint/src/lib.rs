@@ -31,10 +31,10 @@ pub use law::displacements;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::JointProblem;
 pub use record::{
-    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, Correlation, Format,
-    FreeEstimate, FromModesRecord, FunctionResidual, InputFile, Intervals, Joint, JointFile,
-    NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation, Uncertainty,
-    UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+    BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, BudgetRecord,
+    Correlation, Format, FreeEstimate, FromModesRecord, FunctionResidual, GroupRecord, InputFile,
+    Intervals, Joint, JointFile, NoiseRecord, OverPreload, Provenance, Residual, StandardDeviation,
+    Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 pub use status::Status;
 pub use units::{description, superscript, unit, unit_for_people, with_symbols};

@@ -179,6 +179,9 @@ pub struct Uncertainty {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 1)))]
     pub inflation: Option<f64>,
+    /// What errors of the set-up do to the standard deviations, where they take part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<BudgetRecord>,
     /// Unknowns that the data do not determine: their values are not to be believed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_identified: Vec<String>,
@@ -191,6 +194,34 @@ pub struct Uncertainty {
     /// The same at every preload of `joint.over_preload`; what stands beside it holds at the nominal one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_preload: Option<UncertaintyOverPreload>,
+}
+
+/// What errors of the set-up do to the standard deviations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct BudgetRecord {
+    /// One standard deviation of each entry if the set-up were known exactly.
+    pub noise_alone: StandardDeviation,
+    /// What each group of causes does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<GroupRecord>,
+    /// Causes whose limits the data contradict, with their sizes; they were widened.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contradicted: Vec<String>,
+}
+
+/// What a group of causes does: parts that the variance of each entry would fall by if it were known exactly.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct GroupRecord {
+    /// Name of the group.
+    pub group: String,
+    /// Of the entries of K, from 0 to 1.
+    pub stiffness: Vec<Vec<f64>>,
+    /// Of the entries of C, from 0 to 1.
+    pub damping: Vec<Vec<f64>>,
 }
 
 /// How well the joint's parameters are known over the bolt's preload.

@@ -47,7 +47,7 @@ fn bolts_that_contradict_each_other_are_named() {
     bench.write("a.toml", MODES);
     #[rustfmt::skip]
     let cases = [
-        ("bolts = \"alike\"", "bolts = \"similar\"", ["line 18", "expected `alike` or `different`"]),
+        ("bolts = \"alike\"", "bolts = \"similar\"", ["line 19", "expected `alike` or `different`"]),
         ("bolts = \"alike\"\n", "", ["`joint.bolts`: found nothing for 2 bolts", "\"alike\" for one joint at all of them"]),
         (TWO_ON_B, ON_B, ["`b.joint`: found 1 place", "expected 2 places, as on A"]),
         (TWO_ON_A, ON_A, ["`joint.bolts`: found it for one bolt", "lists of several places"]),

@@ -165,6 +165,21 @@ impl Systematic {
         groups
     }
 
+    /// Causes whose limits the data contradict, with their sizes.
+    pub(super) fn contradicted(&self) -> Vec<String> {
+        let contradicted = self
+            .causes
+            .iter()
+            .filter(|(_, cause)| cause.contradicted.is_some());
+        contradicted
+            .map(|(name, cause)| {
+                let ([value, deviation], unit) =
+                    shown(cause.prior.cause, [cause.value, cause.standard_deviation]);
+                format!("{name}: {value:.3} ± {deviation:.2} {unit}")
+            })
+            .collect()
+    }
+
     /// What a technician should know and do.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {

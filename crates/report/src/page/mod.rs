@@ -1,6 +1,7 @@
 //! The report of an identification: one page without any reference to the network, for a screen and for paper.
 
 mod beside;
+mod budget;
 mod decoupled;
 mod figure;
 mod files;
@@ -47,6 +48,7 @@ impl IdentificationReport<'_> {
             judgement::summary(self, &files),
             measured::section(self),
             parameters::section(self),
+            budget::section(self),
             judgement::section(self, &files),
             functions::section(self),
             nyquist::section(self),

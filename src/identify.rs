@@ -292,6 +292,13 @@ fn models(found: &Identification, study: &Study) -> String {
         .iter()
         .map(|fit| {
             let residual = leaves(fit.adequate);
+            if fit.stopped_early {
+                return format!(
+                    "{} about +{} ({residual})",
+                    fit.model,
+                    number(fit.bic_difference, 1)
+                );
+            }
             format!("{} +{:.1} ({residual})", fit.model, fit.bic_difference)
         })
         .collect();

@@ -33,6 +33,32 @@ pub struct ModelFit {
     pub reduced_chi_squared: Option<f64>,
     /// Whether it leaves nothing but noise.
     pub adequate: bool,
+    /// Whether its search was stopped early, since it was too far from the data: `bic_difference` is a coarse value then.
+    pub stopped_early: bool,
+}
+
+/// A model that was compared.
+struct Compared {
+    layout: Layout,
+    unknowns: usize,
+    /// −2 ln L
+    misfit: f64,
+    /// Schwarz's criterion.
+    bic: f64,
+    /// `None` where the search was stopped early.
+    found: Option<Found>,
+}
+
+impl Compared {
+    fn of(layout: Layout, found: Found) -> Self {
+        Self {
+            layout,
+            unknowns: found.estimate.unknowns.len(),
+            misfit: found.estimate.misfit,
+            bic: bayesian_criterion(&found.estimate),
+            found: Some(found),
+        }
+    }
 }
 
 /// Schwarz's criterion of an estimate, −2 ln L + p ln n with p unknowns and n real numbers.
@@ -48,37 +74,52 @@ pub(super) fn compare(problem: &Problem<'_>, layout: &Layout, found: &Found) -> 
         JointModel::Diagonal,
         JointModel::Full,
     ];
-    let fits: Vec<(Layout, Found)> = all
+    let fits: Vec<Compared> = all
         .into_iter()
         .filter_map(|other| layout.with_model(other))
         .filter_map(|other| {
             if other == *layout {
-                return Some((other, found.clone()));
+                return Some(Compared::of(other, found.clone()));
             }
             let torques = found.estimate.unknowns.as_slice();
             let starts: Vec<_> = torques
                 .chunks_exact(layout.unknowns())
                 .map(|unknowns| vec![embedded(layout, unknowns, &other)])
                 .collect();
+            let start = &starts.first()?[0];
+            if let Some(excess) = problem.hopeless_excess(layout, &found.estimate, &other, start) {
+                let numbers = 2.0 * found.estimate.measurements as f64;
+                let misfit = found.estimate.misfit + excess;
+                return Some(Compared {
+                    unknowns: other.unknowns(),
+                    misfit,
+                    bic: misfit + other.unknowns() as f64 * numbers.ln(),
+                    layout: other,
+                    found: None,
+                });
+            }
             let found = problem.best(&other, &starts, Effort::Related).ok()?;
-            Some((other, found.without_corrections()))
+            Some(Compared::of(other, found.without_corrections()))
         })
         .collect();
-    let bic = |(_, found): &(Layout, Found)| bayesian_criterion(&found.estimate);
-    let lowest = fits.iter().map(bic).fold(f64::INFINITY, f64::min);
-    let misfits = fits.iter().map(|(_, found)| found.estimate.misfit);
-    let best = misfits.fold(f64::INFINITY, f64::min);
+    let lowest = fits.iter().map(|fit| fit.bic).fold(f64::INFINITY, f64::min);
+    let best = fits
+        .iter()
+        .map(|fit| fit.misfit)
+        .fold(f64::INFINITY, f64::min);
     // A model that is too simple can pass for one with much noise. Of exact data rounding is left, which is no likelihood.
     let is_as_likely =
         |found: &Found| found.assessment.is_exact || found.estimate.misfit <= best + CHANCE;
+    let is_adequate = |found: &Found| found.assessment.fits() && is_as_likely(found);
     let models: Vec<ModelFit> = fits
         .iter()
         .map(|fit| ModelFit {
-            model: fit.0.model(),
-            unknowns: fit.1.estimate.unknowns.len(),
-            bic_difference: bic(fit) - lowest,
-            reduced_chi_squared: tested_chi_squared(&fit.1),
-            adequate: fit.1.assessment.fits() && is_as_likely(&fit.1),
+            model: fit.layout.model(),
+            unknowns: fit.unknowns,
+            bic_difference: fit.bic - lowest,
+            reduced_chi_squared: fit.found.as_ref().and_then(tested_chi_squared),
+            adequate: fit.found.as_ref().is_some_and(is_adequate),
+            stopped_early: fit.found.is_none(),
         })
         .collect();
     let any_is_adequate = models.iter().any(|fit| fit.adequate);

@@ -160,6 +160,7 @@ pub fn identify_and_draw(
     let relative_rms = (squares / functions().count() as f64).sqrt();
     let median_difference = reliability::median_difference(&fitted);
     let reasons_against = reliability::reasons_against(&estimate, &study.bolts, median_difference);
+    warnings.extend(study.rotations_not_corrected());
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
     let large = reliability::warning(&estimate, study.model, relative_rms, median_difference);

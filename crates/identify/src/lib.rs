@@ -45,6 +45,7 @@ mod provenance;
 mod receptances;
 mod reliability;
 mod residuals;
+mod rival;
 mod search;
 mod sensitivity;
 mod starts;

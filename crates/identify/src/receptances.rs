@@ -45,6 +45,18 @@ impl Receptances {
     }
 }
 
+/// Receptances with what is lost at the joint's DOFs, which come first.
+pub(super) fn with_lost(mut formed: ComplexMatrix, lost: Option<&DMatrix<f64>>) -> ComplexMatrix {
+    if let Some(lost) = lost {
+        for i in 0..lost.nrows() {
+            for j in 0..lost.ncols() {
+                formed[(i, j)] += lost[(i, j)];
+            }
+        }
+    }
+    formed
+}
+
 /// Measured receptances from which those of a substructure are formed.
 #[derive(Clone, Debug)]
 pub struct MeasuredSubstructure {
@@ -55,6 +67,8 @@ pub struct MeasuredSubstructure {
     functions: Vec<Arc<Vec<Complex64>>>,
     measured: Vec<(usize, usize)>,
     relative_variance: Option<Vec<Vec<f64>>>,
+    /// What is added at the joint's DOFs: what rotations by differences lose.
+    lost: Option<DMatrix<f64>>,
 }
 
 impl MeasuredSubstructure {
@@ -79,7 +93,14 @@ impl MeasuredSubstructure {
             functions: functions.into_iter().map(Arc::new).collect(),
             measured,
             relative_variance,
+            lost: None,
         }
+    }
+
+    /// With what rotations by differences lose at the joint's DOFs, rad/(N·m).
+    #[must_use]
+    pub fn with_lost(self, lost: Option<DMatrix<f64>>) -> Self {
+        Self { lost, ..self }
     }
 
     /// W: motion of the joint's DOFs, then of the points, by that of the measured DOFs: H = W U Wᵀ.
@@ -118,6 +139,7 @@ impl MeasuredSubstructure {
 
     /// H = W U Wᵀ at a line   (Tol 3.54).
     fn formed(&self, line: usize) -> ComplexMatrix {
-        &self.complex * self.receptance(line) * self.complex.transpose()
+        let formed = &self.complex * self.receptance(line) * self.complex.transpose();
+        with_lost(formed, self.lost.as_ref())
     }
 }

@@ -154,8 +154,8 @@ impl<'a> Assignment<'a> {
 /// What joints are sought in: the data of all assemblies, each with its own joint.
 pub(super) struct Problem<'a> {
     assignment: Assignment<'a>,
-    noise: &'a Noise,
-    data: Data,
+    pub(super) noise: &'a Noise,
+    pub(super) data: Data,
 }
 
 impl<'a> Problem<'a> {

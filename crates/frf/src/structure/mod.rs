@@ -5,6 +5,7 @@ mod coupling;
 mod error;
 mod modal;
 mod rotation;
+mod section;
 mod spatial;
 
 pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, Motion};
@@ -12,4 +13,5 @@ pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple,
 pub use error::StructureError;
 pub use modal::ModalModel;
 pub use rotation::{Difference, FiniteDifference, Order};
+pub use section::Section;
 pub use spatial::{Modes, SpatialModel};

@@ -58,6 +58,18 @@ impl FiniteDifference {
         }
     }
 
+    /// On which side of the joint its points lie.
+    #[must_use]
+    pub fn side(&self) -> Difference {
+        self.difference
+    }
+
+    /// Distance of neighbouring points, m.
+    #[must_use]
+    pub fn spacing_m(&self) -> f64 {
+        self.spacing_m
+    }
+
     /// Number of points.
     #[must_use]
     pub fn points(&self) -> usize {

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use super::super::error::IdentifyError;
 use super::super::from_modes::FromModes;
 use super::super::lines::{Lines, independent};
-use super::super::receptances::{MeasuredSubstructure, Receptances};
+use super::super::receptances::{MeasuredSubstructure, Receptances, with_lost};
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
 use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
@@ -61,7 +61,10 @@ fn joint_and_points(
             let refused = |source| StudyError::model(&study.path, Some(key), source);
             Ok(Receptances::Exact(receptances.map_err(refused)?))
         }
-        Substructure::Measured { source, joints } => {
+        Substructure::Measured { source, joints, .. } => {
+            let lost = substructure
+                .rotation_lost(dofs_of_a_bolt)
+                .map(|[lost, _]| lost);
             let motions = Motions::new(joints, dofs_of_a_bolt, points);
             let labelled = labelled_receptances(key, source, &motions.labels, axis, reader)?;
             // (joint, points) = W (labels): H = W H_labels Wᵀ   (Tol 3.54)
@@ -70,7 +73,12 @@ fn joint_and_points(
                 let complex = whole.map(Complex64::from);
                 let transposed = complex.transpose();
                 let lines = 0..axis.frequency_hz.len();
-                let formed = lines.map(|line| &complex * labelled.matrix(line) * &transposed);
+                let formed = lines.map(|line| {
+                    with_lost(
+                        &complex * labelled.matrix(line) * &transposed,
+                        lost.as_ref(),
+                    )
+                });
                 return Ok(Receptances::Exact(formed.collect()));
             }
             let (measured, variance) = (
@@ -78,7 +86,8 @@ fn joint_and_points(
                 labelled.relative_variance.clone(),
             );
             let functions = labelled.symmetrised();
-            let measured = MeasuredSubstructure::new(whole, functions, measured, variance);
+            let measured =
+                MeasuredSubstructure::new(whole, functions, measured, variance).with_lost(lost);
             Ok(Receptances::Measured(Arc::new(measured)))
         }
     }

@@ -123,7 +123,7 @@ fn structure<'a>(
         (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured {
             functions: functions(measured, &labels(study, side, lines), level)?,
             transformation: measured.transformation().clone(),
-            correction: None,
+            correction: substructure.rotation_lost(study.dofs_of_a_bolt()),
         })),
     }
 }

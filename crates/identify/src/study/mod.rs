@@ -7,11 +7,12 @@ mod tables;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use bolted_joint_frf::structure::{Beam, FiniteDifference};
+use bolted_joint_frf::structure::{Beam, Difference, FiniteDifference, Section};
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_joint::Bodies;
 use bolted_joint_study::{Method, StudyText};
 use bolted_joint_systematic::Budget;
+use nalgebra::DMatrix;
 
 use super::band_choice;
 use super::bands::{BandChoices, Bands};
@@ -97,6 +98,8 @@ pub enum Substructure {
         source: Source,
         /// The joint's DOFs at each bolt.
         joints: Vec<MeasuredJoint>,
+        /// The cross-section at the joint, where the study states it.
+        section: Option<Section>,
     },
     /// A computed beam.
     Beam {
@@ -116,6 +119,39 @@ pub struct MeasuredJoint {
     pub y: Dof,
     /// Its rotation, where the study names one.
     pub theta: Option<Rotation>,
+}
+
+impl Substructure {
+    /// What rotations by differences lose at the joint's DOFs, with its derivative by ln EI, rad/(N·m); `None` where nothing is
+    /// known of it or nothing is lost.
+    pub(super) fn rotation_lost(&self, dofs_of_a_bolt: usize) -> Option<[DMatrix<f64>; 2]> {
+        let Self::Measured {
+            joints,
+            section: Some(section),
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let size = joints.len() * dofs_of_a_bolt;
+        let mut lost = [DMatrix::zeros(size, size), DMatrix::zeros(size, size)];
+        let mut is_any = false;
+        for (bolt, joint) in joints.iter().enumerate() {
+            let Some(Rotation::Difference { difference, .. }) = &joint.theta else {
+                continue;
+            };
+            if dofs_of_a_bolt < 2 {
+                continue;
+            }
+            let of_bolt = section.rotation_lost(difference)?;
+            let theta = bolt * dofs_of_a_bolt + 1;
+            for (matrix, value) in lost.iter_mut().zip(of_bolt) {
+                matrix[(theta, theta)] = value;
+            }
+            is_any = true;
+        }
+        is_any.then_some(lost)
+    }
 }
 
 impl MeasuredJoint {
@@ -174,7 +210,7 @@ impl Substructure {
     /// Whether both are the same functions of the same file at the same joint.
     pub(super) fn is_same_measurement(&self, other: &Self) -> bool {
         let key = |substructure: &Self| match substructure {
-            Self::Measured { source, joints } => match source {
+            Self::Measured { source, joints, .. } => match source {
                 Source::Frf { file, modes } => {
                     Some((file.path.clone(), modes.clone(), joints.clone()))
                 }
@@ -213,6 +249,48 @@ impl Study {
         .into_iter()
         .filter_map(|(key, has_rotation)| (!has_rotation).then_some(key))
         .collect()
+    }
+
+    /// What rotations by differences lose, where nothing corrects them and the study does not say that its set-up is exact.
+    pub(super) fn rotations_not_corrected(&self) -> Vec<String> {
+        if self.budget == Budget::none() || self.model.dofs() < 2 {
+            return Vec::new();
+        }
+        let of = |(key, substructure): (&str, &Substructure)| {
+            let Substructure::Measured {
+                joints, section, ..
+            } = substructure
+            else {
+                return None;
+            };
+            let difference = joints.iter().find_map(|joint| match &joint.theta {
+                Some(Rotation::Difference { difference, .. }) => Some(difference),
+                _ => None,
+            })?;
+            if section.is_some() {
+                return None;
+            }
+            let remedy = match difference.side() {
+                Difference::Central => {
+                    format!(
+                        "state `section` of `{key}` (width, height, youngs_modulus), which corrects it"
+                    )
+                }
+                Difference::Forward | Difference::Backward => {
+                    "measure points on both sides of the joint, which `section` then corrects"
+                        .to_owned()
+                }
+            };
+            Some(format!(
+                "the rotation of {} is a {difference}: it misses what the structure bends right at the joint, about a third of \
+                 the spacing over EI, so that the joint seems softer in rotation; no data show that; {remedy}",
+                key.to_uppercase()
+            ))
+        };
+        [("a", &self.a), ("b", &self.b)]
+            .into_iter()
+            .filter_map(of)
+            .collect()
     }
 
     /// Bands for the averages by sensitivity and distance, for a test whose assembly has these joints: those of each joint.

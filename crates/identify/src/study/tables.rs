@@ -8,7 +8,7 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use bolted_joint_frf::structure::{Boundary, Difference};
+use bolted_joint_frf::structure::{Boundary, Difference, Section};
 use bolted_joint_frf::{Dof, Quantity};
 use bolted_joint_joint::Bodies;
 use bolted_joint_study::{FrequencyTable, Method, OneOrMore, one_or_more_tables};
@@ -50,6 +50,7 @@ pub(super) struct SubstructureTable {
     pub(super) averages: Option<f64>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
+    pub(super) section: Option<Section>,
     #[serde(deserialize_with = "places")]
     pub(super) joint: Vec<JointPlaceTable>,
     #[serde(default)]

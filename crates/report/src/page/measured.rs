@@ -114,7 +114,7 @@ fn at_bolts(places: Vec<String>, bolts: &Bolts) -> String {
 
 fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     match substructure {
-        Substructure::Measured { source, joints } => {
+        Substructure::Measured { source, joints, .. } => {
             let origin = match source {
                 Source::Frf { file, modes } => {
                     let modes = modes.as_deref().map(file_name).map(|name| {
@@ -317,7 +317,7 @@ fn noise(report: &IdentificationReport<'_>) -> String {
 fn assumptions(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
     let mut list = vec![
-        "The joint is linear and has no mass; its matrices are symmetric and do not depend on frequency or amplitude.".to_owned(),
+        "The joint is linear; its matrices are symmetric and do not depend on frequency or amplitude.".to_owned(),
         "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
         "Errors of measured functions are independent from line to line and from function to function, and circular in the \
          complex plane. Standard deviations are those of the complex error."
@@ -325,6 +325,10 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
     ];
     for (name, substructure) in [("A", &study.a), ("B", &study.b)] {
         match substructure {
+            Substructure::Beam { .. } if report.found.systematic.is_some() => list.push(format!(
+                "Substructure {name} is computed: errors of its material and positions are in the intervals, within the error \
+                 budget; those of beam theory are not."
+            )),
             Substructure::Beam { .. } => list.push(format!(
                 "Substructure {name} is computed: errors of its model are not in the intervals."
             )),
@@ -345,13 +349,20 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
                 ..
             } => {}
         }
-        let Substructure::Measured { joints, .. } = substructure else {
+        let Substructure::Measured {
+            joints, section, ..
+        } = substructure
+        else {
             continue;
         };
         let rotations = joints.iter().filter_map(|joint| joint.theta.as_ref());
         for rotation in rotations.filter(|r| matches!(r, Rotation::Difference { .. })) {
+            let error = match section {
+                Some(_) => "what the difference loses is added from the cross-section",
+                None => "the error of that difference is not in the intervals",
+            };
             list.push(format!(
-                "Rotations of {name} follow from translations by {}; the error of that difference is not in the intervals.",
+                "Rotations of {name} follow from translations by {}; {error}.",
                 difference(rotation)
             ));
         }

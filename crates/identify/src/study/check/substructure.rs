@@ -3,12 +3,12 @@
 use super::super::super::layout::Bolts;
 use super::super::super::model::JointModel;
 use super::super::tables::{BeamTable, JointPlaceTable, SubstructureTable};
-use super::super::{MeasuredJoint, Source, Substructure};
+use super::super::{MeasuredJoint, Rotation, Source, Substructure};
 use super::assembly::frf_file;
 use super::bolts::{apart, apart_on_beam, places_of_bolts};
 use super::names_given;
 use super::rotation::rotation;
-use bolted_joint_frf::structure::{Beam, Damping};
+use bolted_joint_frf::structure::{Beam, Damping, Difference, Section};
 use bolted_joint_study::{StudyError, StudyText};
 
 pub(crate) fn substructure(
@@ -45,6 +45,14 @@ pub(crate) fn substructure(
         },
         (None, Some(path), None) => Source::Modal(study.resolved(&path)),
         (None, None, Some(beam)) => {
+            let expected = "it beside measured data only: a beam has one";
+            let found = "a section";
+            study.ensure(
+                table.section.is_none(),
+                format_args!("{key}.section"),
+                found,
+                expected,
+            )?;
             let beam = computed(study, key, beam)?;
             let mut joints_m = Vec::new();
             for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
@@ -95,7 +103,59 @@ pub(crate) fn substructure(
         joints.push(MeasuredJoint { y, theta });
     }
     apart(study, key, &joints, bolts)?;
-    Ok(Substructure::Measured { source, joints })
+    if let Some(section) = &table.section {
+        check_section(study, key, section, &joints)?;
+    }
+    Ok(Substructure::Measured {
+        source,
+        joints,
+        section: table.section,
+    })
+}
+
+/// A cross-section is that of a beam, and says what a difference to both sides loses.
+fn check_section(
+    study: &StudyText,
+    key: &str,
+    section: &Section,
+    joints: &[MeasuredJoint],
+) -> Result<(), StudyError> {
+    for (name, value, unit) in [
+        ("width", section.width_m, "m"),
+        ("height", section.height_m, "m"),
+        ("youngs_modulus", section.youngs_modulus_pa, "Pa"),
+    ] {
+        let expected = format!("a number above zero, {unit}");
+        study.positive(format_args!("{key}.section.{name}"), value, expected)?;
+    }
+    let nu = section.poissons_ratio;
+    let expected = "from 0 to below 0.5";
+    study.ensure(
+        (0.0..0.5).contains(&nu),
+        format_args!("{key}.section.poissons_ratio"),
+        nu,
+        expected,
+    )?;
+    let differences = joints.iter().filter_map(|joint| match &joint.theta {
+        Some(Rotation::Difference { difference, .. }) => Some(difference),
+        _ => None,
+    });
+    let mut count = 0;
+    for difference in differences {
+        count += 1;
+        study.ensure(
+            difference.side() == Difference::Central,
+            format_args!("{key}.section"),
+            format_args!("it beside a {difference}"),
+            "a central difference: what a difference to one side loses depends on how the beam goes on",
+        )?;
+    }
+    study.ensure(
+        count > 0,
+        format_args!("{key}.section"),
+        "it without a rotation by differences",
+        "it only where `theta` is a difference over points",
+    )
 }
 
 fn position(study: &StudyText, key: &str, joint: &JointPlaceTable) -> Result<f64, StudyError> {

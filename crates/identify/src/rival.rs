@@ -1,0 +1,62 @@
+//! Joint models that are too far from the data for a search of their own.
+
+use nalgebra::DVector;
+
+use super::estimator::{Estimate, minimum};
+use super::layout::Layout;
+use super::objective::Weights;
+use super::search::robust_start;
+use super::torque::Problem;
+
+/// An excess of −2 ln L that no other start makes up for, and no noise.
+const HOPELESS: f64 = 1000.0;
+
+impl Problem<'_> {
+    /// By how much −2 ln L of another joint model is above that of an estimate, where that is too much for any search to make up
+    /// for: told on few lines, with what the errors of measured substructures add to the variances at the estimate. `None`
+    /// where it is not, or where the substructures have no errors and a search costs little.
+    pub(super) fn hopeless_excess(
+        &self,
+        own: &Layout,
+        found: &Estimate,
+        other: &Layout,
+        start: &DVector<f64>,
+    ) -> Option<f64> {
+        let whole = self
+            .data
+            .thinned_whole
+            .as_ref()
+            .filter(|_| self.joints() == 1)?;
+        let cost = |layout: &Layout, weights: &[Weights], unknowns: DVector<f64>| {
+            let entries = layout.places();
+            let state = self
+                .data
+                .thinned
+                .objective(&entries)
+                .at(weights, unknowns, None)?;
+            Some(state.normal.cost)
+        };
+        let weights = {
+            let entries = own.places();
+            let whole = whole.objective(&entries);
+            let state = whole.unweighted(found.unknowns.clone(), None);
+            whole.marginal_weights(found.levels, &state)?
+        };
+        let entries = other.places();
+        let exact = self.data.thinned.objective(&entries);
+        let robust = robust_start(
+            exact.as_ref(),
+            whole.objective(&entries).as_ref(),
+            self.noise,
+            start.clone(),
+        );
+        let robust = robust.unwrap_or_else(|| start.clone());
+        let other_unknowns = minimum(exact.as_ref(), &weights, &robust)?;
+        let excess = 2.0
+            * (cost(other, &weights, other_unknowns)?
+                - cost(own, &weights, found.unknowns.clone())?);
+        let numbers = 2.0 * exact.measurements() as f64;
+        let of_all = found.measurements as f64 / exact.measurements() as f64;
+        (excess > HOPELESS.max(numbers)).then_some(excess * of_all)
+    }
+}

@@ -1,0 +1,63 @@
+"""Identification of a joint from data of a laboratory that makes mistakes."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+import rig
+
+
+@dataclasses.dataclass
+class Result:
+    """What the program says of a joint."""
+
+    values: np.ndarray
+    deviation: np.ndarray
+    budget: dict
+    whole: dict
+    stderr: str
+
+    @property
+    def z(self):
+        """Error of each unknown in standard deviations."""
+        return (self.values - rig.TRUTH) / self.deviation
+
+    @property
+    def suspects(self):
+        return [suspect["cause"] for suspect in self.budget["suspects"]]
+
+
+def entries(matrices):
+    stiffness, damping = np.array(matrices["stiffness"]), np.array(matrices["damping"])
+    return np.array([*stiffness[np.triu_indices(2)], *damping[np.triu_indices(2)]])
+
+
+@pytest.fixture
+def identify(program, tmp_path):
+    """Identifies the joint of the rig with these mistakes; numbers go to `rig.test_data` and `rig.write`."""
+
+    def identify(mistakes, seed=1, noise=0.01, budget=None, computed_b=False, timoshenko=True):
+        return identified(program, tmp_path, mistakes, seed, noise, budget, computed_b, timoshenko)
+
+    return identify
+
+
+def identified(program, folder, mistakes, seed, noise, budget=None, computed_b=False, timoshenko=True):
+    import subprocess
+
+    sets = rig.test_data(mistakes, noise, seed, timoshenko=timoshenko)
+    study = rig.write(folder, sets, noise, budget=budget, computed_b=computed_b, timoshenko=timoshenko)
+    done = subprocess.run(
+        [program, "identify", study, "-o", folder / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
+    )
+    assert done.returncode in (0, 3), done.stderr
+    whole = json.loads(done.stdout)
+    file = whole["joint_file"]
+    return Result(
+        values=entries(file["joint"]),
+        deviation=entries(file["uncertainty"]["standard_deviation"]),
+        budget=whole["budget"],
+        whole=whole,
+        stderr=done.stderr,
+    )

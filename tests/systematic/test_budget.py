@@ -1,0 +1,86 @@
+"""The error budget against a laboratory that makes mistakes (rig.py), on the real program."""
+
+import numpy as np
+import pytest
+import rig
+from rig import Mistakes
+
+
+def test_without_mistakes_the_intervals_are_those_of_noise(identify):
+    plain = identify(Mistakes(), budget='"none"')
+    assert plain.budget is None
+    assert abs(plain.z).max() < 3
+    careful = identify(Mistakes())
+    assert abs(careful.z).max() < 3.5
+    # the noise of a study without budget is the same noise
+    alone = np.array(careful.budget["standard_deviation_of_noise"])
+    np.testing.assert_allclose(alone, plain.deviation, rtol=0.25)
+    # what such a laboratory knows of the stiffness is two to six times less
+    wider = careful.deviation / plain.deviation
+    assert (wider[:3] > 2).all() and (wider[:3] < 6).all(), wider
+    assert careful.budget["suspects"] == []
+    assert not [cause for cause in careful.budget["causes"] if cause["contradicted"]]
+
+
+# mistakes; what the program has to name among the first three; its size in the unit of the cause
+CASES = {
+    "gain of the assembly": (Mistakes(gain={"C": 0.02}), "gain of the assembly", 0.02),
+    "a channel of the assembly": (Mistakes(channel={("C", 0): 0.02}), "gain of the channel 11:+Y of the assembly", 0.02),
+    "rotation of A": (Mistakes(channel={("A", 1): 0.05}), "gain of the channel 1:+RZ of A", 0.05),
+    "delay of A": (Mistakes(delay={"A": 50e-6}), "delay of A", 50e-6),
+    "delay of the assembly": (Mistakes(delay={"C": 50e-6}), "delay of the assembly", 50e-6),
+    "sensor at the joint of A": (Mistakes(joint_sensor={"A": 1e-3}), "position of the joint on A", 1e-3),
+    "A clamped again": (Mistakes(frequency={"A": -0.01}), "frequencies of A in the assembly", -0.01),
+    "accelerometer on the assembly": (Mistakes(accelerometer={"C": 0.002}), "mass of the accelerometer on the assembly", 0.002),
+    "accelerometer on A": (Mistakes(accelerometer={"A": 0.002}), "mass of the accelerometer on A", 0.002),
+    "bolt on B": (Mistakes(joint_mass={"B": 0.020}), "mass at the joint on B", 0.020),
+    "loss factor": (Mistakes(loss_factor=0.05), "loss factor of the joint", 0.05),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_mistake_is_named_and_its_estimate_right(identify, case):
+    mistakes, cause, size = CASES[case]
+    found = identify(mistakes)
+    assert cause in found.suspects[:3], found.suspects
+    suspect = found.budget["suspects"][found.suspects.index(cause)]
+    assert abs(suspect["value"] - size) < 0.35 * abs(size), suspect
+    assert abs(found.z).max() < 4, found.z
+
+
+def test_a_mistake_that_no_budget_allows_is_said_in_a_sentence(identify):
+    found = identify(Mistakes(delay={"C": 50e-6}))
+    assert "the data contradict the error budget: delay of the assembly" in found.stderr
+    contradicted = [cause["cause"] for cause in found.budget["causes"] if cause["contradicted"]]
+    assert "delay of the assembly" in contradicted
+
+
+def test_a_limit_can_be_exact_or_wider(identify):
+    exact = identify(Mistakes(), budget='{ joint_mass = "exact", loss_factor = 0 }')
+    names = [cause["cause"] for cause in exact.budget["causes"]]
+    assert "loss factor of the joint" not in names and "mass at the joint on A" not in names
+    careful = identify(Mistakes())
+    assert exact.deviation[2] < 0.9 * careful.deviation[2]
+
+
+def drawn(generator):
+    """Every mistake at once, each as large as a careful laboratory makes it."""
+    normal = generator.standard_normal
+    return Mistakes(
+        gain={name: 0.01 * normal() for name in "ABC"},
+        channel={(name, row): 0.005 * normal() for name, rows in (("A", 2), ("B", 5), ("C", 3)) for row in range(rows)},
+        delay={name: 5e-6 * normal() for name in "ABC"},
+        accelerometer={name: 3e-4 * normal() for name in "ABC"},
+        joint_sensor={side: 5e-4 * normal() for side in "AB"},
+        frequency={side: 0.002 * normal() for side in "AB"},
+        joint_mass={side: 0.010 * normal() for side in "AB"},
+        loss_factor=0.02 * normal(),
+    )
+
+
+def test_intervals_hold_when_everything_is_a_little_wrong(identify):
+    draws = 6
+    z = np.array([identify(drawn(np.random.default_rng(100 + draw)), seed=draw).z for draw in range(draws)])
+    # chance of a false alarm: 1e-4
+    assert np.mean(abs(z) < 1.96) > 0.75, z
+    assert abs(z).max() < 5, z

@@ -65,7 +65,7 @@ fn suspects(systematic: &Systematic) -> String {
     for (consistency, p) in &systematic.consistency {
         let _ = writeln!(
             text,
-            "{} bands agree on the joint with p = {}",
+            "chance that {} bands differ as much if they have the same joint: p = {}",
             consistency.bands.len(),
             number(*p, 2)
         );

@@ -18,6 +18,7 @@ use super::provenance;
 use super::reliability;
 use super::study::Study;
 use super::watch::Watch;
+use bolted_joint_systematic::Budget;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -159,8 +160,16 @@ pub fn identify_and_draw(
     let squares: f64 = functions().map(|fit| fit.relative_rms.powi(2)).sum();
     let relative_rms = (squares / functions().count() as f64).sqrt();
     let median_difference = reliability::median_difference(&fitted);
-    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, median_difference);
+    // What the causes explain is no misfit.
+    let is_explained = systematic
+        .as_ref()
+        .is_some_and(Systematic::explains_the_data);
+    let unexplained = median_difference.filter(|_| !is_explained);
+    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     warnings.extend(study.rotations_not_corrected());
+    if systematic.is_none() && study.budget != Budget::none() {
+        warnings.push(Systematic::NOT_APPLIED.to_owned());
+    }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
     let large = reliability::warning(&estimate, study.model, relative_rms, median_difference);

@@ -77,7 +77,7 @@ pub struct LinesEstimate {
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
     pub warnings: Vec<String>,
-    /// Those of the warnings that speak of the values of the joint.
+    /// Those of the warnings that speak of the values of the joint and of what it leaves.
     joint_warnings: Vec<String>,
 }
 
@@ -118,6 +118,7 @@ impl LinesEstimate {
             warnings,
             joint_warnings,
             covariance_of_all: found.covariance.clone(),
+            unrest: if found.converged { 0.0 } else { self.unrest },
             ..self
         }
     }
@@ -351,10 +352,11 @@ pub fn identify_lines(
     let torque_choice = torques
         .filter(|_| options.compare_models)
         .and_then(|torques| torque::compare(all, &torques, noise, &layout, dependence, &found));
-    let mut warnings = warnings(all, &layout, &found, &joints);
-    let joint_warnings: Vec<String> = joints
-        .iter()
-        .flat_map(|joint| joint.warnings(names))
+    let mut warnings = warnings(all, &layout, &found);
+    let of_joints = joints.iter().flat_map(|joint| joint.warnings(names));
+    let joint_warnings: Vec<String> = complaint(&found, &joints)
+        .into_iter()
+        .chain(of_joints)
         .collect();
     warnings.extend(joint_warnings.iter().cloned());
     warnings.extend(
@@ -412,12 +414,7 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
     }
 }
 
-fn warnings(
-    all: &[Lines],
-    layout: &Layout,
-    found: &Found,
-    joints: &[JointEstimate],
-) -> Vec<String> {
+fn warnings(all: &[Lines], layout: &Layout, found: &Found) -> Vec<String> {
     let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
@@ -461,18 +458,21 @@ fn warnings(
             "the search ended while the values still moved by up to {unrest:.2} of their standard deviations"
         ));
     }
-    if let Some(complaint) = found.assessment.complaint() {
-        let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
-        let most = inflation.copied().fold(1.0, f64::max);
-        let wider = match most {
-            ..1.05 => String::new(),
-            _ => format!("; the intervals are wider for it, by up to a factor of {most:.1}"),
-        };
-        warnings.push(format!(
-            "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
-             fit, or every one of {} starts ended in a local minimum{wider}",
-            found.tried
-        ));
-    }
     warnings
+}
+
+/// What is said of a residual that is not noise.
+fn complaint(found: &Found, joints: &[JointEstimate]) -> Option<String> {
+    let complaint = found.assessment.complaint()?;
+    let inflation = joints.iter().flat_map(|joint| &joint.covariance.inflation);
+    let most = inflation.copied().fold(1.0, f64::max);
+    let wider = match most {
+        ..1.05 => String::new(),
+        _ => format!("; the intervals are wider for it, by up to a factor of {most:.1}"),
+    };
+    Some(format!(
+        "what the joint leaves of the measurement is not noise: {complaint}. Either the joint model or the substructures do not \
+         fit, or every one of {} starts ended in a local minimum{wider}",
+        found.tried
+    ))
 }

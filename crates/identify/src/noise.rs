@@ -14,6 +14,14 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
+    /// Both parts multiplied by a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self {
+            relative: self.relative * factor,
+            floor: self.floor * factor,
+        }
+    }
+
     pub(super) fn variance(self, magnitude_squared: f64) -> f64 {
         self.relative * self.relative * magnitude_squared + self.floor * self.floor
     }
@@ -113,21 +121,6 @@ pub(super) struct Levels {
     pub(super) assembly: NoiseLevel,
     pub(super) a: NoiseLevel,
     pub(super) b: NoiseLevel,
-}
-
-impl Levels {
-    /// All of them multiplied by a factor.
-    pub(super) fn scaled(self, factor: f64) -> Self {
-        let scaled = |level: NoiseLevel| NoiseLevel {
-            relative: level.relative * factor,
-            floor: level.floor * factor,
-        };
-        Self {
-            assembly: scaled(self.assembly),
-            a: scaled(self.a),
-            b: scaled(self.b),
-        }
-    }
 }
 
 /// One squared residual and what its variance is made of: relative²·α + floor²·β + known.

@@ -9,6 +9,7 @@ use super::layout::Place;
 use super::noise::Noise;
 use super::normal::relative_change;
 use super::parallel;
+use super::strip::ENTRIES_OF_ONE;
 
 /// Two estimates are the same if their −2 log-likelihoods agree to this …
 const SAME_MISFIT: f64 = 2e-3;
@@ -83,7 +84,7 @@ pub(super) fn best(
     let mut finals = finalists(data, entries, noise, &trials, Vec::new());
     if effort == Effort::Whole {
         for part in data.thinned.grid(entries).chunks(STARTS_AT_A_TIME) {
-            if is_certain(&trials, &finals) {
+            if is_certain(&trials, &finals) || is_settled(&trials, &finals, entries) {
                 break;
             }
             tried += part.len();
@@ -142,6 +143,18 @@ fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
     best.is_some_and(|best| {
         best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
     })
+}
+
+/// Starts that agree on a minimum of one bolt's joint: where what it leaves is no noise, no other start would find another.
+const SETTLED: usize = 5;
+
+/// Whether so many starts agree that more of them would not tell more, although what is left is no noise: errors of the set-up
+/// leave more than noise at every minimum.
+fn is_settled(trials: &[Estimate], finals: &[Final], entries: &[Place]) -> bool {
+    let best = finals.first().and_then(|best| best.end.as_ref());
+    let is_of_one_bolt =
+        entries.len() <= ENTRIES_OF_ONE && entries.iter().all(|place| place.is_single());
+    is_of_one_bolt && best.is_some_and(|best| agreeing(trials, finals, &best.estimate) >= SETTLED)
 }
 
 /// How many of the trials led to `best`.

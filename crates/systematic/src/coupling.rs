@@ -171,3 +171,129 @@ impl Coupled {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two masses on springs, m₁ on a spring to the ground, m₂ on one, and the point on a third mass behind m₂.
+    const OMEGA: f64 = 7.0;
+
+    fn joint(k: f64, eta: f64, mass_kg: f64) -> DynamicStiffness {
+        let shape = JointShape {
+            dofs: 1,
+            dofs_of_a_bolt: 1,
+            entries: vec![vec![(0, 0)]],
+        };
+        let masses = [(1, mass_kg)];
+        let joint = JointValues {
+            unknowns: &[k, 2.0],
+            loss_factor: eta,
+            masses: &masses,
+        };
+        DynamicStiffness::of(&shape, &joint, OMEGA)
+    }
+
+    fn structures() -> (ComplexMatrix, ComplexMatrix) {
+        let square = OMEGA * OMEGA;
+        let a = Complex64::new(900.0 - 3.0 * square, 4.0).inv();
+        let stiffness = ComplexMatrix::from_row_slice(
+            2,
+            2,
+            &[
+                Complex64::new(500.0 - 2.0 * square, 3.0),
+                Complex64::new(-500.0, -3.0),
+                Complex64::new(-500.0, -3.0),
+                Complex64::new(500.0 - 5.0 * square, 3.0),
+            ],
+        );
+        (
+            ComplexMatrix::from_element(1, 1, a),
+            stiffness.try_inverse().unwrap(),
+        )
+    }
+
+    /// The same by one matrix of all three masses.
+    fn whole(k: f64, eta: f64, mass_kg: f64) -> Complex64 {
+        let square = OMEGA * OMEGA;
+        let joint = Complex64::new(k, k * eta + 2.0 * OMEGA);
+        let zero = Complex64::from(0.0);
+        let spring = Complex64::new(500.0, 3.0);
+        let matrix = ComplexMatrix::from_row_slice(
+            3,
+            3,
+            &[
+                Complex64::new(900.0 - 3.0 * square, 4.0) + joint,
+                -joint,
+                zero,
+                -joint,
+                spring - (2.0 + mass_kg) * square + joint,
+                -spring,
+                zero,
+                -spring,
+                spring - 5.0 * square,
+            ],
+        );
+        matrix.try_inverse().unwrap()[(2, 2)]
+    }
+
+    #[test]
+    fn the_assembly_and_its_derivatives_are_those_of_one_matrix() {
+        let (a, b) = structures();
+        let (k, eta, mass_kg) = (700.0, 0.1, 0.3);
+        let coupled = Coupled::of(&a, &b, joint(k, eta, mass_kg)).unwrap();
+        let close = |found: Complex64, expected: Complex64, to: f64| {
+            assert!(
+                (found - expected).norm() < to * expected.norm(),
+                "{found}, not {expected}"
+            );
+        };
+        close(coupled.receptance[(0, 0)], whole(k, eta, mass_kg), 1e-12);
+        let by = |above: Complex64, below: Complex64, width: f64| (above - below) / width;
+        let by_stiffness = coupled.by_stiffness(&[(0, 0)], (0, 0)) * Complex64::new(1.0, eta);
+        close(
+            by_stiffness,
+            by(
+                whole(k + 0.1, eta, mass_kg),
+                whole(k - 0.1, eta, mass_kg),
+                0.2,
+            ),
+            1e-6,
+        );
+        let by_eta = by(
+            whole(k, eta + 1e-4, mass_kg),
+            whole(k, eta - 1e-4, mass_kg),
+            2e-4,
+        );
+        close(coupled.by_loss_factor()[(0, 0)], by_eta, 1e-6);
+        let by_mass = by(
+            whole(k, eta, mass_kg + 1e-4),
+            whole(k, eta, mass_kg - 1e-4),
+            2e-4,
+        );
+        close(coupled.by_mass(1, OMEGA)[(0, 0)], by_mass, 1e-6);
+        // a change of either structure
+        for is_a in [true, false] {
+            let size = if is_a { 1 } else { 2 };
+            let change = ComplexMatrix::from_fn(size, size, |i, j| {
+                Complex64::new(1e-8, 2e-8 * (i + j) as f64)
+            });
+            let moved = |sign: f64| {
+                let part = &change * Complex64::from(sign);
+                let (a, b) = if is_a {
+                    (&a + part, b.clone())
+                } else {
+                    (a.clone(), &b + part)
+                };
+                Coupled::of(&a, &b, joint(k, eta, mass_kg))
+                    .unwrap()
+                    .receptance[(0, 0)]
+            };
+            close(
+                coupled.by_structure(is_a, &change)[(0, 0)],
+                by(moved(1.0), moved(-1.0), 2.0),
+                1e-6,
+            );
+        }
+    }
+}

@@ -63,8 +63,8 @@ impl At<'_> {
         beside
     }
 
-    /// ∂z/∂ν of every entry at no cause; `None` where the cause does not act on what was measured.
-    pub(crate) fn by_cause(&self, cause: Cause) -> Option<Vec<Complex64>> {
+    /// ∂z/∂ν of every entry at a value of the cause; `None` where the cause does not act on what was measured.
+    pub(crate) fn by_cause(&self, cause: Cause, value: f64) -> Option<Vec<Complex64>> {
         let truth = |entry: &Entry| self.truth[entry.place];
         let of: Box<dyn Fn(&Entry) -> Complex64> = match cause {
             Cause::CommonGain => Box::new(truth),
@@ -78,7 +78,9 @@ impl At<'_> {
             Cause::Phase(set) if set == self.set => {
                 Box::new(move |entry| truth(entry) * Complex64::i())
             }
-            Cause::Accelerometer(set) if set == self.set => Box::new(|entry| self.by_mass(entry)),
+            Cause::Accelerometer(set) if set == self.set => {
+                Box::new(move |entry| self.by_mass(entry, value))
+            }
             Cause::Position(point)
                 if self.set == MeasuredSet::Assembly && self.slopes.is_some() =>
             {
@@ -106,11 +108,13 @@ impl At<'_> {
         self.truth[entry.place] * self.mean_over_translations(entry, of)
     }
 
-    /// ω² h_ii h_ij
-    fn by_mass(&self, entry: &Entry) -> Complex64 {
-        let square = self.omega * self.omega;
-        self.truth[entry.place]
-            * self.mean_over_translations(entry, |row| self.truth[(row, row)] * square)
+    /// ω² h_ii h_ij/(1 − ω² m h_ii)²
+    fn by_mass(&self, entry: &Entry, mass_kg: f64) -> Complex64 {
+        let of = |row: usize| {
+            let by_unit = self.truth[(row, row)] * self.omega * self.omega;
+            by_unit / ((1.0 - by_unit * mass_kg) * (1.0 - by_unit * mass_kg))
+        };
+        self.truth[entry.place] * self.mean_over_translations(entry, of)
     }
 
     fn mean_over_translations(&self, entry: &Entry, of: impl Fn(usize) -> Complex64) -> Complex64 {
@@ -170,4 +174,91 @@ pub(crate) fn slopes(positions_m: &[f64]) -> nalgebra::DMatrix<f64> {
         }
     }
     weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cause::Side;
+
+    const SET: MeasuredSet = MeasuredSet::Of(Side::B);
+
+    fn functions() -> MeasuredFunctions {
+        let entry = |place: (usize, usize)| Entry {
+            place,
+            measurements: vec![place, (place.1, place.0)],
+            values: Vec::new(),
+            variance: Vec::new(),
+        };
+        MeasuredFunctions {
+            is_translation: vec![true, false, true],
+            positions_m: None,
+            entries: vec![entry((0, 1)), entry((2, 2)), entry((0, 2))],
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_what_is_measured() {
+        let functions = functions();
+        let values = [2.0, -0.3, 0.5, -0.3, 4.0, 1.0, 0.5, 1.0, 3.0];
+        let parts = values.iter().enumerate();
+        let truth = ComplexMatrix::from_iterator(
+            3,
+            3,
+            parts.map(|(i, v)| Complex64::new(*v, 0.1 * (i % 3 * (i / 3)) as f64)),
+        );
+        let at = At {
+            set: SET,
+            functions: &functions,
+            truth: &truth,
+            omega: 3.0,
+            slopes: None,
+        };
+        let causes = [
+            (Cause::Gain(SET), 0.0),
+            (Cause::CommonGain, 0.0),
+            (Cause::ChannelGain(SET, 2), 0.0),
+            (Cause::Delay(SET), 0.0),
+            (Cause::Phase(SET), 0.0),
+            (Cause::Accelerometer(SET), 0.004),
+        ];
+        for (cause, value) in causes {
+            let prior = [Prior {
+                cause,
+                standard_deviation: 1.0,
+            }];
+            let measured = |value: f64| -> Vec<Complex64> {
+                let beside = at.beside(&prior, &[value]);
+                let entries = functions.entries.iter().zip(beside);
+                entries
+                    .map(|(entry, a)| at.factor(entry, &prior, &[value]) * (truth[entry.place] + a))
+                    .collect()
+            };
+            let (above, below) = (measured(value + 1e-6), measured(value - 1e-6));
+            for (e, slope) in at.by_cause(cause, value).unwrap().into_iter().enumerate() {
+                let expected = (above[e] - below[e]) / 2e-6;
+                assert!(
+                    (slope - expected).norm() < 1e-7 * (1.0 + expected.norm()),
+                    "{cause:?} {e}: {slope}, not {expected}"
+                );
+            }
+        }
+        assert_eq!(at.by_cause(Cause::Gain(MeasuredSet::Assembly), 0.0), None);
+    }
+
+    #[test]
+    fn slopes_are_exact_on_a_parabola() {
+        let x = [0.3_f64, 0.1, 0.25, 0.6];
+        let weights = slopes(&x);
+        for (label, at) in x.iter().enumerate() {
+            let found: f64 = x
+                .iter()
+                .enumerate()
+                .map(|(j, x)| weights[(label, j)] * (2.0 + 3.0 * x - 5.0 * x * x))
+                .sum();
+            assert!((found - (3.0 - 10.0 * at)).abs() < 1e-9, "{label}: {found}");
+        }
+        // a line through two
+        assert!((slopes(&[0.0, 0.5]) - nalgebra::dmatrix![-2.0, 2.0; -2.0, 2.0]).amax() < 1e-12);
+    }
 }

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::budget::Prior;
+use super::cause::Side;
 use super::experiment::Experiment;
 use super::line::Task;
 use super::search::{Found, inverse, search, with_priors};
@@ -72,6 +73,8 @@ pub struct Estimate {
     pub lines: (usize, usize),
     /// Gauss–Newton steps.
     pub iterations: usize,
+    /// Measured structures of which no smooth fit was found: their frequency scales have no effect.
+    pub without_smooth_fit: Vec<Side>,
     /// Whether the search came to rest.
     pub converged: bool,
     pub(crate) found: Found,
@@ -195,6 +198,7 @@ fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Est
         reduced_chi_squared: reduced_chi_squared(task, &found),
         lines: (found.lines.len(), task.lines()),
         iterations: found.iterations,
+        without_smooth_fit: task.without_smooth_fit(),
         converged: found.converged,
         found,
     })

@@ -70,6 +70,15 @@ impl<'t> Task<'t> {
         }
     }
 
+    /// Measured structures without a smooth fit where causes need one.
+    pub(crate) fn without_smooth_fit(&self) -> Vec<Side> {
+        let is_without = |side: &Side| {
+            let is_measured = matches!(self.experiment.side(*side), Structure::Measured(_));
+            is_measured && !self.priors.is_empty() && self.fits[*side as usize].is_none()
+        };
+        [Side::A, Side::B].into_iter().filter(is_without).collect()
+    }
+
     pub(crate) fn unknowns(&self) -> usize {
         2 * self.experiment.joint.entries.len()
     }
@@ -250,7 +259,7 @@ impl<'t> Task<'t> {
                 Some(change.collect())
             }
             cause => Some(
-                at.by_cause(cause)?
+                at.by_cause(cause, *value)?
                     .into_iter()
                     .map(|change| -change)
                     .collect(),
@@ -351,7 +360,7 @@ impl<'t> Task<'t> {
                     add(&smooth_coupled.by_structure(side == Side::A, &direct));
                 }
             }
-            if let Some(by) = smooth_at.by_cause(prior.cause) {
+            if let Some(by) = smooth_at.by_cause(prior.cause, point.causes[number]) {
                 for (e, by) in by.into_iter().enumerate() {
                     rows[(e, column)] += by;
                 }

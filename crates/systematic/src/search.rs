@@ -15,7 +15,7 @@ const FROZEN: usize = 4;
 /// Part of a step that a line may take, best first.
 const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.0];
 /// Steps below this part of a standard deviation are none.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 0.01;
 /// Prior standard deviations that a cause may move in one step.
 const LARGEST_STEP: f64 = 1.5;
 /// Part of its size that an unknown of the joint may move in one step, first and later.
@@ -124,7 +124,7 @@ pub(crate) fn search(
                 cost,
                 shares,
                 iterations: iteration + 1,
-                converged: largest < 100.0 * TOLERANCE && !frozen,
+                converged: largest < 10.0 * TOLERANCE && !frozen,
             });
         }
         let step = step * part;

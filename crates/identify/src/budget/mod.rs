@@ -5,7 +5,7 @@ mod experiment;
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, Cause, CauseEstimate, Estimate, Group, MeasuredSet, Settings, Shares,
-    Suspect, consistency, estimate, suspects,
+    Side, Suspect, consistency, estimate, suspects,
 };
 use nalgebra::DMatrix;
 
@@ -21,6 +21,8 @@ use super::study::Study;
 const BANDS: [usize; 2] = [2, 8];
 /// A p-value below this is no chance.
 const CHANCE: f64 = 0.01;
+/// Above this χ² per degree of freedom the causes do not explain what is left.
+const MOST_REDUCED_CHI_SQUARED: f64 = 1.3;
 /// Below this χ² per degree of freedom the noise is less than it was taken for.
 const LESS_NOISE: f64 = 0.95;
 /// How often its level is corrected.
@@ -49,11 +51,17 @@ pub struct Systematic {
     pub reduced_chi_squared: Option<f64>,
     /// Lines that were used, of how many.
     pub lines: (usize, usize),
+    /// Measured structures of which no smooth fit was found: their frequencies take no part.
+    pub without_smooth_fit: Vec<Side>,
     /// Whether the search came to rest.
     pub converged: bool,
 }
 
 impl Systematic {
+    /// What is said where no error of the set-up takes part although the study has a budget.
+    pub(super) const NOT_APPLIED: &'static str = "errors of the set-up take no part in this estimate: they do with one assembly only, \
+        and where the estimate with them is found; its deviations are those of noise alone";
+
     /// Estimates joint and causes from the `start` that an estimate without causes gives. `None` where the budget is none, where
     /// there are several assemblies, or where no estimate is found.
     pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
@@ -73,7 +81,7 @@ impl Systematic {
             else {
                 break;
             };
-            levels = levels.scaled(reduced.sqrt());
+            levels = study.noise.levels(levels.assembly.scaled(reduced.sqrt()));
             found = Self::at_levels(study, lines, &layout, levels, &start)?;
         }
         Some(found)
@@ -150,6 +158,7 @@ impl Systematic {
             consistency: Vec::new(),
             reduced_chi_squared: found.reduced_chi_squared,
             lines: found.lines,
+            without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
         }
     }
@@ -180,6 +189,12 @@ impl Systematic {
             .collect()
     }
 
+    /// Whether what it leaves is noise.
+    pub(super) fn explains_the_data(&self) -> bool {
+        let chi = self.reduced_chi_squared;
+        self.converged && chi.is_some_and(|chi| chi <= MOST_REDUCED_CHI_SQUARED)
+    }
+
     /// What a technician should know and do.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
@@ -206,11 +221,25 @@ impl Systematic {
                     }
                 };
                 warnings.push(format!(
-                    "{} bands do not agree on the joint (p = {p:.1e}) if the set-up is taken as exact; {suspect}",
+                    "{} bands of the range do not agree on the joint (p = {p:.1e}) if the set-up is taken as exact; {suspect}",
                     found.bands.len(),
                 ));
                 break;
             }
+        }
+        if let Some(chi) = self
+            .reduced_chi_squared
+            .filter(|chi| *chi > MOST_REDUCED_CHI_SQUARED)
+        {
+            warnings.push(format!(
+                "with the error budget χ² per degree of freedom is {chi:.2}: none of the causes in it explains what is left; the joint \
+                 model or the study may be wrong, and the intervals are too short"
+            ));
+        }
+        for side in &self.without_smooth_fit {
+            warnings.push(format!(
+                "no smooth modal fit of {side} was found: causes that need one, such as its frequencies, take no part"
+            ));
         }
         if !self.converged {
             warnings.push("the estimate with the error budget has not converged: do not rely on its deviations".to_owned());

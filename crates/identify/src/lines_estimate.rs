@@ -118,7 +118,7 @@ impl LinesEstimate {
             warnings,
             joint_warnings,
             covariance_of_all: found.covariance.clone(),
-            unrest: if found.converged { 0.0 } else { self.unrest },
+            unrest: if found.converged { 0.0 } else { f64::INFINITY },
             ..self
         }
     }

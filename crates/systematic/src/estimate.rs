@@ -8,6 +8,7 @@ use super::experiment::Experiment;
 use super::line::Task;
 use super::search::{Found, inverse, search, with_priors};
 use super::shares::Shares;
+use super::starts::grid;
 
 /// How an estimate is found.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,10 @@ const CONTRADICTED: f64 = 2.5;
 const WIDER: f64 = 10.0;
 /// Priors that are made wider at most.
 const MOST_WIDENED: usize = 4;
+/// Steps of a search from a start of the grid.
+const FEW_ITERATIONS: usize = 25;
+/// A search that has not come to rest counts as if it left so much more.
+const UNREST: f64 = 0.5;
 /// First inflations of the assembly's standard deviation, one after the other until the data are fitted.
 const INFLATIONS: [f64; 3] = [1.0, 30.0, 100.0];
 
@@ -80,9 +85,9 @@ pub struct Estimate {
     pub(crate) found: Found,
 }
 
-/// Finds the joint and the causes from `start` (stiffness of each unknown entry, then its damping). Of the priors that the data
-/// contradict the worst is made wider, one after the other. `None` where the assembly is singular, the data do not determine
-/// the joint or a structure cannot be computed.
+/// Finds the joint and the causes from `start` (stiffness of each unknown entry, then its damping) or, where that leads to
+/// nothing that fits, from others. Of the priors that the data contradict the worst is made wider, one after the other. `None`
+/// where the assembly is singular, the data do not determine the joint or a structure cannot be computed.
 #[must_use]
 pub fn estimate(
     experiment: &Experiment<'_>,
@@ -92,23 +97,73 @@ pub fn estimate(
 ) -> Option<Estimate> {
     let mut priors = priors.to_vec();
     let mut contradicted: Vec<Option<f64>> = vec![None; priors.len()];
-    for _ in 0..MOST_WIDENED {
+    let mut start = start.to_vec();
+    for round in 0..=MOST_WIDENED {
         let task = Task::new(experiment, &priors);
-        let found = best(&task, start, settings)?;
+        let found = match round {
+            0 => best_of_many(&task, &start, settings)?,
+            _ => best(&task, &start, settings)?,
+        };
         let pulls = std::iter::zip(&found.point.causes, &priors)
             .map(|(value, prior)| value / prior.standard_deviation)
             .enumerate()
-            .filter(|(number, pull)| pull.abs() > CONTRADICTED && contradicted[*number].is_none());
-        let Some((number, pull)) =
-            pulls.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()))
-        else {
+            // where the search has not come to rest the pulls say nothing
+            .filter(|(number, pull)| {
+                found.converged && pull.abs() > CONTRADICTED && contradicted[*number].is_none()
+            });
+        let worst = pulls.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        let Some((number, pull)) = worst.filter(|_| round < MOST_WIDENED) else {
             return of(&task, found, &contradicted);
         };
         contradicted[number] = Some(pull);
+        start.clone_from(&found.point.unknowns);
         priors[number].standard_deviation *= WIDER;
     }
-    let task = Task::new(experiment, &priors);
-    of(&task, best(&task, start, settings)?, &contradicted)
+    None
+}
+
+/// The best of what several starts lead to; the first that fits is taken.
+fn best_of_many(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
+    let first = best(task, start, settings);
+    let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
+    if task.priors.is_empty() || first.as_ref().is_some_and(fits) {
+        return first;
+    }
+    let few = Settings {
+        most_iterations: settings.most_iterations.min(FEW_ITERATIONS),
+        ..settings.clone()
+    };
+    let mut nearest: Option<Found> = None;
+    for start in grid(task.experiment) {
+        let Some(found) = search(task, &start, &few, 1.0) else {
+            continue;
+        };
+        if nearest
+            .as_ref()
+            .is_none_or(|best| rank(task, &found) < rank(task, best))
+        {
+            nearest = Some(found);
+        }
+        if nearest.as_ref().is_some_and(fits) {
+            break;
+        }
+    }
+    let second = nearest.and_then(|nearest| match fits(&nearest) {
+        true => Some(nearest),
+        false => best(task, &nearest.point.unknowns, settings),
+    });
+    let both = first.into_iter().chain(second);
+    both.min_by(|one, other| rank(task, one).total_cmp(&rank(task, other)))
+}
+
+/// χ² per degree of freedom, with a handicap for a search that has not come to rest.
+fn rank(task: &Task<'_>, found: &Found) -> f64 {
+    let reduced = reduced_chi_squared(task, found).unwrap_or(0.0);
+    if found.converged {
+        reduced
+    } else {
+        UNREST + reduced
+    }
 }
 
 /// As [`estimate`], with the priors as they are.
@@ -136,25 +191,25 @@ impl Estimate {
 }
 
 fn best(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
-    let mut best: Option<(f64, Found)> = None;
+    let mut best: Option<Found> = None;
     for inflation in INFLATIONS {
         let Some(found) = search(task, start, settings, inflation) else {
             continue;
         };
-        let reduced = reduced_chi_squared(task, &found).unwrap_or(0.0);
-        let reduced = if found.converged {
-            reduced
-        } else {
-            f64::MAX.min(1e6 + reduced)
-        };
-        if best.as_ref().is_none_or(|(least, _)| reduced < *least) {
-            best = Some((reduced, found));
+        if best
+            .as_ref()
+            .is_none_or(|best| rank(task, &found) < rank(task, best))
+        {
+            best = Some(found);
         }
-        if reduced < settings.most_reduced_chi_squared {
+        if best
+            .as_ref()
+            .is_some_and(|best| rank(task, best) < settings.most_reduced_chi_squared)
+        {
             break;
         }
     }
-    best.map(|(_, found)| found)
+    best
 }
 
 /// Degrees of freedom: as many causes as priors, so that the joint's unknowns alone cost some.

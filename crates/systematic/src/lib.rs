@@ -19,6 +19,7 @@ mod normal;
 mod score;
 mod search;
 mod shares;
+mod starts;
 mod structures;
 mod suspect;
 

@@ -110,7 +110,7 @@ impl<'t> Task<'t> {
     }
 
     /// A structure's receptances at a line.
-    fn formed(
+    pub(crate) fn formed(
         &self,
         side: Side,
         line: usize,

@@ -10,12 +10,16 @@ use super::line::{Labelled, Point, Task, Terms};
 use super::normal::{Share, Whitened, as_measured, is_linear};
 use super::structures::Recomputations;
 
-/// Steps in which the structures' receptances stay what was measured.
-const FROZEN: usize = 4;
+/// The structures' receptances stay what was measured until steps are below this part of a standard deviation …
+const NEAR: f64 = 0.1;
+/// … or until so many steps are left.
+const LAST: usize = 15;
 /// Part of a step that a line may take, best first.
 const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.0];
 /// Steps below this part of a standard deviation are none.
 const TOLERANCE: f64 = 0.01;
+/// Of a search that has used up its steps, the last one may have been so many standard deviations long.
+const TOLERABLE: f64 = 0.3;
 /// Prior standard deviations that a cause may move in one step.
 const LARGEST_STEP: f64 = 1.5;
 /// Part of its size that an unknown of the joint may move in one step, first and later.
@@ -64,9 +68,10 @@ pub(crate) fn search(
     let mut proposed: Option<Vec<Labelled>> = None;
     let mut lines: Vec<usize> = all.clone();
     let mut inflated = inflation;
+    let mut rests = !has_labelled;
     for iteration in 0..settings.most_iterations {
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
-        let frozen = has_labelled && (iteration < FROZEN || inflated > 1.0);
+        let frozen = !rests;
         let variance_factor = inflated.max(1.0).powi(2);
         if frozen || labelled.is_empty() {
             labelled = (0..task.lines())
@@ -101,6 +106,9 @@ pub(crate) fn search(
             .map(|(s, d)| (s / d).abs());
         let largest = relative.fold(0.0, f64::max);
         let part = allowed(task, &point, &step, &deviation, iteration);
+        rests |= inflated <= 1.0
+            && part == 1.0
+            && (largest < NEAR || iteration + LAST >= settings.most_iterations);
         if !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1 {
             drop(whitened);
             return Some(Found {
@@ -124,7 +132,7 @@ pub(crate) fn search(
                 cost,
                 shares,
                 iterations: iteration + 1,
-                converged: largest < 10.0 * TOLERANCE && !frozen,
+                converged: largest < TOLERABLE && !frozen,
             });
         }
         let step = step * part;

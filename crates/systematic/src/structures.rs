@@ -142,8 +142,7 @@ impl Measured {
                 && of == side
                 && value != 0.0
             {
-                formed =
-                    &formed - displaced(&formed, dofs_of_a_bolt, bolt) * Complex64::from(value);
+                shift(&mut formed, dofs_of_a_bolt, bolt, value);
             }
         }
         formed
@@ -169,6 +168,19 @@ impl Measured {
             }
             _ => None,
         }
+    }
+}
+
+/// (1 − δT) H (1 − δT)ᵀ: what was measured δ away from the joint, carried to it as by a rigid arm.
+fn shift(formed: &mut ComplexMatrix, dofs_of_a_bolt: usize, bolt: usize, by_m: f64) {
+    let (y, theta) = (bolt * dofs_of_a_bolt, bolt * dofs_of_a_bolt + 1);
+    for other in 0..formed.ncols() {
+        let turned = formed[(theta, other)];
+        formed[(y, other)] -= turned * by_m;
+    }
+    for other in 0..formed.nrows() {
+        let turned = formed[(other, theta)];
+        formed[(other, y)] -= turned * by_m;
     }
 }
 

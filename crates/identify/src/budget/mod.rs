@@ -21,6 +21,8 @@ use super::study::Study;
 const BANDS: [usize; 2] = [2, 8];
 /// A p-value below this is no chance.
 const CHANCE: f64 = 0.01;
+/// Causes whose drops of χ² differ by less than this part cannot be told apart.
+const ALIKE: f64 = 0.15;
 /// Above this χ² per degree of freedom the causes do not explain what is left.
 const MOST_REDUCED_CHI_SQUARED: f64 = 1.3;
 /// Below this χ² per degree of freedom the noise is less than it was taken for.
@@ -195,6 +197,24 @@ impl Systematic {
         self.converged && chi.is_some_and(|chi| chi <= MOST_REDUCED_CHI_SQUARED)
     }
 
+    /// The suspects that lower χ² nearly as much as one of them, in words.
+    fn not_told_from(&self, name: &str) -> String {
+        let Some((_, own)) = self.suspects.iter().find(|(other, _)| other == name) else {
+            return String::new();
+        };
+        let others = self.suspects.iter();
+        let alike: Vec<&str> = others
+            .filter(|(other, suspect)| {
+                other != name && (suspect.drop - own.drop).abs() < ALIKE * own.drop
+            })
+            .map(|(other, _)| other.as_str())
+            .collect();
+        match alike.as_slice() {
+            [] => String::new(),
+            alike => format!(" (these data cannot tell it from: {})", alike.join(", ")),
+        }
+    }
+
     /// What a technician should know and do.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
@@ -203,9 +223,10 @@ impl Systematic {
             if let Some(pull) = cause.contradicted {
                 let ([value, deviation], unit) =
                     shown(cause.prior.cause, [cause.value, cause.standard_deviation]);
+                let alike = self.not_told_from(name);
                 warnings.push(format!(
                     "the data contradict the error budget: {name} is {value:.3} ± {deviation:.2} {unit}, {:.0} times what the budget \
-                     allows; its limit was widened for this estimate; {}",
+                     allows{alike}; its limit was widened for this estimate; {}",
                     pull.abs(),
                     cause.prior.cause.group().remedy(),
                 ));
@@ -217,7 +238,10 @@ impl Systematic {
                     None => "none of the known causes explains it".to_owned(),
                     Some((name, suspect)) => {
                         let ([value, _], unit) = shown(suspect.cause, [suspect.value, 0.0]);
-                        format!("most likely: {name} {value:+.3} {unit}")
+                        format!(
+                            "most likely: {name} {value:+.3} {unit}{}",
+                            self.not_told_from(name)
+                        )
                     }
                 };
                 warnings.push(format!(

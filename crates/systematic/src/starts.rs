@@ -1,0 +1,77 @@
+//! Where searches begin beside the joint that an estimate without causes finds: errors of the set-up can move that far away.
+
+use super::cause::Side;
+use super::experiment::Experiment;
+use super::line::{Point, Task};
+use super::normal::as_measured;
+use super::structures::Recomputations;
+
+/// Stiffness of a start as multiples of the structures' own dynamic stiffness at the joint.
+const MULTIPLES: [f64; 4] = [10.0, 1.0, 100.0, 0.1];
+/// Loss of a start's joint in the middle of the range, ωc/k.
+const LOSS: f64 = 1e-2;
+
+/// Diagonal joints, every translation alike and every rotation alike, from those near the structures' own stiffness outwards.
+pub(crate) fn grid(experiment: &Experiment<'_>) -> Vec<Vec<f64>> {
+    let task = Task::new(experiment, &[]);
+    let joint = &experiment.joint;
+    let count = joint.entries.len();
+    let Some(typical) = typical(&task) else {
+        return Vec::new();
+    };
+    let omega = experiment.omega[experiment.omega.len() / 2];
+    let start = |translation: f64, rotation: f64| -> Vec<f64> {
+        let mut start = vec![0.0; 2 * count];
+        for (index, places) in joint.entries.iter().enumerate() {
+            let (i, j) = places[0];
+            if i != j {
+                continue;
+            }
+            let multiple = if i % joint.dofs_of_a_bolt == 0 {
+                translation
+            } else {
+                rotation
+            };
+            start[index] = multiple * typical[i];
+            start[count + index] = LOSS * start[index] / omega;
+        }
+        start
+    };
+    let has_rotation = joint
+        .entries
+        .iter()
+        .any(|places| places[0].0 % joint.dofs_of_a_bolt == 1);
+    let rotations = if has_rotation {
+        &MULTIPLES[..]
+    } else {
+        &MULTIPLES[..1]
+    };
+    let pairs = MULTIPLES
+        .iter()
+        .flat_map(|&y| rotations.iter().map(move |&theta| (y, theta)));
+    pairs.map(|(y, theta)| start(y, theta)).collect()
+}
+
+/// Median over the lines of 1/|H_A + H_B| at each of the joint's DOFs.
+fn typical(task: &Task<'_>) -> Option<Vec<f64>> {
+    let point = Point {
+        unknowns: Vec::new(),
+        causes: Vec::new(),
+    };
+    let recomputed = Recomputations::of(task.experiment, &[], &[])?;
+    let dofs = task.experiment.joint.dofs;
+    let mut stiffness: Vec<Vec<f64>> = vec![Vec::new(); dofs];
+    for line in 0..task.lines() {
+        let labelled = as_measured(task, line, &point);
+        let a = task.formed(Side::A, line, &point, &labelled, &recomputed)?;
+        let b = task.formed(Side::B, line, &point, &labelled, &recomputed)?;
+        for (dof, values) in stiffness.iter_mut().enumerate() {
+            values.push((a[(dof, dof)] + b[(dof, dof)]).norm().recip());
+        }
+    }
+    let median = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    stiffness.iter_mut().map(median).collect()
+}

@@ -14,9 +14,17 @@ pub struct BandConsistency {
     pub q: f64,
     /// Degrees of freedom.
     pub freedom: usize,
-    /// First and last line of each band, with the unknowns that one step from the common estimate leads to; `None` where the
-    /// band does not determine all of them.
-    pub bands: Vec<((usize, usize), Option<Vec<f64>>)>,
+    /// The bands.
+    pub bands: Vec<BandEstimate>,
+}
+
+/// The joint as one band of the range sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandEstimate {
+    /// First and last line of the band.
+    pub lines: (usize, usize),
+    /// The unknowns that one step from the common estimate leads to; `None` where the band does not determine all of them.
+    pub unknowns: Option<Vec<f64>>,
 }
 
 /// Tests an estimate over so many bands with equally many lines; `None` with fewer lines than bands.
@@ -64,7 +72,10 @@ pub fn consistency(estimate: &Estimate, bands: usize) -> Option<BandConsistency>
                 .map(|(value, step)| value + step)
                 .collect()
         });
-        found.push(((lines[own.start], lines[own.end - 1]), values));
+        found.push(BandEstimate {
+            lines: (lines[own.start], lines[own.end - 1]),
+            unknowns: values,
+        });
     }
     Some(BandConsistency {
         q,

@@ -207,7 +207,7 @@ def write(folder, sets, noise, frequency=FREQUENCY, budget=None, computed_b=Fals
             quantity="receptance", axes="frequency,response,reference",
         )
     positions = ", ".join(f'"{label}" = {x}' for label, x in zip(LABELS["C"], POINTS))
-    theory = "" if timoshenko else ', theory = "euler-bernoulli"'
+    theory = f", poissons_ratio = {POISSON}" if timoshenko else ', theory = "euler-bernoulli"'
     b = (
         f'beam = {{ length = {LENGTH["B"]}, width = {WIDTH}, height = {HEIGHT}, youngs_modulus = {YOUNG}, density = {DENSITY}, '
         f'boundary = "free-free", loss_factor = {LOSS["B"]}{theory} }}\n'

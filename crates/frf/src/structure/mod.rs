@@ -7,7 +7,7 @@ mod modal;
 mod rotation;
 mod spatial;
 
-pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, Motion};
+pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, Motion, Theory};
 pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple, transmission};
 pub use error::StructureError;
 pub use modal::ModalModel;

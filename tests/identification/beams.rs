@@ -4,7 +4,7 @@ use bolted_joint::frf::Dof;
 use bolted_joint::identify::{
     JointModel, Lines, LinesEstimate, NoiseLevel, Options, identify_lines,
 };
-use bolted_joint::structure::{Beam, BeamPoint, Boundary, Damping, Motion};
+use bolted_joint::structure::{Beam, BeamPoint, Boundary, Damping, Motion, Theory};
 
 /// Of Tol section 4.2.2 with this length, with ζ in every mode; ζ = 0.01 there.
 pub(crate) fn beam(length_m: f64, boundary: Boundary, damping_ratio: f64) -> Beam {
@@ -14,6 +14,7 @@ pub(crate) fn beam(length_m: f64, boundary: Boundary, damping_ratio: f64) -> Bea
         height_m: 0.006,
         youngs_modulus_pa: 67e9,
         density_kg_per_m3: 2700.0,
+        theory: Theory::EulerBernoulli,
         boundary,
         damping: Damping::Ratios(vec![damping_ratio]),
     }

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import subprocess
 
 import numpy as np
 import pytest
@@ -35,19 +36,17 @@ def entries(matrices):
 
 @pytest.fixture
 def identify(program, tmp_path):
-    """Identifies the joint of the rig with these mistakes; numbers go to `rig.test_data` and `rig.write`."""
+    """Identifies the joint of the rig with these mistakes; options go to `rig.write`."""
 
-    def identify(mistakes, seed=1, noise=0.01, budget=None, computed_b=False, timoshenko=True):
-        return identified(program, tmp_path, mistakes, seed, noise, budget, computed_b, timoshenko)
+    def identify(mistakes, seed=1, noise=0.01, budget=None, **options):
+        return identified(program, tmp_path, mistakes, seed, noise, budget, **options)
 
     return identify
 
 
-def identified(program, folder, mistakes, seed, noise, budget=None, computed_b=False, timoshenko=True):
-    import subprocess
-
-    sets = rig.test_data(mistakes, noise, seed, timoshenko=timoshenko)
-    study = rig.write(folder, sets, noise, budget=budget, computed_b=computed_b, timoshenko=timoshenko)
+def identified(program, folder, mistakes, seed, noise, budget=None, **options):
+    sets = rig.test_data(mistakes, noise, seed)
+    study = rig.write(folder, sets, noise, budget=budget, spacing=mistakes.spacing, **options)
     done = subprocess.run(
         [program, "identify", study, "-o", folder / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
     )

@@ -25,7 +25,7 @@ def main(draws, computed_b):
             mistakes.joint_sensor.pop("B")
         for name, budget in (("careful", None), ("none", '"none"')):
             with tempfile.TemporaryDirectory() as folder:
-                found = identified(program, pathlib.Path(folder), mistakes, draw, 0.01, budget, computed_b)
+                found = identified(program, pathlib.Path(folder), mistakes, draw, 0.01, budget, computed_b=computed_b)
             rows[name].append(found.z)
         print(draw, rows["careful"][-1].round(2), flush=True)
     print(f"{draws} draws: {' '.join(rig.NAMES)}")

@@ -143,7 +143,8 @@ def loaded(z, omega, kg, rows):
 
 
 def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
-    """Measured functions of A (y, θ), of B (y, θ, points) and of the assembly (points): line, response, reference."""
+    """Measured functions of A (y, θ), of B (y, θ, points) and of the assembly (points): line, response, reference. With a spacing,
+    A and B have the translations at three points for y and θ."""
     omega = 2 * np.pi * np.asarray(frequency)
     at = {side: JOINT[side] + mistakes.joint_sensor.get(side, 0.0) for side in "AB"}
     points = POINTS + np.array([mistakes.point.get(i, 0.0) for i in range(3)])
@@ -156,14 +157,11 @@ def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
     sets = {}
     if mistakes.spacing:
         s = mistakes.spacing
-        slope = np.array([[0, 1, 0], [-0.5 / s, 0, 0.5 / s]])
         near = [[at[side] - s, at[side], at[side] + s] for side in "AB"]
         wanted = [("A", x, 0) for x in near[0]]
-        sets["A"] = slope @ receptances(omega, [body("A", near[0], *believed)], wanted) @ slope.T
+        sets["A"] = receptances(omega, [body("A", near[0], *believed)], wanted)
         wanted = [("B", x, 0) for x in [*near[1], *POINTS]]
-        whole = np.zeros((5, 6))
-        whole[:2, :3], whole[2:, 3:] = slope, np.eye(3)
-        sets["B"] = whole @ receptances(omega, [body("B", near[1] + list(POINTS), *real_b)], wanted) @ whole.T
+        sets["B"] = receptances(omega, [body("B", near[1] + list(POINTS), *real_b)], wanted)
     else:
         wanted = [("A", at["A"], 0), ("A", at["A"], 1)]
         sets["A"] = receptances(omega, [body("A", [at["A"]], *believed)], wanted)
@@ -179,6 +177,8 @@ def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
     joint = {**JOINT, "stiffness": stiffness}
     sets["C"] = receptances(omega, together, [("B", x, 0) for x in points], joint, masses)
     translations = {"A": [0], "B": [0, 2, 3, 4], "C": [0, 1, 2]}
+    if mistakes.spacing:
+        translations = {name: range(z.shape[1]) for name, z in sets.items()}
     generator = np.random.default_rng(seed)
     for name, z in sets.items():
         z = loaded(z, omega, mistakes.accelerometer.get(name, 0.0), translations[name])
@@ -192,6 +192,7 @@ def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
     return sets
 
 
+DIFFERENCE_LABELS = {"A": ["3:+Y", "1:+Y", "4:+Y"], "B": ["5:+Y", "2:+Y", "6:+Y", "11:+Y", "12:+Y", "13:+Y"]}
 LABELS = {
     "A": ["1:+Y", "1:+RZ"],
     "B": ["2:+Y", "2:+RZ", "11:+Y", "12:+Y", "13:+Y"],
@@ -199,21 +200,27 @@ LABELS = {
 }
 
 
-def write(folder, sets, noise, frequency=FREQUENCY, budget=None, computed_b=False, timoshenko=True):
+def write(folder, sets, noise, frequency=FREQUENCY, budget=None, computed_b=False, timoshenko=True, spacing=0.0, section=False):
     """Archives of the sets and a study of them; its path."""
+    labels = {**LABELS, **DIFFERENCE_LABELS} if spacing else LABELS
     for name, z in sets.items():
         np.savez(
-            folder / f"{name}.npz", frequency=frequency, frf=z, response=LABELS[name], reference=LABELS[name],
+            folder / f"{name}.npz", frequency=frequency, frf=z, response=labels[name], reference=labels[name],
             quantity="receptance", axes="frequency,response,reference",
         )
     positions = ", ".join(f'"{label}" = {x}' for label, x in zip(LABELS["C"], POINTS))
-    theory = "" if timoshenko else ', theory = "euler-bernoulli"'
+    rotation = {side: f'"{labels[side][1]}"' for side in "AB"}
+    if spacing:
+        rotation = {side: f"{{ points = {labels[side][:3]}, spacing = {spacing} }}" for side in "AB"}
+    size = f"{{ width = {WIDTH}, height = {HEIGHT}, youngs_modulus = {YOUNG}, poissons_ratio = {POISSON} }}"
+    cut = f"section = {size}" if section else ""
+    theory = f", poissons_ratio = {POISSON}" if timoshenko else ', theory = "euler-bernoulli"'
     b = (
         f'beam = {{ length = {LENGTH["B"]}, width = {WIDTH}, height = {HEIGHT}, youngs_modulus = {YOUNG}, density = {DENSITY}, '
         f'boundary = "free-free", loss_factor = {LOSS["B"]}{theory} }}\n'
         f'joint = {{ x = {JOINT["B"]} }}\npoints = {{ {positions} }}'
         if computed_b
-        else 'frf = "B.npz"\njoint = { y = "2:+Y", theta = "2:+RZ" }'
+        else f'frf = "B.npz"\njoint = {{ y = "2:+Y", theta = {rotation["B"]} }}\n{cut}'
     )
     study = folder / "study.toml"
     study.write_text(
@@ -222,7 +229,8 @@ name = "rig"
 {"" if budget is None else f"budget = {budget}"}
 [a]
 frf = "A.npz"
-joint = {{ y = "1:+Y", theta = "1:+RZ" }}
+joint = {{ y = "1:+Y", theta = {rotation["A"]} }}
+{cut}
 [b]
 {b}
 [assembly]

@@ -48,6 +48,24 @@ def test_a_mistake_is_named_and_its_estimate_right(identify, case):
     assert abs(found.z).max() < 4, found.z
 
 
+def test_the_material_of_a_computed_beam_is_named(identify):
+    found = identify(Mistakes(young=-0.01), computed_b=True)
+    assert "Young's modulus of B" in found.suspects[:3], found.suspects
+    assert abs(found.z).max() < 4, found.z
+
+
+def test_differences_are_corrected_by_the_section(identify):
+    """15 mm apart they take a quarter off the rotational stiffness, and nothing in the data shows it."""
+    mistakes, quiet = Mistakes(spacing=0.015), 1e-4
+    wrong = identify(mistakes, noise=quiet, budget='"none"')
+    assert -0.30 < wrong.values[2] / rig.TRUTH[2] - 1 < -0.22
+    right = identify(mistakes, noise=quiet, budget='"none"', section=True)
+    assert abs(right.values[2] / rig.TRUTH[2] - 1) < 0.03
+    careful = identify(mistakes, noise=quiet, section=True)
+    assert abs(careful.z).max() < 4, careful.z
+    assert "bending stiffness of A behind its rotation" in [cause["cause"] for cause in careful.budget["causes"]]
+
+
 def test_a_mistake_that_no_budget_allows_is_said_in_a_sentence(identify):
     found = identify(Mistakes(delay={"C": 50e-6}))
     assert "the data contradict the error budget: delay of the assembly" in found.stderr

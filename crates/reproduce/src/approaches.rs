@@ -7,7 +7,7 @@ pub(crate) use tables::{table_4_6, table_4_7, table_4_8, table_4_9};
 use nalgebra::dmatrix;
 
 use bolted_joint_frf::resonances;
-use bolted_joint_frf::structure::{Beam, Boundary, ComplexMatrix, Damping, Partition};
+use bolted_joint_frf::structure::{Beam, Boundary, ComplexMatrix, Damping, Partition, Theory};
 use bolted_joint_identify::{
     Bands, Equation, Inverse, JointMatrices, JointModel, band_average, decouple,
 };
@@ -53,6 +53,7 @@ fn beam(length_m: f64, boundary: Boundary) -> Beam {
         height_m: 0.006,
         youngs_modulus_pa: 67e9,
         density_kg_per_m3: 2700.0,
+        theory: Theory::EulerBernoulli,
         boundary,
         damping: Damping::Ratios(vec![0.01]),
     }

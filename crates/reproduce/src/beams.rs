@@ -3,7 +3,7 @@
 use nalgebra::dmatrix;
 
 use bolted_joint_frf::structure::{
-    Assembly, Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, Partition,
+    Assembly, Beam, Boundary, ComplexMatrix, Damping, FiniteDifference, Partition, Theory,
 };
 use bolted_joint_identify::{
     Bands, Equation, Inverse, JointMatrices, JointModel, band_average, decouple,
@@ -38,6 +38,7 @@ fn beam(boundary: Boundary) -> Beam {
         height_m,
         youngs_modulus_pa: 2.07e11,
         density_kg_per_m3: 1.5094 / (width_m * height_m),
+        theory: Theory::EulerBernoulli,
         boundary,
         damping: Damping::LossFactor(0.05),
     }

@@ -98,6 +98,7 @@ fn missing_keys_and_wrong_types_are_named_with_their_line() {
         ("\"frf-decoupling\"", "\"guess\"", ["line 1, column 10", "`frf-decoupling`"]),
         ("\"full\"", "\"cross\"", ["line 15, column 9", "expected one of `translation`, `diagonal`, `full`"]),
         ("\"free-free\"", "\"free\"", ["line 8", "`fixed-free`"]),
+        ("\"euler-bernoulli\"", "\"bending\"", ["line 8", "`timoshenko`"]),
         ("y = \"2:+Y\"", "y = \"2+Y\"", ["line 6", "such as \"11:+Y\""]),
         ("points = [\"21:+Y\"", "points = [\"21:+W\"", ["line 13", "X, Y, Z, RX, RY or RZ"]),
         ("\"21:+Y\" = 0.17", "\"x\" = 0.17", ["line 10", "NODE:DIRECTION"]),

@@ -2,10 +2,8 @@
 
 use serde::Deserialize;
 
+use super::beam::{SHEAR_COEFFICIENT, Theory};
 use super::rotation::{Difference, FiniteDifference};
-
-/// Shear coefficient of a rectangle.
-const SHEAR: f64 = 5.0 / 6.0;
 
 /// A rectangular cross-section that bends about its width.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -26,7 +24,7 @@ pub struct Section {
 }
 
 fn usual_poissons_ratio() -> f64 {
-    0.3
+    Theory::USUAL_POISSONS_RATIO
 }
 
 impl Section {
@@ -52,7 +50,8 @@ impl Section {
         }
         let area = self.width_m * self.height_m;
         let bending = self.youngs_modulus_pa * area * self.height_m * self.height_m / 12.0;
-        let shear = SHEAR * area * self.youngs_modulus_pa / (2.0 * (1.0 + self.poissons_ratio));
+        let shear =
+            SHEAR_COEFFICIENT * area * self.youngs_modulus_pa / (2.0 * (1.0 + self.poissons_ratio));
         let s = difference.spacing_m();
         let by_bending = s / (3.0 * bending);
         Some([by_bending - 1.0 / (2.0 * s * shear), -by_bending])

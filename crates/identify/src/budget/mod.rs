@@ -39,7 +39,7 @@ pub struct Systematic {
     pub unknowns: Vec<f64>,
     /// Covariance of the unknowns, systematic errors included.
     pub covariance: DMatrix<f64>,
-    /// Covariance of the unknowns if the set-up were known exactly.
+    /// Covariance of the unknowns in an estimate that takes the set-up as exact.
     pub noise_covariance: DMatrix<f64>,
     /// What each unknown's variance would fall by if a group of causes were exact.
     pub shares: Shares,
@@ -142,6 +142,7 @@ impl Systematic {
                     (found, tail)
                 })
                 .collect(),
+            noise_covariance: plain.covariance * plain.reduced_chi_squared.unwrap_or(1.0).max(1.0),
             ..Self::from(study.budget.clone(), found)
         })
     }

@@ -73,9 +73,21 @@ pub(super) struct BeamTable {
     pub(super) height: f64,
     pub(super) youngs_modulus: f64,
     pub(super) density: f64,
+    #[serde(default)]
+    pub(super) theory: TheoryName,
+    pub(super) poissons_ratio: Option<f64>,
     pub(super) boundary: Boundary,
     pub(super) damping_ratio: Option<OneOrMore>,
     pub(super) loss_factor: Option<f64>,
+}
+
+/// Which theory a computed beam follows.
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TheoryName {
+    #[default]
+    Timoshenko,
+    EulerBernoulli,
 }
 
 /// One place of a bolt, or several.

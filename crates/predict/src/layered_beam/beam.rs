@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_frf::structure::{Beam, Boundary, Damping};
+use bolted_joint_frf::structure::{Beam, Boundary, Damping, Theory};
 
 use super::error::{LayeredBeamError, positive, value};
 use super::shape::ModeShape;
@@ -167,7 +167,7 @@ impl LayeredBeam {
         (compliance > 0.0).then(|| self.bending_stiffness_n_m2() / compliance)
     }
 
-    /// The uniform beam that bends as this one, for finite elements.
+    /// The uniform beam that bends as this one, for finite elements (Kavi 4.10, 4.11: without shear and rotary inertia).
     pub(super) fn equivalent(&self) -> Beam {
         let height = self.height_m();
         // E b h³/12 = EI,  ρ b h = ρA
@@ -178,6 +178,7 @@ impl LayeredBeam {
             height_m: height,
             youngs_modulus_pa: self.bending_stiffness_n_m2() / second_moment,
             density_kg_per_m3: self.mass_per_length_kg_per_m() / (self.width_m * height),
+            theory: Theory::EulerBernoulli,
             boundary: self.boundary,
             damping: Damping::Ratios(vec![0.0]),
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Assembly, IdentificationReport, beside, counted, files};
 use bolted_joint_figures::html::{escaped, number, percent, shown, table};
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{Beam, Boundary, Damping};
+use bolted_joint_frf::structure::{Beam, Boundary, Damping, Theory};
 use bolted_joint_identify::{
     Bolts, FrfFile, JointModel, Level, Lines, NoiseLevel, Receptances, Rotation, Source,
     Substructure,
@@ -180,6 +180,13 @@ fn beam(beam: &Beam) -> String {
         Boundary::PinnedPinned => "pinned at both ends",
         Boundary::FixedPinned => "fixed at 0, pinned at the other end",
     };
+    let theory = match beam.theory {
+        Theory::EulerBernoulli => "by Euler–Bernoulli theory".to_owned(),
+        Theory::Timoshenko { poissons_ratio } => format!(
+            "by Timoshenko theory with <i>ν</i> = {}",
+            number(poissons_ratio)
+        ),
+    };
     let damping = match &beam.damping {
         Damping::Ratios(ratios) => {
             let ratios: Vec<String> = ratios.iter().map(|ratio| number(*ratio)).collect();
@@ -188,7 +195,7 @@ fn beam(beam: &Beam) -> String {
         Damping::LossFactor(loss) => format!("loss factor {}", number(*loss)),
     };
     format!(
-        "uniform beam {} × {} × {} m, <i>E</i> = {} Pa, <i>ρ</i> = {} kg/m³, {boundary}, {damping}",
+        "uniform beam {} × {} × {} m, <i>E</i> = {} Pa, <i>ρ</i> = {} kg/m³, {theory}, {boundary}, {damping}",
         number(beam.length_m),
         number(beam.width_m),
         number(beam.height_m),

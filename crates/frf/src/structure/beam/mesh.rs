@@ -4,15 +4,16 @@ use nalgebra::DMatrix;
 
 use crate::structure::spatial::{Modes, SpatialModel};
 
-use super::{Beam, BeamPoint, Boundary, Motion};
+use super::element::Element;
+use super::{Beam, BeamPoint, Boundary};
 use crate::structure::StructureError;
 
-/// Elements over the length of a beam. A frequency with root λ = βL is then too high by (λ/60)⁴/1440 of itself:
-/// 8·10⁻⁷ for the third bending mode of a free beam, 6·10⁻⁵ for the tenth.
+/// Elements over the length of a beam. Without shear and rotary inertia a frequency with root λ = βL is then too high by
+/// (λ/60)⁴/1440 of itself: 8·10⁻⁷ for the third bending mode of a free beam, 6·10⁻⁵ for the tenth.
 pub(super) const ELEMENTS: f64 = 60.0;
 
 /// Points closer to a node than this part of the length get no node of their own: an element so short (l⁻⁴ in the
-/// eigenvalues) would drown the low modes in rounding. Within it the deflection is the element's own cubic.
+/// eigenvalues) would drown the low modes in rounding. Within it the motion is the element's own.
 const SHORTEST_ELEMENT: f64 = 1e-4;
 impl Beam {
     /// Node positions: both ends, every point that is not too close to another, and equal elements between them, of which
@@ -57,31 +58,15 @@ impl Beam {
         let size = 2 * nodes.len();
         let mut mass = DMatrix::zeros(size, size);
         let mut stiffness = DMatrix::zeros(size, size);
-        let mass_per_length = self.density_kg_per_m3 * self.width_m * self.height_m;
-        let bending = self.youngs_modulus_pa * self.width_m * self.height_m.powi(3) / 12.0;
         for (element, ends) in nodes.windows(2).enumerate() {
-            let l = ends[1] - ends[0];
-            // [m_e] = (m l/420) [156 22l 54 −13l; …]   (Tol 4.3, Kavi 4.11)
-            let m = mass_per_length * l / 420.0;
-            let element_mass = [
-                [156.0, 22.0 * l, 54.0, -13.0 * l],
-                [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
-                [54.0, 13.0 * l, 156.0, -22.0 * l],
-                [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
-            ];
-            // [k_e] = (EI/l³) [12 6l −12 6l; …]   (Tol 4.4, Kavi 4.10)
-            let k = bending / l.powi(3);
-            let element_stiffness = [
-                [12.0, 6.0 * l, -12.0, 6.0 * l],
-                [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
-                [-12.0, -6.0 * l, 12.0, -6.0 * l],
-                [6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l],
-            ];
+            let of_element = Element::new(self, ends[1] - ends[0]);
+            let element_mass = of_element.mass();
+            let element_stiffness = of_element.stiffness();
             for i in 0..4 {
                 for j in 0..4 {
                     let place = (2 * element + i, 2 * element + j);
-                    mass[place] += m * element_mass[i][j];
-                    stiffness[place] += k * element_stiffness[i][j];
+                    mass[place] += element_mass[i][j];
+                    stiffness[place] += element_stiffness[i][j];
                 }
             }
         }
@@ -93,7 +78,7 @@ impl Beam {
         modes.map_err(|error| StructureError::NoModes(Box::new(error)))
     }
 
-    /// Degrees of freedom (2 a node: w, ∂w/∂x) that the supports leave free.
+    /// Degrees of freedom (2 a node: w, θ) that the supports leave free.
     pub(super) fn free_dofs(&self, node_count: usize) -> Vec<usize> {
         let last = 2 * (node_count - 1);
         let held: &[usize] = match self.boundary {
@@ -117,27 +102,13 @@ impl Beam {
     }
 }
 
-/// The element's DOFs (2 a node: w, ∂w/∂x) and their weights in the motion of a point: a node's own, or cubic Hermite.
-pub(super) fn interpolation(nodes: &[f64], point: &BeamPoint) -> [(usize, f64); 4] {
+/// The element's DOFs (2 a node: w, θ) and their weights in the motion of a point: a node's own, or those of the element's
+/// static shape.
+pub(super) fn interpolation(beam: &Beam, nodes: &[f64], point: &BeamPoint) -> [(usize, f64); 4] {
     let after = nodes.partition_point(|&node| node <= point.position_m);
     let right = after.clamp(1, nodes.len() - 1);
     let l = nodes[right] - nodes[right - 1];
     let x = ((point.position_m - nodes[right - 1]) / l).clamp(0.0, 1.0);
-    let weights = match point.motion {
-        // w = (1 − 3x² + 2x³) w₁ + l(x − 2x² + x³) θ₁ + (3x² − 2x³) w₂ + l(x³ − x²) θ₂
-        Motion::Translation => [
-            1.0 - 3.0 * x * x + 2.0 * x.powi(3),
-            l * (x - 2.0 * x * x + x.powi(3)),
-            3.0 * x * x - 2.0 * x.powi(3),
-            l * (x.powi(3) - x * x),
-        ],
-        // its derivative by the position
-        Motion::Rotation => [
-            (6.0 * x * x - 6.0 * x) / l,
-            1.0 - 4.0 * x + 3.0 * x * x,
-            (6.0 * x - 6.0 * x * x) / l,
-            3.0 * x * x - 2.0 * x,
-        ],
-    };
+    let weights = Element::new(beam, l).shape(point.motion, x);
     std::array::from_fn(|i| (2 * (right - 1) + i, weights[i]))
 }

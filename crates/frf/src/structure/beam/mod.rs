@@ -6,10 +6,14 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
+mod element;
 mod mesh;
+mod theory;
 
 use super::StructureError;
 use mesh::{ELEMENTS, interpolation};
+pub(in crate::structure) use theory::SHEAR_COEFFICIENT;
+pub use theory::Theory;
 
 /// How the two ends of a beam are held; the first word is the end at x = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
@@ -42,7 +46,7 @@ pub enum Damping {
 /// A uniform beam of rectangular cross-section that bends about its width.
 ///
 /// ```
-/// use bolted_joint_frf::structure::{Beam, BeamPoint, Boundary, Damping, Motion};
+/// use bolted_joint_frf::structure::{Beam, BeamPoint, Boundary, Damping, Motion, Theory};
 ///
 /// let beam = Beam {
 ///     length_m: 0.4,
@@ -50,15 +54,16 @@ pub enum Damping {
 ///     height_m: 0.01,
 ///     youngs_modulus_pa: 210e9,
 ///     density_kg_per_m3: 7850.0,
+///     theory: Theory::default(),
 ///     boundary: Boundary::FixedFree,
 ///     damping: Damping::LossFactor(1e-3),
 /// };
-/// // f₁ = (1.8751)²/(2π L²) √(EI/ρA)
-/// assert!((beam.natural_frequencies_hz()?[0] - 52.22).abs() < 0.01);
+/// // Shear and rotary inertia leave little less than f₁ = (1.8751)²/(2π L²) √(EI/ρA) = 52.22 Hz.
+/// assert!((beam.natural_frequencies_hz()?[0] - 52.20).abs() < 0.02);
 /// let tip = BeamPoint { position_m: 0.4, motion: Motion::Translation };
 /// let static_receptance = beam.receptances(&[tip], &[1e-3])?[0][(0, 0)];
-/// // L³/3EI
-/// assert!((static_receptance.re / 3.0476e-5 - 1.0).abs() < 1e-4);
+/// // L³/3EI, and 1.2 L/GA by shear
+/// assert!((static_receptance.re / (3.04762e-5 + 1.486e-8) - 1.0).abs() < 1e-4);
 /// # Ok::<(), bolted_joint_frf::structure::StructureError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -74,6 +79,8 @@ pub struct Beam {
     pub youngs_modulus_pa: f64,
     /// Density, kg/m³.
     pub density_kg_per_m3: f64,
+    /// Whether shear and rotary inertia count.
+    pub theory: Theory,
     /// How the ends are held.
     pub boundary: Boundary,
     /// Damping.
@@ -85,7 +92,7 @@ pub struct Beam {
 pub enum Motion {
     /// Displacement w, m (and force, N).
     Translation,
-    /// Slope ∂w/∂x, rad (and moment, N·m).
+    /// Rotation θ of the cross-section, rad (and moment, N·m). The axis has the slope ∂w/∂x = θ + Q/κGA: θ without shear.
     Rotation,
 }
 
@@ -179,7 +186,7 @@ impl Beam {
         let free = self.free_dofs(nodes.len());
         let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
         for (p, point) in points.iter().enumerate() {
-            for (dof, weight) in interpolation(&nodes, point) {
+            for (dof, weight) in interpolation(self, &nodes, point) {
                 if let Some(row) = free.iter().position(|&kept| kept == dof) {
                     let mut amplitude = amplitudes.row_mut(p);
                     amplitude += modes.shapes.row(row) * weight;
@@ -240,6 +247,14 @@ impl Beam {
         ] {
             let valid = found.is_finite() && found > 0.0;
             check(valid, key, found, "a positive number in SI units")?;
+        }
+        if let Theory::Timoshenko { poissons_ratio } = self.theory {
+            check(
+                (0.0..0.5).contains(&poissons_ratio),
+                "poissons_ratio",
+                poissons_ratio,
+                "a number from 0 and below 0.5",
+            )?;
         }
         let (key, values) = match &self.damping {
             Damping::Ratios(ratios) => ("damping_ratio", ratios.as_slice()),

@@ -2,13 +2,13 @@
 
 use super::super::super::layout::Bolts;
 use super::super::super::model::JointModel;
-use super::super::tables::{BeamTable, JointPlaceTable, SubstructureTable};
+use super::super::tables::{BeamTable, JointPlaceTable, SubstructureTable, TheoryName};
 use super::super::{MeasuredJoint, Rotation, Source, Substructure};
 use super::assembly::frf_file;
 use super::bolts::{apart, apart_on_beam, places_of_bolts};
 use super::names_given;
 use super::rotation::rotation;
-use bolted_joint_frf::structure::{Beam, Damping, Difference, Section};
+use bolted_joint_frf::structure::{Beam, Damping, Difference, Section, Theory};
 use bolted_joint_study::{StudyError, StudyText};
 
 pub(crate) fn substructure(
@@ -178,6 +178,7 @@ fn on_the_beam(study: &StudyText, key: &str, x_m: f64, length_m: f64) -> Result<
 
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {
     plausible(study, key, &table)?;
+    let theory = theory(study, key, &table)?;
     let damping = match (table.damping_ratio, table.loss_factor) {
         (Some(ratio), None) => Damping::Ratios(ratio.list()),
         (None, Some(eta)) => Damping::LossFactor(eta),
@@ -195,9 +196,23 @@ fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, Stud
         height_m: table.height,
         youngs_modulus_pa: table.youngs_modulus,
         density_kg_per_m3: table.density,
+        theory,
         boundary: table.boundary,
         damping,
     })
+}
+
+fn theory(study: &StudyText, key: &str, table: &BeamTable) -> Result<Theory, StudyError> {
+    match (table.theory, table.poissons_ratio) {
+        (TheoryName::Timoshenko, None) => Ok(Theory::default()),
+        (TheoryName::Timoshenko, Some(poissons_ratio)) => Ok(Theory::Timoshenko { poissons_ratio }),
+        (TheoryName::EulerBernoulli, None) => Ok(Theory::EulerBernoulli),
+        (TheoryName::EulerBernoulli, Some(found)) => study.refuse(
+            format_args!("{key}.beam.poissons_ratio"),
+            found,
+            "it with theory = \"timoshenko\" only; \"euler-bernoulli\" has no shear",
+        ),
+    }
 }
 
 /// Refuses numbers that no joint's test has, and names the slip that they look like. What is no number at all is left to the
@@ -253,4 +268,37 @@ fn keys_given(joint: &JointPlaceTable) -> String {
         ("theta", joint.theta.is_some()),
     ];
     names_given("no key", &given)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use bolted_joint_frf::structure::Theory;
+
+    use crate::study::{Study, Substructure};
+
+    const BEAMS: &str = include_str!("../../../../../tests/data/studies/beams.toml");
+
+    #[test]
+    fn a_beam_has_shear_where_nothing_is_said() {
+        for (said, expected) in [
+            ("theory = \"euler-bernoulli\", ", Theory::EulerBernoulli),
+            ("", Theory::default()),
+            ("theory = \"timoshenko\", ", Theory::default()),
+            (
+                "poissons_ratio = 0.33, ",
+                Theory::Timoshenko {
+                    poissons_ratio: 0.33,
+                },
+            ),
+        ] {
+            let text = BEAMS.replace("theory = \"euler-bernoulli\", ", said);
+            let study = Study::from_toml(&text, Path::new("study.toml")).unwrap();
+            match study.b {
+                Substructure::Beam { beam, .. } => assert_eq!(beam.theory, expected, "{said}"),
+                Substructure::Measured { .. } => panic!("no beam"),
+            }
+        }
+    }
 }

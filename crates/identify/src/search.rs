@@ -146,7 +146,7 @@ fn is_certain(trials: &[Estimate], finals: &[Final]) -> bool {
 }
 
 /// Starts that agree on a minimum of one bolt's joint: where what it leaves is no noise, no other start would find another.
-const SETTLED: usize = 5;
+const SETTLED: usize = 8;
 
 /// Whether so many starts agree that more of them would not tell more, although what is left is no noise: errors of the set-up
 /// leave more than noise at every minimum.

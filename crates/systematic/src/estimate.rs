@@ -126,7 +126,9 @@ pub fn estimate(
 fn best_of_many(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
     let first = best(task, start, settings);
     let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
-    if task.priors.is_empty() || first.as_ref().is_some_and(fits) {
+    // without causes what is left is no noise as soon as there are errors
+    let is_good = |found: &Found| task.priors.is_empty() || fits(found);
+    if first.as_ref().is_some_and(is_good) {
         return first;
     }
     let few = Settings {

@@ -50,7 +50,7 @@ pub(super) fn budget(found: &Identification) -> String {
     if let Some((group, part)) = systematic.largest_groups().first() {
         let _ = writeln!(
             text,
-            "{} matter most ({} of a variance): {}",
+            "what matters most: {} ({} of a variance); {}",
             group.name(),
             percent(*part),
             group.remedy()

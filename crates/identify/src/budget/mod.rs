@@ -84,7 +84,10 @@ impl Systematic {
                 break;
             };
             levels = study.noise.levels(levels.assembly.scaled(reduced.sqrt()));
-            found = Self::at_levels(study, lines, &layout, levels, &start)?;
+            let Some(next) = Self::at_levels(study, lines, &layout, levels, &start) else {
+                break;
+            };
+            found = next;
         }
         Some(found)
     }

@@ -55,8 +55,8 @@ fn deviations(report: &IdentificationReport<'_>, found: &Systematic) -> String {
         .collect();
     let advice = found.largest_groups().first().map(|(group, part)| {
         format!(
-            "<p>{} matter most, with {} of a variance. To know the joint better, {}.</p>\n",
-            capital(group.name()),
+            "<p>What matters most: {}, with {} of a variance. To know the joint better, {}.</p>\n",
+            group.name(),
             percent(*part),
             group.remedy()
         )

@@ -240,6 +240,7 @@ points = {LABELS["C"]}
 model = "full"
 [noise]
 relative = {noise}
+floor = 0
 """,
         encoding="utf-8",
     )

@@ -27,6 +27,8 @@ const ALIKE: f64 = 0.15;
 const MOST_REDUCED_CHI_SQUARED: f64 = 1.3;
 /// Below this χ² per degree of freedom the noise is less than it was taken for.
 const LESS_NOISE: f64 = 0.95;
+/// Parts of the level that the residual shows, tried until an estimate is found.
+const PARTS_OF_NOISE: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 /// How often its level is corrected.
 const ROUNDS: usize = 2;
 
@@ -74,7 +76,16 @@ impl Systematic {
         let start = estimate.covariance().values.clone();
         let layout = study.layout();
         let mut levels = estimate.levels;
-        let mut found = Self::at_levels(study, lines, &layout, levels, &start)?;
+        let mut found = None;
+        // Noise that a residual full of other errors shows can be so large that no line is linear in it.
+        for part in PARTS_OF_NOISE {
+            levels = study.noise.levels(estimate.levels.assembly.scaled(part));
+            found = Self::at_levels(study, lines, &layout, levels, &start);
+            if found.is_some() || study.noise.is_stated() {
+                break;
+            }
+        }
+        let mut found = found?;
         // Errors of the set-up have raised the noise that the residual seemed to show.
         for _ in 0..ROUNDS {
             let Some(reduced) = found

@@ -240,8 +240,8 @@ impl Systematic {
                     shown(cause.prior.cause, [cause.value, cause.standard_deviation]);
                 let alike = self.not_told_from(name);
                 warnings.push(format!(
-                    "the data contradict the error budget: {name} is {value:.3} ± {deviation:.2} {unit}, {:.0} times what the budget \
-                     allows{alike}; its limit was widened for this estimate; {}",
+                    "the data contradict the error budget: {name} is {value:.3} ± {deviation:.2} {unit} once its limit is widened, \
+                     {:.0} times the limit before{alike}; {}",
                     pull.abs(),
                     cause.prior.cause.group().remedy(),
                 ));

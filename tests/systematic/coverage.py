@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def main(draws, computed_b):
     program = pathlib.Path(os.environ.get("BOLTED_JOINT", ROOT / "target/release/bolted-joint"))
-    rows = {"careful": [], "none": []}
+    rows, refused = {"careful": [], "none": []}, 0
     for draw in range(draws):
         mistakes = drawn(np.random.default_rng(100 + draw))
         if computed_b:
@@ -26,9 +26,12 @@ def main(draws, computed_b):
         for name, budget in (("careful", None), ("none", '"none"')):
             with tempfile.TemporaryDirectory() as folder:
                 found = identified(program, pathlib.Path(folder), mistakes, draw, 0.01, budget, computed_b=computed_b)
-            rows[name].append(found.z)
-        print(draw, rows["careful"][-1].round(2), flush=True)
-    print(f"{draws} draws: {' '.join(rig.NAMES)}")
+            if found.whole["usable"]:
+                rows[name].append(found.z)
+            if name == "careful":
+                refused += not found.whole["usable"]
+                print(draw, found.z.round(2), "" if found.whole["usable"] else "refused", flush=True)
+    print(f"{draws} draws, {refused} refused: {' '.join(rig.NAMES)}")
     for name, z in rows.items():
         z = np.array(z)
         print(f"{name:8} coverage {np.mean(abs(z) < 1.96, 0).round(2)}  r.m.s. {np.sqrt(np.mean(z**2, 0)).round(2)}")

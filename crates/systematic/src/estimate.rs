@@ -35,7 +35,7 @@ impl Default for Settings {
 }
 
 /// A pull beyond so many prior standard deviations contradicts the prior.
-const CONTRADICTED: f64 = 2.5;
+pub const CONTRADICTED: f64 = 2.5;
 /// A prior that is contradicted is made so much wider.
 const WIDER: f64 = 10.0;
 /// Priors that are made wider at most.
@@ -66,8 +66,6 @@ pub struct Estimate {
     pub unknowns: Vec<f64>,
     /// Covariance of the unknowns, systematic errors included.
     pub covariance: DMatrix<f64>,
-    /// Covariance of the unknowns if the causes were known exactly.
-    pub noise_covariance: DMatrix<f64>,
     /// What is known of each cause.
     pub causes: Vec<CauseEstimate>,
     /// What each group of causes does to each variance.
@@ -235,7 +233,6 @@ fn reduced_chi_squared(task: &Task<'_>, found: &Found) -> Option<f64> {
 fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Estimate> {
     let size = task.unknowns();
     let whole = inverse(&with_priors(task, &found.information))?;
-    let joint = found.information.view((0, 0), (size, size)).into_owned();
     let causes = task
         .priors
         .iter()
@@ -249,7 +246,6 @@ fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Est
     Some(Estimate {
         unknowns: found.point.unknowns.clone(),
         covariance: whole.view((0, 0), (size, size)).into_owned(),
-        noise_covariance: inverse(&joint)?,
         causes: causes.collect(),
         shares: Shares::of(task, &whole),
         reduced_chi_squared: reduced_chi_squared(task, &found),

@@ -1,9 +1,12 @@
 //! What an estimate with systematic errors works on: functions of the structures and of the assembly at the same lines.
 
+use std::sync::OnceLock;
+
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::cause::Side;
+use super::modal_fit::ModalFit;
 
 /// Receptances of one line.
 pub type ComplexMatrix = DMatrix<Complex64>;
@@ -20,6 +23,8 @@ pub struct Experiment<'a> {
     pub b: Structure<'a>,
     /// The assembly at the points.
     pub assembly: MeasuredFunctions,
+    /// Smooth fits of A and B where they are measured, made when they are first asked for.
+    fits: OnceLock<[Option<ModalFit>; 2]>,
 }
 
 /// The unknown entries of the joint's matrices.
@@ -100,8 +105,37 @@ pub struct Computed<'a> {
     pub compute: Box<Compute<'a>>,
 }
 
-impl Experiment<'_> {
-    pub(crate) fn side(&self, side: Side) -> &Structure<'_> {
+impl<'a> Experiment<'a> {
+    /// Functions at the lines of `omega`, rad/s: of the structures that the joint connects and of the assembly at B's points.
+    #[must_use]
+    pub fn new(
+        omega: Vec<f64>,
+        joint: JointShape,
+        [a, b]: [Structure<'a>; 2],
+        assembly: MeasuredFunctions,
+    ) -> Self {
+        Self {
+            omega,
+            joint,
+            a,
+            b,
+            assembly,
+            fits: OnceLock::new(),
+        }
+    }
+
+    /// A smooth fit of a structure; `None` where it is not measured or no fit comes near it.
+    pub(crate) fn fit(&self, side: Side) -> Option<&ModalFit> {
+        let fits = self.fits.get_or_init(|| {
+            [Side::A, Side::B].map(|side| match self.side(side) {
+                Structure::Measured(measured) => ModalFit::of(&measured.functions, &self.omega),
+                Structure::Computed(_) | Structure::Exact(_) => None,
+            })
+        });
+        fits[side as usize].as_ref()
+    }
+
+    pub(crate) fn side(&self, side: Side) -> &Structure<'a> {
         match side {
             Side::A => &self.a,
             Side::B => &self.b,

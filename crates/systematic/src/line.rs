@@ -7,8 +7,7 @@ use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
 use super::effect::{At, slopes};
-use super::experiment::{ComplexMatrix, Entry, Experiment, Structure};
-use super::modal_fit::ModalFit;
+use super::experiment::{ComplexMatrix, Entry, Experiment, MeasuredFunctions, Structure};
 use super::structures::Recomputations;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
@@ -17,8 +16,6 @@ const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 pub(crate) struct Task<'t> {
     pub(crate) experiment: &'t Experiment<'t>,
     pub(crate) priors: &'t [Prior],
-    /// Of each measured structure.
-    fits: [Option<ModalFit>; 2],
     slopes: Option<DMatrix<f64>>,
 }
 
@@ -52,18 +49,11 @@ pub(crate) struct Terms {
 
 impl<'t> Task<'t> {
     pub(crate) fn new(experiment: &'t Experiment<'t>, priors: &'t [Prior]) -> Self {
-        let fits = [Side::A, Side::B].map(|side| match experiment.side(side) {
-            Structure::Measured(measured) if !priors.is_empty() => {
-                ModalFit::of(&measured.functions, &experiment.omega)
-            }
-            _ => None,
-        });
         let positions_m = experiment.assembly.positions_m.as_ref();
         let is_computed = matches!(experiment.b, Structure::Computed(_));
         Self {
             experiment,
             priors,
-            fits,
             slopes: positions_m
                 .filter(|_| !is_computed)
                 .map(|positions_m| slopes(positions_m)),
@@ -74,7 +64,7 @@ impl<'t> Task<'t> {
     pub(crate) fn without_smooth_fit(&self) -> Vec<Side> {
         let is_without = |side: &Side| {
             let is_measured = matches!(self.experiment.side(*side), Structure::Measured(_));
-            is_measured && !self.priors.is_empty() && self.fits[*side as usize].is_none()
+            is_measured && !self.priors.is_empty() && self.experiment.fit(*side).is_none()
         };
         [Side::A, Side::B].into_iter().filter(is_without).collect()
     }
@@ -89,7 +79,7 @@ impl<'t> Task<'t> {
 
     /// R(ε) of an entry of a measured structure; 1 without a fit.
     pub(crate) fn ratio(&self, side: Side, line: usize, entry: usize, epsilon: f64) -> Complex64 {
-        let fit = self.fits[side as usize].as_ref();
+        let fit = self.experiment.fit(side);
         let omega = self.experiment.omega[line];
         fit.map_or(Complex64::from(1.0), |fit| fit.ratio(entry, omega, epsilon))
     }
@@ -98,7 +88,8 @@ impl<'t> Task<'t> {
     fn smooth(&self, line: usize, point: &Point, labelled: &Labelled) -> Labelled {
         [Side::A, Side::B].map(|side| {
             let (now, omega) = (&labelled[side as usize], self.experiment.omega[line]);
-            let Some(fit) = &self.fits[side as usize] else {
+            let needed = !self.priors.is_empty();
+            let Some(fit) = needed.then(|| self.experiment.fit(side)).flatten() else {
                 return now.clone();
             };
             let fitted = now.iter().enumerate();
@@ -197,13 +188,7 @@ impl<'t> Task<'t> {
         };
         let functions = &measured.functions;
         let truth = functions.matrix(truth);
-        let at = At {
-            set: MeasuredSet::Of(side),
-            functions,
-            truth: &truth,
-            omega: self.experiment.omega[line],
-            slopes: None,
-        };
+        let at = self.at_structure(side, functions, &truth, line);
         let beside = at.beside(self.priors, &point.causes);
         let epsilon =
             super::structures::value_of(Cause::Frequency(side), self.priors, &point.causes);
@@ -236,13 +221,7 @@ impl<'t> Task<'t> {
         };
         let functions = &measured.functions;
         let truth = functions.matrix(labelled);
-        let at = At {
-            set: MeasuredSet::Of(side),
-            functions,
-            truth: &truth,
-            omega: self.experiment.omega[line],
-            slopes: None,
-        };
+        let at = self.at_structure(side, functions, &truth, line);
         let of = |(prior, value): (&Prior, &f64)| match prior.cause {
             Cause::Frequency(of) if of == side => {
                 let step = 1e-3 * prior.standard_deviation;
@@ -278,19 +257,23 @@ impl<'t> Task<'t> {
     ) -> Option<Terms> {
         let experiment = self.experiment;
         let omega = experiment.omega[line];
-        let (_, _, coupled) = self.coupled(line, point, labelled, recomputed)?;
+        let own = self.coupled(line, point, labelled, recomputed)?;
+        let coupled = &own.2;
         let entries = &experiment.assembly.entries;
         let measured = [Side::A, Side::B]
             .map(|side| self.without_causes(side, line, point, &labelled[side as usize]));
         // Derivatives by the causes come from smooth receptances: from noisy ones the noise would be read as information.
         let smooth = self.smooth(line, point, labelled);
-        let (smooth_a, smooth_b, smooth_coupled) =
-            self.coupled(line, point, &smooth, recomputed)?;
+        let of_smooth = match self.priors {
+            [] => None,
+            _ => Some(self.coupled(line, point, &smooth, recomputed)?),
+        };
+        let (smooth_a, smooth_b, smooth_coupled) = of_smooth.as_ref().unwrap_or(&own);
         let smooth_at = self.at_assembly(&smooth_coupled.receptance, omega);
-        let smooth_by_labelled = self.by_labelled(&smooth_coupled);
+        let smooth_by_labelled = self.by_labelled(smooth_coupled);
         let measured_by_cause = [Side::A, Side::B]
             .map(|side| self.by_causes(side, line, point, &smooth[side as usize]));
-        let by_labelled = self.by_labelled(&coupled);
+        let by_labelled = self.by_labelled(coupled);
         let at = self.at_assembly(&coupled.receptance, omega);
         let beside = at.beside(self.priors, &point.causes);
         let shift: Vec<Complex64> = (0..2)
@@ -333,11 +316,7 @@ impl<'t> Task<'t> {
                 _ => {}
             }
             for side in [Side::A, Side::B] {
-                let formed = if side == Side::A {
-                    &smooth_a
-                } else {
-                    &smooth_b
-                };
+                let formed = if side == Side::A { smooth_a } else { smooth_b };
                 let direct = match experiment.side(side) {
                     Structure::Measured(measured) => measured.formed_by_cause(
                         experiment.joint.dofs_of_a_bolt,
@@ -392,6 +371,22 @@ impl<'t> Task<'t> {
 
     fn loss_factor(&self, point: &Point) -> f64 {
         super::structures::value_of(Cause::LossFactor, self.priors, &point.causes)
+    }
+
+    fn at_structure<'r>(
+        &self,
+        side: Side,
+        functions: &'r MeasuredFunctions,
+        truth: &'r ComplexMatrix,
+        line: usize,
+    ) -> At<'r> {
+        At {
+            set: MeasuredSet::Of(side),
+            functions,
+            truth,
+            omega: self.experiment.omega[line],
+            slopes: None,
+        }
     }
 
     fn at_assembly<'r>(&'r self, receptance: &'r ComplexMatrix, omega: f64) -> At<'r> {

@@ -109,20 +109,8 @@ pub(crate) fn search(
         rests |= inflated <= 1.0
             && part == 1.0
             && (largest < NEAR || iteration + LAST >= settings.most_iterations);
-        if !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1 {
-            drop(whitened);
-            return Some(Found {
-                point,
-                labelled,
-                lines,
-                information,
-                cost,
-                shares,
-                iterations: iteration + 1,
-                converged: true,
-            });
-        }
-        if iteration + 1 == settings.most_iterations {
+        let has_settled = !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1;
+        if has_settled || iteration + 1 == settings.most_iterations {
             drop(whitened);
             return Some(Found {
                 point,

@@ -28,21 +28,26 @@ pub(super) fn of<'a>(
         .map(|place| place.all().collect())
         .collect();
     let dofs = lines.joint_dofs();
-    Some(Experiment {
-        omega: lines
-            .frequency_hz
-            .iter()
-            .map(|hz| std::f64::consts::TAU * hz)
-            .collect(),
-        joint: JointShape {
-            dofs,
-            dofs_of_a_bolt: dofs / study.bolts.count(),
-            entries,
-        },
-        a: structure(study, Side::A, lines, levels.a)?,
-        b: structure(study, Side::B, lines, levels.b)?,
-        assembly: assembly(lines, levels.assembly),
-    })
+    let omega = lines
+        .frequency_hz
+        .iter()
+        .map(|hz| std::f64::consts::TAU * hz);
+    let joint = JointShape {
+        dofs,
+        dofs_of_a_bolt: dofs / study.bolts.count(),
+        entries,
+    };
+    let structures = [
+        structure(study, Side::A, lines, levels.a)?,
+        structure(study, Side::B, lines, levels.b)?,
+    ];
+    let assembly = assembly(lines, levels.assembly);
+    Some(Experiment::new(
+        omega.collect(),
+        joint,
+        structures,
+        assembly,
+    ))
 }
 
 /// The measured functions of the assembly, each on its own: reciprocity speaks for the channels' gains.

@@ -4,8 +4,8 @@ mod experiment;
 
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
-    BandConsistency, Budget, Cause, CauseEstimate, Estimate, Group, MeasuredSet, Settings, Shares,
-    Side, Suspect, consistency, estimate, suspects,
+    BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Group, MeasuredSet, Settings,
+    Shares, Side, Suspect, consistency, estimate, suspects,
 };
 use nalgebra::DMatrix;
 
@@ -23,8 +23,6 @@ const BANDS: [usize; 2] = [2, 8];
 const CHANCE: f64 = 0.01;
 /// Causes whose drops of χ² differ by less than this part cannot be told apart.
 const ALIKE: f64 = 0.15;
-/// Above this χ² per degree of freedom the causes do not explain what is left.
-const MOST_REDUCED_CHI_SQUARED: f64 = 1.3;
 /// Below this χ² per degree of freedom the noise is less than it was taken for.
 const LESS_NOISE: f64 = 0.95;
 /// Parts of the level that the residual shows, tried until an estimate is found.
@@ -124,7 +122,7 @@ impl Systematic {
             && let Some(prior) = priors.iter_mut().find(|prior| prior.cause == first.cause)
         {
             let pull = first.value / prior.standard_deviation;
-            if pull.abs() > WIDENED {
+            if pull.abs() > CONTRADICTED {
                 prior.standard_deviation = first.value.abs();
                 contradicted = Some((first.cause, pull));
             }
@@ -139,45 +137,32 @@ impl Systematic {
         }
         let name = |cause: Cause| name(cause, study, lines);
         let consistency = BANDS.iter().filter_map(|&bands| consistency(&plain, bands));
+        // Noise that is larger than it is said to be widens everything.
+        let widened = |covariance: DMatrix<f64>, reduced: Option<f64>| {
+            covariance * reduced.unwrap_or(1.0).max(1.0)
+        };
+        let causes = found.causes.iter();
+        let causes = causes.map(|cause| (name(cause.prior.cause), *cause));
+        let suspects = suspects.iter();
+        let suspects = suspects.map(|suspect| (name(suspect.cause), *suspect));
+        let tested = consistency.map(|found| {
+            let tail = chi_squared_tail(found.q, found.freedom);
+            (found, tail)
+        });
         Some(Self {
             budget: study.budget.clone(),
-            causes: found
-                .causes
-                .iter()
-                .map(|cause| (name(cause.prior.cause), *cause))
-                .collect(),
-            suspects: suspects
-                .iter()
-                .map(|suspect| (name(suspect.cause), *suspect))
-                .collect(),
-            consistency: consistency
-                .map(|found| {
-                    let tail = chi_squared_tail(found.q, found.freedom);
-                    (found, tail)
-                })
-                .collect(),
-            noise_covariance: plain.covariance * plain.reduced_chi_squared.unwrap_or(1.0).max(1.0),
-            ..Self::from(study.budget.clone(), found)
-        })
-    }
-
-    fn from(budget: Budget, found: Estimate) -> Self {
-        // Noise that is larger than it is said to be widens everything.
-        let scale = found.reduced_chi_squared.unwrap_or(1.0).max(1.0);
-        Self {
-            budget,
+            causes: causes.collect(),
+            suspects: suspects.collect(),
+            consistency: tested.collect(),
+            noise_covariance: widened(plain.covariance.clone(), plain.reduced_chi_squared),
+            covariance: widened(found.covariance, found.reduced_chi_squared),
             unknowns: found.unknowns,
-            covariance: found.covariance * scale,
-            noise_covariance: found.noise_covariance * scale,
             shares: found.shares,
-            causes: Vec::new(),
-            suspects: Vec::new(),
-            consistency: Vec::new(),
             reduced_chi_squared: found.reduced_chi_squared,
             lines: found.lines,
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
-        }
+        })
     }
 
     /// Parts of each unknown's standard deviation: groups by the part of the variance that they have in the worst unknown.
@@ -209,7 +194,7 @@ impl Systematic {
     /// Whether what it leaves is noise.
     pub(super) fn explains_the_data(&self) -> bool {
         let chi = self.reduced_chi_squared;
-        self.converged && chi.is_some_and(|chi| chi <= MOST_REDUCED_CHI_SQUARED)
+        self.converged && chi.is_some_and(|chi| chi <= Settings::default().most_reduced_chi_squared)
     }
 
     /// The suspects that lower χ² nearly as much as one of them, in words.
@@ -268,7 +253,7 @@ impl Systematic {
         }
         if let Some(chi) = self
             .reduced_chi_squared
-            .filter(|chi| *chi > MOST_REDUCED_CHI_SQUARED)
+            .filter(|chi| *chi > Settings::default().most_reduced_chi_squared)
         {
             warnings.push(format!(
                 "with the error budget χ² per degree of freedom is {chi:.2}: none of the causes in it explains what is left; the joint \
@@ -286,9 +271,6 @@ impl Systematic {
         warnings
     }
 }
-
-/// A prior that a suspect exceeds so many times is widened before the search.
-const WIDENED: f64 = 2.5;
 
 /// Values of a cause in a unit for people.
 pub(super) fn shown(cause: Cause, values: [f64; 2]) -> ([f64; 2], &'static str) {

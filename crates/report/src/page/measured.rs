@@ -323,8 +323,14 @@ fn noise(report: &IdentificationReport<'_>) -> String {
 
 fn assumptions(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
+    let mass = match report.found.systematic {
+        Some(_) => "no mass beyond the error budget",
+        None => "no mass",
+    };
     let mut list = vec![
-        "The joint is linear; its matrices are symmetric and do not depend on frequency or amplitude.".to_owned(),
+        format!(
+            "The joint is linear and has {mass}; its matrices are symmetric and do not depend on frequency or amplitude."
+        ),
         "Both substructures are linear and reciprocal, and the same coupled as uncoupled.".to_owned(),
         "Errors of measured functions are independent from line to line and from function to function, and circular in the \
          complex plane. Standard deviations are those of the complex error."

@@ -135,6 +135,10 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "joint_file": only("joint_file"),
             "bolts": (bolts.len() > 1).then_some(&bolts),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
+            "lines": {
+                "used": found.estimate.lines_used.0,
+                "measured": found.estimate.lines_used.1,
+            },
             "reduced_chi_squared": found.reduced_chi_squared,
             "budget": budget::json(&found),
             "usable": found.reasons_against.is_empty(),
@@ -413,8 +417,15 @@ pub(super) fn fit(found: &Identification) -> String {
         (_, false) => "not all joints are passive: ACTIVE",
     };
     let (tried, agreeing) = found.starts;
+    let lines = match found.estimate.lines_used {
+        (used, measured) if used < measured => format!(
+            "\nthe estimate rests on {used} of {measured} lines: at the others the noise of the structures' functions moves what is \
+             computed too far"
+        ),
+        _ => String::new(),
+    };
     format!(
-        "residual {:.2} % r.m.s. of the receptance{typical}{chi_squared}; {agreeing} of {tried} starts agree; {verdict}",
+        "residual {:.2} % r.m.s. of the receptance{typical}{chi_squared}; {agreeing} of {tried} starts agree; {verdict}{lines}",
         100.0 * found.relative_rms
     )
 }

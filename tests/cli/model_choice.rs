@@ -17,11 +17,7 @@ fn a_translation_is_compared_with_the_models_that_rotate() {
     );
     has(
         &outcome.stderr,
-        &[
-            // Weights that follow from a residual that is no noise go to and fro.
-            "the search ended while the values still moved by up to 0.1",
-            "% r.m.s. of the receptance and more than noise",
-        ],
+        &["% r.m.s. of the receptance and more than noise"],
     );
     let models = bench.done(&format!("{IDENTIFY} --json")).json();
     let compared: Vec<&str> = models["models"]["compared"]

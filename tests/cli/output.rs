@@ -79,7 +79,7 @@ fn json_has_its_keys() {
     let identified = bench.done(&command).json();
     assert_eq!(
         keys(&identified),
-        " output figure report joint_file bolts starts reduced_chi_squared budget usable reasons_against warnings models torques models_not_compared"
+        " output figure report joint_file bolts starts lines reduced_chi_squared budget usable reasons_against warnings models torques models_not_compared"
     );
     assert_eq!(identified["joint_file"], bench.json("o.joint.json"));
     assert_eq!(identified["output"], "o.joint.json");

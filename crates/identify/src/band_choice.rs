@@ -16,6 +16,7 @@ use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::parallel;
+use super::used::Chosen;
 
 /// Lines closer than this part of the frequency to a resonance of a substructure are avoided; the thesis stays off its
 /// resonance at 336 Hz by 11 %.
@@ -194,7 +195,7 @@ fn parts<const N: usize>(
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<(usize, Vec<Part>)> {
-    let block = Block::<N>::new(lines, 0, 1);
+    let block = Block::<N>::new(lines, 0, &Chosen::every(lines.frequency_hz.len()));
     let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
     let parts = parallel::map(&parts, |lines| {
         Part::of(&block, lines.clone(), places, unknowns, decoupled)

@@ -11,6 +11,7 @@ use bolted_joint_frf::structure::ComplexMatrix;
 
 use super::layout::Place;
 use super::lines::Lines;
+use super::used::Chosen;
 
 /// A matrix of the joint's DOFs at one line, or at several side by side.
 pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
@@ -47,14 +48,16 @@ pub(super) struct Block<const N: usize> {
     pub(super) scatter: Vec<f64>,
     /// Variance of one measurement as a fraction of |H|², where it is known line by line; else empty.
     pub(super) known: Vec<f64>,
+    /// Whether what was measured of this assembly at a line is left out; empty if nothing is.
+    pub(super) left_out: Vec<bool>,
 }
 
 /// No measurement is taken for better than that: its reciprocal is a number.
 const LEAST_VARIANCE: f64 = 1e-300;
 
 impl<const N: usize> Block<N> {
-    /// Every `stride`th line of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
-    pub(super) fn new(lines: &Lines, joint: usize, stride: usize) -> Self {
+    /// The `chosen` ones of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
+    pub(super) fn new(lines: &Lines, joint: usize, chosen: &Chosen) -> Self {
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let measured = lines.independent();
         let mut entries: Vec<Entry> = Vec::new();
@@ -74,13 +77,14 @@ impl<const N: usize> Block<N> {
             }
         }
         let points = lines.points.len();
-        let chosen = || (0..lines.frequency_hz.len()).step_by(stride);
-        let count = chosen().count();
+        let count = chosen.lines.len();
         let mut block = Self {
             joint,
             points,
-            omega: chosen()
-                .map(|line| std::f64::consts::TAU * lines.frequency_hz[line])
+            omega: chosen
+                .lines
+                .iter()
+                .map(|&line| std::f64::consts::TAU * lines.frequency_hz[line])
                 .collect(),
             free: Vec::with_capacity(count),
             dynamic_stiffness: [0.0; N],
@@ -89,10 +93,11 @@ impl<const N: usize> Block<N> {
             measured: Vec::with_capacity(count * entries.len()),
             scatter: Vec::with_capacity(count * entries.len()),
             known: Vec::new(),
+            left_out: chosen.left_out.clone(),
             entries,
         };
         let variances = variances(lines, &places);
-        for line in chosen() {
+        for &line in &chosen.lines {
             block.push_substructures(lines, line);
             block.push_assembly(lines, &places, variances.as_deref(), line);
         }
@@ -175,6 +180,17 @@ impl<const N: usize> Block<N> {
 
     pub(super) fn lines(&self) -> usize {
         self.omega.len()
+    }
+
+    /// Whether what was measured at a line takes part.
+    pub(super) fn takes_part(&self, line: usize) -> bool {
+        !self.left_out.get(line).is_some_and(|left_out| *left_out)
+    }
+
+    /// Lines at which what was measured takes part.
+    pub(super) fn used_lines(&self) -> usize {
+        let left_out = self.left_out.iter().filter(|left_out| **left_out);
+        self.lines() - left_out.count()
     }
 }
 

@@ -12,7 +12,7 @@ const UNLIKE: [f64; 2] = [0.2, 5.0];
 
 /// `first` and, in a whole search for bolts that differ, the starts that an estimate with bolts that are alike gives.
 pub(super) fn bolt_starts(
-    data: &Data,
+    data: &Data<'_>,
     layout: &Layout,
     noise: &Noise,
     mut first: Vec<DVector<f64>>,
@@ -28,7 +28,7 @@ pub(super) fn bolt_starts(
     });
     // Its own starts only: where they lead nowhere, the search proper has a grid.
     let given = given.into_iter().collect();
-    let Ok(found) = search::best(data, &alike.places(), noise, given, Effort::Related) else {
+    let Ok(found) = search::best(data, &alike.places(), noise, given, Effort::Related, None) else {
         return first;
     };
     let joint = alike.matrices(found.estimate.unknowns.as_slice());

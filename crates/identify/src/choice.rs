@@ -98,7 +98,9 @@ pub(super) fn compare(problem: &Problem<'_>, layout: &Layout, found: &Found) -> 
                     found: None,
                 });
             }
-            let found = problem.best(&other, &starts, Effort::Related).ok()?;
+            let found = problem
+                .best(&other, &starts, Effort::Related, Some(&found.used))
+                .ok()?;
             Some(Compared::of(other, found.without_corrections()))
         })
         .collect();

@@ -1,6 +1,9 @@
 //! The data as a search goes through them, whatever the number of the joint's DOFs: matrices of the joint have a fixed size
 //! for each number, what asks for sums over them has not and is compiled once.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 
@@ -11,7 +14,11 @@ use super::lines::Lines;
 use super::noise::{Levels, Noise, NoiseLevel};
 use super::objective::{Corrections, Objective, State, Weights};
 use super::residuals::Residuals;
+use super::used::{self, Chosen};
 use super::{parallel, starts};
+
+/// Lines whose use is judged at a time.
+const LINES_AT_A_TIME: usize = 1024;
 
 /// Lines that are enough to tell which start leads to the best estimate.
 const LINES_FOR_STARTS: usize = 200;
@@ -32,51 +39,132 @@ macro_rules! for_dofs {
 }
 pub(super) use for_dofs;
 
-/// The data in the three forms that the search goes through.
-pub(super) struct Data {
+/// The data in the forms that the search goes through.
+pub(super) struct Data<'a> {
+    all: Vec<(&'a Lines, usize)>,
+    noise: &'a Noise,
+    form: Form,
+    few: Vec<Vec<usize>>,
+    every: Vec<Vec<usize>>,
     /// Few lines, substructures taken as exact.
     pub(super) thinned: Box<dyn Assemblies>,
-    /// Few lines with the errors of the substructures; `None` where these are exact.
+    /// The same lines with the errors of the substructures; `None` where these are exact.
     pub(super) thinned_whole: Option<Box<dyn Assemblies>>,
-    /// All lines with the errors of the substructures.
-    pub(super) whole: Box<dyn Assemblies>,
+    /// All lines, where the substructures are exact.
+    whole: Option<Arc<Used>>,
 }
 
-impl Data {
+/// The assemblies with the lines that are used of each.
+pub(super) struct Used {
+    pub(super) chosen: Vec<Chosen>,
+    pub(super) assemblies: Box<dyn Assemblies>,
+}
+
+/// Noise and unknowns at which it is asked which lines can be used.
+type Near<'n> = (Levels, &'n DVector<f64>);
+
+/// Forms assemblies of which these lines are taken.
+type Form = fn(&[(&Lines, usize)], &[Chosen], &Noise) -> Box<dyn Assemblies>;
+
+impl<'a> Data<'a> {
     /// Assemblies, each with the number of its joint; `None` if there are none, or none of a joint with so many DOFs.
-    pub(super) fn of(all: &[(&Lines, usize)], noise: &Noise) -> Option<Self> {
+    pub(super) fn of(all: Vec<(&'a Lines, usize)>, noise: &'a Noise) -> Option<Self> {
         let mut measured = all.iter().map(|(lines, _)| lines);
         let first = measured.find(|lines| !lines.frequency_hz.is_empty())?;
-        let of: fn(&[(&Lines, usize)], &Noise) -> Self = for_dofs!(first.joint_dofs(), with_dofs)?;
-        Some(of(all, noise))
-    }
-}
-
-/// Which part of the lines is enough: every one, or every second …
-fn stride(all: &[(&Lines, usize)]) -> usize {
-    let longest = all.iter().map(|(lines, _)| lines.frequency_hz.len()).max();
-    (longest.unwrap_or(0) / LINES_FOR_STARTS).max(1)
-}
-
-fn with_dofs<const N: usize>(all: &[(&Lines, usize)], noise: &Noise) -> Data {
-    let stride = stride(all);
-    let noisy = |side: Side| noise.acts_on(side);
-    let whole: Vec<Group<N>> = Group::all(all, 1, noisy);
-    let has_sources = whole.iter().any(|group| !group.sources.is_empty());
-    let thinned: Vec<Group<N>> = Group::all(all, stride, noisy);
-    if !has_sources {
-        return Data {
-            thinned: Box::new(thinned),
-            thinned_whole: None,
-            whole: Box::new(whole),
+        let form: Form = for_dofs!(first.joint_dofs(), formed)?;
+        let counts = || all.iter().map(|(lines, _)| lines.frequency_hz.len());
+        let stride = (counts().max().unwrap_or(0) / LINES_FOR_STARTS).max(1);
+        let of_stride = |stride: usize| -> Vec<Vec<usize>> {
+            let lines = counts().map(|count| (0..count).step_by(stride));
+            lines.map(Iterator::collect).collect()
         };
+        let few = of_stride(stride);
+        let every = of_stride(1);
+        let mut thinned = form(&all, &Chosen::all_of(&few), noise);
+        let exact = thinned.with_exact_sources();
+        let thinned_whole = exact.map(|exact| std::mem::replace(&mut thinned, exact));
+        let mut data = Self {
+            all,
+            noise,
+            form,
+            few,
+            every: Vec::new(),
+            thinned,
+            thinned_whole,
+            whole: None,
+        };
+        match data.thinned_whole {
+            Some(_) => data.every = every,
+            None => data.whole = Some(data.used(Chosen::all_of(&every))),
+        }
+        Some(data)
     }
-    let exact: Vec<Group<N>> = thinned.iter().flat_map(Group::with_exact_sources).collect();
-    Data {
-        thinned: Box::new(exact),
-        thinned_whole: Some(Box::new(thinned)),
-        whole: Box::new(whole),
+
+    /// Whether measured substructures have errors, so that not every line can be used.
+    pub(super) fn has_errors(&self) -> bool {
+        self.whole.is_none()
     }
+
+    /// These lines of each assembly.
+    pub(super) fn used(&self, chosen: Vec<Chosen>) -> Arc<Used> {
+        let assemblies = (self.form)(&self.all, &chosen, self.noise);
+        Arc::new(Used { chosen, assemblies })
+    }
+
+    /// The lines that an estimate near these unknowns can use.
+    pub(super) fn used_near(&self, entries: &[Place], near: Near<'_>) -> Arc<Used> {
+        match &self.whole {
+            Some(whole) => Arc::clone(whole),
+            None => self.used(self.steady_near(entries, near, &self.every)),
+        }
+    }
+
+    /// Those of the few lines that an estimate near these unknowns can use.
+    pub(super) fn few_near(&self, entries: &[Place], near: Near<'_>) -> Arc<Used> {
+        self.used(self.steady_near(entries, near, &self.few))
+    }
+
+    /// Which of these lines of each assembly the errors of the substructures move little enough.
+    fn steady_near(
+        &self,
+        entries: &[Place],
+        (levels, unknowns): Near<'_>,
+        lines: &[Vec<usize>],
+    ) -> Vec<Chosen> {
+        let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
+        let of_piece = |piece: &Range<usize>| {
+            let own = lines.iter().map(|lines| {
+                let end = piece.end.min(lines.len());
+                lines[piece.start.min(end)..end].to_vec()
+            });
+            let own: Vec<Vec<usize>> = own.collect();
+            let assemblies = (self.form)(&self.all, &Chosen::all_of(&own), self.noise);
+            let moved = assemblies.objective(entries).moved(levels, unknowns);
+            let members = assemblies.members().into_iter().map(<[usize]>::to_vec);
+            members.zip(moved).collect::<Vec<_>>()
+        };
+        let mut moved: Vec<Vec<f64>> = vec![Vec::new(); lines.len()];
+        let pieces = parallel::pieces(longest, LINES_AT_A_TIME);
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for (members, of_group) in parallel::map(&pieces, of_piece).into_iter().flatten() {
+            for (&assembly, of_block) in members.iter().zip(of_group) {
+                moved[assembly].extend(of_block);
+            }
+            if !groups.contains(&members) {
+                groups.push(members);
+            }
+        }
+        used::chosen(lines, &moved, &groups)
+    }
+}
+
+fn formed<const N: usize>(
+    all: &[(&Lines, usize)],
+    chosen: &[Chosen],
+    noise: &Noise,
+) -> Box<dyn Assemblies> {
+    let groups: Vec<Group<N>> = Group::all(all, chosen, |side: Side| noise.acts_on(side));
+    Box::new(groups)
 }
 
 /// Assemblies whose joints have the same number of DOFs.
@@ -91,6 +179,10 @@ pub(super) trait Assemblies: Send + Sync {
     ) -> Vec<DVector<f64>>;
     /// See [`starts::grid`].
     fn grid(&self, entries: &[Place]) -> Vec<DVector<f64>>;
+    /// The assemblies of each group by their numbers.
+    fn members(&self) -> Vec<&[usize]>;
+    /// The same assemblies, the substructures taken as measured; `None` where they have no errors.
+    fn with_exact_sources(&self) -> Option<Box<dyn Assemblies>>;
 }
 
 impl<const N: usize> Assemblies for Vec<Group<N>> {
@@ -113,6 +205,17 @@ impl<const N: usize> Assemblies for Vec<Group<N>> {
     fn grid(&self, entries: &[Place]) -> Vec<DVector<f64>> {
         starts::grid(self, entries)
     }
+
+    fn members(&self) -> Vec<&[usize]> {
+        let groups = self.iter();
+        groups.map(|group| group.assemblies.as_slice()).collect()
+    }
+
+    fn with_exact_sources(&self) -> Option<Box<dyn Assemblies>> {
+        let has_sources = self.iter().any(|group| !group.sources.is_empty());
+        let exact = || -> Self { self.iter().flat_map(Group::with_exact_sources).collect() };
+        has_sources.then(|| Box::new(exact()) as _)
+    }
 }
 
 /// What is asked of data and model at a point; see [`Objective`].
@@ -127,7 +230,6 @@ pub(super) trait Misfit: Sync {
         unknowns: DVector<f64>,
         corrections: Option<Corrections>,
     ) -> Option<State>;
-    fn step(&self, weights: &[Weights], state: &State, unknowns: DVector<f64>) -> Option<State>;
     fn renewed(
         &self,
         levels: Levels,
@@ -136,10 +238,11 @@ pub(super) trait Misfit: Sync {
     ) -> Option<(Vec<Weights>, State)>;
     fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>>;
     fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>>;
-    fn eased_weights(&self, levels: Levels, state: &State, part: f64) -> Option<Vec<Weights>>;
+    /// By what part errors of the substructures move each line, for each assembly of each group; see [`used`].
+    fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>>;
     fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel>;
     fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64;
-    fn log_determinant(&self, weights: &[Weights], state: &State) -> Option<f64>;
+    fn log_powers(&self) -> f64;
     /// Sums over the residuals of consecutive lines, for each group those of its pieces.
     fn residuals(&self, levels: Levels, state: &State) -> Option<Vec<Vec<Residuals>>>;
     /// For each group, the derivative of the sum by the unknowns, line by line.
@@ -190,10 +293,6 @@ impl<const N: usize> Misfit for Objective<'_, N> {
         Objective::at(self, weights, unknowns, corrections)
     }
 
-    fn step(&self, weights: &[Weights], state: &State, unknowns: DVector<f64>) -> Option<State> {
-        Objective::step(self, weights, state, unknowns)
-    }
-
     fn renewed(
         &self,
         levels: Levels,
@@ -211,8 +310,8 @@ impl<const N: usize> Misfit for Objective<'_, N> {
         Objective::marginal_weights(self, levels, state)
     }
 
-    fn eased_weights(&self, levels: Levels, state: &State, part: f64) -> Option<Vec<Weights>> {
-        Objective::eased_weights(self, levels, state, part)
+    fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>> {
+        Objective::moved(self, levels, unknowns)
     }
 
     fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel> {
@@ -223,8 +322,8 @@ impl<const N: usize> Misfit for Objective<'_, N> {
         Objective::log_variances_of_scatter(self, weights)
     }
 
-    fn log_determinant(&self, weights: &[Weights], state: &State) -> Option<f64> {
-        Objective::log_determinant(self, weights, state)
+    fn log_powers(&self) -> f64 {
+        Objective::log_powers(self)
     }
 
     fn residuals(&self, levels: Levels, state: &State) -> Option<Vec<Vec<Residuals>>> {
@@ -240,10 +339,7 @@ impl<const N: usize> Misfit for Objective<'_, N> {
     }
 
     fn measurements(&self) -> usize {
-        let groups = self.groups.iter();
-        groups
-            .map(|group| group.lines() * group.measurements())
-            .sum()
+        self.groups.iter().map(Group::measurements).sum()
     }
 
     fn lines(&self) -> usize {

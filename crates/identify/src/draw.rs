@@ -27,6 +27,9 @@ pub(super) fn draw<const N: usize>(
             for e in 0..count {
                 let variance = weights.entries[line.index * size + at + e];
                 let place = line.index * count + e;
+                if !variance.is_finite() {
+                    continue;
+                }
                 block.measured[place] = line.computed[at + e] + circular(variance, generator);
                 let measurements = block.entries[e].count;
                 if measurements > 1 {

@@ -5,6 +5,8 @@
 //! raising its own σ would. For the same reason ln det of J Σ_H Jᴴ does not count: the errors of the substructures are
 //! unknowns of their own (see `objective`), not part of the residual's variance.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::data::Misfit;
@@ -75,6 +77,16 @@ impl Estimate {
         }
     }
 
+    /// Noise and unknowns: where it is.
+    pub(super) fn place(&self) -> (Levels, &DVector<f64>) {
+        (self.levels, &self.unknowns)
+    }
+
+    /// The misfit for each number measured: what estimates on different lines are compared by.
+    pub(super) fn misfit_of_each(&self) -> f64 {
+        self.misfit / self.measurements as f64
+    }
+
     /// χ² over degrees of freedom: twice the cost, because σ² is the sum of the variances of two parts.
     pub(super) fn reduced_chi_squared(&self) -> Option<f64> {
         (self.degrees_of_freedom > 0).then(|| 2.0 * self.cost / self.degrees_of_freedom as f64)
@@ -85,8 +97,13 @@ const MAX_REWEIGHTINGS: usize = 20;
 /// Damping of the first step, a fraction of the diagonal of JᵀJ.
 const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
+/// The same where corrections of the substructures follow each step.
+const MAX_ITERATIONS_OF_CORRECTED: usize = 40;
 /// Gain that the full Gauss–Newton step promises, as a fraction of the cost, below which the iteration has converged.
 const NEGLIGIBLE_GAIN: f64 = 1e-13;
+/// The same where corrections of the substructures follow each step, as a part of a residual's mean square: a hundredth of a
+/// standard deviation.
+const NEGLIGIBLE_GAIN_OF_CORRECTED: f64 = 1e-4;
 /// The same where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
 /// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
@@ -97,8 +114,6 @@ const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 const NEAR: f64 = 1e-3;
 /// … to this part, at least.
 const FALL: f64 = 0.1;
-/// Gain that is enough while the variances are not yet those of the errors.
-const GAIN_WHILE_EASING: f64 = 1e-3;
 
 /// Estimates the unknowns from `start` coordinates; `None` if the start cannot be evaluated.
 ///
@@ -124,7 +139,7 @@ pub(super) fn estimate(
     let mut unrest = f64::INFINITY;
     let mut damping = FIRST_DAMPING;
     for round in 0..MAX_REWEIGHTINGS {
-        if objective.is_independent() && !estimates_level {
+        if !estimates_level {
             let near = follow(objective, levels, chart, (coordinates, weights, state))?;
             (coordinates, weights, state) = near.point;
             if near.has_settled {
@@ -136,7 +151,7 @@ pub(super) fn estimate(
         let gain = if round == 0 {
             GAIN_BEFORE_RENEWAL
         } else {
-            NEGLIGIBLE_GAIN
+            negligible_gain(objective)
         };
         let control = (gain, damping);
         let rest = levenberg_marquardt(objective, &weights, chart, &coordinates, state, control);
@@ -160,7 +175,7 @@ pub(super) fn estimate(
             ..
         } = rest.state;
         (weights, state) = objective.renewed(levels, unknowns, Some(corrections))?;
-        if is_trial && !settled {
+        if (is_trial || !objective.is_independent()) && !settled {
             // It wanders, and renewed weights would not lead it back.
             break;
         }
@@ -169,24 +184,13 @@ pub(super) fn estimate(
             break;
         }
     }
-    let scatter = objective.log_variances_of_scatter(&weights);
-    let log_determinant = if noise.is_stated() {
-        scatter + log_variances(&weights)
-    } else {
-        scatter + objective.log_determinant(&weights, &state)?
-    };
-    let cost = state.normal.linearised_cost;
-    let count = measurements as f64;
-    // −2 ln L = 2 Σ|r|²/σ² + 2 Σ ln σ², with the scale of σ profiled out 2 N ln(Σ|r|²/σ² / N) + 2 Σ ln σ² + 2 N
-    let misfit = if noise.is_stated() {
-        2.0 * (cost + log_determinant)
-    } else {
-        2.0 * (count * (cost / count).ln() + count + log_determinant)
-    };
+    let log_determinant = objective.log_variances_of_scatter(&weights) + log_variances(&weights)
+        - objective.log_powers();
+    let cost = state.normal.cost;
     Some(Estimate {
         unknowns: state.unknowns,
         cost,
-        misfit,
+        misfit: misfit(noise, cost, log_determinant, measurements),
         measurements,
         degrees_of_freedom: (2 * measurements).saturating_sub(unknowns),
         information: state.normal.matrix,
@@ -195,6 +199,17 @@ pub(super) fn estimate(
         unrest,
         corrections: state.corrections,
     })
+}
+
+/// −2 log-likelihood up to a constant; where noise is not stated the common scale of the variances is profiled out.
+pub(super) fn misfit(noise: &Noise, cost: f64, log_determinant: f64, measurements: usize) -> f64 {
+    let count = measurements as f64;
+    // −2 ln L = 2 Σ|r|²/σ² + 2 Σ ln σ², with the scale of σ profiled out 2 N ln(Σ|r|²/σ² / N) + 2 Σ ln σ² + 2 N
+    if noise.is_stated() {
+        2.0 * (cost + log_determinant)
+    } else {
+        2.0 * (count * (cost / count).ln() + count + log_determinant)
+    }
 }
 
 /// A point with the weights that it gives itself.
@@ -217,7 +232,7 @@ fn follow(
     let settled = |point, has_settled| Some(Near { point, has_settled });
     let mut normal = point.2.normal_in(chart, &point.0);
     loop {
-        if normal.is_settled(&point.0, NEGLIGIBLE_GAIN) {
+        if normal.is_settled(&point.0, negligible_gain(objective)) {
             return settled(point, true);
         }
         let promise = normal.promise().filter(|promise| *promise < NEAR);
@@ -225,7 +240,8 @@ fn follow(
             return settled(point, false);
         };
         let coordinates = &point.0 + step;
-        let next = objective.renewed(levels, chart.unknowns(&coordinates), None);
+        let corrections = Some(Arc::clone(&point.2.corrections));
+        let next = objective.renewed(levels, chart.unknowns(&coordinates), corrections);
         let Some((weights, state)) = next else {
             return settled(point, false);
         };
@@ -234,6 +250,14 @@ fn follow(
             return settled(point, false);
         }
         point = (coordinates, weights, state);
+    }
+}
+
+fn negligible_gain(objective: &dyn Misfit) -> f64 {
+    if objective.is_independent() {
+        NEGLIGIBLE_GAIN
+    } else {
+        NEGLIGIBLE_GAIN_OF_CORRECTED / objective.measurements() as f64
     }
 }
 
@@ -250,39 +274,15 @@ pub(super) fn first_levels(objective: &dyn Misfit, noise: &Noise) -> Levels {
     })
 }
 
-/// The unknowns at which the cost with these weights is lowest, roughly.
+/// Where the cost with these weights is lowest, roughly.
 pub(super) fn minimum(
     objective: &dyn Misfit,
     weights: &[Weights],
     start: &DVector<f64>,
-) -> Option<DVector<f64>> {
+) -> Option<State> {
     let state = objective.at(weights, start.clone(), None)?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
-    Some(levenberg_marquardt(objective, weights, &Free, start, state, control).coordinates)
-}
-
-/// Parts of what the errors of the substructures add to the variance of the assembly's receptances, by which these are taken
-/// for worse than they are, step by step less.
-const EASING: [f64; 5] = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
-
-/// Unknowns and corrections near the minimum that `start` belongs to, where the errors of the substructures act too far from
-/// linearly to be let free at once: near a resonance a correction that has to explain several assemblies exactly ends far off.
-/// First the assemblies count for no better than they can be computed from the substructures as measured.
-pub(super) fn eased_minimum(
-    objective: &dyn Misfit,
-    noise: &Noise,
-    start: DVector<f64>,
-) -> Option<(DVector<f64>, Corrections)> {
-    let levels = first_levels(objective, noise);
-    let mut state = objective.unweighted(start, None);
-    for part in EASING {
-        let weights = objective.eased_weights(levels, &state, part)?;
-        let control = (GAIN_WHILE_EASING, FIRST_DAMPING);
-        let unknowns = state.unknowns.clone();
-        state = objective.at(&weights, state.unknowns, Some(state.corrections))?;
-        state = levenberg_marquardt(objective, &weights, &Free, &unknowns, state, control).state;
-    }
-    Some((state.unknowns, state.corrections))
+    Some(levenberg_marquardt(objective, weights, &Free, start, state, control).state)
 }
 
 /// Where an iteration with held weights came to rest.
@@ -308,7 +308,12 @@ fn levenberg_marquardt(
     let mut normal = state.normal_in(chart, &coordinates);
     let mut damping = first_damping;
     let mut settled = false;
-    for _ in 0..MAX_ITERATIONS {
+    let most = if objective.is_independent() {
+        MAX_ITERATIONS
+    } else {
+        MAX_ITERATIONS_OF_CORRECTED
+    };
+    for _ in 0..most {
         if normal.is_settled(&coordinates, negligible_gain) {
             settled = true;
             break;
@@ -317,8 +322,11 @@ fn levenberg_marquardt(
         let improved = trial
             .as_ref()
             .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
-            .and_then(|trial| objective.step(weights, &state, chart.unknowns(trial)))
-            .filter(|next| next.normal.cost <= state.normal.cost);
+            .and_then(|trial| {
+                let corrections = Some(Arc::clone(&state.corrections));
+                objective.at(weights, chart.unknowns(trial), corrections)
+            })
+            .filter(|next| next.normal.cost <= state.normal.cost * (1.0 + negligible_gain));
         if let (Some(trial), Some(next)) = (trial, improved) {
             coordinates = trial;
             state = next;

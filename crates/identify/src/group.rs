@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use super::block::Block;
 use super::lines::Lines;
 use super::receptances::MeasuredSubstructure;
+use super::used::Chosen;
 
 /// Which substructure a measured receptance belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,38 +54,47 @@ pub(super) struct Source<const N: usize> {
 /// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Group<const N: usize> {
+    /// Number of each block's assembly among all.
+    pub(super) assemblies: Vec<usize>,
     pub(super) blocks: Vec<Block<N>>,
     pub(super) sources: Vec<Source<N>>,
 }
 
+/// Assemblies of a group with the lines that are taken of them.
+type Members<'l> = Vec<(&'l Lines, &'l Chosen)>;
+
 impl<const N: usize> Group<N> {
-    /// Groups of the assemblies `all`, each with the number of its joint, of which every `stride`th line is taken; the
-    /// measured receptances of substructures that are `noisy` become sources.
+    /// Groups of the assemblies `all`, each with the number of its joint, of which the `chosen` lines are taken; the measured
+    /// receptances of substructures that are `noisy` become sources. Assemblies of one group have the same lines chosen.
     pub(super) fn all(
         all: &[(&Lines, usize)],
-        stride: usize,
+        chosen: &[Chosen],
         noisy: impl Fn(Side) -> bool,
     ) -> Vec<Self> {
-        let mut groups: Vec<(Vec<&Lines>, Self)> = Vec::new();
-        for &(lines, joint) in all {
-            let mut joined: (Vec<&Lines>, Self) = Default::default();
+        let mut groups: Vec<(Members<'_>, Self)> = Vec::new();
+        for (number, (&(lines, joint), chosen)) in all.iter().zip(chosen).enumerate() {
+            let mut joined: (Members<'_>, Self) = Default::default();
             // An assembly may share A with one group and B with another, and so make one of them.
             groups.retain_mut(|(members, group)| {
-                let shares = members.iter().any(|member| share(member, lines, &noisy));
+                let shares = members
+                    .iter()
+                    .any(|(member, _)| share(member, lines, &noisy));
                 if shares {
                     joined.0.append(members);
+                    joined.1.assemblies.append(&mut group.assemblies);
                     joined.1.blocks.append(&mut group.blocks);
                 }
                 !shares
             });
-            joined.0.push(lines);
-            joined.1.blocks.push(Block::new(lines, joint, stride));
+            joined.0.push((lines, chosen));
+            joined.1.assemblies.push(number);
+            joined.1.blocks.push(Block::new(lines, joint, chosen));
             groups.push(joined);
         }
         groups
             .into_iter()
             .map(|(members, mut group)| {
-                group.add_sources(&members, stride, &noisy);
+                group.add_sources(&members, &noisy);
                 group
             })
             .collect()
@@ -92,31 +102,34 @@ impl<const N: usize> Group<N> {
 
     /// Its assemblies one by one, the substructures taken as measured.
     pub(super) fn with_exact_sources(&self) -> impl Iterator<Item = Self> {
-        self.blocks.iter().map(|block| Self {
+        let all = self.assemblies.iter().zip(&self.blocks);
+        all.map(|(&assembly, block)| Self {
+            assemblies: vec![assembly],
             blocks: vec![block.clone()],
             sources: Vec::new(),
         })
     }
 
-    fn add_sources(&mut self, members: &[&Lines], stride: usize, noisy: &impl Fn(Side) -> bool) {
+    fn add_sources(&mut self, members: &Members<'_>, noisy: &impl Fn(Side) -> bool) {
         let mut seen: Vec<&Arc<MeasuredSubstructure>> = Vec::new();
         for side in [Side::A, Side::B] {
             if !noisy(side) {
                 continue;
             }
-            for measured in members.iter().filter_map(|lines| side.of(lines)) {
+            let used = |&(lines, chosen)| Some((side.of(lines)?, chosen));
+            for (measured, chosen) in members.iter().filter_map(used) {
                 if seen.iter().any(|other| Arc::ptr_eq(other, measured)) {
                     continue;
                 }
                 seen.push(measured);
                 let users: Vec<bool> = members
                     .iter()
-                    .map(|lines| {
+                    .map(|(lines, _)| {
                         side.of(lines)
                             .is_some_and(|other| Arc::ptr_eq(other, measured))
                     })
                     .collect();
-                self.add_substructure(side, measured, &users, stride);
+                self.add_substructure(side, measured, &users, &chosen.lines);
             }
         }
     }
@@ -126,7 +139,7 @@ impl<const N: usize> Group<N> {
         side: Side,
         measured: &MeasuredSubstructure,
         users: &[bool],
-        stride: usize,
+        chosen: &[usize],
     ) {
         let labels = measured.transformation().ncols();
         for column in 0..labels {
@@ -147,7 +160,7 @@ impl<const N: usize> Group<N> {
                         let sum: f64 = indices.iter().map(|&index| known[index][line]).sum();
                         sum / indices.len() as f64
                     };
-                    (0..value.len()).step_by(stride).map(mean).collect()
+                    chosen.iter().map(|&line| mean(line)).collect()
                 });
                 let patterns = self.blocks.iter().zip(users).map(|(block, &user)| {
                     user.then(|| pattern(side, measured, (row, column), block))
@@ -156,10 +169,10 @@ impl<const N: usize> Group<N> {
                 self.sources.push(Source {
                     side,
                     count: indices.len() as u32,
-                    value: if stride == 1 {
+                    value: if chosen.len() == value.len() {
                         Arc::clone(value)
                     } else {
-                        Arc::new(value.iter().step_by(stride).copied().collect())
+                        Arc::new(chosen.iter().map(|&line| value[line]).collect())
                     },
                     known: known.unwrap_or_default(),
                     patterns,
@@ -185,10 +198,13 @@ impl<const N: usize> Group<N> {
         self.blocks.iter().map(|block| block.entries.len()).sum()
     }
 
-    /// Measured complex numbers of the assemblies at one line.
+    /// Measured complex numbers of the assemblies.
     pub(super) fn measurements(&self) -> usize {
-        let entries = self.blocks.iter().flat_map(|block| &block.entries);
-        entries.map(|entry| entry.count as usize).sum()
+        let of_block = |block: &Block<N>| {
+            let counts = block.entries.iter().map(|entry| entry.count as usize);
+            block.used_lines() * counts.sum::<usize>()
+        };
+        self.blocks.iter().map(of_block).sum()
     }
 }
 

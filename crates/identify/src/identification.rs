@@ -16,6 +16,7 @@ use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
 use super::provenance;
 use super::reliability;
+use super::slips::{self, FoundSlip};
 use super::study::Study;
 use super::watch::Watch;
 use bolted_joint_systematic::Budget;
@@ -62,6 +63,8 @@ pub struct Identification {
     pub estimate: LinesEstimate,
     /// What errors of the set-up do to the estimate, where they take part.
     pub systematic: Option<Systematic>,
+    /// Slips that explain what the estimate leaves, the most likely first.
+    pub slips: Vec<FoundSlip>,
     /// What each file of functions states.
     pub files: Vec<FileSummary>,
     /// Of each bolt's joint.
@@ -132,7 +135,20 @@ pub fn identify_and_draw(
         progress: Some(&|| watch.drawn()),
     };
     let estimate = identify_lines(&all, study.model, &options)?;
-    let systematic = Systematic::of(study, &all, &estimate);
+    let slips = match all.as_slice() {
+        [lines] if slips::are_possible(&estimate.assessment) => slips::found(
+            lines,
+            &study.layout(),
+            &study.noise,
+            &estimate.covariance().values,
+        ),
+        _ => Vec::new(),
+    };
+    let systematic = match slips.as_slice() {
+        [] => Systematic::of(study, &all, &estimate),
+        // What a slip leaves tells nothing of smaller errors.
+        _ => None,
+    };
     let estimate = match &systematic {
         Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),
         None => estimate,
@@ -165,9 +181,10 @@ pub fn identify_and_draw(
         .as_ref()
         .is_some_and(Systematic::explains_the_data);
     let unexplained = median_difference.filter(|_| !is_explained);
-    let reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
+    let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
+    reasons_against.extend(reliability::because_of(&slips));
     warnings.extend(study.rotations_not_corrected());
-    if systematic.is_none() && study.budget != Budget::none() {
+    if systematic.is_none() && slips.is_empty() && study.budget != Budget::none() {
         warnings.push(Systematic::NOT_APPLIED.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
@@ -197,6 +214,7 @@ pub fn identify_and_draw(
         reasons_against,
         from_modes,
         systematic,
+        slips,
         files,
         provenance,
         torque_n_m: torques(study).and_then(range),

@@ -115,7 +115,10 @@ impl<const N: usize> Kernel<N> {
 }
 
 #[inline(always)]
-fn product<const N: usize, T: Number>(left: &Small<N, T>, right: &Small<N, T>) -> Small<N, T> {
+pub(super) fn product<const N: usize, T: Number>(
+    left: &Small<N, T>,
+    right: &Small<N, T>,
+) -> Small<N, T> {
     let mut product = [[T::ZERO; N]; N];
     for i in 0..N {
         for j in 0..N {

@@ -153,6 +153,16 @@ impl Layout {
         }
     }
 
+    /// DOFs of a bolt in the data.
+    pub(super) fn dofs_of_a_bolt(&self) -> usize {
+        self.dofs
+    }
+
+    /// Bolts.
+    pub(super) fn bolts(&self) -> usize {
+        self.bolts
+    }
+
     /// Joints that are unknown.
     pub(super) fn joints(&self) -> usize {
         if self.alike { 1 } else { self.bolts }

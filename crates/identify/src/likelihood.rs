@@ -1,9 +1,10 @@
 //! Parts of the likelihood beside the sum that is minimised: the logarithms of all variances.
 
-use std::slice;
+use num_complex::Complex64;
 
+use super::block::Block;
 use super::group::Group;
-use super::objective::{Objective, State, Weights};
+use super::objective::{Objective, Weights};
 
 impl<const N: usize> Objective<'_, N> {
     /// Σ ln σ² over measurements beyond the first of each entry.
@@ -14,7 +15,8 @@ impl<const N: usize> Objective<'_, N> {
             let lines = weights.entries.chunks_exact(counts.len().max(1));
             let of_line = |variances: &[f64]| -> f64 {
                 let pairs = counts.iter().zip(variances);
-                let repeated = pairs.filter(|(count, _)| **count > 1.0);
+                let repeated =
+                    pairs.filter(|(count, variance)| **count > 1.0 && variance.is_finite());
                 repeated
                     .map(|(n, of_mean)| (n - 1.0) * (n * of_mean).ln())
                     .sum()
@@ -24,34 +26,43 @@ impl<const N: usize> Objective<'_, N> {
         self.groups.iter().zip(weights).map(of_group).sum()
     }
 
-    /// Σ ln det Σ: the likelihood with the corrections integrated out, in which the level of the noise can be estimated.
-    pub(super) fn log_determinant(&self, weights: &[Weights], state: &State) -> Option<f64> {
-        let pairs = self.groups.iter().zip(weights);
-        let independent = pairs.filter(|(group, _)| group.sources.is_empty());
-        let mut sum: f64 = independent
-            .map(|(_, weights)| log_variances(slice::from_ref(weights)))
-            .sum();
-        if !self.is_independent() {
-            self.visit(Some(weights), state, &mut |group, line| {
-                if !self.groups[group].sources.is_empty() {
-                    sum += line.log_determinant();
-                }
-            })?;
+    /// Σ ln|y|² over the assemblies' measurements: variances count as fractions of it, so that likelihoods of different lines can be
+    /// compared. Zero where every line is used anyway.
+    pub(super) fn log_powers(&self) -> f64 {
+        if self.is_independent() {
+            return 0.0;
         }
-        Some(sum)
+        let of_block = |block: &Block<N>| -> f64 {
+            let lines = block.measured.chunks_exact(block.entries.len().max(1));
+            let lines = lines.enumerate();
+            let lines = lines.filter(|(line, _)| block.takes_part(*line));
+            let of_line = |(_, values): (usize, &[Complex64])| -> f64 {
+                let powers = values.iter().zip(&block.entries);
+                let powers = powers.filter(|(value, _)| value.norm_sqr() > 0.0);
+                powers
+                    .map(|(value, entry)| f64::from(entry.count) * value.norm_sqr().ln())
+                    .sum()
+            };
+            lines.map(of_line).sum()
+        };
+        let blocks = self.groups.iter().flat_map(|group| &group.blocks);
+        blocks.map(of_block).sum()
     }
 }
 
-/// Σ ln σ² of the means of everything measured: the likelihood with the corrections as unknowns.
+/// Σ ln σ² of the means of the assemblies' entries. The variances of the substructures follow from what was measured, so that no
+/// joint changes them.
 pub(super) fn log_variances(weights: &[Weights]) -> f64 {
-    let of = |weights: &Weights| -> f64 { log_sum(&weights.entries) + log_sum(&weights.sources) };
+    let of = |weights: &Weights| log_sum(&weights.entries);
     weights.iter().map(of).sum()
 }
 
-/// Σ ln v over those above zero. The logarithm of a product takes the time of one.
+/// Σ ln v over those above zero that are finite. The logarithm of a product takes the time of one.
 fn log_sum(values: &[f64]) -> f64 {
     let each = |values: &[f64]| -> f64 {
-        let positive = values.iter().filter(|value| **value > 0.0);
+        let positive = values
+            .iter()
+            .filter(|value| **value > 0.0 && value.is_finite());
         positive.map(|value| value.ln()).sum()
     };
     let together = |values: &[f64]| {

@@ -50,6 +50,27 @@ impl Lines {
         independent(&self.measured, is_symmetric)
     }
 
+    /// Every so many lines, so that at most `most` are left.
+    pub(super) fn at_most(&self, most: usize) -> Self {
+        let stride = self.frequency_hz.len().div_ceil(most.max(1)).max(1);
+        Self {
+            frequency_hz: every(&self.frequency_hz, stride),
+            a: self.a.every(stride),
+            b: self.b.every(stride),
+            assembly: every(&self.assembly, stride),
+            points: self.points.clone(),
+            measured: self.measured.clone(),
+            relative_variance: self
+                .relative_variance
+                .as_ref()
+                .map(|known| known.iter().map(|known| every(known, stride)).collect()),
+            repeats: self.repeats.as_ref().map(|repeats| Repeats {
+                count: repeats.count,
+                scatter: every(&repeats.scatter, stride),
+            }),
+        }
+    }
+
     /// DOFs of the joint, those of all bolts; 0 without lines.
     #[must_use]
     pub fn joint_dofs(&self) -> usize {
@@ -80,6 +101,11 @@ impl Lines {
             })
             .collect()
     }
+}
+
+/// Every so many of these.
+pub(super) fn every<T: Clone>(values: &[T], stride: usize) -> Vec<T> {
+    values.iter().step_by(stride).cloned().collect()
 }
 
 /// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by

@@ -26,6 +26,7 @@ use super::search::{Effort, Found};
 use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
 use super::uncertainty::Covariance;
+use super::used::Chosen;
 
 /// What an identification from lines is to do beyond the estimate itself.
 #[derive(Clone, Default)]
@@ -68,6 +69,9 @@ pub struct LinesEstimate {
     pub noise_level: Option<NoiseLevel>,
     /// How many starts were tried, and how many of them led to this estimate.
     pub starts: (usize, usize),
+    /// Lines that the estimate rests on, of how many, those of all assemblies together. It leaves out those at which the errors of
+    /// measured substructures act too far from linearly.
+    pub lines_used: (usize, usize),
     /// Noise of everything measured, stated or estimated.
     pub(super) levels: Levels,
     /// By how many standard deviations an unknown still moved when the search ended: zero where it had come to rest, infinite
@@ -288,10 +292,10 @@ pub fn identify_lines(
         .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
     let found = problem
-        .best(&layout, &starts, Effort::Whole)
+        .best(&layout, &starts, Effort::Whole, None)
         .map_err(|starts| no_estimate(all, starts))?;
     let places = layout.places();
-    let objective = problem.objective(&places);
+    let objective = found.used.assemblies.objective(&places);
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
     let covariance = CovarianceOfAll::of(objective.as_ref(), noise, &found);
@@ -344,7 +348,7 @@ pub fn identify_lines(
         .then_some(estimate.levels.assembly)
         .filter(|_| !found.assessment.noise_is_known);
     let levels = estimate.levels;
-    let found = found.without_corrections();
+    let found = found.clone().without_corrections();
     let choice = options
         .compare_models
         .then(|| choice::compare(&problem, &layout, &found));
@@ -375,6 +379,10 @@ pub fn identify_lines(
         unrest: unrest(&found),
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
+        lines_used: (
+            found.used.chosen.iter().map(Chosen::count).sum(),
+            all.iter().map(|lines| lines.frequency_hz.len()).sum(),
+        ),
         choice,
         torque_choice,
         warnings,

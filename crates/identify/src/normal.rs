@@ -12,8 +12,6 @@ const ROUNDING: f64 = 1e-13;
 pub(super) struct Normal {
     /// The sum that is minimised.
     pub(super) cost: f64,
-    /// The same as linearised in the errors of the substructures: what is left once they have followed.
-    pub(super) linearised_cost: f64,
     pub(super) signal: f64,
     pub(super) matrix: DMatrix<f64>,
     pub(super) gradient: DVector<f64>,
@@ -23,7 +21,6 @@ impl Normal {
     pub(super) fn zero(size: usize) -> Self {
         Self {
             cost: 0.0,
-            linearised_cost: 0.0,
             signal: 0.0,
             matrix: DMatrix::zeros(size, size),
             gradient: DVector::zeros(size),
@@ -33,7 +30,6 @@ impl Normal {
     /// Adds what other lines contribute.
     pub(super) fn add(&mut self, other: &Self) {
         self.cost += other.cost;
-        self.linearised_cost += other.linearised_cost;
         self.signal += other.signal;
         self.matrix += &other.matrix;
         self.gradient += &other.gradient;
@@ -80,12 +76,10 @@ impl Normal {
             return false;
         };
         // S(p) − S(p + δ) = δᵀ Jᵀ r in the linearised model
-        let followed = (self.cost - self.linearised_cost).max(0.0);
-        let gain = step.dot(&self.gradient) + followed;
+        let gain = step.dot(&self.gradient);
         let negligible = negligible_gain * self.cost + ROUNDING * ROUNDING * self.signal;
         gain <= negligible
-            || followed <= 1e-10 * self.cost
-                && relative_change(unknowns, &(unknowns + step), &self.scale()) < TOLERANCE
+            || relative_change(unknowns, &(unknowns + step), &self.scale()) < TOLERANCE
     }
 }
 
@@ -117,7 +111,6 @@ mod tests {
     fn normal(matrix: DMatrix<f64>, gradient: DVector<f64>) -> Normal {
         Normal {
             cost: 1.0,
-            linearised_cost: 1.0,
             signal: 1.0,
             matrix,
             gradient,

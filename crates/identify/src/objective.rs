@@ -1,9 +1,9 @@
 //! The sum that the estimator minimises, with its normal equations, over all lines of all assemblies.
 //!
-//! S = Σ |y − H^C(θ, û + δ)|²/σ_C² + Σ |δ|²/σ_H²: measured receptances y of the assembly with variance σ_C², measured
+//! Σ |y − H^C(θ, û + δ)|²/σ_C² + Σ |δ|²/σ_H²: measured receptances y of the assembly with variance σ_C², measured
 //! receptances û of the substructures with variance σ_H² and their corrections δ. The corrections are unknowns of their
-//! own on every line. Eliminated, they leave the normal equations with Σ = Σ_C + J Σ_H Jᴴ, J = ∂H^C/∂û; so
-//! S = r̃ᴴ Σ⁻¹ r̃ at the minimum over δ, with r̃ = y − H^C + Jδ.
+//! own on every line. Eliminated, they leave S = r̃ᴴ Σ⁻¹ r̃ with r̃ = y − H^C + Jδ, Σ = Σ_C + J Σ_H Jᴴ and J = ∂H^C/∂û, linearised
+//! at corrections δ = Σ_H Jᴴ Σ⁻¹ r̃ that follow each step of θ.
 //!
 //! θ holds the unknowns of one torque after the other; each assembly has one of them. Where assemblies with different joints
 //! share a substructure, δ couples these.
@@ -17,10 +17,11 @@ use num_complex::Complex64;
 use super::group::Group;
 use super::independent;
 use super::layout::Place;
-use super::line::Line;
+use super::line::{Line, Variances};
 use super::noise::{Levels, NoiseLevel};
 use super::normal::Normal;
 use super::parallel;
+use super::weights::line_variances;
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
@@ -86,15 +87,26 @@ impl<const N: usize> Objective<'_, N> {
         })
     }
 
-    /// The point `unknowns` with these corrections (none at all: zero).
+    /// The point `unknowns`, the corrections following from these (none at all: zero).
     pub(super) fn at(
         &self,
         weights: &[Weights],
         unknowns: DVector<f64>,
         corrections: Option<Corrections>,
     ) -> Option<State> {
-        let corrections = corrections.unwrap_or_else(|| self.no_corrections());
-        self.walk(weights, unknowns, corrections, None)
+        let mut corrections = self.own(corrections);
+        let mut normal = Normal::zero(unknowns.len());
+        let groups = self.groups.iter().zip(weights).zip(&mut corrections);
+        for ((group, weights), corrections) in groups {
+            if group.sources.is_empty() {
+                let unknowns = unknowns.as_slice();
+                independent::accumulate(group, self.entries, unknowns, weights, &mut normal)?;
+            } else {
+                self.settle(group, weights, &unknowns, corrections, &mut normal)?;
+            }
+            normal.cost += weights.scatter;
+        }
+        state(unknowns, corrections, normal)
     }
 
     /// The point `unknowns`, before there are weights: without normal equations.
@@ -117,47 +129,9 @@ impl<const N: usize> Objective<'_, N> {
         Arc::new(self.groups.iter().map(zero).collect())
     }
 
-    /// The point to which a step takes from `state`, the corrections following.
-    pub(super) fn step(
-        &self,
-        weights: &[Weights],
-        state: &State,
-        unknowns: DVector<f64>,
-    ) -> Option<State> {
-        self.walk(
-            weights,
-            unknowns,
-            Arc::clone(&state.corrections),
-            Some(&state.unknowns),
-        )
-    }
-
-    fn walk(
-        &self,
-        weights: &[Weights],
-        unknowns: DVector<f64>,
-        corrections: Corrections,
-        from: Option<&DVector<f64>>,
-    ) -> Option<State> {
-        let mut corrections = Arc::unwrap_or_clone(corrections);
-        let mut normal = Normal::zero(unknowns.len());
-        let groups = self.groups.iter().zip(weights).zip(&mut corrections);
-        for ((group, weights), corrections) in groups {
-            if group.sources.is_empty() {
-                let unknowns = unknowns.as_slice();
-                independent::accumulate(group, self.entries, unknowns, weights, &mut normal)?;
-            } else {
-                self.settle(group, weights, (from, &unknowns), corrections, &mut normal)?;
-            }
-            normal.cost += weights.scatter;
-            normal.linearised_cost += weights.scatter;
-        }
-        normal.matrix.fill_upper_triangle_with_lower_triangle();
-        normal.cost.is_finite().then_some(State {
-            unknowns,
-            corrections: Arc::new(corrections),
-            normal,
-        })
+    /// Corrections that can be changed.
+    fn own(&self, corrections: Option<Corrections>) -> Vec<Vec<Complex64>> {
+        Arc::unwrap_or_clone(corrections.unwrap_or_else(|| self.no_corrections()))
     }
 
     /// Adds a group whose lines have corrections, which follow the unknowns, to the normal equations.
@@ -165,23 +139,18 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         group: &Group<N>,
         weights: &Weights,
-        (from, to): (Option<&DVector<f64>>, &DVector<f64>),
+        unknowns: &DVector<f64>,
         corrections: &mut [Complex64],
         normal: &mut Normal,
     ) -> Option<()> {
         let count = group.sources.len();
-        let pieces: Vec<(usize, &mut [Complex64])> = corrections
-            .chunks_mut(count * PIECE)
-            .enumerate()
-            .map(|(piece, corrections)| (piece * PIECE, corrections))
-            .collect();
-        let sums = parallel::map_each(pieces, |(first, corrections)| {
+        let pieces: Vec<_> = corrections.chunks_mut(count * PIECE).enumerate().collect();
+        let sums = parallel::map_each(pieces, |(piece, corrections)| {
             let mut line = Line::new(group, self.entries);
-            let mut normal = Normal::zero(to.len());
-            for (index, delta) in (first..).zip(corrections.chunks_mut(count)) {
+            let mut normal = Normal::zero(unknowns.len());
+            for (index, delta) in (piece * PIECE..).zip(corrections.chunks_mut(count)) {
                 let variances = line.weights(weights, index);
-                line.settle(index, variances, from, to, delta)?;
-                line.whiten(variances, delta)?;
+                line.settle(index, variances, unknowns, delta)?;
                 line.add_to(&mut normal);
             }
             Some(normal)
@@ -192,44 +161,80 @@ impl<const N: usize> Objective<'_, N> {
         Some(())
     }
 
+    /// The same with the variances that `levels` give at `unknowns`, which it returns.
+    fn settle_renewed(
+        &self,
+        group: &Group<N>,
+        levels: Levels,
+        unknowns: &DVector<f64>,
+        corrections: &mut [Complex64],
+        normal: &mut Normal,
+    ) -> Option<Weights> {
+        let (count, size) = (group.sources.len(), group.entries());
+        let mut entries = vec![0.0; size * group.lines()];
+        let mut sources = vec![0.0; count * group.lines()];
+        let pieces: Vec<_> = corrections
+            .chunks_mut(count * PIECE)
+            .zip(entries.chunks_mut(size * PIECE))
+            .zip(sources.chunks_mut(count * PIECE))
+            .enumerate()
+            .collect();
+        let sums = parallel::map_each(pieces, |(piece, ((corrections, entries), sources))| {
+            let mut line = Line::new(group, self.entries);
+            let mut normal = Normal::zero(unknowns.len());
+            let mut scatter = 0.0;
+            let own = corrections
+                .chunks_mut(count)
+                .zip(entries.chunks_mut(size))
+                .zip(sources.chunks_mut(count));
+            for (index, ((delta, entries), sources)) in (piece * PIECE..).zip(own) {
+                line.linearise(index, unknowns.as_slice(), delta)?;
+                scatter += line_variances(group, &line, levels, entries, sources)?;
+                let variances = Variances { entries, sources };
+                line.settle_linearised(variances, unknowns, delta)?;
+                line.add_to(&mut normal);
+            }
+            Some((normal, scatter))
+        });
+        let mut all = 0.0;
+        for sum in sums {
+            let (sum, scatter) = sum?;
+            normal.add(&sum);
+            all += scatter;
+        }
+        Some(Weights {
+            entries,
+            sources,
+            scatter: all,
+        })
+    }
+
     /// Whether all entries have errors of their own: no substructure's error is an unknown.
     pub(super) fn is_independent(&self) -> bool {
         self.groups.iter().all(|group| group.sources.is_empty())
     }
 
-    /// The point `unknowns` with these corrections, and the weights that it gives itself.
+    /// The point `unknowns`, the corrections following from these, and the weights that it gives itself.
     pub(super) fn renewed(
         &self,
         levels: Levels,
         unknowns: DVector<f64>,
         corrections: Option<Corrections>,
     ) -> Option<(Vec<Weights>, State)> {
-        if !self.is_independent() {
-            let state = self.unweighted(unknowns, corrections);
-            let weights = self.weights(levels, &state)?;
-            let state = self.at(&weights, state.unknowns, Some(state.corrections))?;
-            return Some((weights, state));
-        }
+        let mut corrections = self.own(corrections);
         let mut normal = Normal::zero(unknowns.len());
-        let all: Option<Vec<Weights>> = self
-            .groups
-            .iter()
-            .map(|group| {
-                let unknowns = unknowns.as_slice();
-                independent::renew(group, self.entries, unknowns, levels.assembly, &mut normal)
-            })
-            .collect();
-        let all = all?;
-        let scatter: f64 = all.iter().map(|weights| weights.scatter).sum();
-        normal.cost += scatter;
-        normal.linearised_cost += scatter;
-        normal.matrix.fill_upper_triangle_with_lower_triangle();
-        let state = State {
-            corrections: self.no_corrections(),
-            unknowns,
-            normal,
-        };
-        state.normal.cost.is_finite().then_some((all, state))
+        let mut all = Vec::with_capacity(self.groups.len());
+        for (group, corrections) in self.groups.iter().zip(&mut corrections) {
+            let weights = if group.sources.is_empty() {
+                let (unknowns, level) = (unknowns.as_slice(), levels.assembly);
+                independent::renew(group, self.entries, unknowns, level, &mut normal)?
+            } else {
+                self.settle_renewed(group, levels, &unknowns, corrections, &mut normal)?
+            };
+            normal.cost += weights.scatter;
+            all.push(weights);
+        }
+        Some((all, state(unknowns, corrections, normal)?))
     }
 
     /// Calls `visit` with each line of each group as it is at `state`: computed and, with `weights`, whitened. Derivatives by
@@ -321,8 +326,8 @@ impl<const N: usize> Objective<'_, N> {
             match whitening {
                 Whitening::None => {}
                 Whitening::Held(weights) => {
-                    let (variances, _) = line.weights(weights, index);
-                    line.whiten_independent(variances);
+                    let variances = line.weights(weights, index);
+                    line.whiten_independent(variances.entries);
                 }
                 Whitening::Renewed(level) => line.whiten_by(level),
             }
@@ -354,4 +359,18 @@ impl<const N: usize> Objective<'_, N> {
         }
         Some(())
     }
+}
+
+/// A point whose normal equations are complete; `None` where a sum is no number.
+fn state(
+    unknowns: DVector<f64>,
+    corrections: Vec<Vec<Complex64>>,
+    mut normal: Normal,
+) -> Option<State> {
+    normal.matrix.fill_upper_triangle_with_lower_triangle();
+    normal.cost.is_finite().then(|| State {
+        unknowns,
+        corrections: Arc::new(corrections),
+        normal,
+    })
 }

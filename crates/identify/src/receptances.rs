@@ -8,6 +8,8 @@ use num_complex::Complex64;
 
 use bolted_joint_frf::structure::ComplexMatrix;
 
+use super::lines::every;
+
 /// Receptances of a substructure between the joint's DOFs, bolt by bolt, and then its points, at each line.
 #[derive(Clone, Debug)]
 pub enum Receptances {
@@ -24,6 +26,15 @@ impl Receptances {
         match self {
             Self::Exact(matrices) => Cow::Borrowed(&matrices[line]),
             Self::Measured(measured) => Cow::Owned(measured.formed(line)),
+        }
+    }
+
+    /// At every so many lines.
+    pub(super) fn every(&self, stride: usize) -> Self {
+        match self {
+            _ if stride == 1 => self.clone(),
+            Self::Exact(matrices) => Self::Exact(every(matrices, stride)),
+            Self::Measured(measured) => Self::Measured(Arc::new(measured.every(stride))),
         }
     }
 
@@ -101,6 +112,42 @@ impl MeasuredSubstructure {
     #[must_use]
     pub fn with_lost(self, lost: Option<DMatrix<f64>>) -> Self {
         Self { lost, ..self }
+    }
+
+    /// At every so many lines.
+    fn every(&self, stride: usize) -> Self {
+        let functions = self.functions.iter();
+        let known = self.relative_variance.as_ref();
+        Self {
+            functions: functions
+                .map(|function| Arc::new(every(function, stride)))
+                .collect(),
+            relative_variance: known
+                .map(|known| known.iter().map(|known| every(known, stride)).collect()),
+            ..self.clone()
+        }
+    }
+
+    /// With other values: each line's times a factor.
+    pub(super) fn multiplied(&self, factors: &[Complex64]) -> Self {
+        let multiplied = |function: &Arc<Vec<Complex64>>| {
+            let pairs = function.iter().zip(factors);
+            Arc::new(pairs.map(|(value, factor)| value * factor).collect())
+        };
+        Self {
+            functions: self.functions.iter().map(multiplied).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// With some of the motions reversed.
+    pub(super) fn with_reversed(&self, motions: impl Iterator<Item = usize>) -> Self {
+        let mut reversed = self.clone();
+        for motion in motions {
+            reversed.transformation.row_mut(motion).neg_mut();
+            reversed.complex.row_mut(motion).neg_mut();
+        }
+        reversed
     }
 
     /// W: motion of the joint's DOFs, then of the points, by that of the measured DOFs: H = W U Wᵀ.

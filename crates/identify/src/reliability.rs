@@ -8,6 +8,7 @@ use super::identification::{AssemblyFit, Identification};
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
+use super::slips::FoundSlip;
 
 /// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
 /// cent around the resonances; beyond this the computed structure is another one than the measured one.
@@ -22,6 +23,12 @@ pub(super) const NOTABLE_UNREST: f64 = 0.05;
 
 /// χ² per degree of freedom up to which coherence, an estimate itself, accounts for a residual: n/(n − 2) of four averages.
 const MOST_OF_COHERENCE: f64 = 2.0;
+
+/// What slips that explain the residual say against the estimate.
+pub(super) fn because_of(slips: &[FoundSlip]) -> Option<String> {
+    let words: Vec<String> = slips.iter().map(FoundSlip::to_string).collect();
+    (!words.is_empty()).then(|| format!("the data fit if {}", words.join(", or if ")))
+}
 
 /// What speaks against the estimate, a line each; empty if nothing does.
 pub(super) fn reasons_against(

@@ -26,14 +26,14 @@ pub(super) struct Residuals {
 impl Residuals {
     pub(super) fn add<const N: usize>(&mut self, line: &Line<'_, N>) {
         self.relative_power += line.relative_power;
-        self.count += line.residual.len();
+        self.count += line.measurements();
         self.power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
         let Some([_, last]) = &mut self.ends else {
             self.ends = Some([line.residual.clone(), line.residual.clone()]);
             return;
         };
         self.product += product(last, &line.residual);
-        self.pairs += line.residual.len();
+        self.pairs += line.measurements();
         last.copy_from_slice(&line.residual);
     }
 

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::estimator::{Estimate, minimum};
 use super::layout::Layout;
 use super::objective::Weights;
-use super::search::robust_start;
+use super::robust::robust;
 use super::torque::Problem;
 
 /// An excess of −2 ln L that no other start makes up for, and no noise.
@@ -44,14 +44,10 @@ impl Problem<'_> {
         };
         let entries = other.places();
         let exact = self.data.thinned.objective(&entries);
-        let robust = robust_start(
-            exact.as_ref(),
-            whole.objective(&entries).as_ref(),
-            self.noise,
-            start.clone(),
-        );
-        let robust = robust.unwrap_or_else(|| start.clone());
-        let other_unknowns = minimum(exact.as_ref(), &weights, &robust)?;
+        let whole = whole.objective(&entries);
+        let robust = robust(exact.as_ref(), whole.as_ref(), self.noise, start);
+        let robust = robust.map_or_else(|| start.clone(), |robust| robust.unknowns);
+        let other_unknowns = minimum(exact.as_ref(), &weights, &robust)?.unknowns;
         let excess = 2.0
             * (cost(other, &weights, other_unknowns)?
                 - cost(own, &weights, found.unknowns.clone())?);

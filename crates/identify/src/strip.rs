@@ -327,7 +327,6 @@ impl<const E: usize> Sums<E> {
         let (k, c) = (first, first + entries.len());
         let cost = self.cost.sum();
         normal.cost += cost;
-        normal.linearised_cost += cost;
         normal.signal += self.signal.sum();
         let row = |t: usize| match entries[t].first() {
             (i, j) if E == ENTRIES_OF_ONE => place::<N>(i, j),

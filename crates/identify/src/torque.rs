@@ -5,18 +5,20 @@
 //! assembly that uses it: the unknowns of one joint after the other are one vector, and each assembly has its own part of it.
 
 use std::fmt;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::assessment::{Assessment, assess};
+use super::assessment::assess;
 use super::bolt_starts::bolt_starts;
 use super::choice::bayesian_criterion;
-use super::data::{Data, Misfit};
-use super::estimator::{Estimate, Free, eased_minimum, estimate};
+use super::data::{Data, Used};
+use super::estimator::{Estimate, Free, estimate, first_levels};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::noise::Noise;
+use super::robust::robust;
 use super::search::{self, Effort, Found};
 
 /// Whether the joint depends on the tightening torque.
@@ -155,22 +157,17 @@ impl<'a> Assignment<'a> {
 pub(super) struct Problem<'a> {
     assignment: Assignment<'a>,
     pub(super) noise: &'a Noise,
-    pub(super) data: Data,
+    pub(super) data: Data<'a>,
 }
 
 impl<'a> Problem<'a> {
     /// `None` if there is no assembly, or none of a joint with so many DOFs.
     pub(super) fn new(assignment: Assignment<'a>, noise: &'a Noise) -> Option<Self> {
         Some(Self {
-            data: Data::of(&assignment.all, noise)?,
+            data: Data::of(assignment.all.clone(), noise)?,
             assignment,
             noise,
         })
-    }
-
-    /// The objective over all lines.
-    pub(super) fn objective<'o>(&'o self, entries: &'o [Place]) -> Box<dyn Misfit + 'o> {
-        self.data.whole.objective(entries)
     }
 
     /// How many joints are sought.
@@ -178,8 +175,8 @@ impl<'a> Problem<'a> {
         self.assignment.joints
     }
 
-    /// The best estimate of all joints together; `Err` with the number of starts if there is none. `starts` are those of
-    /// each joint.
+    /// The best estimate of all joints together, on the lines that are `used` if they are given; `Err` with the number of starts if
+    /// there is none. `starts` are those of each joint.
     ///
     /// Several joints are first sought one by one, as if each torque had been a study of its own, and what that finds is
     /// the start of the estimate of all.
@@ -188,30 +185,30 @@ impl<'a> Problem<'a> {
         layout: &Layout,
         starts: &[Vec<DVector<f64>>],
         effort: Effort,
+        used: Option<&Arc<Used>>,
     ) -> Result<Found, usize> {
         let (entries, noise) = (&layout.places(), self.noise);
         let own_starts = |joint: usize| starts.get(joint).cloned().unwrap_or_default();
         if self.joints() == 1 {
             let starts = bolt_starts(&self.data, layout, noise, own_starts(0), effort);
-            return search::best(&self.data, entries, noise, starts, effort);
+            return search::best(&self.data, entries, noise, starts, effort, used);
         }
         let mut joints = Vec::with_capacity(self.joints());
         let (mut tried, mut agreeing) = (0, 0);
         for joint in 0..self.joints() {
-            let data = Data::of(&self.assignment.only(joint), noise).ok_or(tried)?;
+            let data = Data::of(self.assignment.only(joint), noise).ok_or(tried)?;
             let starts = bolt_starts(&data, layout, noise, own_starts(joint), effort);
-            let found =
-                search::best(&data, entries, noise, starts, effort).map_err(|more| tried + more)?;
+            let found = search::best(&data, entries, noise, starts, effort, None)
+                .map_err(|more| tried + more)?;
             tried += found.tried;
             agreeing += found.agreeing;
             joints.push(found.estimate.unknowns);
         }
-        let (estimate, assessment) = self.together(layout, &joints, effort).ok_or(tried)?;
+        let found = self.together(layout, &joints, effort, used).ok_or(tried)?;
         Ok(Found {
-            estimate,
-            assessment,
             tried,
             agreeing,
+            ..found
         })
     }
 
@@ -222,9 +219,9 @@ impl<'a> Problem<'a> {
         layout: &Layout,
         joints: &[DVector<f64>],
         effort: Effort,
-    ) -> Option<(Estimate, Assessment)> {
-        let (entries, noise) = (&layout.places(), self.noise);
-        let objective = self.objective(entries);
+        used: Option<&Arc<Used>>,
+    ) -> Option<Found> {
+        let entries = &layout.places();
         let concatenated = |joints: &mut dyn Iterator<Item = &DVector<f64>>| {
             let values: Vec<f64> = joints.flat_map(|joint| joint.iter().copied()).collect();
             DVector::from_vec(values)
@@ -233,18 +230,18 @@ impl<'a> Problem<'a> {
             .iter()
             .map(|joint| concatenated(&mut joints.iter().map(|_| joint)));
         let starts = std::iter::once(concatenated(&mut joints.iter())).chain(everywhere);
-        let mut best: Option<(Estimate, Assessment)> = None;
+        let mut best: Option<Found> = None;
         for start in starts {
-            let Some(found) = self.estimate_together(entries, objective.as_ref(), start) else {
+            let Some(found) = self.starting_at(entries, &start, used) else {
                 continue;
             };
-            let Some(assessment) = assess(objective.as_ref(), &found, noise) else {
-                continue;
+            let fits = found.estimate.converged && found.assessment.fits();
+            let lower = |best: &Found| {
+                let of_each = |found: &Found| found.estimate.misfit_of_each();
+                of_each(&found) < of_each(best)
             };
-            let fits = found.converged && assessment.fits();
-            let lower = |(best, _): &(Estimate, Assessment)| found.misfit < best.misfit;
             if best.as_ref().is_none_or(lower) {
-                best = Some((found, assessment));
+                best = Some(found);
             }
             if fits || effort == Effort::Related && best.is_some() {
                 break;
@@ -253,24 +250,55 @@ impl<'a> Problem<'a> {
         best
     }
 
-    /// The estimate that a start of all joints leads to.
-    fn estimate_together(
+    /// The estimate that a start of all joints leads to, on the lines that are `used` or else on those that it can use itself.
+    fn starting_at(
         &self,
         entries: &[Place],
-        objective: &dyn Misfit,
-        start: DVector<f64>,
-    ) -> Option<Estimate> {
+        start: &DVector<f64>,
+        used: Option<&Arc<Used>>,
+    ) -> Option<Found> {
         let noise = self.noise;
-        let Some(whole) = &self.data.thinned_whole else {
-            return estimate(objective, noise, None, &Free, &start, None);
+        let on = |used: Arc<Used>, near: &Estimate| {
+            let objective = used.assemblies.objective(entries);
+            let start = &near.unknowns;
+            let estimate = estimate(objective.as_ref(), noise, None, &Free, start, None)?;
+            let assessment = assess(objective.as_ref(), &estimate, noise)?;
+            drop(objective);
+            Some(Found {
+                estimate,
+                assessment,
+                tried: 0,
+                agreeing: 0,
+                used,
+            })
         };
-        // Each joint by itself has been moved by other corrections of the same substructures. First all are moved alike, to where
-        // there are no corrections at all.
+        let near = self.moved_alike(entries, start)?;
+        if let Some(used) = used {
+            return on(Arc::clone(used), &near);
+        }
+        let found = on(self.data.used_near(entries, near.place()), &near)?;
+        if !self.data.has_errors() {
+            return Some(found);
+        }
+        // Which lines can be used shows best at the estimate itself.
+        let near = found.estimate;
+        on(self.data.used_near(entries, near.place()), &near)
+    }
+
+    /// Each joint by itself has been moved by other corrections of the same substructures: where a start of all joints leads
+    /// without any.
+    fn moved_alike(&self, entries: &[Place], start: &DVector<f64>) -> Option<Estimate> {
         let thinned = self.data.thinned.objective(entries);
-        let whole = whole.objective(entries);
-        let start = search::robust_start(thinned.as_ref(), whole.as_ref(), noise, start)?;
-        let (start, corrections) = eased_minimum(objective, noise, start)?;
-        estimate(objective, noise, None, &Free, &start, Some(corrections))
+        match &self.data.thinned_whole {
+            Some(whole) => {
+                let whole = whole.objective(entries);
+                robust(thinned.as_ref(), whole.as_ref(), self.noise, start)
+            }
+            None => {
+                let levels = Some(first_levels(thinned.as_ref(), self.noise));
+                estimate(thinned.as_ref(), self.noise, levels, &Free, start, None)
+            }
+        }
     }
 }
 
@@ -295,7 +323,10 @@ pub(super) fn compare(
         TorqueDependence::Separate => (Assignment::common(all), vec![joints]),
     };
     let other = Problem::new(assignment, noise)?;
-    let other = other.best(layout, &starts, Effort::Related).ok()?;
+    let lines = other.data.used(found.used.chosen.clone());
+    let other = other
+        .best(layout, &starts, Effort::Related, Some(&lines))
+        .ok()?;
     let (common, separate) = match used {
         TorqueDependence::Common => (found, &other),
         TorqueDependence::Separate => (&other, found),

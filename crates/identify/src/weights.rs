@@ -1,9 +1,8 @@
-//! Variances of everything measured, from the computed receptances, and the noise level that the residuals show.
+//! Variances of everything measured, and the noise level that the residuals show.
 //!
-//! Weights come from the model: with the measured |H| a line on which noise happens to reduce the receptance would get
-//! more weight, which biases the damping.
-
-use num_complex::Complex64;
+//! Those of the assembly come from the model: with the measured |H| a line on which noise happens to reduce the receptance would
+//! get more weight, which biases the damping. Those of the substructures come from what was measured, so that they stay as they
+//! are while the corrections change.
 
 use super::group::{Group, Side, Source};
 use super::line::Line;
@@ -20,8 +19,8 @@ impl<const N: usize> Objective<'_, N> {
             .groups
             .iter()
             .map(|group| Weights {
-                entries: Vec::with_capacity(group.lines() * group.entries()),
-                sources: Vec::with_capacity(group.lines() * group.sources.len()),
+                entries: vec![0.0; group.lines() * group.entries()],
+                sources: vec![0.0; group.lines() * group.sources.len()],
                 scatter: 0.0,
             })
             .collect();
@@ -29,20 +28,16 @@ impl<const N: usize> Objective<'_, N> {
         self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &mut all[number];
-            for_each_entry(group, line, |entry| {
-                let variance = of_one(levels.assembly, entry.known, entry.power);
-                usable &= variance.is_finite() && variance > 0.0;
-                weights.entries.push(variance / f64::from(entry.count));
-                weights.scatter += entry.scatter / variance;
-            });
-            for (s, source) in group.sources.iter().enumerate() {
-                let power = source_power(source, state, number, line.index, s, group);
-                let variance = source
-                    .known
-                    .get(line.index)
-                    .map_or_else(|| level_of(source, levels).variance(power), |k| k * power);
-                weights.sources.push(variance / f64::from(source.count));
-            }
+            let (size, sources) = (group.entries(), group.sources.len());
+            let scatter = line_variances(
+                group,
+                line,
+                levels,
+                &mut weights.entries[line.index * size..(line.index + 1) * size],
+                &mut weights.sources[line.index * sources..(line.index + 1) * sources],
+            );
+            usable &= scatter.is_some();
+            weights.scatter += scatter.unwrap_or(0.0);
         })?;
         usable.then_some(all)
     }
@@ -80,30 +75,6 @@ impl<const N: usize> Objective<'_, N> {
         Some(all)
     }
 
-    /// Variances at `state` that let the assemblies count for worse than they are, by a part of what the errors of the
-    /// substructures as measured would add.
-    pub(super) fn eased_weights(
-        &self,
-        levels: Levels,
-        state: &State,
-        part: f64,
-    ) -> Option<Vec<Weights>> {
-        let mut all = self.weights(levels, state)?;
-        self.visit(None, state, &mut |number, line| {
-            let weights = &mut all[number];
-            let (size, sources) = (line.computed.len(), self.groups[number].sources.len());
-            for e in 0..size {
-                let of_sources = (0..sources).map(|s| {
-                    let variance = weights.sources[line.index * sources + s];
-                    line.by_source[s * size + e].norm_sqr() * variance
-                });
-                let added: f64 = of_sources.sum();
-                weights.entries[line.index * size + e] += part * added;
-            }
-        })?;
-        Some(all)
-    }
-
     /// The level that makes the residuals at `state` most likely, where `noise` does not state it.
     ///
     /// `shrinkage` is what fitting has left of the residuals' variance.
@@ -113,6 +84,9 @@ impl<const N: usize> Objective<'_, N> {
             let group = &self.groups[number];
             let size = line.computed.len();
             for_each_entry(group, line, |entry| {
+                if !entry.takes_part {
+                    return;
+                }
                 let count = f64::from(entry.count);
                 let of_one = |known: Option<f64>| Sample {
                     power: 0.0,
@@ -139,7 +113,7 @@ impl<const N: usize> Objective<'_, N> {
                 for (s, source) in group.sources.iter().enumerate() {
                     let gain =
                         line.by_source[s * size + entry.index].norm_sqr() / f64::from(source.count);
-                    let power = source_power(source, state, number, line.index, s, group);
+                    let power = source.value[line.index].norm_sqr();
                     add_source(&mut sample, source, noise, gain, power, line.index);
                 }
                 samples.push(sample);
@@ -193,17 +167,50 @@ fn level_of<const N: usize>(source: &Source<N>, levels: Levels) -> NoiseLevel {
     }
 }
 
-/// |û + δ|² of a source.
-fn source_power<const N: usize>(
-    source: &Source<N>,
-    state: &State,
-    number: usize,
-    line: usize,
-    s: usize,
+/// Variances of one computed line: of the mean of each entry, from the computed receptances, infinite where it is left out, and of
+/// each source, from the measured ones. Returns Σ|y − mean|²/σ² over repeated measurements; `None` where a variance is not a number above zero.
+pub(super) fn line_variances<const N: usize>(
     group: &Group<N>,
+    line: &Line<'_, N>,
+    levels: Levels,
+    entries: &mut [f64],
+    sources: &mut [f64],
+) -> Option<f64> {
+    let mut usable = true;
+    let mut scatter = 0.0;
+    for_each_entry(group, line, |entry| {
+        if !entry.takes_part {
+            entries[entry.index] = f64::INFINITY;
+            return;
+        }
+        let power = if group.sources.is_empty() {
+            entry.power
+        } else {
+            entry.held_power()
+        };
+        let variance = of_one(levels.assembly, entry.known, power);
+        usable &= variance.is_finite() && variance > 0.0;
+        entries[entry.index] = variance / f64::from(entry.count);
+        scatter += entry.scatter / variance;
+    });
+    for (source, place) in group.sources.iter().zip(sources) {
+        *place = source_variance(source, levels, line.index);
+    }
+    usable.then_some(scatter)
+}
+
+/// Variance of a source at a line, from its measured value.
+pub(super) fn source_variance<const N: usize>(
+    source: &Source<N>,
+    levels: Levels,
+    line: usize,
 ) -> f64 {
-    let delta: Complex64 = state.corrections[number][line * group.sources.len() + s];
-    (source.value[line] + delta).norm_sqr()
+    let power = source.value[line].norm_sqr();
+    let variance = match source.known.get(line) {
+        Some(known) => known * power,
+        None => level_of(source, levels).variance(power),
+    };
+    variance / f64::from(source.count)
 }
 
 /// One entry of one block at one line.
@@ -213,8 +220,26 @@ struct EntryView {
     count: u32,
     /// |H^C|² as computed.
     power: f64,
+    /// |y|² as measured.
+    measured: f64,
     scatter: f64,
     known: Option<f64>,
+    takes_part: bool,
+}
+
+/// A computed |H^C|² that corrections of the substructures move is taken for at most so many times the measured one, and for
+/// no less than its reciprocal: while they are on their way it can be next to nothing.
+const MOST_APART: f64 = 4.0;
+
+impl EntryView {
+    fn held_power(&self) -> f64 {
+        if self.measured > 0.0 {
+            let limits = [self.measured / MOST_APART, self.measured * MOST_APART];
+            self.power.clamp(limits[0], limits[1])
+        } else {
+            self.power
+        }
+    }
 }
 
 fn for_each_entry<const N: usize>(
@@ -230,8 +255,10 @@ fn for_each_entry<const N: usize>(
                 index,
                 count: entry.count,
                 power: line.computed[index].norm_sqr(),
+                measured: block.measured[line.index * count + e].norm_sqr(),
                 scatter: block.scatter[line.index * count + e],
                 known: block.known.get(line.index * count + e).copied(),
+                takes_part: block.takes_part(line.index),
             });
             index += 1;
         }

@@ -230,7 +230,8 @@ fn reduced_chi_squared(task: &Task<'_>, found: &Found) -> Option<f64> {
     Some((found.cost + priors) / freedom(task, found)?)
 }
 
-fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Estimate> {
+/// What is known at the end of a search.
+pub(crate) fn of(task: &Task<'_>, found: Found, contradicted: &[Option<f64>]) -> Option<Estimate> {
     let size = task.unknowns();
     let whole = inverse(&with_priors(task, &found.information))?;
     let causes = task

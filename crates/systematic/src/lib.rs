@@ -16,6 +16,7 @@ mod experiment;
 mod line;
 mod modal_fit;
 mod normal;
+mod refine;
 mod score;
 mod search;
 mod shares;
@@ -31,6 +32,7 @@ pub use experiment::{
     Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
     MeasuredFunctions, Structure,
 };
+pub use refine::refine;
 pub use score::{Score, score_tests};
 pub use shares::Shares;
 pub use suspect::{Suspect, TELLING, suspects};

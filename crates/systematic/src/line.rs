@@ -85,7 +85,7 @@ impl<'t> Task<'t> {
     }
 
     /// Receptances of the labels without their noise, where a fit gives them.
-    fn smooth(&self, line: usize, point: &Point, labelled: &Labelled) -> Labelled {
+    pub(crate) fn smooth(&self, line: usize, point: &Point, labelled: &Labelled) -> Labelled {
         [Side::A, Side::B].map(|side| {
             let (now, omega) = (&labelled[side as usize], self.experiment.omega[line]);
             let needed = !self.priors.is_empty();

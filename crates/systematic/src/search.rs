@@ -17,7 +17,7 @@ const LAST: usize = 15;
 /// Part of a step that a line may take, best first.
 const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.0];
 /// Steps below this part of a standard deviation are none.
-const TOLERANCE: f64 = 0.01;
+pub(crate) const TOLERANCE: f64 = 0.01;
 /// Of a search that has used up its steps, the last one may have been so many standard deviations long.
 const TOLERABLE: f64 = 0.3;
 /// Prior standard deviations that a cause may move in one step.
@@ -180,7 +180,8 @@ fn chosen(
         .collect()
 }
 
-fn summed(shares: &[Share], size: usize) -> Option<(DMatrix<f64>, DVector<f64>, f64)> {
+/// The sums over all lines.
+pub(crate) fn summed(shares: &[Share], size: usize) -> Option<(DMatrix<f64>, DVector<f64>, f64)> {
     let mut information = DMatrix::zeros(size, size);
     let mut gradient = DVector::zeros(size);
     let mut cost = 0.0;
@@ -194,7 +195,7 @@ fn summed(shares: &[Share], size: usize) -> Option<(DMatrix<f64>, DVector<f64>, 
 }
 
 /// The step of unknowns and causes, and their standard deviations.
-fn step(
+pub(crate) fn step(
     task: &Task<'_>,
     point: &Point,
     information: &DMatrix<f64>,
@@ -269,7 +270,7 @@ fn allowed(
 }
 
 /// Whether a line is not moved much by the frequency scales that the budget allows: there the first order in them fails.
-fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Settings) -> bool {
+pub(crate) fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Settings) -> bool {
     [Side::A, Side::B].into_iter().all(|side| {
         let prior = task
             .priors

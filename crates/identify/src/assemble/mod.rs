@@ -5,6 +5,7 @@ mod labelled;
 mod prediction;
 mod reader;
 mod repeats;
+mod soundness;
 mod substructure;
 
 use std::sync::Arc;
@@ -114,6 +115,8 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     };
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any, path)?;
+    let unsound = soundness::warnings(&labelled, points, path);
+    reader.warnings.extend(unsound);
     let mean = repeated(study, labelled, &axis, reader)?;
     let measured = mean.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.

@@ -14,6 +14,7 @@ use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
 use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
 use super::reader::{Reader, in_file};
+use super::soundness;
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{
     Beam, BeamPoint, ComplexMatrix, ModalModel, Motion, StructureError,
@@ -263,6 +264,8 @@ fn labelled_receptances(
                 .as_ref()
                 .map_or(Completeness::All, Completeness::WithModes);
             let mut labelled = labelled_functions(&set, labels, completeness, &file.path)?;
+            let unsound = soundness::warnings(&labelled, labels, &file.path);
+            reader.warnings.extend(unsound);
             let is_symmetric = |p, q| labelled.function(p, q) == labelled.function(q, p);
             let measured = independent(&labelled.measured, is_symmetric);
             labelled.relative_variance = relative_variances(&set, labels, &measured);

@@ -5,7 +5,7 @@ mod experiment;
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Group, MeasuredSet, Settings,
-    Shares, Side, Suspect, consistency, estimate, suspects,
+    Shares, Side, Suspect, consistency, estimate, refine, suspects,
 };
 use nalgebra::DMatrix;
 
@@ -27,6 +27,10 @@ const ALIKE: f64 = 0.15;
 const LESS_NOISE: f64 = 0.95;
 /// Parts of the level that the residual shows, tried until an estimate is found.
 const PARTS_OF_NOISE: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
+/// Lines on which joint and causes are sought, …
+const MOST_LINES_OF_A_SEARCH: usize = 300;
+/// … and those on which what was found is refined.
+const MOST_LINES: usize = 4000;
 /// How often its level is corrected.
 const ROUNDS: usize = 2;
 
@@ -108,7 +112,8 @@ impl Systematic {
         levels: Levels,
         start: &[f64],
     ) -> Option<Self> {
-        let experiment = experiment::of(study, lines, layout, levels)?;
+        let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
+        let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
         let plain = estimate(&experiment, &[], start, &settings)?;
         let suspects = suspects(&experiment, &plain, &settings);
@@ -135,6 +140,19 @@ impl Systematic {
                 cause.contradicted = Some(pull);
             }
         }
+        let mut noise_alone = plain.covariance.clone();
+        let mut noise_reduced = plain.reduced_chi_squared;
+        if few.frequency_hz.len() < lines.frequency_hz.len() {
+            let many = lines.at_most(MOST_LINES);
+            let experiment = experiment::of(study, &many, layout, levels)?;
+            if let Some(refined) = refine(&experiment, &found, &settings) {
+                found = refined;
+            }
+            if let Some(refined) = refine(&experiment, &plain, &settings) {
+                noise_alone.clone_from(&refined.covariance);
+                noise_reduced = refined.reduced_chi_squared;
+            }
+        }
         let name = |cause: Cause| name(cause, study, lines);
         let consistency = BANDS.iter().filter_map(|&bands| consistency(&plain, bands));
         // Noise that is larger than it is said to be widens everything.
@@ -154,12 +172,12 @@ impl Systematic {
             causes: causes.collect(),
             suspects: suspects.collect(),
             consistency: tested.collect(),
-            noise_covariance: widened(plain.covariance.clone(), plain.reduced_chi_squared),
+            noise_covariance: widened(noise_alone, noise_reduced),
             covariance: widened(found.covariance, found.reduced_chi_squared),
             unknowns: found.unknowns,
             shares: found.shares,
             reduced_chi_squared: found.reduced_chi_squared,
-            lines: found.lines,
+            lines: (found.lines.0, lines.frequency_hz.len()),
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
         })

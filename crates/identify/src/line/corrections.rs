@@ -3,135 +3,107 @@
 use nalgebra::DVector;
 use num_complex::Complex64;
 
-use super::{Line, backward, forward};
+use super::{Line, Variances, backward};
 
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
-const CORRECTION_ROUNDS: usize = 40;
-/// … as long as they promise to lower its cost by this fraction …
-const CORRECTION_GAIN: f64 = 1e-3;
-/// (by this one where the full step does not lower it) …
-const CORRECTION_GAIN_OF_SHORT_STEPS: f64 = 1e-12;
-/// … each shortened to a quarter at most so many times …
-const CORRECTION_QUARTERINGS: usize = 8;
-/// … until it lowers the cost by this part of what the linear model promises of it. At a sharp resonance a step can end beyond
-/// the pole, where the receptance is next to nothing and from where no small step leads back.
-const CORRECTION_KEPT_PROMISE: f64 = 0.1;
+const ROUNDS: usize = 20;
+/// … as long as they promise to lower its cost by more than this part of it …
+const SMALL_GAIN: f64 = 1e-3;
+/// … each shortened to a quarter so many times at most, until it does lower the cost: near a resonance a whole step can end beyond
+/// the pole.
+const QUARTERINGS: usize = 8;
 
 impl<const N: usize> Line<'_, N> {
-    /// Lets the corrections follow the unknowns, and linearises the line there: δ first as the step's own linear model says,
-    /// then by Gauss–Newton on this line alone, no step of which may raise its cost. Near a resonance the errors of the
-    /// substructures act far from linearly.
+    /// Lets the corrections follow the unknowns by Gauss–Newton steps, most often one, and linearises and whitens the line there:
+    /// repeated with each step of the unknowns that leads both to the minimum.
     pub(in super::super) fn settle(
         &mut self,
         index: usize,
-        variances: (&[f64], &[f64]),
-        from: Option<&DVector<f64>>,
-        to: &DVector<f64>,
+        variances: Variances<'_>,
+        unknowns: &DVector<f64>,
+        delta: &mut [Complex64],
+    ) -> Option<()> {
+        self.linearise(index, unknowns.as_slice(), delta)?;
+        self.settle_linearised(variances, unknowns, delta)
+    }
+
+    /// The same of a line that is linearised already.
+    pub(in super::super) fn settle_linearised(
+        &mut self,
+        variances: Variances<'_>,
+        unknowns: &DVector<f64>,
         delta: &mut [Complex64],
     ) -> Option<()> {
         let mut trial = std::mem::take(&mut self.trial);
-        let mut negligible = CORRECTION_GAIN;
-        if let Some(from) = from {
-            trial.clear();
-            trial.extend_from_slice(delta);
-            if self.linearise(index, from.as_slice(), &trial).is_some() {
-                self.follow(variances, from, to, &mut trial)?;
+        let mut rounds = 0..ROUNDS;
+        loop {
+            let before = self.whole_cost(variances, delta);
+            self.whiten_residual(variances, delta)?;
+            let gain = before - self.residual_cost();
+            self.best_corrections(variances, &mut trial);
+            if gain <= SMALL_GAIN * before {
+                delta.copy_from_slice(&trial);
+                break;
             }
-            let before = self.cost_at(index, variances, to, delta);
-            let after = self.cost_at(index, variances, to, &trial);
-            if after <= before {
+            if rounds.next().is_none() {
+                break;
+            }
+            let lowers = (0..QUARTERINGS).any(|_| {
+                let lowers = self.cost_at(variances, unknowns, &trial) < before;
+                if !lowers {
+                    for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
+                        *trial = delta + (*trial - delta) * 0.25;
+                    }
+                }
+                lowers
+            });
+            if lowers {
                 delta.copy_from_slice(&trial);
             } else {
-                // Full steps overshoot here, and would for ever.
-                negligible = CORRECTION_GAIN_OF_SHORT_STEPS;
+                // Nothing lowers it: this is the last time.
+                rounds = 0..0;
             }
-        }
-        for _ in 0..CORRECTION_ROUNDS {
-            self.linearise(index, to.as_slice(), delta)?;
-            let before = self.whole_cost(variances, delta);
-            trial.clear();
-            trial.extend_from_slice(delta);
-            self.follow(variances, to, to, &mut trial)?;
-            let promised = before - self.residual_cost;
-            if promised <= negligible * before {
-                break;
-            }
-            let mut accepted = false;
-            let mut share = 1.0;
-            for _ in 0..CORRECTION_QUARTERINGS {
-                let gained = before - self.cost_at(index, variances, to, &trial);
-                // Along a step S falls by (2α − α²) of what the whole step promises.
-                if gained >= CORRECTION_KEPT_PROMISE * share * (2.0 - share) * promised {
-                    accepted = true;
-                    break;
-                }
-                share *= 0.25;
-                for (trial, delta) in trial.iter_mut().zip(delta.iter()) {
-                    *trial = *delta + (*trial - *delta) * 0.25;
-                }
-            }
-            if !accepted {
-                break;
-            }
-            delta.copy_from_slice(&trial);
+            self.linearise(self.index, unknowns.as_slice(), delta)?;
         }
         self.trial = trial;
-        self.linearise(index, to.as_slice(), delta)
+        self.whiten_derivatives();
+        Some(())
     }
 
     /// What this line adds to the cost with these corrections; infinite where it cannot be computed.
     fn cost_at(
         &mut self,
-        index: usize,
-        variances: (&[f64], &[f64]),
+        variances: Variances<'_>,
         unknowns: &DVector<f64>,
         delta: &[Complex64],
     ) -> f64 {
-        if self
-            .compute(index, unknowns.as_slice(), delta, false)
-            .is_none()
-        {
-            return f64::INFINITY;
-        }
-        let cost = self.whole_cost(variances, delta);
-        if cost.is_finite() {
-            cost
-        } else {
-            f64::INFINITY
-        }
+        let computed = self.compute(self.index, unknowns.as_slice(), delta, false);
+        let cost = computed.map(|()| self.whole_cost(variances, delta));
+        cost.filter(|cost| cost.is_finite())
+            .unwrap_or(f64::INFINITY)
     }
 
-    /// δ ← Σ_H Jᴴ Σ⁻¹ (r̃ − ∂H^C/∂θ Δθ): the corrections that go with a step of the unknowns.
-    fn follow(
-        &mut self,
-        (variances, of_sources): (&[f64], &[f64]),
-        from: &DVector<f64>,
-        to: &DVector<f64>,
-        delta: &mut [Complex64],
-    ) -> Option<()> {
-        let size = self.residual.len();
-        self.add_corrections(delta);
-        let step = to - from;
-        let count = self.joint_entries.len();
-        for (slot, &joint) in self.joints.iter().enumerate() {
-            let first = self.first_unknown(joint);
-            for e in 0..size {
-                for t in 0..count {
-                    let (k, c) = (step[first + t], step[first + count + t]);
-                    let change = Complex64::new(k, self.omega * c);
-                    self.residual[e] -= self.by_joint[slot * size + e][t] * change;
-                }
+    /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²
+    fn whole_cost(&self, variances: Variances<'_>, delta: &[Complex64]) -> f64 {
+        let residuals = self.residual.iter().zip(variances.entries);
+        let mut cost: f64 = residuals.map(|(r, variance)| r.norm_sqr() / variance).sum();
+        for (delta, variance) in delta.iter().zip(variances.sources) {
+            if *variance > 0.0 {
+                cost += delta.norm_sqr() / variance;
             }
         }
-        self.factorise(variances, of_sources)?;
-        forward(&self.factor, size, &mut self.residual);
-        self.residual_cost = self.residual.iter().map(|r| r.norm_sqr()).sum();
-        backward(&self.factor, size, &mut self.residual);
-        for (s, delta) in delta.iter_mut().enumerate() {
-            let column = &self.by_source[s * size..(s + 1) * size];
-            let pairs = column.iter().zip(&self.residual);
-            *delta = of_sources[s] * pairs.map(|(j, r)| j.conj() * r).sum::<Complex64>();
+        cost
+    }
+
+    /// δ = Σ_H Jᴴ Σ⁻¹ r̃
+    fn best_corrections(&self, variances: Variances<'_>, delta: &mut Vec<Complex64>) {
+        let size = self.residual.len();
+        let mut weighted = self.residual.clone();
+        backward(&self.factor, size, &mut weighted);
+        delta.clear();
+        for (column, variance) in self.by_source.chunks_exact(size).zip(variances.sources) {
+            let pairs = column.iter().zip(&weighted);
+            delta.push(*variance * pairs.map(|(j, r)| j.conj() * r).sum::<Complex64>());
         }
-        Some(())
     }
 }

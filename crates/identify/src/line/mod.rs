@@ -41,12 +41,17 @@ pub(super) struct Line<'g, const N: usize> {
     factor: Vec<Complex64>,
     /// Σ|r̃|²/|H^C|², before whitening.
     pub(super) relative_power: f64,
-    cost: f64,
-    /// The cost that is left once the corrections have followed, as linearised.
-    residual_cost: f64,
     signal: f64,
-    log_determinant: f64,
     trial: Vec<Complex64>,
+}
+
+/// Variances of one line.
+#[derive(Clone, Copy)]
+pub(super) struct Variances<'w> {
+    /// σ_C² of the mean of each entry of all blocks.
+    pub(super) entries: &'w [f64],
+    /// σ_H² of each source.
+    pub(super) sources: &'w [f64],
 }
 
 impl<'g, const N: usize> Line<'g, N> {
@@ -75,20 +80,24 @@ impl<'g, const N: usize> Line<'g, N> {
                 }
             ],
             relative_power: 0.0,
-            cost: 0.0,
-            residual_cost: 0.0,
             signal: 0.0,
-            log_determinant: 0.0,
             trial: Vec::new(),
         }
     }
 
-    pub(super) fn weights<'w>(&self, weights: &'w Weights, index: usize) -> (&'w [f64], &'w [f64]) {
+    pub(super) fn weights<'w>(&self, weights: &'w Weights, index: usize) -> Variances<'w> {
         let (size, sources) = (self.computed.len(), self.group.sources.len());
-        (
-            &weights.entries[index * size..(index + 1) * size],
-            &weights.sources[index * sources..(index + 1) * sources],
-        )
+        Variances {
+            entries: &weights.entries[index * size..(index + 1) * size],
+            sources: &weights.sources[index * sources..(index + 1) * sources],
+        }
+    }
+
+    /// Entries that take part.
+    pub(super) fn measurements(&self) -> usize {
+        let blocks = self.group.blocks.iter();
+        let used = blocks.filter(|block| block.takes_part(self.index));
+        used.map(|block| block.entries.len()).sum()
     }
 
     /// H^C of one line as computed before, and the residual.
@@ -242,23 +251,28 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 
     /// Σ = Σ_C + J Σ_H Jᴴ = L Lᴴ, and L⁻¹ before residual and derivatives.
-    pub(super) fn whiten(
-        &mut self,
-        (variances, of_sources): (&[f64], &[f64]),
-        delta: &[Complex64],
-    ) -> Option<()> {
+    pub(super) fn whiten(&mut self, variances: Variances<'_>, delta: &[Complex64]) -> Option<()> {
         if self.group.sources.is_empty() {
-            self.whiten_independent(variances);
+            self.whiten_independent(variances.entries);
             return Some(());
         }
-        let size = self.residual.len();
-        let powers = self.computed.iter().zip(variances);
+        self.whiten_residual(variances, delta)?;
+        self.whiten_derivatives();
+        Some(())
+    }
+
+    fn whiten_residual(&mut self, variances: Variances<'_>, delta: &[Complex64]) -> Option<()> {
+        let powers = self.computed.iter().zip(variances.entries);
         self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
-        self.cost = self.whole_cost((variances, of_sources), delta);
         self.add_corrections(delta);
         self.measure();
-        self.factorise(variances, of_sources)?;
-        forward(&self.factor, size, &mut self.residual);
+        self.factorise(variances)?;
+        forward(&self.factor, self.residual.len(), &mut self.residual);
+        Some(())
+    }
+
+    fn whiten_derivatives(&mut self) {
+        let size = self.residual.len();
         for by_joint in self.by_joint.chunks_exact_mut(size) {
             for t in 0..self.joint_entries.len() {
                 for row in 0..size {
@@ -270,16 +284,20 @@ impl<'g, const N: usize> Line<'g, N> {
                 }
             }
         }
-        Some(())
     }
 
-    fn factorise(&mut self, variances: &[f64], of_sources: &[f64]) -> Option<()> {
+    /// Σ|r|² of the whitened residual.
+    fn residual_cost(&self) -> f64 {
+        self.residual.iter().map(|r| r.norm_sqr()).sum()
+    }
+
+    fn factorise(&mut self, variances: Variances<'_>) -> Option<()> {
         let size = self.residual.len();
         self.factor.fill(ZERO);
-        for (e, variance) in variances.iter().enumerate() {
+        for (e, variance) in variances.entries.iter().enumerate() {
             self.factor[e * size + e] = Complex64::from(*variance);
         }
-        for (s, &variance) in of_sources.iter().enumerate() {
+        for (s, &variance) in variances.sources.iter().enumerate() {
             let column = &self.by_source[s * size..(s + 1) * size];
             for row in 0..size {
                 let left = column[row] * variance;
@@ -288,7 +306,6 @@ impl<'g, const N: usize> Line<'g, N> {
                 }
             }
         }
-        self.log_determinant = 0.0;
         for row in 0..size {
             for column in 0..=row {
                 let mut value = self.factor[row * size + column];
@@ -296,10 +313,10 @@ impl<'g, const N: usize> Line<'g, N> {
                     value -= self.factor[row * size + k] * self.factor[column * size + k].conj();
                 }
                 if row == column {
-                    if !(value.re.is_finite() && value.re > 0.0) {
+                    // infinite where the entry is left out
+                    if value.re.is_nan() || value.re <= 0.0 {
                         return None;
                     }
-                    self.log_determinant += value.re.ln();
                     self.factor[row * size + row] = Complex64::from(value.re.sqrt());
                 } else {
                     self.factor[row * size + column] =
@@ -308,18 +325,6 @@ impl<'g, const N: usize> Line<'g, N> {
             }
         }
         Some(())
-    }
-
-    /// Σ|y − H^C|²/σ_C² + Σ|δ|²/σ_H²
-    fn whole_cost(&self, (variances, of_sources): (&[f64], &[f64]), delta: &[Complex64]) -> f64 {
-        let residuals = self.residual.iter().zip(variances);
-        let mut cost: f64 = residuals.map(|(r, variance)| r.norm_sqr() / variance).sum();
-        for (delta, variance) in delta.iter().zip(of_sources) {
-            if *variance > 0.0 {
-                cost += delta.norm_sqr() / variance;
-            }
-        }
-        cost
     }
 
     /// Where the unknowns of a joint begin among those of all.
@@ -334,9 +339,8 @@ impl<'g, const N: usize> Line<'g, N> {
 
     /// Adds the whitened line to the normal equations (lower triangle).
     pub(super) fn add_to(&self, normal: &mut Normal) {
-        normal.cost += self.cost;
+        normal.cost += self.residual_cost();
         normal.signal += self.signal;
-        normal.linearised_cost += self.residual.iter().map(|r| r.norm_sqr()).sum::<f64>();
         if self.joint_entries.len() <= ENTRIES_OF_ONE {
             self.add_rows_to::<ENTRIES_OF_ONE>(normal);
         } else {
@@ -380,11 +384,6 @@ impl<'g, const N: usize> Line<'g, N> {
             }
         }
         score
-    }
-
-    /// ln det Σ of the whitened line.
-    pub(super) fn log_determinant(&self) -> f64 {
-        self.log_determinant
     }
 }
 

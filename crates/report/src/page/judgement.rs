@@ -70,6 +70,12 @@ fn fit(report: &IdentificationReport<'_>) -> String {
         .median_difference
         .map_or_else(|| "–".to_owned(), percent);
     let starts = format!("{agreeing} of {tried}");
+    let lines = match found.estimate.lines_used {
+        (used, measured) if used < measured => format!(
+            "{used} of {measured}; at the others the noise of the structures’ functions moves what is computed too far"
+        ),
+        (_, measured) => format!("all {measured}"),
+    };
     let chi_squared = match (found.reduced_chi_squared, assessment.noise_is_stated) {
         (Some(chi_squared), true) => format!(
             "{}, {} of its standard deviations from 1",
@@ -90,6 +96,7 @@ fn fit(report: &IdentificationReport<'_>) -> String {
         row("Residual, r.m.s. of the receptance", &residual),
         row("Half of the values are within", &typical),
         row("Starts that led to this estimate", &starts),
+        row("Lines that it rests on", &lines),
         row("χ² per degree of freedom", &chi_squared),
     ];
     if assessment.line_correlation.is_finite() {

@@ -1,0 +1,120 @@
+//! What a set of functions says of itself before anything is fitted: whether it is reciprocal, and whether its drive points take up
+//! energy.
+
+use std::path::Path;
+
+use num_complex::Complex64;
+
+use super::labelled::Labelled;
+use bolted_joint_frf::Dof;
+
+/// H_pq and H_qp may differ by this part of them at half of the lines.
+const RECIPROCAL: f64 = 0.2;
+/// They differ by a factor where this makes them so much more alike.
+const MORE_ALIKE: f64 = 0.3;
+/// A drive point whose imaginary parts are positive on balance, by this part of their sum, feeds energy instead of taking it up.
+const ACTIVE: f64 = 0.5;
+
+/// What is wrong with functions between `labels`, each with the file's name.
+pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec<String> {
+    let (mut found, mut signs) = (Vec::new(), Vec::new());
+    for &(p, q) in &functions.measured {
+        if p == q && is_active(functions.function(p, p)) {
+            signs.push(labels[p].to_string());
+        }
+        if p < q && functions.measured.contains(&(q, p)) {
+            let pair = [functions.function(p, q), functions.function(q, p)];
+            let complaint = not_reciprocal(pair);
+            found.extend(complaint.map(|complaint| {
+                let [one, other] = [labels[p], labels[q]];
+                format!("the function from {other} to {one} {complaint} from {one} to {other}")
+            }));
+        }
+    }
+    if !signs.is_empty() {
+        found.push(format!(
+            "the drive point at {} feeds energy into the structure instead of taking it up: a sign is wrong, or phases are counted \
+             the other way (e^−jωt)",
+            signs.join(", ")
+        ));
+    }
+    let named = found.into_iter();
+    named
+        .map(|complaint| format!("{}: {complaint}", path.display()))
+        .collect()
+}
+
+/// Im H ≤ 0 for a receptance at a drive point: a force and the motion that it causes dissipate.
+fn is_active(drive_point: &[Complex64]) -> bool {
+    let parts = drive_point.iter().map(|h| h.im / h.norm());
+    let parts: Vec<f64> = parts.filter(|part| part.is_finite()).collect();
+    let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
+    parts.iter().sum::<f64>() > ACTIVE * sizes
+}
+
+/// How two functions that should be the same differ; `None` where they are.
+fn not_reciprocal([one, other]: [&[Complex64]; 2]) -> Option<String> {
+    let difference = |factor: f64| {
+        median(one.iter().zip(other).map(|(one, other)| {
+            let other = other * factor;
+            2.0 * (one - other).norm() / (one.norm() + other.norm())
+        }))
+    };
+    let apart = difference(1.0);
+    if apart.is_nan() || apart <= RECIPROCAL {
+        return None;
+    }
+    let factor = median(one.iter().zip(other).map(|(one, other)| (one / other).re));
+    if difference(factor) >= MORE_ALIKE * apart {
+        return Some(format!(
+            "is not reciprocal: at half of the lines it differs by more than {:.0} %",
+            100.0 * apart
+        ));
+    }
+    Some(if (factor + 1.0).abs() < RECIPROCAL {
+        "has the opposite sign of that".to_owned()
+    } else {
+        format!("is {factor:.3} times that")
+    })
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn resonance(line: usize) -> Complex64 {
+        let ratio = line as f64 / 50.0;
+        Complex64::new(1.0 - ratio * ratio, 0.02 * ratio).inv()
+    }
+
+    #[test]
+    fn a_drive_point_that_feeds_energy_is_told_from_one_that_takes_it_up() {
+        let function: Vec<Complex64> = (1..100).map(resonance).collect();
+        assert!(!is_active(&function));
+        let of = |change: fn(&Complex64) -> Complex64| -> Vec<Complex64> {
+            function.iter().map(change).collect()
+        };
+        assert!(is_active(&of(|h| -h)));
+        assert!(is_active(&of(|h| h.conj())));
+    }
+
+    #[test]
+    fn functions_that_are_not_reciprocal_say_how() {
+        let function: Vec<Complex64> = (1..100).map(resonance).collect();
+        let times =
+            |factor: f64| -> Vec<Complex64> { function.iter().map(|h| h * factor).collect() };
+        assert_eq!(not_reciprocal([&function, &times(1.1)]), None);
+        let complaint = |factor: f64| not_reciprocal([&times(factor), &function]).unwrap();
+        assert!(complaint(-1.0).contains("opposite sign"));
+        assert!(complaint(1e-3).contains("is 0.001 times"));
+        let other: Vec<Complex64> = (1..100).map(|line| resonance(line + 20)).collect();
+        let complaint = not_reciprocal([&function, &other]).unwrap();
+        assert!(complaint.contains("not reciprocal"));
+    }
+}

@@ -1,0 +1,143 @@
+//! The best minima on few lines, refined on all that are used.
+
+use std::sync::Arc;
+
+use super::assessment::{Assessment, assess};
+use super::data::{Data, Used};
+use super::estimator::{Estimate, Free, estimate};
+use super::layout::Place;
+use super::noise::Noise;
+use super::trials::{best_trials, rank, same};
+
+/// A minimum on thinned lines and where it lies on all of them, if it is one there.
+pub(super) struct Final {
+    candidate: Estimate,
+    pub(super) end: Option<End>,
+}
+
+/// A minimum on all lines.
+pub(super) struct End {
+    pub(super) estimate: Estimate,
+    pub(super) assessment: Assessment,
+    pub(super) has_corrections: bool,
+}
+
+impl Final {
+    fn without_corrections(self) -> Self {
+        let give_up = |end: End| End {
+            estimate: end.estimate.without_corrections(),
+            has_corrections: false,
+            ..end
+        };
+        Self {
+            end: self.end.map(give_up),
+            ..self
+        }
+    }
+
+    pub(super) fn rank(&self) -> f64 {
+        let end = self.end.as_ref();
+        end.map_or(f64::INFINITY, |end| rank(&end.estimate))
+    }
+}
+
+/// Minima on the lines that are used, best first.
+pub(super) struct Finals {
+    pub(super) used: Arc<Used>,
+    pub(super) best_first: Vec<Final>,
+}
+
+impl Finals {
+    pub(super) fn best(&self) -> Option<&End> {
+        self.best_first.first()?.end.as_ref()
+    }
+
+    /// Whether an estimate on few lines leads to `best` on all of them.
+    pub(super) fn leads_to(&self, trial: &Estimate, best: &Estimate) -> bool {
+        let is_best = |end: &End| same(&end.estimate, best);
+        let known =
+            |one: &Final| same(&one.candidate, trial) && one.end.as_ref().is_some_and(is_best);
+        self.best_first.iter().any(known)
+    }
+}
+
+/// As [`finalists`] on the lines that the best of them can use; `None` without trials.
+pub(super) fn finalists_of_own_lines(
+    data: &Data<'_>,
+    entries: &[Place],
+    noise: &Noise,
+    trials: &[Estimate],
+    known: Option<Finals>,
+) -> Option<Finals> {
+    let mut near = best_trials(trials).first().copied()?.clone();
+    let mut finals = match known {
+        Some(known) => {
+            near = known.best_first.first()?.candidate.clone();
+            finalists(
+                &Arc::clone(&known.used),
+                entries,
+                noise,
+                trials,
+                Some(known),
+            )
+        }
+        None => finalists(
+            &data.used_near(entries, near.place()),
+            entries,
+            noise,
+            trials,
+            None,
+        ),
+    };
+    // What looks best on few lines need not be best on all, and can use other lines.
+    if let Some(best) = finals.best()
+        && data.has_errors()
+        && !finals.leads_to(&near, &best.estimate)
+    {
+        let used = data.used_near(entries, best.estimate.place());
+        finals = finalists(&used, entries, noise, trials, None);
+    }
+    Some(finals)
+}
+
+/// The best few different `trials` on the lines that are used, best first; `known` are those of fewer trials.
+pub(super) fn finalists(
+    used: &Arc<Used>,
+    entries: &[Place],
+    noise: &Noise,
+    trials: &[Estimate],
+    known: Option<Finals>,
+) -> Finals {
+    let mut known = known.map_or_else(Vec::new, |known| known.best_first);
+    let whole = used.assemblies.objective(entries);
+    // Thinned lines may have passed over the resonances that tell two minima apart.
+    let mut finals: Vec<Final> = Vec::new();
+    // The corrections of all of them would be much memory: those of the last one are kept, most likely the best.
+    for candidate in best_trials(trials).into_iter().rev() {
+        let is_it = |end: &Final| same(&end.candidate, candidate);
+        if let Some(place) = known.iter().position(is_it) {
+            finals.push(known.swap_remove(place));
+            continue;
+        }
+        finals = finals.into_iter().map(Final::without_corrections).collect();
+        known = known.into_iter().map(Final::without_corrections).collect();
+        let start = &candidate.unknowns;
+        let found = estimate(whole.as_ref(), noise, None, &Free, start, None);
+        finals.push(Final {
+            candidate: candidate.clone(),
+            end: found.and_then(|estimate| {
+                let assessment = assess(whole.as_ref(), &estimate, noise)?;
+                Some(End {
+                    estimate,
+                    assessment,
+                    has_corrections: true,
+                })
+            }),
+        });
+    }
+    finals.sort_by(|a, b| a.rank().total_cmp(&b.rank()));
+    Finals {
+        used: Arc::clone(used),
+        best_first: finals,
+    }
+}

@@ -1,0 +1,62 @@
+//! Estimates that take the substructures as measured, but each value of the assembly only for as good as the errors of the
+//! substructures let it be computed. Those errors act most at the resonances, where they would bias a plain fit.
+
+use nalgebra::DVector;
+
+use super::data::Misfit;
+use super::estimator::{Estimate, first_levels, minimum, misfit};
+use super::likelihood::log_variances;
+use super::noise::Noise;
+use super::normal::relative_change;
+use super::objective::Corrections;
+
+/// Times that the variances are renewed, at most.
+const ROUNDS: usize = 8;
+/// Change of every unknown, relative to its value or to what changes the residual by its standard deviation, below which the
+/// estimate has come to rest.
+const SETTLED: f64 = 1e-5;
+
+/// The estimate from `start`: `exact` and `whole` are the same lines without the errors of the substructures and with them. Where
+/// the noise is not stated, its level follows from what is left.
+pub(super) fn robust(
+    exact: &dyn Misfit,
+    whole: &dyn Misfit,
+    noise: &Noise,
+    start: &DVector<f64>,
+) -> Option<Estimate> {
+    let first = first_levels(whole, noise);
+    let mut unknowns = start.clone();
+    let mut converged = false;
+    let mut rest = None;
+    for _ in 0..ROUNDS {
+        let before = whole.unweighted(unknowns.clone(), None);
+        let weights = whole.marginal_weights(first, &before)?;
+        let state = minimum(exact, &weights, &unknowns)?;
+        let moved = relative_change(&unknowns, &state.unknowns, &state.normal.scale());
+        unknowns.clone_from(&state.unknowns);
+        rest = Some((state, weights));
+        if moved < SETTLED {
+            converged = true;
+            break;
+        }
+    }
+    let (state, weights) = rest?;
+    let levels = if noise.is_stated() {
+        first
+    } else {
+        noise.levels(whole.level(noise, &whole.unweighted(unknowns, None), 1.0)?)
+    };
+    let (cost, measurements) = (state.normal.cost, exact.measurements());
+    Some(Estimate {
+        cost,
+        misfit: misfit(noise, cost, log_variances(&weights), measurements),
+        measurements,
+        degrees_of_freedom: (2 * measurements).saturating_sub(start.len()),
+        information: state.normal.matrix,
+        unknowns: state.unknowns,
+        levels,
+        converged,
+        unrest: 0.0,
+        corrections: Corrections::default(),
+    })
+}

@@ -18,6 +18,8 @@ JOINTS = {1: joint(["y"], [[4.56e6]], [[54.0]], [3e15]), 2: changed(HARDENING_2,
 JOINTS[2] = {key: value for key, value in JOINTS[2].items() if key != "bodies"}
 STEP = 1e-4
 STEPS = 100
+# what a residual relative to the motion may keep of rounding
+ROUNDING = 1e-11
 
 
 class Coupled:

@@ -129,6 +129,12 @@ pub(super) fn json(found: &Identification) -> Value {
             "standard_deviation": suspect.standard_deviation,
             "chi_squared_drop": suspect.drop,
         })).collect::<Vec<_>>(),
+        "scores": systematic.scores.iter().map(|(name, score)| json!({
+            "cause": name,
+            "value": score.value,
+            "standard_deviation": score.standard_deviation,
+            "chi_squared_drop": score.drop,
+        })).collect::<Vec<_>>(),
         "consistency": systematic.consistency.iter().map(|(found, p)| json!({
             "bands": found.bands.len(),
             "q": found.q,

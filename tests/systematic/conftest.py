@@ -26,7 +26,13 @@ class Result:
 
     @property
     def suspects(self):
-        return [suspect["cause"] for suspect in self.budget["suspects"]]
+        return [suspect["cause"] for suspect in self.budget["suspects"]] if self.budget else []
+
+    @property
+    def ranked(self):
+        """What stands out, and then what a single step says of the other causes."""
+        scores = [score["cause"] for score in self.budget["scores"]] if self.budget else []
+        return self.suspects + [cause for cause in scores if cause not in self.suspects]
 
 
 def entries(matrices):

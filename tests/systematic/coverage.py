@@ -8,7 +8,7 @@ import tempfile
 import numpy as np
 import rig
 from conftest import identified
-from test_budget import drawn
+from mistakes import drawn
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 

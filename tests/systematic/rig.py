@@ -220,7 +220,7 @@ def write(folder, sets, noise, frequency=FREQUENCY, budget=None, computed_b=Fals
         f'boundary = "free-free", loss_factor = {LOSS["B"]}{theory} }}\n'
         f'joint = {{ x = {JOINT["B"]} }}\npoints = {{ {positions} }}'
         if computed_b
-        else f'frf = "B.npz"\njoint = {{ y = "2:+Y", theta = {rotation["B"]} }}\n{cut}'
+        else f'frf = "B.npz"\njoint = {{ y = "2:+Y", theta = {rotation["B"]} }}\n{cut}\npoints = {{ {positions} }}'
     )
     study = folder / "study.toml"
     study.write_text(

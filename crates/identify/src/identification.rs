@@ -144,10 +144,12 @@ pub fn identify_and_draw(
         ),
         _ => Vec::new(),
     };
-    let systematic = match slips.as_slice() {
-        [] => Systematic::of(study, &all, &estimate),
-        // What a slip leaves tells nothing of smaller errors.
-        _ => None,
+    // A slip is none where an error of the set-up explains the data; where none does, what it leaves tells nothing of errors.
+    let systematic = Systematic::of(study, &all, &estimate)
+        .filter(|found| slips.is_empty() || found.explains_the_data());
+    let slips = match systematic {
+        Some(_) => Vec::new(),
+        None => slips,
     };
     let estimate = match &systematic {
         Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),

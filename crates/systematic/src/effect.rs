@@ -108,6 +108,87 @@ impl At<'_> {
         self.truth[entry.place] * self.mean_over_translations(entry, of)
     }
 
+    /// What would be measured without a mass m at the response, the matrix being what is: h_ii = z_ii/(1 + ω² m z_ii), and so
+    /// z_ij = h_ij (1 + ω² m z_ii).
+    pub(crate) fn unloaded(&self, mass_kg: f64) -> Vec<Complex64> {
+        let load = |row: usize| self.truth[(row, row)] * self.omega * self.omega * mass_kg;
+        let entries = self.functions.entries.iter();
+        entries
+            .map(|entry| {
+                let loaded = self.truth[entry.place];
+                loaded / (1.0 + self.mean_over_translations(entry, load))
+            })
+            .collect()
+    }
+
+    /// How h + a moves with the true receptances at the entries' places, and then with those at the drive points; `None` where
+    /// that is h itself.
+    pub(crate) fn by_truth(&self, priors: &[Prior], values: &[f64]) -> Option<ComplexMatrix> {
+        let cause = Cause::Accelerometer(self.set);
+        let mass_kg = super::structures::value_of(cause, priors, values);
+        if mass_kg == 0.0 {
+            return None;
+        }
+        let entries = &self.functions.entries;
+        let count = entries.len();
+        let squared = self.omega * self.omega * mass_kg;
+        let mut chain = ComplexMatrix::identity(count, count + self.functions.labels());
+        for (e, entry) in entries.iter().enumerate() {
+            let share = 1.0 / entry.measurements.len().max(1) as f64;
+            let rows = entry.measurements.iter().map(|&(row, _)| row);
+            for row in rows.filter(|&row| self.functions.is_translation[row]) {
+                let left = 1.0 - squared * self.truth[(row, row)];
+                // L/(1 − L), and ω² m h_ij/(1 − L)²
+                chain[(e, e)] += share * (left.inv() - 1.0);
+                let by_drive_point = squared * self.truth[entry.place] / (left * left);
+                chain[(e, count + row)] += share * by_drive_point;
+            }
+        }
+        Some(chain)
+    }
+
+    /// The change of the true receptances that goes with a change of h + a, by [`Self::by_truth`]: drive points first.
+    pub(crate) fn by_loaded(
+        &self,
+        by_truth: &ComplexMatrix,
+        change: &[Complex64],
+    ) -> Vec<Complex64> {
+        let entries = &self.functions.entries;
+        let count = entries.len();
+        let mut of_drive_point = vec![ZERO; self.functions.labels()];
+        for (e, entry) in entries.iter().enumerate() {
+            if let (row, column) = entry.place
+                && row == column
+            {
+                of_drive_point[row] = change[e] / (by_truth[(e, e)] + by_truth[(e, count + row)]);
+            }
+        }
+        let of = |(e, entry): (usize, &Entry)| match entry.place {
+            (row, column) if row == column => of_drive_point[row],
+            _ => {
+                let others = of_drive_point.iter().enumerate();
+                let moved: Complex64 = others
+                    .map(|(row, change)| by_truth[(e, count + row)] * change)
+                    .sum();
+                (change[e] - moved) / by_truth[(e, e)]
+            }
+        };
+        entries.iter().enumerate().map(of).collect()
+    }
+
+    /// Variance of each true receptance by that of what is measured, a drive point's own noise beside another entry left out.
+    pub(crate) fn variance_of_truth(&self, by_truth: &ComplexMatrix, variance: &mut [f64]) {
+        let count = self.functions.entries.len();
+        for (e, (entry, variance)) in self.functions.entries.iter().zip(variance).enumerate() {
+            let (row, column) = entry.place;
+            let mut slope = by_truth[(e, e)];
+            if row == column {
+                slope += by_truth[(e, count + row)];
+            }
+            *variance /= slope.norm_sqr();
+        }
+    }
+
     /// ω² h_ii h_ij/(1 − ω² m h_ii)²
     fn by_mass(&self, entry: &Entry, mass_kg: f64) -> Complex64 {
         let of = |row: usize| {

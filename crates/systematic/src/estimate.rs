@@ -3,9 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::budget::Prior;
-use super::cause::Side;
+use super::cause::{Cause, Side};
 use super::experiment::Experiment;
-use super::line::Task;
+use super::line::{Point, Task};
 use super::search::{Found, inverse, search, with_priors};
 use super::shares::Shares;
 use super::starts::grid;
@@ -21,6 +21,8 @@ pub struct Settings {
     pub most_shifted: f64,
     /// Above this χ² per degree of freedom the search starts again with the assembly's noise inflated.
     pub most_reduced_chi_squared: f64,
+    /// With more lines than these every second one, every third, and so on, is used.
+    pub most_lines: usize,
 }
 
 impl Default for Settings {
@@ -30,6 +32,38 @@ impl Default for Settings {
             most_nonlinear: 0.3,
             most_shifted: 0.3,
             most_reduced_chi_squared: 1.3,
+            most_lines: usize::MAX,
+        }
+    }
+}
+
+/// Where a search begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Stiffness of each unknown entry, then its damping.
+    pub unknowns: Vec<f64>,
+    /// A cause that is not zero, with its value in its unit.
+    pub cause: Option<(Cause, f64)>,
+}
+
+impl Start {
+    /// Begins without causes.
+    #[must_use]
+    pub fn without_causes(unknowns: &[f64]) -> Self {
+        Self {
+            unknowns: unknowns.to_vec(),
+            cause: None,
+        }
+    }
+
+    pub(crate) fn point(&self, priors: &[Prior]) -> Point {
+        let value = |prior: &Prior| match self.cause {
+            Some((cause, value)) if cause == prior.cause => value,
+            _ => 0.0,
+        };
+        Point {
+            unknowns: self.unknowns.clone(),
+            causes: priors.iter().map(value).collect(),
         }
     }
 }
@@ -83,19 +117,19 @@ pub struct Estimate {
     pub(crate) found: Found,
 }
 
-/// Finds the joint and the causes from `start` (stiffness of each unknown entry, then its damping) or, where that leads to
+/// Finds the joint and the causes from `start` or, where that leads to
 /// nothing that fits, from others. Of the priors that the data contradict the worst is made wider, one after the other. `None`
 /// where the assembly is singular, the data do not determine the joint or a structure cannot be computed.
 #[must_use]
 pub fn estimate(
     experiment: &Experiment<'_>,
     priors: &[Prior],
-    start: &[f64],
+    start: &Start,
     settings: &Settings,
 ) -> Option<Estimate> {
     let mut priors = priors.to_vec();
     let mut contradicted: Vec<Option<f64>> = vec![None; priors.len()];
-    let mut start = start.to_vec();
+    let mut start = start.clone();
     for round in 0..=MOST_WIDENED {
         let task = Task::new(experiment, &priors);
         let found = match round {
@@ -114,14 +148,14 @@ pub fn estimate(
             return of(&task, found, &contradicted);
         };
         contradicted[number] = Some(pull);
-        start.clone_from(&found.point.unknowns);
+        start = Start::without_causes(&found.point.unknowns);
         priors[number].standard_deviation *= WIDER;
     }
     None
 }
 
 /// The best of what several starts lead to; the first that fits is taken.
-fn best_of_many(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
+fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
     let first = best(task, start, settings);
     let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
     // without causes what is left is no noise as soon as there are errors
@@ -134,8 +168,12 @@ fn best_of_many(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<F
         ..settings.clone()
     };
     let mut nearest: Option<Found> = None;
-    for start in grid(task.experiment) {
-        let Some(found) = search(task, &start, &few, 1.0) else {
+    for unknowns in grid(task.experiment) {
+        let start = Start {
+            unknowns,
+            ..start.clone()
+        };
+        let Some(found) = search(task, start.point(task.priors), &few, 1.0) else {
             continue;
         };
         if nearest
@@ -150,14 +188,21 @@ fn best_of_many(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<F
     }
     let second = nearest.and_then(|nearest| match fits(&nearest) {
         true => Some(nearest),
-        false => best(task, &nearest.point.unknowns, settings),
+        false => best(
+            task,
+            &Start {
+                unknowns: nearest.point.unknowns,
+                ..start.clone()
+            },
+            settings,
+        ),
     });
     let both = first.into_iter().chain(second);
     both.min_by(|one, other| rank(task, one).total_cmp(&rank(task, other)))
 }
 
 /// χ² per degree of freedom, with a handicap for a search that has not come to rest.
-fn rank(task: &Task<'_>, found: &Found) -> f64 {
+pub(crate) fn rank(task: &Task<'_>, found: &Found) -> f64 {
     let reduced = reduced_chi_squared(task, found).unwrap_or(0.0);
     if found.converged {
         reduced
@@ -170,7 +215,7 @@ fn rank(task: &Task<'_>, found: &Found) -> f64 {
 pub(crate) fn estimate_with(
     experiment: &Experiment<'_>,
     priors: &[Prior],
-    start: &[f64],
+    start: &Start,
     settings: &Settings,
 ) -> Option<Estimate> {
     let task = Task::new(experiment, priors);
@@ -190,10 +235,10 @@ impl Estimate {
     }
 }
 
-fn best(task: &Task<'_>, start: &[f64], settings: &Settings) -> Option<Found> {
+fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
     let mut best: Option<Found> = None;
     for inflation in INFLATIONS {
-        let Some(found) = search(task, start, settings, inflation) else {
+        let Some(found) = search(task, start.point(task.priors), settings, inflation) else {
             continue;
         };
         if best

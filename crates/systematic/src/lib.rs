@@ -13,6 +13,7 @@ mod coupling;
 mod effect;
 mod estimate;
 mod experiment;
+mod far;
 mod line;
 mod modal_fit;
 mod normal;
@@ -27,7 +28,7 @@ mod suspect;
 pub use budget::{Budget, Prior};
 pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
-pub use estimate::{CONTRADICTED, CauseEstimate, Estimate, Settings, estimate};
+pub use estimate::{CONTRADICTED, CauseEstimate, Estimate, Settings, Start, estimate};
 pub use experiment::{
     Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
     MeasuredFunctions, Structure,
@@ -35,4 +36,4 @@ pub use experiment::{
 pub use refine::refine;
 pub use score::{Score, score_tests};
 pub use shares::Shares;
-pub use suspect::{Suspect, TELLING, suspects};
+pub use suspect::{Diagnosis, Suspect, TELLING, diagnose};

@@ -28,6 +28,13 @@ pub(crate) struct Point {
     pub(crate) causes: Vec<f64>,
 }
 
+impl Point {
+    pub(crate) fn moves(&mut self, step: &DVector<f64>) {
+        let values = self.unknowns.iter_mut().chain(&mut self.causes);
+        values.zip(step).for_each(|(value, step)| *value += step);
+    }
+}
+
 /// Receptances of A's and of B's labels that are most likely at a line; empty for a structure that is not measured.
 pub(crate) type Labelled = [Vec<Complex64>; 2];
 
@@ -41,6 +48,8 @@ pub(crate) struct Terms {
     pub(crate) by_labelled: DMatrix<Complex64>,
     /// The labelled receptances as measured, without the causes.
     pub(crate) measured: Labelled,
+    /// Their variances, A's and then B's.
+    pub(crate) labelled_variance: Vec<f64>,
     /// How these move with the causes.
     pub(crate) measured_by_cause: [Vec<Option<Vec<Complex64>>>; 2],
     /// |H^C| at each entry
@@ -96,7 +105,8 @@ impl<'t> Task<'t> {
             let fitted: Vec<Complex64> = fitted
                 .map(|(entry, now)| fit.value(entry, omega).unwrap_or(*now))
                 .collect();
-            self.freed(side, line, point, &fitted, |entry| fitted[entry])
+            let unloaded = self.unloaded(side, line, point, &fitted);
+            self.freed(side, line, point, &unloaded, |entry| fitted[entry])
         })
     }
 
@@ -158,6 +168,30 @@ impl<'t> Task<'t> {
         joint.translation(bolt) + if side == Side::B { joint.dofs } else { 0 }
     }
 
+    /// What was measured of a structure at a line, without the masses of accelerometers as far as the drive points tell.
+    pub(crate) fn unloaded(
+        &self,
+        side: Side,
+        line: usize,
+        point: &Point,
+        raw: &[Complex64],
+    ) -> Vec<Complex64> {
+        let Structure::Measured(measured) = self.experiment.side(side) else {
+            return Vec::new();
+        };
+        let mass_kg = super::structures::value_of(
+            Cause::Accelerometer(MeasuredSet::Of(side)),
+            self.priors,
+            &point.causes,
+        );
+        if mass_kg == 0.0 {
+            return raw.to_vec();
+        }
+        let measured_matrix = measured.functions.matrix(raw);
+        let at = self.at_structure(side, &measured.functions, &measured_matrix, line);
+        at.unloaded(mass_kg)
+    }
+
     /// What was measured of a structure at a line, without the causes.
     pub(crate) fn without_causes(
         &self,
@@ -187,25 +221,46 @@ impl<'t> Task<'t> {
             return Vec::new();
         };
         let functions = &measured.functions;
-        let truth = functions.matrix(truth);
-        let at = self.at_structure(side, functions, &truth, line);
-        let beside = at.beside(self.priors, &point.causes);
         let epsilon =
             super::structures::value_of(Cause::Frequency(side), self.priors, &point.causes);
-        let entries = functions.entries.iter().zip(beside).enumerate();
-        let clean = entries.map(|(number, (entry, beside))| {
-            let value = measured_at(number);
-            if entry.measurements.is_empty() {
-                return value;
-            }
-            let ratio = if epsilon == 0.0 {
+        let ratio = |number: usize, entry: &Entry| {
+            if epsilon == 0.0 || entry.measurements.is_empty() {
                 Complex64::from(1.0)
             } else {
                 self.ratio(side, line, number, epsilon)
-            };
-            ratio * (value / at.factor(entry, self.priors, &point.causes) - beside)
-        });
-        clean.collect()
+            }
+        };
+        let entries = || functions.entries.iter().enumerate();
+        // as they were in the structure's own test
+        let now: Vec<Complex64> = entries()
+            .zip(truth)
+            .map(|((number, entry), truth)| truth / ratio(number, entry))
+            .collect();
+        let truth = functions.matrix(&now);
+        let at = self.at_structure(side, functions, &truth, line);
+        let beside = at.beside(self.priors, &point.causes);
+        let left: Vec<Complex64> = entries()
+            .map(|(number, entry)| {
+                if entry.measurements.is_empty() {
+                    return ZERO;
+                }
+                let clean = measured_at(number) / at.factor(entry, self.priors, &point.causes);
+                clean - now[number] - beside[number]
+            })
+            .collect();
+        let change = match at.by_truth(self.priors, &point.causes) {
+            Some(by_truth) => at.by_loaded(&by_truth, &left),
+            None => left,
+        };
+        entries()
+            .map(|(number, entry)| {
+                if entry.measurements.is_empty() {
+                    measured_at(number)
+                } else {
+                    ratio(number, entry) * (now[number] + change[number])
+                }
+            })
+            .collect()
     }
 
     /// How [`Self::without_causes`] moves with each cause; `None` where it does not.
@@ -222,6 +277,7 @@ impl<'t> Task<'t> {
         let functions = &measured.functions;
         let truth = functions.matrix(labelled);
         let at = self.at_structure(side, functions, &truth, line);
+        let by_truth = at.by_truth(self.priors, &point.causes);
         let of = |(prior, value): (&Prior, &f64)| match prior.cause {
             Cause::Frequency(of) if of == side => {
                 let step = 1e-3 * prior.standard_deviation;
@@ -237,12 +293,14 @@ impl<'t> Task<'t> {
                 });
                 Some(change.collect())
             }
-            cause => Some(
-                at.by_cause(cause, *value)?
-                    .into_iter()
-                    .map(|change| -change)
-                    .collect(),
-            ),
+            cause => {
+                let by_cause = at.by_cause(cause, *value)?.into_iter();
+                let change: Vec<Complex64> = by_cause.map(|change| -change).collect();
+                Some(match &by_truth {
+                    Some(by_truth) => at.by_loaded(by_truth, &change),
+                    None => change,
+                })
+            }
         };
         self.priors.iter().zip(&point.causes).map(of).collect()
     }
@@ -270,10 +328,19 @@ impl<'t> Task<'t> {
         };
         let (smooth_a, smooth_b, smooth_coupled) = of_smooth.as_ref().unwrap_or(&own);
         let smooth_at = self.at_assembly(&smooth_coupled.receptance, omega);
-        let smooth_by_labelled = self.by_labelled(smooth_coupled);
+        let chain = smooth_at.by_truth(self.priors, &point.causes);
+        let mut places: Vec<(usize, usize)> = entries.iter().map(|entry| entry.place).collect();
+        if chain.is_some() {
+            places.extend((0..experiment.assembly.labels()).map(|label| (label, label)));
+        }
+        let chained = |changes: DMatrix<Complex64>| match &chain {
+            Some(chain) => chain * changes,
+            None => changes,
+        };
+        let smooth_by_labelled = chained(self.by_labelled(smooth_coupled, &places));
         let measured_by_cause = [Side::A, Side::B]
             .map(|side| self.by_causes(side, line, point, &smooth[side as usize]));
-        let by_labelled = self.by_labelled(coupled);
+        let by_labelled = chained(self.by_labelled(coupled, &places));
         let at = self.at_assembly(&coupled.receptance, omega);
         let beside = at.beside(self.priors, &point.causes);
         let shift: Vec<Complex64> = (0..2)
@@ -292,10 +359,10 @@ impl<'t> Task<'t> {
             clean - coupled.receptance[entry.place] - moved[e]
         });
         let count = experiment.joint.entries.len();
-        let mut rows = DMatrix::zeros(entries.len(), 2 * count + self.priors.len());
-        for (t, places) in experiment.joint.entries.iter().enumerate() {
-            for (e, entry) in entries.iter().enumerate() {
-                let by = coupled.by_stiffness(places, entry.place);
+        let mut rows = DMatrix::zeros(places.len(), 2 * count + self.priors.len());
+        for (t, of) in experiment.joint.entries.iter().enumerate() {
+            for (e, place) in places.iter().enumerate() {
+                let by = coupled.by_stiffness(of, *place);
                 // K* = K (1 + jη) + jωC
                 rows[(e, t)] = by * Complex64::new(1.0, self.loss_factor(point));
                 rows[(e, count + t)] = by * Complex64::new(0.0, omega);
@@ -304,8 +371,8 @@ impl<'t> Task<'t> {
         for (number, prior) in self.priors.iter().enumerate() {
             let column = 2 * count + number;
             let mut add = |change: &ComplexMatrix| {
-                for (e, entry) in entries.iter().enumerate() {
-                    rows[(e, column)] += change[entry.place];
+                for (e, place) in places.iter().enumerate() {
+                    rows[(e, column)] += change[*place];
                 }
             };
             match prior.cause {
@@ -339,6 +406,10 @@ impl<'t> Task<'t> {
                     add(&smooth_coupled.by_structure(side == Side::A, &direct));
                 }
             }
+        }
+        let mut rows = chained(rows);
+        for (number, prior) in self.priors.iter().enumerate() {
+            let column = 2 * count + number;
             if let Some(by) = smooth_at.by_cause(prior.cause, point.causes[number]) {
                 for (e, by) in by.into_iter().enumerate() {
                     rows[(e, column)] += by;
@@ -360,11 +431,11 @@ impl<'t> Task<'t> {
             residual,
             rows,
             by_labelled,
+            labelled_variance: self.labelled_variance(line, point, &smooth),
             measured,
             measured_by_cause,
-            magnitude: entries
-                .iter()
-                .map(|entry| coupled.receptance[entry.place].norm())
+            magnitude: std::iter::zip(entries, beside)
+                .map(|(entry, beside)| (coupled.receptance[entry.place] + beside).norm())
                 .collect(),
         })
     }
@@ -400,8 +471,7 @@ impl<'t> Task<'t> {
     }
 
     /// J: dH^C = v_p v_qᵀ + v_q v_pᵀ for a symmetric entry (p, q) of U, with V = Zᵀ W.
-    fn by_labelled(&self, coupled: &Coupled) -> DMatrix<Complex64> {
-        let entries = &self.experiment.assembly.entries;
+    fn by_labelled(&self, coupled: &Coupled, places: &[(usize, usize)]) -> DMatrix<Complex64> {
         let mut columns = Vec::new();
         for side in [Side::A, Side::B] {
             let Structure::Measured(measured) = self.experiment.side(side) else {
@@ -411,8 +481,8 @@ impl<'t> Task<'t> {
             let v = through.transpose() * measured.transformation.map(Complex64::from);
             for source in &measured.functions.entries {
                 let (p, q) = source.place;
-                columns.push(DVector::from_fn(entries.len(), |e, _| {
-                    let (row, column) = entries[e].place;
+                columns.push(DVector::from_fn(places.len(), |e, _| {
+                    let (row, column) = places[e];
                     let once = v[(row, p)] * v[(column, q)];
                     if p == q {
                         once
@@ -423,20 +493,27 @@ impl<'t> Task<'t> {
             }
         }
         if columns.is_empty() {
-            DMatrix::zeros(entries.len(), 0)
+            DMatrix::zeros(places.len(), 0)
         } else {
             DMatrix::from_columns(&columns)
         }
     }
 
     /// Variance of each labelled receptance of A, then of B, at a line.
-    pub(crate) fn labelled_variance(&self, line: usize) -> Vec<f64> {
-        let of = |side: Side| match self.experiment.side(side) {
-            Structure::Measured(measured) => {
-                let entries = measured.functions.entries.iter();
-                entries.map(|entry| variance(entry, line)).collect()
+    fn labelled_variance(&self, line: usize, point: &Point, labelled: &Labelled) -> Vec<f64> {
+        let of = |side: Side| {
+            let Structure::Measured(measured) = self.experiment.side(side) else {
+                return Vec::new();
+            };
+            let functions = &measured.functions;
+            let entries = functions.entries.iter();
+            let mut variances: Vec<f64> = entries.map(|entry| variance(entry, line)).collect();
+            let truth = functions.matrix(&labelled[side as usize]);
+            let at = self.at_structure(side, functions, &truth, line);
+            if let Some(by_truth) = at.by_truth(self.priors, &point.causes) {
+                at.variance_of_truth(&by_truth, &mut variances);
             }
-            _ => Vec::new(),
+            variances
         };
         [of(Side::A), of(Side::B)].concat()
     }
@@ -458,7 +535,7 @@ impl<'t> Task<'t> {
             let clean = entry.values[line] / at.factor(entry, self.priors, &point.causes) - beside;
             cost += (clean - coupled.receptance[entry.place]).norm_sqr() / variance(entry, line);
         }
-        let variances = self.labelled_variance(line);
+        let variances = self.labelled_variance(line, point, labelled);
         let mut variances = variances.iter();
         for side in [Side::A, Side::B] {
             let now = &labelled[side as usize];

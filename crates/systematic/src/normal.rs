@@ -20,7 +20,6 @@ pub(crate) struct Share {
 pub(crate) struct Whitened<'l> {
     terms: &'l Terms,
     factor: nalgebra::Cholesky<Complex64, nalgebra::Dyn>,
-    labelled_variance: Vec<f64>,
 }
 
 impl<'l> Whitened<'l> {
@@ -31,9 +30,8 @@ impl<'l> Whitened<'l> {
         terms: &'l Terms,
         inflation: f64,
     ) -> Option<Self> {
-        let labelled_variance = task.labelled_variance(line);
         let mut scaled = terms.by_labelled.clone();
-        for (mut column, variance) in scaled.column_iter_mut().zip(&labelled_variance) {
+        for (mut column, variance) in scaled.column_iter_mut().zip(&terms.labelled_variance) {
             column *= Complex64::from(*variance);
         }
         let mut covariance = scaled * terms.by_labelled.adjoint();
@@ -43,7 +41,6 @@ impl<'l> Whitened<'l> {
         Some(Self {
             terms,
             factor: covariance.cholesky()?,
-            labelled_variance,
         })
     }
 
@@ -79,7 +76,7 @@ impl<'l> Whitened<'l> {
                 }
             }
             for value in &mut labelled {
-                *value += pulled[index] * self.labelled_variance[index];
+                *value += pulled[index] * self.terms.labelled_variance[index];
                 index += 1;
             }
             labelled
@@ -89,10 +86,10 @@ impl<'l> Whitened<'l> {
 
 /// Whether the substructures' noise moves what is predicted by less than this part of it, at every entry: beyond, a line is not
 /// linear in them. Decided by data and variances alone, never by the residual.
-pub(crate) fn is_linear(task: &Task<'_>, line: usize, terms: &Terms, most: f64) -> bool {
-    let variances = task.labelled_variance(line);
+pub(crate) fn is_linear(terms: &Terms, most: f64) -> bool {
     (0..terms.magnitude.len()).all(|e| {
-        let moved: f64 = variances
+        let moved: f64 = terms
+            .labelled_variance
             .iter()
             .enumerate()
             .map(|(s, variance)| terms.by_labelled[(e, s)].norm_sqr() * variance)
@@ -106,7 +103,8 @@ pub(crate) fn as_measured(task: &Task<'_>, line: usize, point: &Point) -> Labell
     [super::cause::Side::A, super::cause::Side::B].map(|side| match task.experiment.side(side) {
         Structure::Measured(measured) => {
             let raw = measured.functions.at(line);
-            task.without_causes(side, line, point, &raw)
+            let unloaded = task.unloaded(side, line, point, &raw);
+            task.without_causes(side, line, point, &unloaded)
         }
         _ => Vec::new(),
     })

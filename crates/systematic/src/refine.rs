@@ -65,21 +65,9 @@ pub fn refine(
             1.0
         };
         before = largest;
-        point = moved(&task, &point, &(step * part));
+        point.moves(&(step * part));
     }
     None
-}
-
-fn moved(task: &Task<'_>, from: &Point, step: &DVector<f64>) -> Point {
-    let (joint, causes) = step.as_slice().split_at(task.unknowns());
-    let sum = |values: &[f64], step: &[f64]| {
-        let pairs = values.iter().zip(step);
-        pairs.map(|(value, step)| value + step).collect()
-    };
-    Point {
-        unknowns: sum(&from.unknowns, joint),
-        causes: sum(&from.causes, causes),
-    }
 }
 
 /// Information, gradient and cost of the lines; at `first` those that are not linear are left out for good.
@@ -95,7 +83,7 @@ fn sums(
     let of_line = |&line: &usize| -> Option<Option<(usize, Share)>> {
         let labelled = task.smooth(line, point, &as_measured(task, line, point));
         let terms = task.terms(line, point, &labelled, &recomputed)?;
-        if first && !is_linear(task, line, &terms, settings.most_nonlinear) {
+        if first && !is_linear(&terms, settings.most_nonlinear) {
             return Some(None);
         }
         let whitened = Whitened::of(task, line, &terms, 1.0)?;

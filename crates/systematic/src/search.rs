@@ -45,11 +45,11 @@ pub(crate) struct Found {
     pub(crate) converged: bool,
 }
 
-/// Searches from `start`; the assembly's standard deviations begin `inflation` times as large as they are. `None` where an
+/// Searches from `point`; the assembly's standard deviations begin `inflation` times as large as they are. `None` where an
 /// assembly is singular or a structure cannot be computed.
 pub(crate) fn search(
     task: &Task<'_>,
-    start: &[f64],
+    mut point: Point,
     settings: &Settings,
     inflation: f64,
 ) -> Option<Found> {
@@ -57,11 +57,9 @@ pub(crate) fn search(
     let has_labelled = [&experiment.a, &experiment.b]
         .iter()
         .any(|side| matches!(side, Structure::Measured(_)));
-    let mut point = Point {
-        unknowns: start.to_vec(),
-        causes: vec![0.0; task.priors.len()],
-    };
+    let stride = task.lines().div_ceil(settings.most_lines.max(1)).max(1);
     let all: Vec<usize> = (0..task.lines())
+        .step_by(stride)
         .filter(|&line| keeps_its_frequency(task, line, settings))
         .collect();
     let mut labelled: Vec<Labelled> = Vec::new();
@@ -90,7 +88,7 @@ pub(crate) fn search(
             })
             .collect::<Option<_>>()?;
         if frozen {
-            terms.retain(|(line, terms)| is_linear(task, *line, terms, settings.most_nonlinear));
+            terms.retain(|(_, terms)| is_linear(terms, settings.most_nonlinear));
             lines = terms.iter().map(|(line, _)| *line).collect();
         }
         let whitened: Vec<Whitened<'_>> = terms
@@ -131,17 +129,7 @@ pub(crate) fn search(
             }
             proposed = Some(next);
         }
-        let (joint, causes) = step.as_slice().split_at(task.unknowns());
-        point
-            .unknowns
-            .iter_mut()
-            .zip(joint)
-            .for_each(|(value, step)| *value += step);
-        point
-            .causes
-            .iter_mut()
-            .zip(causes)
-            .for_each(|(value, step)| *value += step);
+        point.moves(&step);
         inflated *= ANNEALING;
     }
     None

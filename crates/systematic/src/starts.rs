@@ -11,6 +11,17 @@ const MULTIPLES: [f64; 4] = [10.0, 1.0, 100.0, 0.1];
 /// Loss of a start's joint in the middle of the range, ωc/k.
 const LOSS: f64 = 1e-2;
 
+/// Of these joints those on the diagonal of the grid: all stiffnesses in proportion.
+pub(crate) fn few(experiment: &Experiment<'_>) -> Vec<Vec<f64>> {
+    let all = grid(experiment);
+    let stride = if all.len() > MULTIPLES.len() {
+        MULTIPLES.len() + 1
+    } else {
+        1
+    };
+    all.into_iter().step_by(stride).collect()
+}
+
 /// Diagonal joints, every translation alike and every rotation alike, from those near the structures' own stiffness outwards.
 pub(crate) fn grid(experiment: &Experiment<'_>) -> Vec<Vec<f64>> {
     let task = Task::new(experiment, &[]);

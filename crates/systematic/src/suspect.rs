@@ -2,8 +2,9 @@
 
 use super::budget::{Budget, Prior, causes};
 use super::cause::Cause;
-use super::estimate::{Estimate, Settings, estimate_with};
+use super::estimate::{Estimate, Settings, Start, estimate_with};
 use super::experiment::Experiment;
+use super::far::from_far;
 use super::score::{Score, score_tests};
 
 /// Scores below this are chance: of thirty causes that do not act the most telling one is above it once in twenty times.
@@ -12,6 +13,8 @@ pub const TELLING: f64 = 10.0;
 const MOST: usize = 6;
 /// A score below this part of the largest is not looked at.
 const WORTH: f64 = 0.05;
+/// χ² per degree of freedom beyond which the joint may have been sought in the wrong place.
+const FAR: f64 = 3.0;
 /// A cause that is let free has a prior so many times wider than the budget's.
 const WIDE: f64 = 30.0;
 
@@ -30,14 +33,21 @@ pub struct Suspect {
     pub reduced_chi_squared: Option<f64>,
 }
 
-/// The causes that speak against an estimate without any, the most telling first; empty where none does. What cannot be told
-/// apart stands side by side with nearly the same drop of χ².
+/// What speaks against an estimate without causes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// The causes that do, the most telling first; empty where none does. What cannot be told apart stands side by side with
+    /// nearly the same drop of χ².
+    pub suspects: Vec<Suspect>,
+    /// The score tests of all causes, the largest first.
+    pub scores: Vec<Score>,
+    /// The joint with the first suspect, where that one was let free.
+    pub start: Start,
+}
+
+/// Looks for what is wrong with an estimate without causes.
 #[must_use]
-pub fn suspects(
-    experiment: &Experiment<'_>,
-    plain: &Estimate,
-    settings: &Settings,
-) -> Vec<Suspect> {
+pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settings) -> Diagnosis {
     let careful = Budget {
         phase_rad: 1e-2,
         ..Budget::default()
@@ -48,58 +58,105 @@ pub fn suspects(
     };
     let candidates: Vec<Prior> = causes(experiment).into_iter().map(prior).collect();
     let scores = score_tests(experiment, plain, &candidates);
-    let Some(largest) = scores
-        .first()
-        .map(|score| score.drop)
-        .filter(|&drop| drop > TELLING)
-    else {
-        return Vec::new();
-    };
+    let largest = scores.first().map_or(0.0, |score| score.drop);
     let telling = scores
         .iter()
         .filter(|score| score.drop > TELLING.max(WORTH * largest));
-    let mut suspects: Vec<Suspect> = telling
+    let near = Start::without_causes(&plain.unknowns);
+    let mut tried: Vec<(Suspect, Option<Start>)> = telling
         .take(MOST)
-        .map(|score| refitted(experiment, plain, prior(score.cause), score, settings))
+        .map(|score| {
+            let free = Prior {
+                cause: score.cause,
+                standard_deviation: (WIDE * careful.standard_deviation(score.cause))
+                    .max(score.value.abs()),
+            };
+            match refitted(experiment, plain, free, &near, settings) {
+                Some((suspect, start)) => (suspect, Some(start)),
+                None => (as_scored(score), None),
+            }
+        })
         .collect();
-    suspects.retain(|suspect| suspect.drop > TELLING);
-    suspects.sort_by(|one, other| other.drop.total_cmp(&one.drop));
-    suspects
+    let fits = |(suspect, _): &(Suspect, _)| {
+        let chi = suspect.reduced_chi_squared;
+        chi.is_some_and(|chi| chi < settings.most_reduced_chi_squared)
+    };
+    let is_far = plain.reduced_chi_squared.is_none_or(|chi| chi > FAR);
+    sort(&mut tried);
+    if is_far && !tried.first().is_some_and(fits) {
+        let is_new = |prior: &Prior| prior.cause != Cause::CommonGain;
+        let candidates: Vec<Prior> = candidates.into_iter().filter(is_new).collect();
+        for (careful, start) in from_far(experiment, &candidates, WIDE, settings)
+            .into_iter()
+            .take(MOST)
+        {
+            let free = Prior {
+                standard_deviation: WIDE * careful.standard_deviation,
+                ..careful
+            };
+            let Some((suspect, start)) = refitted(experiment, plain, free, &start, settings) else {
+                continue;
+            };
+            let known = tried.iter().position(|(of, _)| of.cause == suspect.cause);
+            match known {
+                Some(known) if tried[known].0.drop >= suspect.drop => {}
+                Some(known) => tried[known] = (suspect, Some(start)),
+                None => tried.push((suspect, Some(start))),
+            }
+        }
+    }
+    if is_far && tried.iter().any(|(_, start)| start.is_some()) {
+        // one step from the wrong place says nothing
+        tried.retain(|(_, start)| start.is_some());
+    }
+    tried.retain(|(suspect, _)| suspect.drop > TELLING);
+    sort(&mut tried);
+    let first = tried.first().and_then(|(_, start)| start.clone());
+    Diagnosis {
+        suspects: tried.into_iter().map(|(suspect, _)| suspect).collect(),
+        scores,
+        start: first.unwrap_or(near),
+    }
 }
 
-/// One step is not enough for a large cause: it is estimated with the joint.
-fn refitted(
-    experiment: &Experiment<'_>,
-    plain: &Estimate,
-    prior: Prior,
-    score: &Score,
-    settings: &Settings,
-) -> Suspect {
-    let as_scored = Suspect {
+/// What lowers χ² most comes first.
+fn sort(tried: &mut [(Suspect, Option<Start>)]) {
+    tried.sort_by(|(one, _), (other, _)| other.drop.total_cmp(&one.drop));
+}
+
+fn as_scored(score: &Score) -> Suspect {
+    Suspect {
         cause: score.cause,
         value: score.value,
         standard_deviation: score.standard_deviation,
         drop: score.drop,
         reduced_chi_squared: None,
-    };
-    let free = Prior {
-        standard_deviation: (WIDE * prior.standard_deviation).max(score.value.abs()),
-        ..prior
-    };
-    let Some(found) = estimate_with(experiment, &[free], &plain.unknowns, settings) else {
-        return as_scored;
-    };
-    let Some(cause) = found.causes.first().filter(|_| found.converged) else {
-        return as_scored;
-    };
+    }
+}
+
+/// One step is not enough for a large cause: it is estimated with the joint. `None` where that does not come to rest.
+fn refitted(
+    experiment: &Experiment<'_>,
+    plain: &Estimate,
+    free: Prior,
+    start: &Start,
+    settings: &Settings,
+) -> Option<(Suspect, Start)> {
+    let found = estimate_with(experiment, &[free], start, settings)?;
+    let cause = found.causes.first().filter(|_| found.converged)?;
     // over the lines that both use: a frequency scale leaves lines out
     let before: f64 = plain.costs_at(&found).sum();
     let after: f64 = found.costs_at(plain).sum();
-    Suspect {
-        cause: score.cause,
+    let suspect = Suspect {
+        cause: free.cause,
         value: cause.value,
         standard_deviation: cause.standard_deviation,
         drop: before - after,
         reduced_chi_squared: found.reduced_chi_squared,
-    }
+    };
+    let start = Start {
+        unknowns: found.unknowns.clone(),
+        cause: Some((free.cause, cause.value)),
+    };
+    Some((suspect, start))
 }

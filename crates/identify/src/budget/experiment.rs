@@ -41,7 +41,7 @@ pub(super) fn of<'a>(
         structure(study, Side::A, lines, levels.a)?,
         structure(study, Side::B, lines, levels.b)?,
     ];
-    let assembly = assembly(lines, levels.assembly);
+    let assembly = assembly(study, lines, levels.assembly);
     Some(Experiment::new(
         omega.collect(),
         joint,
@@ -51,7 +51,7 @@ pub(super) fn of<'a>(
 }
 
 /// The measured functions of the assembly, each on its own: reciprocity speaks for the channels' gains.
-fn assembly(lines: &Lines, level: NoiseLevel) -> MeasuredFunctions {
+fn assembly(study: &Study, lines: &Lines, level: NoiseLevel) -> MeasuredFunctions {
     let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
     let entry = |place: (usize, usize)| {
         let values: Vec<Complex64> = lines.assembly.iter().map(|matrix| matrix[place]).collect();
@@ -71,9 +71,29 @@ fn assembly(lines: &Lines, level: NoiseLevel) -> MeasuredFunctions {
     };
     MeasuredFunctions {
         is_translation: translations(&lines.points),
-        positions_m: None,
+        positions_m: positions_m(&study.b, &lines.points),
         entries: lines.independent().into_iter().map(entry).collect(),
     }
+}
+
+/// Positions of points that all move across the structure; what moves along it tells no slope.
+fn positions_m(b: &Substructure, points: &[Dof]) -> Option<Vec<f64>> {
+    let Substructure::Measured { positions_m, .. } = b else {
+        return None;
+    };
+    let first = points.first()?;
+    let is_alike = |point: &Dof| {
+        let is_same = point.direction() == first.direction() && point.sign() == first.sign();
+        is_same && point.direction().is_translation()
+    };
+    let positions: Option<Vec<f64>> = points
+        .iter()
+        .map(|point| positions_m.get(point).copied())
+        .collect();
+    positions.filter(|positions| {
+        let is_distinct = (1..positions.len()).all(|i| !positions[..i].contains(&positions[i]));
+        points.len() > 1 && is_distinct && points.iter().all(is_alike)
+    })
 }
 
 fn variances(

@@ -4,8 +4,8 @@ mod experiment;
 
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
-    BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Group, MeasuredSet, Settings,
-    Shares, Side, Suspect, consistency, estimate, refine, suspects,
+    BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Group, MeasuredSet,
+    Score, Settings, Shares, Side, Start, Suspect, consistency, diagnose, estimate, refine,
 };
 use nalgebra::DMatrix;
 
@@ -51,6 +51,9 @@ pub struct Systematic {
     pub causes: Vec<(String, CauseEstimate)>,
     /// What speaks against the data without systematic errors, with its name, the most telling first.
     pub suspects: Vec<(String, Suspect)>,
+    /// By how much each cause alone would lower χ² in one step from there, with its name, the most first: below about ten that
+    /// is chance.
+    pub scores: Vec<(String, Score)>,
     /// Whether bands agree on the joint, with the p-value.
     pub consistency: Vec<(BandConsistency, f64)>,
     /// χ² over degrees of freedom.
@@ -115,8 +118,13 @@ impl Systematic {
         let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
         let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
-        let plain = estimate(&experiment, &[], start, &settings)?;
-        let suspects = suspects(&experiment, &plain, &settings);
+        let start = Start::without_causes(start);
+        let plain = estimate(&experiment, &[], &start, &settings)?;
+        let Diagnosis {
+            suspects,
+            scores,
+            start,
+        } = diagnose(&experiment, &plain, &settings);
         let mut priors = study.budget.priors(&experiment);
         // A cause that stands out is let free from the beginning: a search that it keeps from converging finds nothing.
         let mut contradicted: Option<(Cause, f64)> = None;
@@ -132,7 +140,7 @@ impl Systematic {
                 contradicted = Some((first.cause, pull));
             }
         }
-        let mut found = estimate(&experiment, &priors, &plain.unknowns, &settings)?;
+        let mut found = estimate(&experiment, &priors, &start, &settings)?;
         for cause in &mut found.causes {
             if let Some((of, pull)) = contradicted
                 && of == cause.prior.cause
@@ -163,6 +171,8 @@ impl Systematic {
         let causes = causes.map(|cause| (name(cause.prior.cause), *cause));
         let suspects = suspects.iter();
         let suspects = suspects.map(|suspect| (name(suspect.cause), *suspect));
+        let scores = scores.iter();
+        let scores = scores.map(|score| (name(score.cause), *score));
         let tested = consistency.map(|found| {
             let tail = chi_squared_tail(found.q, found.freedom);
             (found, tail)
@@ -171,6 +181,7 @@ impl Systematic {
             budget: study.budget.clone(),
             causes: causes.collect(),
             suspects: suspects.collect(),
+            scores: scores.collect(),
             consistency: tested.collect(),
             noise_covariance: widened(noise_alone, noise_reduced),
             covariance: widened(found.covariance, found.reduced_chi_squared),

@@ -100,6 +100,8 @@ pub enum Substructure {
         joints: Vec<MeasuredJoint>,
         /// The cross-section at the joint, where the study states it.
         section: Option<Section>,
+        /// Positions of labelled points along the structure, m, where the study states them.
+        positions_m: BTreeMap<Dof, f64>,
     },
     /// A computed beam.
     Beam {
@@ -400,9 +402,7 @@ impl Study {
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
             };
-            if let Substructure::Beam { positions_m, .. } = &assembly.b {
-                check::points_on_beam(study, &assembly.points, positions_m)?;
-            }
+            check::positions(study, &assembly.points, &assembly.b)?;
             assemblies.push(assembly);
         }
         check::torques(study, file.joint.torques, &assemblies)?;

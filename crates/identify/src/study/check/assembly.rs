@@ -1,9 +1,9 @@
 //! `[assembly]`: files of functions, points and torque.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::super::FrfFile;
+use super::super::Substructure;
 use super::super::tables::UnitsTable;
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_study::{StudyError, StudyText};
@@ -57,12 +57,19 @@ pub(crate) fn points(study: &StudyText, points: Vec<Dof>) -> Result<Vec<Dof>, St
     Ok(points)
 }
 
-/// Every point of the assembly has a place on the beam B.
-pub(crate) fn points_on_beam(
+/// Every point of the assembly has a place on the beam B, and on a measured structure where any point has.
+pub(crate) fn positions(
     study: &StudyText,
     points: &[Dof],
-    positions_m: &BTreeMap<Dof, f64>,
+    b: &Substructure,
 ) -> Result<(), StudyError> {
+    let (positions_m, origin) = match b {
+        Substructure::Beam { positions_m, .. } => (positions_m, "the beam's first end"),
+        Substructure::Measured { positions_m, .. } if positions_m.is_empty() => return Ok(()),
+        Substructure::Measured { positions_m, .. } => {
+            (positions_m, "any point along the structure")
+        }
+    };
     for point in points {
         let has_direction = point.direction().is_translation() || point.direction().is_rotation();
         let expected = "a direction such as \"11:+Y\" on a beam";
@@ -71,7 +78,7 @@ pub(crate) fn points_on_beam(
             positions_m.contains_key(point),
             "b.points",
             format_args!("no position of {point}"),
-            format_args!("\"{point}\" = its distance from the beam's first end in m"),
+            format_args!("\"{point}\" = its distance from {origin} in m"),
         )?;
     }
     Ok(())

@@ -8,7 +8,7 @@ mod start;
 mod substructure;
 mod torque;
 
-pub(super) use assembly::{frf_file, points, points_on_beam, torque};
+pub(super) use assembly::{frf_file, points, positions, torque};
 pub(super) use bolts::bolts;
 pub(super) use settings::{bands, bodies, noise};
 pub(super) use start::start;

@@ -85,11 +85,20 @@ pub(crate) fn substructure(
         }
     };
     study.ensure(
-        table.points.is_empty(),
+        table.points.is_empty() || !key.ends_with('a'),
         format_args!("{key}.points"),
         "positions",
-        "them beside `beam` only; measured points have labels",
+        "those of the assembly's points, which are on B",
     )?;
+    for (point, &x_m) in &table.points {
+        let key = format!("{key}.points.\"{point}\"");
+        study.ensure(
+            x_m.is_finite(),
+            key,
+            x_m,
+            "a position along the structure in m",
+        )?;
+    }
     let mut joints = Vec::new();
     for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
         let (None, Some(y)) = (place.x, place.y) else {
@@ -110,6 +119,7 @@ pub(crate) fn substructure(
         source,
         joints,
         section: table.section,
+        positions_m: table.points,
     })
 }
 

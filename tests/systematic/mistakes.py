@@ -57,4 +57,5 @@ def drawn(generator):
         frequency={side: 0.002 * normal() for side in "AB"},
         joint_mass={side: 0.010 * normal() for side in "AB"},
         loss_factor=0.02 * normal(),
+        point={point: 5e-4 * normal() for point in range(3)},
     )

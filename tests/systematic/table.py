@@ -29,13 +29,14 @@ def main(seeds):
             first.append(result.suspects[0] if result.suspects else "nothing")
             if of.cause:
                 total += 1
-                rank = result.ranked.index(of.cause) + 1 if of.cause in result.ranked else 99
+                rank = result.rank(of.cause)
                 said += of.cause in result.suspects
                 ranks.append(rank)
                 named[1] += rank == 1
                 named[3] += rank <= 3
                 if of.cause in result.suspects:
-                    found.append(result.budget["suspects"][rank - 1]["value"] / of.size)
+                    suspect = result.budget["suspects"][result.suspects.index(of.cause)]
+                    found.append(suspect["value"] / of.size)
         print(
             f"| {case} | {np.median(plain):.1f} | {np.median(careful):.1f} | {max(set(first), key=first.count)} "
             f"| {'–' if not found else f'{100 * np.median(found):.0f} %'} | {', '.join(map(str, ranks))} |",

@@ -15,6 +15,8 @@ const MOST: usize = 6;
 const WORTH: f64 = 0.05;
 /// χ² per degree of freedom beyond which the joint may have been sought in the wrong place.
 const FAR: f64 = 3.0;
+/// A cause that leaves fewer of the lines than this part has not explained them.
+const ENOUGH: f64 = 0.9;
 /// A cause that is let free has a prior so many times wider than the budget's.
 const WIDE: f64 = 30.0;
 
@@ -31,6 +33,8 @@ pub struct Suspect {
     pub drop: f64,
     /// χ² per degree of freedom that it leaves; `None` where it was not let free.
     pub reduced_chi_squared: Option<f64>,
+    /// Lines that say so.
+    pub lines: usize,
 }
 
 /// What speaks against an estimate without causes.
@@ -45,118 +49,192 @@ pub struct Diagnosis {
     pub start: Start,
 }
 
+/// A suspect, and where joint and cause are if it was let free.
+type Trial = (Suspect, Option<Start>);
+
+/// An estimate without causes, and the way to others.
+struct Case<'c> {
+    experiment: &'c Experiment<'c>,
+    plain: &'c Estimate,
+    settings: &'c Settings,
+    careful: Budget,
+}
+
 /// Looks for what is wrong with an estimate without causes.
 #[must_use]
 pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settings) -> Diagnosis {
-    let careful = Budget {
-        phase_rad: 1e-2,
-        ..Budget::default()
-    };
-    let prior = |cause| Prior {
-        cause,
-        standard_deviation: careful.standard_deviation(cause),
-    };
-    let candidates: Vec<Prior> = causes(experiment).into_iter().map(prior).collect();
-    let scores = score_tests(experiment, plain, &candidates);
-    let largest = scores.first().map_or(0.0, |score| score.drop);
-    let telling = scores
-        .iter()
-        .filter(|score| score.drop > TELLING.max(WORTH * largest));
-    let near = Start::without_causes(&plain.unknowns);
-    let mut tried: Vec<(Suspect, Option<Start>)> = telling
-        .take(MOST)
-        .map(|score| {
-            let free = Prior {
-                cause: score.cause,
-                standard_deviation: (WIDE * careful.standard_deviation(score.cause))
-                    .max(score.value.abs()),
-            };
-            match refitted(experiment, plain, free, &near, settings) {
-                Some((suspect, start)) => (suspect, Some(start)),
-                None => (as_scored(score), None),
-            }
-        })
+    let case = Case::of(experiment, plain, settings);
+    let candidates: Vec<Prior> = causes(experiment)
+        .into_iter()
+        .map(|cause| case.careful_prior(cause))
         .collect();
-    let fits = |(suspect, _): &(Suspect, _)| {
-        let chi = suspect.reduced_chi_squared;
-        chi.is_some_and(|chi| chi < settings.most_reduced_chi_squared)
-    };
+    let scores = score_tests(experiment, plain, &candidates);
+    let mut trials = case.near(&scores);
+    sort(&mut trials);
     let is_far = plain.reduced_chi_squared.is_none_or(|chi| chi > FAR);
-    sort(&mut tried);
-    if is_far && !tried.first().is_some_and(fits) {
-        let is_new = |prior: &Prior| prior.cause != Cause::CommonGain;
-        let candidates: Vec<Prior> = candidates.into_iter().filter(is_new).collect();
-        for (careful, start) in from_far(experiment, &candidates, WIDE, settings)
-            .into_iter()
-            .take(MOST)
-        {
-            let free = Prior {
-                standard_deviation: WIDE * careful.standard_deviation,
-                ..careful
-            };
-            let Some((suspect, start)) = refitted(experiment, plain, free, &start, settings) else {
-                continue;
-            };
-            let known = tried.iter().position(|(of, _)| of.cause == suspect.cause);
-            match known {
-                Some(known) if tried[known].0.drop >= suspect.drop => {}
-                Some(known) => tried[known] = (suspect, Some(start)),
-                None => tried.push((suspect, Some(start))),
-            }
+    if is_far && !trials.first().is_some_and(|trial| case.is_explained(trial)) {
+        for trial in case.far(&candidates) {
+            add(&mut trials, trial);
+        }
+        if trials.iter().any(|(_, start)| start.is_some()) {
+            // one step from the wrong place says nothing
+            trials.retain(|(_, start)| start.is_some());
         }
     }
-    if is_far && tried.iter().any(|(_, start)| start.is_some()) {
-        // one step from the wrong place says nothing
-        tried.retain(|(_, start)| start.is_some());
-    }
-    tried.retain(|(suspect, _)| suspect.drop > TELLING);
-    sort(&mut tried);
-    let first = tried.first().and_then(|(_, start)| start.clone());
+    trials.retain(|(suspect, _)| suspect.drop > TELLING);
+    sort(&mut trials);
+    let first = trials.first().and_then(|(_, start)| start.clone());
     Diagnosis {
-        suspects: tried.into_iter().map(|(suspect, _)| suspect).collect(),
+        suspects: trials.into_iter().map(|(suspect, _)| suspect).collect(),
         scores,
-        start: first.unwrap_or(near),
+        start: first.unwrap_or_else(|| Start::without_causes(&plain.unknowns)),
+    }
+}
+
+impl Diagnosis {
+    /// Adds the causes whose priors an estimate with all causes contradicts: it may have come near the joint where no cause
+    /// alone did.
+    #[must_use]
+    pub fn with_contradicted(
+        mut self,
+        experiment: &Experiment<'_>,
+        plain: &Estimate,
+        found: &Estimate,
+        settings: &Settings,
+    ) -> Self {
+        let case = Case::of(experiment, plain, settings);
+        let contradicted = found.causes.iter().filter(|of| of.contradicted.is_some());
+        for of in contradicted.filter(|_| found.converged) {
+            let cause = of.prior.cause;
+            if self.suspects.iter().any(|suspect| suspect.cause == cause) {
+                continue;
+            }
+            let start = Start {
+                unknowns: found.unknowns.clone(),
+                cause: Some((cause, of.value)),
+            };
+            let free = case.freed(cause, of.value);
+            let trial = case.refitted(free, &start);
+            let telling = trial.filter(|(suspect, _)| suspect.drop > TELLING);
+            self.suspects.extend(telling.map(|(suspect, _)| suspect));
+        }
+        self.suspects
+            .sort_by(|one, other| other.drop.total_cmp(&one.drop));
+        self
+    }
+}
+
+impl<'c> Case<'c> {
+    fn of(experiment: &'c Experiment<'c>, plain: &'c Estimate, settings: &'c Settings) -> Self {
+        Self {
+            experiment,
+            plain,
+            settings,
+            careful: Budget {
+                phase_rad: 1e-2,
+                ..Budget::default()
+            },
+        }
+    }
+
+    fn careful_prior(&self, cause: Cause) -> Prior {
+        Prior {
+            cause,
+            standard_deviation: self.careful.standard_deviation(cause),
+        }
+    }
+
+    /// A prior that hardly holds a cause which may be as large as this.
+    fn freed(&self, cause: Cause, value: f64) -> Prior {
+        let wide = WIDE * self.careful.standard_deviation(cause);
+        Prior {
+            cause,
+            standard_deviation: wide.max(value.abs()),
+        }
+    }
+
+    /// The causes that the scores point to, each let free from where the estimate is.
+    fn near(&self, scores: &[Score]) -> Vec<Trial> {
+        let largest = scores.first().map_or(0.0, |score| score.drop);
+        let least = TELLING.max(WORTH * largest);
+        let start = Start::without_causes(&self.plain.unknowns);
+        let telling = scores.iter().filter(|score| score.drop > least).take(MOST);
+        let trial = |score: &Score| -> Trial {
+            let free = self.freed(score.cause, score.value);
+            match self.refitted(free, &start) {
+                Some((suspect, start)) => (suspect, Some(start)),
+                None => (self.as_scored(score), None),
+            }
+        };
+        telling.map(trial).collect()
+    }
+
+    /// The causes that fit best from far away.
+    fn far(&self, candidates: &[Prior]) -> Vec<Trial> {
+        let candidates = candidates.iter().copied();
+        let candidates: Vec<Prior> = candidates
+            .filter(|prior| prior.cause != Cause::CommonGain)
+            .collect();
+        let places = from_far(self.experiment, &candidates, WIDE, self.settings);
+        let trial = |(careful, start): (Prior, Start)| {
+            let (suspect, start) = self.refitted(self.freed(careful.cause, 0.0), &start)?;
+            Some((suspect, Some(start)))
+        };
+        places.into_iter().take(MOST).filter_map(trial).collect()
+    }
+
+    /// One step is not enough for a large cause: it is estimated with the joint. `None` where that does not come to rest.
+    fn refitted(&self, free: Prior, start: &Start) -> Option<(Suspect, Start)> {
+        let found = estimate_with(self.experiment, &[free], start, self.settings)?;
+        let cause = found.causes.first().filter(|_| found.converged)?;
+        // over the lines that both use: a frequency scale leaves lines out
+        let before: f64 = self.plain.costs_at(&found).sum();
+        let after: f64 = found.costs_at(self.plain).sum();
+        let suspect = Suspect {
+            cause: free.cause,
+            value: cause.value,
+            standard_deviation: cause.standard_deviation,
+            drop: before - after,
+            reduced_chi_squared: found.reduced_chi_squared,
+            lines: found.lines.0,
+        };
+        let start = Start {
+            unknowns: found.unknowns.clone(),
+            cause: Some((free.cause, cause.value)),
+        };
+        Some((suspect, start))
+    }
+
+    fn as_scored(&self, score: &Score) -> Suspect {
+        Suspect {
+            cause: score.cause,
+            value: score.value,
+            standard_deviation: score.standard_deviation,
+            drop: score.drop,
+            reduced_chi_squared: None,
+            lines: self.plain.lines.0,
+        }
+    }
+
+    /// Whether this cause leaves noise, at nearly all lines.
+    fn is_explained(&self, (suspect, _): &Trial) -> bool {
+        let chi = suspect.reduced_chi_squared;
+        let fits = chi.is_some_and(|chi| chi < self.settings.most_reduced_chi_squared);
+        fits && suspect.lines as f64 > ENOUGH * self.plain.lines.0 as f64
     }
 }
 
 /// What lowers χ² most comes first.
-fn sort(tried: &mut [(Suspect, Option<Start>)]) {
-    tried.sort_by(|(one, _), (other, _)| other.drop.total_cmp(&one.drop));
+fn sort(trials: &mut [Trial]) {
+    trials.sort_by(|(one, _), (other, _)| other.drop.total_cmp(&one.drop));
 }
 
-fn as_scored(score: &Score) -> Suspect {
-    Suspect {
-        cause: score.cause,
-        value: score.value,
-        standard_deviation: score.standard_deviation,
-        drop: score.drop,
-        reduced_chi_squared: None,
+/// Keeps the better of two trials of the same cause.
+fn add(trials: &mut Vec<Trial>, trial: Trial) {
+    let cause = trial.0.cause;
+    match trials.iter_mut().find(|(of, _)| of.cause == cause) {
+        Some(known) if known.0.drop >= trial.0.drop => {}
+        Some(known) => *known = trial,
+        None => trials.push(trial),
     }
-}
-
-/// One step is not enough for a large cause: it is estimated with the joint. `None` where that does not come to rest.
-fn refitted(
-    experiment: &Experiment<'_>,
-    plain: &Estimate,
-    free: Prior,
-    start: &Start,
-    settings: &Settings,
-) -> Option<(Suspect, Start)> {
-    let found = estimate_with(experiment, &[free], start, settings)?;
-    let cause = found.causes.first().filter(|_| found.converged)?;
-    // over the lines that both use: a frequency scale leaves lines out
-    let before: f64 = plain.costs_at(&found).sum();
-    let after: f64 = found.costs_at(plain).sum();
-    let suspect = Suspect {
-        cause: free.cause,
-        value: cause.value,
-        standard_deviation: cause.standard_deviation,
-        drop: before - after,
-        reduced_chi_squared: found.reduced_chi_squared,
-    };
-    let start = Start {
-        unknowns: found.unknowns.clone(),
-        cause: Some((free.cause, cause.value)),
-    };
-    Some((suspect, start))
 }

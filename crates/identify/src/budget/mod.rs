@@ -120,15 +120,12 @@ impl Systematic {
         let settings = Settings::default();
         let start = Start::without_causes(start);
         let plain = estimate(&experiment, &[], &start, &settings)?;
-        let Diagnosis {
-            suspects,
-            scores,
-            start,
-        } = diagnose(&experiment, &plain, &settings);
+        let diagnosis = diagnose(&experiment, &plain, &settings);
         let mut priors = study.budget.priors(&experiment);
         // A cause that stands out is let free from the beginning: a search that it keeps from converging finds nothing.
         let mut contradicted: Option<(Cause, f64)> = None;
-        let first = suspects
+        let first = diagnosis
+            .suspects
             .first()
             .filter(|suspect| suspect.reduced_chi_squared.is_some());
         if let Some(first) = first
@@ -140,7 +137,7 @@ impl Systematic {
                 contradicted = Some((first.cause, pull));
             }
         }
-        let mut found = estimate(&experiment, &priors, &start, &settings)?;
+        let mut found = estimate(&experiment, &priors, &diagnosis.start, &settings)?;
         for cause in &mut found.causes {
             if let Some((of, pull)) = contradicted
                 && of == cause.prior.cause
@@ -148,6 +145,9 @@ impl Systematic {
                 cause.contradicted = Some(pull);
             }
         }
+        let Diagnosis {
+            suspects, scores, ..
+        } = diagnosis.with_contradicted(&experiment, &plain, &found, &settings);
         let mut noise_alone = plain.covariance.clone();
         let mut noise_reduced = plain.reduced_chi_squared;
         if few.frequency_hz.len() < lines.frequency_hz.len() {

@@ -191,6 +191,47 @@ fn everything_for_finite_elements_is_written_beside() {
     assert_eq!(names, 6);
 }
 
+/// Zhao's (29) with the factor that is printed, and with the energies of a cycle: q = T/(μP) is that of the real area.
+#[test]
+fn loss_factors_are_those_of_a_cycle_unless_the_paper_is_asked_for() {
+    let even = replaced(
+        STUDY,
+        "model = \"kavi\"\nthickness = [0.01, 0.01]",
+        "model = \"uniform\"",
+    );
+    let bench = bench(&even);
+    let of = || {
+        let json = bench.done(&format!("{PREDICT} --json")).json();
+        let state = &json["states"][0];
+        [
+            "largest_real_area_fraction",
+            "largest_pressure_pa",
+            "normal_loss_factor",
+            "tangential_loss_factor",
+        ]
+        .map(|key| number(&state[key]))
+    };
+    let [real_area, pressure_pa, normal, tangential] = of();
+    let q = 1e8 * real_area / (0.3 * pressure_pa);
+    let rest = 1.0 - q;
+    let h1 = 1.0 - rest.powf(5.0 / 3.0) - 5.0 * q / 6.0 * (1.0 + rest.powf(2.0 / 3.0));
+    let h2 = 0.6 + 0.4 * rest.powf(5.0 / 3.0) - rest.powf(2.0 / 3.0);
+    let energy_ratio = |factor: f64| 1.0 / (factor * h2 / h1 - 1.0);
+    let (pi, tau) = (std::f64::consts::PI, std::f64::consts::TAU);
+    close(tangential, energy_ratio(5.0 / 24.0) / tau, 1e-9);
+    let frequency = "frequency = 300\n";
+    let ratio = format!("{frequency}loss_factor = \"energy-ratio\"\n");
+    bench.edit("study.toml", frequency, &ratio);
+    let [.., of_ratio, along] = of();
+    close(of_ratio, tau * normal, 1e-12);
+    close(along, tau * tangential, 1e-12);
+    let published = format!("{ratio}stored_energy = \"pi-loadings\"\n");
+    bench.edit("study.toml", &ratio, &published);
+    let [.., of_ratio_again, along] = of();
+    assert_eq!(of_ratio_again, of_ratio);
+    close(along, energy_ratio(5.0 * pi / 24.0), 1e-9);
+}
+
 #[test]
 fn viscous_normal_damping_is_that_of_zhao() {
     let bench = bench(STUDY);

@@ -1,4 +1,4 @@
-//! The case studies of Tol's thesis, the tables of Pirdayr's and Tian's papers and the specimens of Kavi's thesis computed anew:
+//! The case studies of Tol's thesis, the tables of Pirdayr's, Tian's and Zhao's papers and the specimens of Kavi's thesis computed anew:
 //! published and obtained values side by side.
 #![forbid(unsafe_code)]
 
@@ -16,6 +16,7 @@ mod published;
 mod receptances;
 mod texts;
 mod tian;
+mod zhao;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
@@ -28,6 +29,9 @@ pub use outcome::{Reproduction, Row, Spread};
 pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
 pub use tian::{TianFit, TianLayer, TianReproduction, tian};
+pub use zhao::{
+    Denominator, ZhaoContact, ZhaoError, ZhaoFrequency, ZhaoLoss, ZhaoReproduction, zhao,
+};
 
 use bolted::Bolts;
 use draws::Repetition;

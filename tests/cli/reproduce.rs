@@ -30,7 +30,7 @@ fn documents_are_what_the_command_writes() {
 
 #[test]
 fn quick_tables_are_in_the_document_as_the_command_writes_them() {
-    let keys = ["4.2", "4.3", "two-m6x30"];
+    let keys = ["4.2", "4.3", "4.30", "two-m6x30", "rotation"];
     let command = format!("reproduce --markdown {}", keys.join(" "));
     let written = Bench::new().done(&command).stdout;
     let document = document("tol.md");

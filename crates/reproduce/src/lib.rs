@@ -52,6 +52,7 @@ pub fn reproduce(
         PublishedTable::Table4_3 => Ok(beams::table_4_3()),
         PublishedTable::Table4_4 => beams::table_4_4(repetition),
         PublishedTable::Table4_5 => beams::table_4_5(repetition),
+        PublishedTable::Figures4_30And4_32 => approaches::figures_4_30_and_4_32(),
         PublishedTable::Table4_6 => approaches::table_4_6(repetition),
         PublishedTable::Table4_7 => approaches::table_4_7(repetition),
         PublishedTable::Table4_8 => approaches::table_4_8(repetition),
@@ -68,6 +69,7 @@ pub fn reproduce(
         PublishedTable::Table5_10 => bolted::table_5_10(repetition),
         PublishedTable::Table5_11 => bolted::table_5_11(repetition),
         PublishedTable::Table5_12 => bolted::table_5_12(repetition),
+        PublishedTable::Rotation => bolted::with_section(),
     }?;
     texts::with_texts(table, rows, draws)
 }

@@ -13,7 +13,7 @@ use super::PredictArguments;
 use super::outputs::{self, Outputs};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::{matrix27, table};
-use bolted_joint::predict::study::{InterfaceStudy, Prediction, State};
+use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, State};
 use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
 use bolted_joint::study::{Method, StudyError, StudyText};
@@ -148,6 +148,7 @@ fn summary(found: &Prediction<'_>) -> String {
         }
         text += &at_state(found, state);
     }
+    let _ = writeln!(text, "\n{CONTACT_ALONE}");
     if let Some(outcome) = &found.outcome {
         let _ = writeln!(
             text,

@@ -191,6 +191,42 @@ fn everything_for_finite_elements_is_written_beside() {
     assert_eq!(names, 6);
 }
 
+/// Tol's M10x16 with surfaces like Zhao's: its identified joint (Table 5.3) has 5.73e5 N/m and 1.29e3 N·m/rad.
+#[test]
+fn contact_alone_is_not_the_joint_and_says_so() {
+    let bolts = STUDY.find("[[bolts]]").unwrap();
+    let joint = STUDY.find("[joint]").unwrap();
+    let bolt = "[[bolts]]\nx = 0\ny = 0\ndiameter = 0.01\npreload = 10000\n";
+    let mut study = format!("{}{bolt}{}", &STUDY[..bolts], &STUDY[joint..]);
+    for (old, new) in [
+        ("shear_strength = 1e8", "shear_strength = 0"),
+        ("hardness = 1.96e9", "hardness = 1e9"),
+        ("x = [-0.06, 0.06]", "x = [-0.015, 0.015]"),
+        ("y = [-0.04, 0.04]", "y = [-0.0125, 0.0125]"),
+        (
+            "model = \"kavi\"",
+            "model = \"cone\"\nhalf_angle = 30\nhead_diameter = 0.016\ndepth = 0.006",
+        ),
+        ("thickness = [0.01, 0.01]\n", ""),
+    ] {
+        study = replaced(&study, old, new);
+    }
+    let aluminium = "youngs_modulus = 7e10\npoissons_ratio = 0.33";
+    study = study.replace("youngs_modulus = 1.5e11\npoissons_ratio = 0.28", aluminium);
+    let bench = bench(&study);
+    let outcome = bench.done(&format!("{PREDICT} --report r.html"));
+    let file = bench.json("j.joint.json");
+    close(entry(&file, "stiffness", 0, 0) / 5.73e5, 6300.0, 0.02);
+    close(entry(&file, "stiffness", 1, 1) / 1.29e3, 86.0, 0.02);
+    let notes = file["provenance"]["notes"].to_string();
+    for text in [&outcome.stdout, &bench.text("r.html"), &notes] {
+        has(
+            text,
+            &["the contact alone, not the joint: the bolt and the bending"],
+        );
+    }
+}
+
 /// Zhao's (29) with the factor that is printed, and with the energies of a cycle: q = T/(μP) is that of the real area.
 #[test]
 fn loss_factors_are_those_of_a_cycle_unless_the_paper_is_asked_for() {

@@ -3,7 +3,7 @@
 use bolted_joint_figures::html::{cell, escaped, number, number_cell, spread, table};
 use bolted_joint_predict::fractal::StoredEnergy;
 use bolted_joint_predict::patch::{LossFactor, NormalDamping};
-use bolted_joint_predict::study::Prediction;
+use bolted_joint_predict::study::{CONTACT_ALONE, Prediction};
 use bolted_joint_study::Method;
 
 pub(super) fn section(found: &Prediction<'_>) -> String {
@@ -26,13 +26,13 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         })
         .collect();
     let mut taken = vec![
+        format!("<b>{CONTACT_ALONE}</b>"),
         "The parts are flat between their holes; the pressure is what the bolts make of them, and vibration does not change it.".to_owned(),
         "Motion is small: the interface neither opens nor slides as a whole.".to_owned(),
     ];
     match study.method {
         Method::FractalContact => taken.extend([
-            "Each point of the interface has the stiffness of two fractal surfaces under the pressure there (Zhao et al., 2016); bolts and parts \
-             are not in it: a structure's model has them."
+            "Each point of the interface has the stiffness of two fractal surfaces under the pressure there (Zhao et al., 2016)."
                 .to_owned(),
             energy_ratio(study.loss_factor, study.stored_energy),
         ]),

@@ -76,8 +76,7 @@ impl LapUpdateReport<'_> {
         for torque in &self.found.torques {
             for parameter in LapParameter::ALL {
                 let knowledge = torque.knowledge(parameter);
-                let value = torque.solution.of(parameter);
-                let shown = match knowledge.is_known() {
+                let shown = |value: f64| match knowledge.is_known() {
                     true => format!("<b>{}</b>", number(value)),
                     false => format!("<span class=\"faint\">({})</span>", number(value)),
                 };
@@ -85,11 +84,8 @@ impl LapUpdateReport<'_> {
                     [
                         number_cell(&place(torque)),
                         cell(parameter.symbol()),
-                        number_cell(&shown),
-                        number_cell(&format!(
-                            "<span class=\"faint\">{}</span>",
-                            number(torque.firefly.parameters.of(parameter))
-                        )),
+                        number_cell(&shown(torque.solution.of(parameter))),
+                        number_cell(&shown(torque.firefly.parameters.of(parameter))),
                         cell(parameter.unit()),
                         cell(knowledge.words()),
                     ]
@@ -98,8 +94,8 @@ impl LapUpdateReport<'_> {
             }
         }
         format!(
-            "<h2>Parameters</h2>\n<p>Values in brackets are not results: of all values that fit as well they are those nearest to the \
-             prior. The fireflies stop at another of them, which depends on their seed.</p>\n{}",
+            "<h2>Parameters</h2>\n<p>Values in brackets are not results: of all values that fit as well least squares have those \
+             nearest to the prior, and the fireflies others, which depend on their seed.</p>\n{}",
             table(
                 &columns("Torque, N·m||Least squares|Fireflies|Unit|What the frequencies say"),
                 &rows

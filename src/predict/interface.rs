@@ -6,11 +6,10 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, Ending, HTML, check_outputs, print, warn};
+use super::super::output::{ANY, CSV, Ending, HTML, Outputs, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::super::table::{Table, number};
-use super::PredictArguments;
-use super::outputs::{self, Outputs};
+use super::{PredictArguments, refuse};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::{matrix27, table};
 use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, State};
@@ -35,7 +34,7 @@ pub(super) fn run(
     study: &StudyText,
     method: Method,
 ) -> Result<(), CliError> {
-    outputs::refuse(
+    refuse(
         &[
             ("--damping-csv", arguments.damping_csv.as_ref()),
             ("--figure", arguments.figure.as_ref()),
@@ -54,7 +53,7 @@ pub(super) fn run(
         ],
     )?;
     if method == Method::FractalContact {
-        outputs::refuse(
+        refuse(
             &[("--material-card", arguments.material_card.as_ref())],
             "none: only method \"virtual-material\" has a material",
         )?;

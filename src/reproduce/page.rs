@@ -83,13 +83,19 @@ impl Section {
             self.rows.iter().for_each(|cells| table.row(cells.clone()));
             text += &table.render();
         }
+        text + &self.remarks("", "  ")
+    }
+
+    /// What is said, with what stands under a heading and before a line.
+    fn remarks(&self, under: &str, before: &str) -> String {
+        let mut text = String::new();
         for (heading, lines) in &self.remarks {
             let _ = match heading.is_empty() {
                 true => writeln!(text),
-                false => writeln!(text, "\n{heading}:"),
+                false => writeln!(text, "\n{heading}:{under}"),
             };
             for line in lines {
-                let _ = writeln!(text, "  {line}");
+                let _ = writeln!(text, "{before}{line}");
             }
         }
         text
@@ -125,16 +131,7 @@ impl Section {
         for cells in &self.rows {
             let _ = writeln!(text, "| {} |", cells.join(" | "));
         }
-        for (heading, lines) in &self.remarks {
-            let _ = match heading.is_empty() {
-                true => writeln!(text),
-                false => writeln!(text, "\n{heading}:\n"),
-            };
-            for line in lines {
-                let _ = writeln!(text, "* {line}");
-            }
-        }
-        text
+        text + &self.remarks("\n", "* ")
     }
 }
 

@@ -2,7 +2,7 @@
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{beside, cell, columns, escaped, number, number_cell, table};
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapParameter, LapUpdate, TorqueUpdate};
 
@@ -191,17 +191,15 @@ fn place(torque: &TorqueUpdate) -> String {
 pub fn convergence_figure(found: &LapUpdate) -> Option<String> {
     let lines = found.torques.iter().take(4).map(|torque| {
         let history = torque.firefly.history.iter().enumerate();
-        Line {
-            shape: Shape::Curve,
-            name: torque.data.torque_n_m.map_or_else(
-                || "objective".to_owned(),
-                |torque| escaped(&format!("{torque} N·m")),
-            ),
-            points: history
-                .filter(|(_, objective)| **objective > 0.0)
-                .map(|(generation, objective)| (generation as f64, *objective))
-                .collect(),
-        }
+        let name = torque.data.torque_n_m.map_or_else(
+            || "objective".to_owned(),
+            |torque| escaped(&format!("{torque} N·m")),
+        );
+        let above_zero = history.filter(|(_, objective)| **objective > 0.0);
+        Line::curve(
+            name,
+            above_zero.map(|(generation, objective)| (generation as f64, *objective)),
+        )
     });
     LineFigure {
         title: "Convergence of the fireflies",

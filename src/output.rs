@@ -1,5 +1,6 @@
 //! Writing of results: to files whole or not at all, to stdout with errors reported, messages to stderr.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -97,4 +98,41 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
         stdout.write_all(b"\n")?;
     }
     Ok(stdout.flush()?)
+}
+
+/// Contents for paths: written all or none.
+pub(super) struct Outputs {
+    files: Vec<(PathBuf, String)>,
+}
+
+impl Outputs {
+    pub(super) fn new() -> Self {
+        Self { files: Vec::new() }
+    }
+
+    /// One more file, where it is asked for.
+    pub(super) fn add(&mut self, path: Option<&PathBuf>, contents: impl FnOnce() -> String) {
+        if let Some(path) = path {
+            self.files.push((path.clone(), contents()));
+        }
+    }
+
+    /// Writes every file or, if one cannot be written, none.
+    pub(super) fn write(&self) -> Result<(), CliError> {
+        let files = self.files.iter();
+        let files: Vec<(&Path, &[u8])> = files
+            .map(|(path, contents)| (path.as_path(), contents.as_bytes()))
+            .collect();
+        write_files(&files)
+    }
+
+    /// A line for each.
+    pub(super) fn written(&self) -> String {
+        let mut text = String::new();
+        for (path, _) in &self.files {
+            // writing to a String cannot fail
+            let _ = writeln!(text, "wrote {}", path.display());
+        }
+        text
+    }
 }

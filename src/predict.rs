@@ -2,7 +2,6 @@
 
 mod interface;
 mod layered_beam;
-mod outputs;
 
 use std::path::PathBuf;
 
@@ -57,5 +56,17 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     match method {
         Method::LayeredBeam => layered_beam::run(arguments, &study),
         _ => interface::run(arguments, &study, method),
+    }
+}
+
+/// Refuses options that belong to another method.
+fn refuse(
+    asked: &[(&'static str, Option<&PathBuf>)],
+    expected: &'static str,
+) -> Result<(), CliError> {
+    let mut asked = asked.iter();
+    match asked.find_map(|(option, path)| Some((*option, (*path)?))) {
+        Some((option, path)) => Err(CliError::option(option, path.display(), expected)),
+        None => Ok(()),
     }
 }

@@ -1,8 +1,10 @@
-//! `reproduce`: the tables of Tol's thesis, of Pirdayr's paper and of Kavi's thesis computed anew.
+//! `reproduce`: the published tables of the five sources computed anew.
 
 mod kavi;
+mod page;
 mod pirdayr;
 mod tian;
+mod zhao;
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -22,7 +24,7 @@ use super::table::{Table, number};
 #[command(after_help = names())]
 pub(super) struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis, or `tol` for all of them [default: tol]; or
-    /// one of `pirdayr`, `tian` and `kavi` for the tables of their papers and the specimens of his thesis
+    /// one of `pirdayr`, `tian`, `kavi` and `zhao`, for what can be computed of these
     tables: Vec<Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
@@ -51,72 +53,101 @@ pub(super) enum Source {
     Table(PublishedTable),
     /// All tables of Tol's thesis.
     Tol,
-    /// Tables 3 and 4 of Pirdayr's paper.
+    /// A source whose tables have another form.
+    Alone(Alone),
+}
+
+/// A source that is computed as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Alone {
     Pirdayr,
-    /// Table I of Tian's paper.
     Tian,
-    /// The specimens of Kavi's thesis.
     Kavi,
+    Zhao,
+}
+
+const TOL: &str = "tol";
+
+impl Alone {
+    const ALL: [Self; 4] = [Self::Pirdayr, Self::Tian, Self::Kavi, Self::Zhao];
+
+    /// What the command line calls it, and what it shows.
+    fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Pirdayr => [
+                "pirdayr",
+                "Pirdayr, Tables 3 and 4: frequencies of the updated lap joint",
+            ],
+            Self::Tian => [
+                "tian",
+                "Tian, Table I: layers that stand for a joint, and the surfaces that would give them",
+            ],
+            Self::Kavi => [
+                "kavi",
+                "Kavi, Table 5.1: riveted beams, printed numbers and statements",
+            ],
+            Self::Zhao => [
+                "zhao",
+                "Zhao, Table 3: its errors, and the contact under the pressures that it names",
+            ],
+        }
+    }
+
+    fn run(self, arguments: &ReproduceArguments) -> Result<(), CliError> {
+        match self {
+            Self::Pirdayr => pirdayr::run(arguments),
+            Self::Tian => tian::run(arguments),
+            Self::Kavi => kavi::run(arguments),
+            Self::Zhao => zhao::run(arguments),
+        }
+    }
 }
 
 impl FromStr for Source {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            TOL => Ok(Self::Tol),
-            PIRDAYR => Ok(Self::Pirdayr),
-            TIAN => Ok(Self::Tian),
-            KAVI => Ok(Self::Kavi),
-            table => table
-                .parse()
-                .map(Self::Table)
-                .map_err(|unknown: UnknownTable| {
-                    format!("{unknown}, or {TOL} for all of these, or {PIRDAYR}, {TIAN} or {KAVI}")
-                }),
+        if text == TOL {
+            return Ok(Self::Tol);
         }
+        let mut alone = Alone::ALL.into_iter();
+        if let Some(alone) = alone.find(|alone| alone.words()[0] == text) {
+            return Ok(Self::Alone(alone));
+        }
+        text.parse()
+            .map(Self::Table)
+            .map_err(|unknown: UnknownTable| {
+                let others = Alone::ALL.map(|alone| alone.words()[0]).join(", ");
+                format!("{unknown}, or {TOL} for all of these, or one of {others}")
+            })
     }
 }
 
-const TOL: &str = "tol";
-const PIRDAYR: &str = "pirdayr";
-const TIAN: &str = "tian";
-const KAVI: &str = "kavi";
-
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
-    let alone = [
-        (Source::Pirdayr, PIRDAYR),
-        (Source::Tian, TIAN),
-        (Source::Kavi, KAVI),
-    ];
-    let named = alone
-        .iter()
-        .find(|(source, _)| arguments.tables.contains(source));
-    if arguments.figure.is_some() && !matches!(named, Some((Source::Kavi, _))) {
+    let alone = arguments.tables.iter().find_map(|source| match source {
+        Source::Alone(alone) => Some(*alone),
+        Source::Table(_) | Source::Tol => None,
+    });
+    if arguments.figure.is_some() && alone != Some(Alone::Kavi) {
         return Err(CliError::option(
             "--figure",
             "other tables",
             "`kavi`, which is the one that has a figure",
         ));
     }
-    if let Some((source, name)) = named {
+    if let Some(alone) = alone {
         if arguments.tables.len() > 1 {
             return Err(CliError::option(
-                name,
+                alone.words()[0],
                 format_args!("{} tables beside it", arguments.tables.len() - 1),
                 "it alone: it has a table of another form",
             ));
         }
-        match source {
-            Source::Table(_) | Source::Tol => {}
-            Source::Pirdayr => return pirdayr::run(arguments),
-            Source::Tian => return tian::run(arguments),
-            Source::Kavi => return kavi::run(arguments),
-        }
+        return alone.run(arguments);
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
         Source::Table(table) => Some(*table),
-        Source::Tol | Source::Pirdayr | Source::Tian | Source::Kavi => None,
+        Source::Tol | Source::Alone(_) => None,
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     let all = arguments.tables.contains(&Source::Tol);
@@ -157,7 +188,6 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     print(&texts.join("\n"))
 }
 
-/// A source whose table has another form than those of Tol.
 /// What the tables are called, for `--help`.
 pub(super) fn names() -> String {
     let mut text = "Tables:\n".to_owned();
@@ -166,18 +196,9 @@ pub(super) fn names() -> String {
         let _ = writeln!(text, "  {names:<18}{table}");
     }
     let _ = writeln!(text, "  {TOL:<18}all of these");
-    let _ = writeln!(
-        text,
-        "  {PIRDAYR:<18}Pirdayr, Tables 3 and 4: frequencies of the updated lap joint"
-    );
-    let _ = writeln!(
-        text,
-        "  {TIAN:<18}Tian, Table I: layers that stand for a joint, and the surfaces that would give them"
-    );
-    let _ = writeln!(
-        text,
-        "  {KAVI:<18}Kavi, Table 5.1: riveted beams, printed numbers and statements"
-    );
+    for [name, shows] in Alone::ALL.map(Alone::words) {
+        let _ = writeln!(text, "  {name:<18}{shows}");
+    }
     text.trim_end().to_owned()
 }
 

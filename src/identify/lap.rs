@@ -5,44 +5,28 @@ mod update;
 
 use std::path::{Path, PathBuf};
 
+use bolted_joint::export::Timestamp;
+
+use super::super::bolt_files::named;
 use super::super::error::CliError;
 use super::IdentifyArguments;
 
 pub(super) use response::run as response;
 pub(super) use update::run as update;
 
-/// What every page and picture of a lap model is written to.
-struct Outputs {
-    files: Vec<PathBuf>,
-}
-
-impl Outputs {
-    /// `x.joint.json` stands for `x.2Nm.joint.json`, `x.4Nm.joint.json` where each torque has a file.
-    fn at_torques(path: &Path, torques: &[Option<f64>]) -> Self {
-        const EXTENSION: &str = ".joint.json";
-        if torques.len() < 2 {
-            return Self {
-                files: vec![path.to_owned()],
-            };
-        }
-        let file_name = path.file_name().unwrap_or_default().to_string_lossy();
-        let extension = match file_name.strip_suffix(EXTENSION) {
-            Some(stem) if !stem.is_empty() => EXTENSION,
-            _ => "",
-        };
-        let stem = file_name.strip_suffix(extension).unwrap_or(&file_name);
-        let of = |torque: &Option<f64>| {
-            let torque = torque.unwrap_or(0.0);
-            path.with_file_name(format!("{stem}.{torque}Nm{extension}"))
-        };
-        Self {
-            files: torques.iter().map(of).collect(),
-        }
+/// The joint file of each torque: `x.joint.json` stands for `x.2Nm.joint.json`, `x.4Nm.joint.json` where there are several.
+fn at_torques(path: &Path, torques: &[Option<f64>]) -> Vec<PathBuf> {
+    if torques.len() < 2 {
+        return vec![path.to_owned()];
     }
+    let torques = torques.iter().map(|torque| torque.unwrap_or(0.0));
+    torques
+        .map(|torque| named(path, &format!("{torque}Nm")))
+        .collect()
 }
 
-/// Refuses what belongs to measured functions only.
-fn check_options(arguments: &IdentifyArguments) -> Result<(), CliError> {
+/// When the report is written, if there is one. Refuses what belongs to measured functions only.
+fn report_time(arguments: &IdentifyArguments) -> Result<Option<Timestamp>, CliError> {
     if let Some(draws) = arguments.bootstrap {
         return Err(CliError::option(
             "--bootstrap",
@@ -50,5 +34,6 @@ fn check_options(arguments: &IdentifyArguments) -> Result<(), CliError> {
             "a study of method \"frf-decoupling\"; the intervals of a lap model come from its information matrix",
         ));
     }
-    Ok(())
+    let report = arguments.report.as_ref();
+    Ok(report.map(|_| Timestamp::from_environment()).transpose()?)
 }

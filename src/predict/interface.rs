@@ -6,14 +6,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, Ending, HTML, check_outputs, print, warn};
+use super::super::output::{ANY, CSV, Ending, HTML, Outputs, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::super::table::{Table, number};
-use super::PredictArguments;
-use super::outputs::{self, Outputs};
+use super::{PredictArguments, refuse};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::{matrix27, table};
-use bolted_joint::predict::study::{InterfaceStudy, Prediction, State};
+use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, State};
 use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
 use bolted_joint::study::{Method, StudyError, StudyText};
@@ -35,7 +34,7 @@ pub(super) fn run(
     study: &StudyText,
     method: Method,
 ) -> Result<(), CliError> {
-    outputs::refuse(
+    refuse(
         &[
             ("--damping-csv", arguments.damping_csv.as_ref()),
             ("--figure", arguments.figure.as_ref()),
@@ -54,7 +53,7 @@ pub(super) fn run(
         ],
     )?;
     if method == Method::FractalContact {
-        outputs::refuse(
+        refuse(
             &[("--material-card", arguments.material_card.as_ref())],
             "none: only method \"virtual-material\" has a material",
         )?;
@@ -148,6 +147,7 @@ fn summary(found: &Prediction<'_>) -> String {
         }
         text += &at_state(found, state);
     }
+    let _ = writeln!(text, "\n{CONTACT_ALONE}");
     if let Some(outcome) = &found.outcome {
         let _ = writeln!(
             text,

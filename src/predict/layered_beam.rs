@@ -3,16 +3,15 @@
 use serde_json::json;
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, SVG, check_outputs, print, warn};
+use super::super::output::{ANY, CSV, Outputs, SVG, check_outputs, print, warn};
 use super::super::progress::Progress;
-use super::PredictArguments;
-use super::outputs::{self, Outputs};
+use super::{PredictArguments, refuse};
 use bolted_joint::predict::layered_beam::LayeredBeamStudy;
 use bolted_joint::report::LayeredBeamFigure;
 use bolted_joint::study::StudyText;
 
 pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(), CliError> {
-    outputs::refuse(
+    refuse(
         &[
             ("--report", arguments.report.as_ref()),
             ("--matrix-csv", arguments.matrix_csv.as_ref()),

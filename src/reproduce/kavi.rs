@@ -1,24 +1,14 @@
 //! `reproduce kavi`: the specimens, printed numbers and statements of Kavi's thesis beside what its equations give.
 
-use std::fmt::Write as _;
-
 use super::super::error::CliError;
-use super::super::output::{print, write_file};
-use super::super::table::{Table, number};
+use super::super::output::write_file;
+use super::super::table::number;
 use super::ReproduceArguments;
+use super::page::{Page, Section, percent, show};
 use bolted_joint::reproduce::KaviFigure;
 use bolted_joint::reproduce::{
     AMPLITUDE_M, Claim, KaviReproduction, PrintedNumber, SpecimenRow, kavi,
 };
-
-/// A table for people: its heading, its columns, how many of them are words, and its rows.
-struct Section {
-    heading: String,
-    columns: &'static [&'static str],
-    words: usize,
-    rows: Vec<Vec<String>>,
-    remarks: Vec<String>,
-}
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     let found = kavi()?;
@@ -26,52 +16,26 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         let figure = KaviFigure { found: &found }.to_svg().unwrap_or_default();
         write_file(path, figure.as_bytes())?;
     }
-    if arguments.json {
-        return print(&serde_json::to_string_pretty(&found)?);
-    }
-    let sections = [
-        specimens(&found.specimens),
-        printed(&found.printed),
-        claims(&found.claims),
-    ];
-    if arguments.markdown {
-        return print(document(&found, &sections).trim_end());
-    }
-    let [specimens, ..] = &sections;
-    let mut table = Table::new(specimens.columns);
-    specimens
-        .rows
-        .iter()
-        .for_each(|cells| table.row(cells.clone()));
-    let mut text = format!("{}\n\n{}", specimens.heading, table.render());
-    for remark in &specimens.remarks {
-        let _ = writeln!(text, "  {remark}");
-    }
-    for section in &sections[1..] {
-        let _ = writeln!(text, "\n{}:", section.heading);
-        for cells in &section.rows {
-            text += &entry(section, cells);
-        }
-    }
-    print(text.trim_end())
+    show(arguments, &found, || page(&found))
 }
 
-/// A row with long texts as lines of its own: where, what; then the values by their names; then why.
-fn entry(section: &Section, cells: &[String]) -> String {
-    let [source, what, values @ .., why] = cells else {
-        return String::new();
-    };
-    let mut text = format!("\n  {what} [{source}]\n");
-    let named = section.columns.iter().skip(2).zip(values);
-    let named = named.filter(|(_, value)| !value.is_empty() && *value != "-");
-    let named: Vec<String> = named
-        .map(|(name, value)| format!("{name} {value}"))
-        .collect();
-    let _ = writeln!(text, "    {}", named.join("; "));
-    if !why.is_empty() {
-        let _ = writeln!(text, "    {why}");
+fn page(found: &KaviReproduction) -> Page {
+    Page {
+        title: "Kavi's riveted beams, computed anew",
+        source: format!(
+            "B. Kavi, *Dynamics and Damping of Thin Riveted Beam Composite Structures of Various Configurations*, PhD thesis, National Institute of \
+             Technology Rourkela, 2014: the {} specimens of Table 5.1, numbers that the thesis prints, and what it says of its results, each checked \
+             against its own equations ([theory](theory.md#19-from-physics-layered-beams)).",
+            found.specimens.len()
+        ),
+        command: "kavi --markdown --figure docs/images/kavi.svg",
+        figure: Some("![Damping ratio over what the thesis varies](images/kavi.svg)"),
+        sections: vec![
+            specimens(&found.specimens),
+            printed(&found.printed),
+            claims(&found.claims),
+        ],
     }
-    text
 }
 
 fn specimens(rows: &[SpecimenRow]) -> Section {
@@ -111,7 +75,8 @@ fn specimens(rows: &[SpecimenRow]) -> Section {
         ],
         words: 3,
         rows: cells.collect(),
-        remarks: vec![
+        is_long: false,
+        remarks: vec![("", vec![
             "ends: ff fixed–fixed, fs fixed–pinned, ss pinned–pinned, as the thesis's figures have them.".to_owned(),
             format!(
                 "ζ/α′μ at an amplitude of {} mm of the largest deflection; ζ falls as 1/amplitude. α′μ is not printed in the thesis, nor are its measured ζ, which stand in figures.",
@@ -119,7 +84,7 @@ fn specimens(rows: &[SpecimenRow]) -> Section {
             ),
             format!("Frequencies by finite elements are within {deviation:.1e} of those by the frequency equations."),
             "Not given in the thesis: density (7850 and 2700 kg/m³ here), positions of the rivets (middles of equal parts of the length here).".to_owned(),
-        ],
+        ])],
     }
 }
 
@@ -128,11 +93,7 @@ fn printed(rows: &[PrintedNumber]) -> Section {
         let error = row.printed.filter(|printed| *printed != 0.0);
         let error = error.map_or_else(
             || "-".to_owned(),
-            |printed| {
-                let error = 100.0 * (printed / row.obtained - 1.0);
-                // no error has no sign
-                format!("{:+.1} %", if error.abs() < 0.05 { 0.0 } else { error })
-            },
+            |printed| percent(100.0 * (printed / row.obtained - 1.0), 1),
         );
         vec![
             row.source.to_owned(),
@@ -158,6 +119,7 @@ fn printed(rows: &[PrintedNumber]) -> Section {
         ],
         words: 2,
         rows: cells.collect(),
+        is_long: true,
         remarks: Vec::new(),
     }
 }
@@ -183,38 +145,7 @@ fn claims(rows: &[Claim]) -> Section {
         columns: &["", "statement", "compared", "obtained", "verdict", "why"],
         words: 3,
         rows: cells.collect(),
+        is_long: true,
         remarks: Vec::new(),
     }
-}
-
-fn document(found: &KaviReproduction, sections: &[Section]) -> String {
-    let mut text = format!(
-        "# Kavi's riveted beams, computed anew\n\n\
-         B. Kavi, *Dynamics and Damping of Thin Riveted Beam Composite Structures of Various Configurations*, PhD thesis, National Institute of \
-         Technology Rourkela, 2014: the {} specimens of Table 5.1, numbers that the thesis prints, and what it says of its results, each checked \
-         against its own equations ([theory](theory.md#19-from-physics-layered-beams)). Written by\n\n    bolted-joint reproduce kavi --markdown --figure docs/images/kavi.svg\n\n\
-         ![Damping ratio over what the thesis varies](images/kavi.svg)\n",
-        found.specimens.len()
-    );
-    for section in sections {
-        let _ = writeln!(text, "\n## {}\n", section.heading);
-        let _ = writeln!(text, "| {} |", section.columns.join(" | "));
-        let rest = section.columns.len() - section.words;
-        let _ = writeln!(
-            text,
-            "|{}{}",
-            "---|".repeat(section.words),
-            "---:|".repeat(rest)
-        );
-        for cells in &section.rows {
-            let _ = writeln!(text, "| {} |", cells.join(" | "));
-        }
-        if !section.remarks.is_empty() {
-            text.push('\n');
-        }
-        for remark in &section.remarks {
-            let _ = writeln!(text, "* {remark}");
-        }
-    }
-    text
 }

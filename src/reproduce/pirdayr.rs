@@ -1,13 +1,10 @@
 //! `reproduce pirdayr`: the frequencies of Pirdayr's paper beside those of its own parameters and of its own bounds.
 
-use std::fmt::Write as _;
-
 use serde_json::json;
 
 use super::super::error::CliError;
-use super::super::output::print;
-use super::super::table::Table;
 use super::ReproduceArguments;
+use super::page::{Page, Section, percent, show};
 use bolted_joint::reproduce::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 
 const COLUMNS: [&str; 11] = [
@@ -26,25 +23,26 @@ const COLUMNS: [&str; 11] = [
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     let rows = pirdayr();
-    if arguments.json {
-        let value = json!({ "ratio_of_table_2": RATIO_OF_TABLE_2, "rows": rows });
-        return print(&serde_json::to_string_pretty(&value)?);
+    let value = json!({ "ratio_of_table_2": RATIO_OF_TABLE_2, "rows": rows });
+    show(arguments, &value, || {
+        Page {
+        title: "Pirdayr's updated lap joint, computed anew",
+        source: "A. Pirdayr, M. Mohammadi, M. J. Kazemzadeh-Parsi and M. Rajabi, *Analytical Study on Effect of Loosening on Nonlinear Vibration \
+                 Behavior of Bolted Joints*, Amirkabir J. Mech. Eng. 53(12), 2022: frequencies as measured and as updated (Table 4), of the \
+                 parameters in Table 3, and of least squares on the objective (4) within the bounds of Table 2 and within wide ones."
+            .to_owned(),
+        command: "pirdayr --markdown",
+        figure: None,
+        sections: vec![Section {
+            heading: "Tables 3 and 4: natural frequencies in rad/s".to_owned(),
+            columns: &COLUMNS,
+            words: 2,
+            rows: lines(&rows),
+            is_long: false,
+            remarks: vec![("", remarks(&rows))],
+        }],
     }
-    if arguments.markdown {
-        return print(document(&rows).trim_end());
-    }
-    let mut table = Table::new(&COLUMNS);
-    for cells in lines(&rows) {
-        table.row(cells);
-    }
-    let mut text = format!(
-        "Pirdayr, Tables 3 and 4: natural frequencies in rad/s\n\n{}\n",
-        table.render()
-    );
-    for remark in remarks(&rows) {
-        let _ = writeln!(text, "  {remark}");
-    }
-    print(&text)
+    })
 }
 
 fn lines(rows: &[PirdayrRow]) -> Vec<Vec<String>> {
@@ -68,9 +66,7 @@ fn lines(rows: &[PirdayrRow]) -> Vec<Vec<String>> {
                 row.within_wide_bounds,
             ] {
                 let error = 100.0 * (found[mode] / measured - 1.0);
-                // No error has no sign.
-                let error = if error.abs() < 0.005 { 0.0 } else { error };
-                cells.extend([format!("{:.0}", found[mode]), format!("{error:+.2} %")]);
+                cells.extend([format!("{:.0}", found[mode]), percent(error, 2)]);
             }
             all.push(cells);
         }
@@ -101,23 +97,4 @@ fn remarks(rows: &[PirdayrRow]) -> Vec<String> {
         "Two frequencies determine k/m and k12/m alone; c, c12 and kN of Table 3 are not determined by them at all.".to_owned(),
         "The paper sums its objective (4) over three frequencies; the model has two.".to_owned(),
     ]
-}
-
-fn document(rows: &[PirdayrRow]) -> String {
-    let mut text = "# Pirdayr's updated lap joint, computed anew\n\n\
-         A. Pirdayr, M. Mohammadi, M. J. Kazemzadeh-Parsi and M. Rajabi, *Analytical Study on Effect of Loosening on Nonlinear Vibration \
-         Behavior of Bolted Joints*, Amirkabir J. Mech. Eng. 53(12), 2022: frequencies in rad/s as measured and as updated (Table 4), of the \
-         parameters in Table 3, and of least squares on the objective (4) within the bounds of Table 2 and within wide ones. Written by\n\n    \
-         bolted-joint reproduce pirdayr --markdown\n\n"
-        .to_owned();
-    let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
-    let _ = writeln!(text, "|---:|---|{}", "---:|".repeat(COLUMNS.len() - 2));
-    for cells in lines(rows) {
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
-    }
-    text.push('\n');
-    for remark in remarks(rows) {
-        let _ = writeln!(text, "* {remark}");
-    }
-    text
 }

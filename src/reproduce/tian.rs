@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::super::error::CliError;
-use super::super::output::print;
-use super::super::table::{Table, number};
+use super::super::table::number;
 use super::ReproduceArguments;
+use super::page::{Page, Section, show};
 use bolted_joint::reproduce::{TianFit, TianReproduction, tian};
 
 const COLUMNS: [&str; 8] = [
@@ -22,24 +22,27 @@ const DIGITS: usize = 4;
 
 pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     let found = tian()?;
-    if arguments.json {
-        return print(&serde_json::to_string_pretty(&found)?);
+    show(arguments, &found, || {
+        Page {
+        title: "Tian's virtual material, computed anew",
+        source: "H. Tian, D. Zhu and H. Qin, *Theoretical-experimental Modeling of Bolted Joint Interface in Milling of Grey Cast Iron HT250*, 2011: \
+                 E and ν of Table I beside those of the paper's equations (1) to (13), with what the paper does not print fitted."
+            .to_owned(),
+        command: "tian --markdown",
+        figure: None,
+        sections: vec![Section {
+            heading: "Table I: layers that stand for a joint".to_owned(),
+            columns: &COLUMNS,
+            words: 1,
+            rows: lines(&found),
+            is_long: false,
+            remarks: vec![
+                ("Assumed", found.conditions.clone()),
+                ("Found", remarks(&found)),
+            ],
+        }],
     }
-    if arguments.markdown {
-        return print(document(&found).trim_end());
-    }
-    let mut table = Table::new(&COLUMNS);
-    for cells in lines(&found) {
-        table.row(cells);
-    }
-    let mut text = format!(
-        "Tian, Table I: layers that stand for a joint\n\n{}\n",
-        table.render()
-    );
-    for line in found.conditions.iter().cloned().chain(remarks(&found)) {
-        let _ = writeln!(text, "  {line}");
-    }
-    print(&text)
+    })
 }
 
 fn lines(found: &TianReproduction) -> Vec<Vec<String>> {
@@ -131,26 +134,4 @@ fn capital(text: &str) -> String {
     characters.next().map_or_else(String::new, |first| {
         first.to_uppercase().chain(characters).collect()
     })
-}
-
-fn document(found: &TianReproduction) -> String {
-    let mut text = "# Tian's virtual material, computed anew\n\n\
-         H. Tian, D. Zhu and H. Qin, *Theoretical-experimental Modeling of Bolted Joint Interface in Milling of Grey Cast Iron HT250*, 2011: E and ν of \
-         Table I beside those of the paper's equations (1) to (13), with what the paper does not print fitted. Written by\n\n    \
-         bolted-joint reproduce tian --markdown\n\n"
-        .to_owned();
-    let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
-    let _ = writeln!(text, "|---|{}", "---:|".repeat(COLUMNS.len() - 1));
-    for cells in lines(found) {
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
-    }
-    text.push_str("\nAssumed:\n\n");
-    for line in &found.conditions {
-        let _ = writeln!(text, "* {line}");
-    }
-    text.push_str("\nFound:\n\n");
-    for line in remarks(found) {
-        let _ = writeln!(text, "* {line}");
-    }
-    text
 }

@@ -42,6 +42,27 @@ fn each_torque_with_its_own_bodies_gets_a_file_that_exports() {
     bench.fails("identify study.toml -o y.joint.json --bootstrap 9", &[]);
 }
 
+/// Six parameters of two searches at four torques, of which kN alone stays unknown where bodies are stated.
+#[test]
+fn report_and_terminal_bracket_the_same_values() {
+    let bench = files_of("pirdayr-update");
+    let in_brackets = |text: &str| {
+        let after = text.split('(').skip(1);
+        after
+            .filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+            .count()
+    };
+    for (study, expected) in [("study.toml", 48), ("with-a-mass.toml", 8)] {
+        let command = format!("identify {study} -o x.joint.json --report x.html");
+        let printed = in_brackets(&bench.done(&command).stdout);
+        assert_eq!(printed, expected, "{study}");
+        let page = bench.text("x.html").replace("faint\">(", "(");
+        let (_, page) = page.split_once("<h2>Parameters</h2>").unwrap();
+        let (page, _) = page.split_once("<h2>Frequencies</h2>").unwrap();
+        assert_eq!(in_brackets(page), printed, "{study}");
+    }
+}
+
 #[test]
 fn a_layered_beam_becomes_an_fmu() {
     let bench = files_of("kavi-layered-beam");

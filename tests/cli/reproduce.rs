@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use bolted_joint::reproduce::PublishedTable;
-use bolted_joint_testing::has;
+use bolted_joint_testing::{has, near};
 
 use crate::bench::Bench;
 
@@ -20,6 +20,7 @@ fn documents_are_what_the_command_writes() {
         ("kavi --figure kavi.svg", "kavi.md"),
         ("pirdayr", "pirdayr.md"),
         ("tian", "tian.md"),
+        ("zhao", "zhao.md"),
     ] {
         let written = bench.done(&format!("reproduce {case} --markdown")).stdout;
         assert_eq!(written, document(name), "{name}");
@@ -29,7 +30,7 @@ fn documents_are_what_the_command_writes() {
 
 #[test]
 fn quick_tables_are_in_the_document_as_the_command_writes_them() {
-    let keys = ["4.2", "4.3", "two-m6x30"];
+    let keys = ["4.2", "4.3", "4.30", "two-m6x30", "rotation"];
     let command = format!("reproduce --markdown {}", keys.join(" "));
     let written = Bench::new().done(&command).stdout;
     let document = document("tol.md");
@@ -111,6 +112,20 @@ fn json_of_tian_has_published_and_obtained_values_side_by_side() {
 }
 
 #[test]
+fn zhao_is_printed_for_people_and_machines() {
+    let bench = Bench::new();
+    let json = bench.done("reproduce zhao --json").json();
+    let rows = json["frequencies"].as_array().unwrap();
+    assert_eq!(rows.len(), 18);
+    // 556.5 over the measured 526.03 Hz; the paper prints 5.47 %
+    assert_eq!(rows[0]["even"]["relative_to"], "computed");
+    let percent = rows[0]["even"]["percent"].as_f64().unwrap();
+    near(percent, 5.79, 0.005);
+    let text = bench.done("reproduce zhao").stdout;
+    has(&text, &["+5.47 % c", "+5.79 %", "Not given in the paper"]);
+}
+
+#[test]
 fn a_name_that_is_none_brings_all_that_are() {
     let outcome = Bench::new().run("reproduce foo");
     assert_eq!(outcome.code, Some(2));
@@ -118,7 +133,8 @@ fn a_name_that_is_none_brings_all_that_are() {
         &outcome.stderr,
         &[
             "4.2, 4.3",
-            "or tol for all of these, or pirdayr, tian or kavi",
+            "m10x16, m8x16",
+            "or tol for all of these, or one of pirdayr, tian, kavi, zhao",
         ],
     );
 }

@@ -19,6 +19,18 @@ fn written(name: &str, text: &str, folder: &TempDir) -> PathBuf {
     path
 }
 
+/// What is said of a study with `from` replaced by `to`, beside a table of this text.
+fn refusal(study: &str, (from, to): (&str, &str), table: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    written("run.csv", table, &folder);
+    assert!(study.contains(from));
+    let path = written("study.toml", &study.replace(from, to), &folder);
+    match study.starts_with("method = \"lap-update\"") {
+        true => LapUpdateStudy::read(&path).unwrap_err().to_string(),
+        false => LapResponseStudy::read(&path).unwrap_err().to_string(),
+    }
+}
+
 #[test]
 fn damaged_updates_are_refused_by_their_key() {
     #[rustfmt::skip]
@@ -38,10 +50,7 @@ fn damaged_updates_are_refused_by_their_key() {
         ("[100, 300]", "[100, 300]\n[[assembly]]\nfrequency_hz = [1, 2]", ["assembly[1].torque", "N·m"]),
     ];
     for (from, to, parts) in cases {
-        let folder = tempfile::tempdir().unwrap();
-        assert!(UPDATE.contains(from));
-        let path = written("study.toml", &UPDATE.replace(from, to), &folder);
-        let error = LapUpdateStudy::read(&path).unwrap_err().to_string();
+        let error = refusal(UPDATE, (from, to), "");
         has(&error, &["study.toml"]);
         has(&error, &parts);
     }
@@ -63,10 +72,7 @@ fn damaged_tables_are_refused_by_their_line() {
         (format!("{HEADER}\n{}", row.replace("-1.5", "1.5").replace("-2", "2")), ["run.csv", "phase_of"]),
     ];
     for (table, parts) in cases {
-        let folder = tempfile::tempdir().unwrap();
-        written("run.csv", &table, &folder);
-        let path = written("study.toml", RESPONSE, &folder);
-        let error = LapResponseStudy::read(&path).unwrap_err().to_string();
+        let error = refusal(RESPONSE, ("", ""), &table);
         has(&error, &["run.csv"]);
         has(&error, &parts);
     }
@@ -85,12 +91,8 @@ fn damaged_response_studies_are_refused_by_their_key() {
         ("[[sine]]", "terms = [\"k9\"]\n[[sine]]", "k9"),
     ];
     for (from, to, part) in cases {
-        let folder = tempfile::tempdir().unwrap();
         let table = format!("{HEADER}\n80,1,1e-4,-1\n81,1,1e-4,-2\n");
-        written("run.csv", &table, &folder);
-        assert!(RESPONSE.contains(from));
-        let path = written("study.toml", &RESPONSE.replace(from, to), &folder);
-        let error = LapResponseStudy::read(&path).unwrap_err().to_string();
+        let error = refusal(RESPONSE, (from, to), &table);
         has(&error, &["study.toml", part]);
     }
 }

@@ -58,20 +58,35 @@ pub struct Line {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Line {
+    /// Points that are connected.
+    pub fn curve(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            shape: Shape::Curve,
+            points: points.into_iter().collect(),
+        }
+    }
+
+    /// Points one by one, as what was measured.
+    pub fn marks(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            shape: Shape::Marks,
+            ..Self::curve(name, points)
+        }
+    }
+}
+
 /// Curves in one strip.
 ///
 /// ```
-/// use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+/// use bolted_joint_figures::{Line, LineFigure, Scale};
 ///
 /// let figure = LineFigure {
 ///     title: "hardening spring",
 ///     across: ("displacement / µm", Scale::Linear),
 ///     up: ("load / N", Scale::Linear),
-///     lines: vec![Line {
-///         name: "cubic".to_owned(),
-///         shape: Shape::Curve,
-///         points: (0..=50).map(f64::from).map(|r| (r, r + 1e-3 * r.powi(3))).collect(),
-///     }],
+///     lines: vec![Line::curve("cubic", (0..=50).map(f64::from).map(|r| (r, r + 1e-3 * r.powi(3))))],
 /// };
 /// assert!(figure.to_svg().is_some_and(|svg| svg.contains("hardening spring")));
 /// ```
@@ -197,11 +212,7 @@ mod tests {
             title: "a < b",
             across: ("frequency, Hz", Scale::Logarithmic),
             up: ("force, N", Scale::Linear),
-            lines: vec![Line {
-                name: "F & M".to_owned(),
-                shape: Shape::Curve,
-                points,
-            }],
+            lines: vec![Line::curve("F & M", points)],
         }
         .to_svg()
     }
@@ -238,11 +249,7 @@ mod tests {
             title: "points",
             across: ("x", Scale::Linear),
             up: ("y", Scale::Linear),
-            lines: vec![Line {
-                name: "measured".to_owned(),
-                shape: Shape::Marks,
-                points,
-            }],
+            lines: vec![Line::marks("measured", points)],
         }
         .to_svg()
         .expect("drawable");

@@ -1,6 +1,6 @@
 //! Damping of a layered beam's mode over the amplitude: what friction gives, and what the joint file has in its place.
 
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_predict::layered_beam::{AmplitudeRow, Outcome};
 
 /// The figure of a study of method `layered-beam`.
@@ -18,12 +18,9 @@ impl LayeredBeamFigure<'_> {
             let rows = self.outcome.amplitudes.iter();
             rows.filter(|row| row.mode == self.outcome.mode)
         };
-        let line = |name: &str, of: &dyn Fn(&AmplitudeRow) -> Option<f64>| Line {
-            name: name.to_owned(),
-            shape: Shape::Curve,
-            points: own()
-                .filter_map(|row| Some((1e3 * row.amplitude_m, of(row)?)))
-                .collect(),
+        let line = |name: &str, of: &dyn Fn(&AmplitudeRow) -> Option<f64>| {
+            let point = |row: &AmplitudeRow| Some((1e3 * row.amplitude_m, of(row)?));
+            Line::curve(name, own().filter_map(point))
         };
         LineFigure {
             title: "Damping ratio over the amplitude",

@@ -1,6 +1,6 @@
 //! The spectrum of a surface's profiles and the straight line that gives its fractal dimension.
 
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_predict::surface::ProfileFit;
 
 /// The spectrum over spatial frequency, the means over bands and the fitted line, all logarithmic, as an SVG document; `None` if nothing
@@ -14,31 +14,21 @@ pub fn spectrum_figure(fit: &ProfileFit) -> Option<String> {
     let means = bands.map(|band| (band.frequency_per_m, band.density_m3));
     let [shortest_m, longest_m] = fit.wavelength_band_m;
     let ends = [1.0 / longest_m, 1.0 / shortest_m];
-    let line = |name: String, shape, points| Line {
-        name,
-        shape,
-        points,
-    };
     LineFigure {
         title: "Power spectral density of the profiles, and the fitted line",
         across: ("spatial frequency, cycles per m", Scale::Logarithmic),
         up: ("S, m³", Scale::Logarithmic),
         lines: vec![
-            line(
-                format!("Welch, {} segments", spectrum.segments),
-                Shape::Curve,
-                points.collect(),
-            ),
-            line(
+            Line::curve(format!("Welch, {} segments", spectrum.segments), points),
+            Line::curve(
                 format!(
                     "fit, D = {:.3} ± {:.3}",
                     fit.roughness.fractal_dimension(),
                     fit.dimension_standard_deviation()
                 ),
-                Shape::Curve,
-                ends.map(|f| (f, fit.density_m3(f))).to_vec(),
+                ends.map(|f| (f, fit.density_m3(f))),
             ),
-            line("means over bands".to_owned(), Shape::Marks, means.collect()),
+            Line::marks("means over bands", means),
         ],
     }
     .to_svg()

@@ -1,7 +1,9 @@
 //! Sections 4.2.2 and 4.3: two aluminium beams, approaches 1 to 4, and both noise procedures.
 
+mod figures;
 mod tables;
 
+pub(crate) use figures::figures_4_30_and_4_32;
 pub(crate) use tables::{table_4_6, table_4_7, table_4_8, table_4_9};
 
 use nalgebra::dmatrix;
@@ -32,16 +34,19 @@ struct Joint {
     on_b_m: f64,
 }
 
+impl Joint {
+    /// In the middle of beams that overlap.
+    const fn in_lap(lap_m: f64) -> Self {
+        Self {
+            on_a_m: A_LENGTH_M - 0.5 * lap_m,
+            on_b_m: 0.5 * lap_m,
+        }
+    }
+}
+
 /// As the thesis's figure shows the beams.
-const END_TO_END: Joint = Joint {
-    on_a_m: A_LENGTH_M,
-    on_b_m: 0.0,
-};
-/// Beams that overlap by 60 mm with the joint in the middle.
-const LAPPED: Joint = Joint {
-    on_a_m: A_LENGTH_M - 0.030,
-    on_b_m: 0.030,
-};
+const END_TO_END: Joint = Joint::in_lap(0.0);
+const LAPPED: Joint = Joint::in_lap(0.060);
 const A_LENGTH_M: f64 = 0.3;
 const B_LENGTH_M: f64 = 0.225;
 
@@ -114,7 +119,16 @@ struct Case {
 
 impl Case {
     fn new(joint: Joint) -> Result<Self, ReproduceError> {
-        let frequency_hz: Vec<f64> = (1..=LAST_LINE)
+        Self::through(joint, &truth(), LAST_LINE)
+    }
+
+    /// The beams through a joint of these matrices, up to a line.
+    fn through(
+        joint: Joint,
+        matrices: &JointMatrices,
+        last_line: u32,
+    ) -> Result<Self, ReproduceError> {
+        let frequency_hz: Vec<f64> = (1..=last_line)
             .map(|line| LINE_SPACING_HZ * f64::from(line))
             .collect();
         let mut points = POINTS_M.map(translation).to_vec();
@@ -123,7 +137,7 @@ impl Case {
         let a = partitions(&a, joint.on_a_m, &[], &frequency_hz)?;
         let b = beam(B_LENGTH_M, Boundary::FreeFree);
         let b = partitions(&b, joint.on_b_m, &points, &frequency_hz)?;
-        let assembly = assemblies(&frequency_hz, &a, &b, &truth())?;
+        let assembly = assemblies(&frequency_hz, &a, &b, matrices)?;
         Ok(Self {
             frequency_hz,
             a,

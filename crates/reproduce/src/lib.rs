@@ -1,4 +1,4 @@
-//! The case studies of Tol's thesis, the tables of Pirdayr's and Tian's papers and the specimens of Kavi's thesis computed anew:
+//! The case studies of Tol's thesis, the tables of Pirdayr's, Tian's and Zhao's papers and the specimens of Kavi's thesis computed anew:
 //! published and obtained values side by side.
 #![forbid(unsafe_code)]
 
@@ -16,6 +16,7 @@ mod published;
 mod receptances;
 mod texts;
 mod tian;
+mod zhao;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
@@ -28,6 +29,9 @@ pub use outcome::{Reproduction, Row, Spread};
 pub use pirdayr::{PirdayrRow, RATIO_OF_TABLE_2, pirdayr};
 pub use published::{PublishedTable, UnknownTable};
 pub use tian::{TianFit, TianLayer, TianReproduction, tian};
+pub use zhao::{
+    Denominator, ZhaoContact, ZhaoError, ZhaoFrequency, ZhaoLoss, ZhaoReproduction, zhao,
+};
 
 use bolted::Bolts;
 use draws::Repetition;
@@ -48,6 +52,7 @@ pub fn reproduce(
         PublishedTable::Table4_3 => Ok(beams::table_4_3()),
         PublishedTable::Table4_4 => beams::table_4_4(repetition),
         PublishedTable::Table4_5 => beams::table_4_5(repetition),
+        PublishedTable::Figures4_30And4_32 => approaches::figures_4_30_and_4_32(),
         PublishedTable::Table4_6 => approaches::table_4_6(repetition),
         PublishedTable::Table4_7 => approaches::table_4_7(repetition),
         PublishedTable::Table4_8 => approaches::table_4_8(repetition),
@@ -64,6 +69,7 @@ pub fn reproduce(
         PublishedTable::Table5_10 => bolted::table_5_10(repetition),
         PublishedTable::Table5_11 => bolted::table_5_11(repetition),
         PublishedTable::Table5_12 => bolted::table_5_12(repetition),
+        PublishedTable::Rotation => bolted::with_section(),
     }?;
     texts::with_texts(table, rows, draws)
 }

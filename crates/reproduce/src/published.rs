@@ -54,6 +54,8 @@ tables! {
     Table4_4 = "4.4", "Table 4.4: steel beams, decoupling equations compared (5 % response pollution)";
     /// The same with measured and with estimated rotations.
     Table4_5 = "4.5", "Table 4.5: steel beams, rotations measured or estimated (5 % response pollution)";
+    /// The beams of section 4.2.2, by two joint models.
+    Figures4_30And4_32 = "4.30" | "4.32", "Figures 4.30 and 4.32: natural frequencies of the aluminium beams by two joint models";
     /// Approaches 1 to 4.
     Table4_6 = "4.6", "Table 4.6: approaches 1 to 4 (1 % response pollution)";
     /// Approach 4 with FRF pollution.
@@ -86,6 +88,8 @@ tables! {
     Table5_11 = "5.11", "Table 5.11: bolts of three sizes on steel beams";
     /// Joints of the aluminium beams, summarised.
     Table5_12 = "5.12", "Table 5.12: bolts of two sizes on aluminium beams";
+    /// The joints of Tables 5.3 to 5.6 and 5.9 with the rotation that the difference loses.
+    Rotation = "rotation", "Chapter 5: what rotations by differences leave out of the joints";
 }
 
 /// A name that is no table.
@@ -126,7 +130,7 @@ impl PublishedTable {
     #[must_use]
     pub fn noisy_cases(self, samples: usize) -> usize {
         match self {
-            Self::Table4_3 | Self::TwoM6x30 => 0,
+            Self::Table4_3 | Self::Figures4_30And4_32 | Self::TwoM6x30 | Self::Rotation => 0,
             Self::Table4_2 | Self::Table4_6 | Self::Table4_8 => 4 * samples,
             Self::Table4_4 => 3 * samples,
             Self::Table4_5 => 2 * samples,

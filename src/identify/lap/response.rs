@@ -5,23 +5,20 @@ use std::fmt::Write as _;
 use serde_json::json;
 
 use super::super::super::error::CliError;
-use super::super::super::output::{print, warn, write_file};
+use super::super::super::output::{Outputs, print, warn};
 use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
 use super::super::IdentifyArguments;
-use super::check_options;
-use bolted_joint::export::Timestamp;
+use super::report_time;
 use bolted_joint::identify::lap::{LapResponse, LapResponseStudy};
-use bolted_joint::report::LapResponseReport;
+use bolted_joint::report::{LapResponseReport, level_figure};
 use bolted_joint::study::StudyText;
 
 pub(in super::super) fn run(
     arguments: &IdentifyArguments,
     study: &StudyText,
 ) -> Result<(), CliError> {
-    check_options(arguments)?;
-    let written = arguments.report.as_ref();
-    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
+    let written = report_time(arguments)?;
     let study = LapResponseStudy::of(study)?;
     let progress = Progress::new("identifying", 0);
     let found = LapResponse::of(&study, &progress)?;
@@ -33,20 +30,22 @@ pub(in super::super) fn run(
             "{matrix}: the identified joint is active; a simulation with it can blow up, so `export` refuses it"
         ));
     }
-    write_file(&arguments.output, file.to_json()?.as_bytes())?;
-    if let (Some(path), Some(written)) = (&arguments.report, written) {
+    let text = file.to_json()?;
+    let mut files = Outputs::new();
+    files.add(Some(&arguments.output), || text);
+    files.add(arguments.figure.as_ref(), || {
+        level_figure(&study, &found).unwrap_or_default()
+    });
+    if let Some(written) = written {
         let page = LapResponseReport {
             study: &study,
             found: &found,
             warnings: &warnings,
             written,
         };
-        write_file(path, page.to_html().as_bytes())?;
+        files.add(arguments.report.as_ref(), || page.to_html());
     }
-    if let Some(path) = &arguments.figure {
-        let drawing = bolted_joint::report::level_figure(&study, &found);
-        write_file(path, drawing.unwrap_or_default().as_bytes())?;
-    }
+    files.write()?;
     warn(&warnings);
     if arguments.json {
         let value = json!({
@@ -67,12 +66,7 @@ pub(in super::super) fn run(
         });
         return print(&serde_json::to_string_pretty(&value)?);
     }
-    let mut text = summary(&found, &study);
-    let also = [&arguments.figure, &arguments.report].into_iter().flatten();
-    for path in std::iter::once(&arguments.output).chain(also) {
-        let _ = writeln!(text, "wrote {}", path.display());
-    }
-    print(&text)
+    print(&(summary(&found, &study) + &files.written()))
 }
 
 fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {

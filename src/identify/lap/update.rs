@@ -5,57 +5,53 @@ use std::fmt::Write as _;
 use serde_json::json;
 
 use super::super::super::error::CliError;
-use super::super::super::output::{check_output, print, warn, write_file};
+use super::super::super::output::{Outputs, check_output, print, warn};
 use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
-use super::super::{IdentifyArguments, write_joint_files};
-use super::{Outputs, check_options};
-use bolted_joint::export::Timestamp;
+use super::super::IdentifyArguments;
+use super::{at_torques, report_time};
 use bolted_joint::identify::lap::{LapParameter, LapUpdate, LapUpdateStudy, TorqueUpdate};
-use bolted_joint::report::LapUpdateReport;
+use bolted_joint::report::{LapUpdateReport, convergence_figure};
 use bolted_joint::study::StudyText;
 
 pub(in super::super) fn run(
     arguments: &IdentifyArguments,
     study: &StudyText,
 ) -> Result<(), CliError> {
-    check_options(arguments)?;
-    let written = arguments.report.as_ref();
-    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
+    let written = report_time(arguments)?;
     let study = LapUpdateStudy::of(study)?;
     let progress = Progress::new("updating", study.torques.len() * study.firefly.iterations);
     let found = LapUpdate::of(&study, &progress)?;
     drop(progress);
     let joint_files = found.joint_files();
     let torques: Vec<Option<f64>> = joint_files.iter().map(|(torque, _)| *torque).collect();
-    let outputs = Outputs::at_torques(&arguments.output, &torques).files;
+    let outputs = at_torques(&arguments.output, &torques);
     for output in &outputs {
         check_output(output, &[&arguments.study])?;
     }
-    write_joint_files(&outputs, &joint_files)?;
     let warnings = found.warnings();
-    if let (Some(path), Some(written)) = (&arguments.report, written) {
+    let mut files = Outputs::new();
+    for (output, (_, file)) in outputs.iter().zip(&joint_files) {
+        let text = file.to_json()?;
+        files.add(Some(output), || text);
+    }
+    files.add(arguments.figure.as_ref(), || {
+        convergence_figure(&found).unwrap_or_default()
+    });
+    if let Some(written) = written {
         let page = LapUpdateReport {
             found: &found,
             warnings: &warnings,
             written,
         };
-        write_file(path, page.to_html().as_bytes())?;
+        files.add(arguments.report.as_ref(), || page.to_html());
     }
-    if let Some(path) = &arguments.figure {
-        let drawing = bolted_joint::report::convergence_figure(&found);
-        write_file(path, drawing.unwrap_or_default().as_bytes())?;
-    }
+    files.write()?;
     warn(&warnings);
     if arguments.json {
         return print(&serde_json::to_string_pretty(&as_json(&found, &outputs))?);
     }
-    let mut text = summary(&found);
-    let also = [&arguments.figure, &arguments.report];
-    for path in outputs.iter().chain(also.into_iter().flatten()) {
-        let _ = writeln!(text, "wrote {}", path.display());
-    }
-    print(&text)
+    print(&(summary(&found) + &files.written()))
 }
 
 fn as_json(found: &LapUpdate, outputs: &[std::path::PathBuf]) -> serde_json::Value {

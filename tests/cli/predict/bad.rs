@@ -166,6 +166,11 @@ fn keys_of_the_other_method_are_refused() {
     };
     let thickness = "[layer]\nthickness = [0.001, 0.001]\n";
     bench(&layer("")).refused(PREDICT, &["`layer.thickness`", "nothing"]);
+    for key in ["loss_factor = \"energy-ratio\"", "stored_energy = \"one-loading\""] {
+        let study = replaced(&layer(thickness), "frequency = 300", &format!("frequency = 300\n{key}"));
+        bench(&study).refused(PREDICT, &["`damping.", "layer.loss_factor"]);
+    }
+    refused("frequency = 300", "frequency = 300\nstored_energy = \"two\"", &["one-loading", "pi-loadings"]);
     bench(&layer(thickness)).refused(PREDICT, &["`materials.a.density`", "nothing"]);
     bench(&layer(&format!("friction = 0.3\n{thickness}")))
         .refused(PREDICT, &["`contact.friction`", "contact.friction_ratio"]);

@@ -191,6 +191,83 @@ fn everything_for_finite_elements_is_written_beside() {
     assert_eq!(names, 6);
 }
 
+/// Tol's M10x16 with surfaces like Zhao's: its identified joint (Table 5.3) has 5.73e5 N/m and 1.29e3 N·m/rad.
+#[test]
+fn contact_alone_is_not_the_joint_and_says_so() {
+    let bolts = STUDY.find("[[bolts]]").unwrap();
+    let joint = STUDY.find("[joint]").unwrap();
+    let bolt = "[[bolts]]\nx = 0\ny = 0\ndiameter = 0.01\npreload = 10000\n";
+    let mut study = format!("{}{bolt}{}", &STUDY[..bolts], &STUDY[joint..]);
+    for (old, new) in [
+        ("shear_strength = 1e8", "shear_strength = 0"),
+        ("hardness = 1.96e9", "hardness = 1e9"),
+        ("x = [-0.06, 0.06]", "x = [-0.015, 0.015]"),
+        ("y = [-0.04, 0.04]", "y = [-0.0125, 0.0125]"),
+        (
+            "model = \"kavi\"",
+            "model = \"cone\"\nhalf_angle = 30\nhead_diameter = 0.016\ndepth = 0.006",
+        ),
+        ("thickness = [0.01, 0.01]\n", ""),
+    ] {
+        study = replaced(&study, old, new);
+    }
+    let aluminium = "youngs_modulus = 7e10\npoissons_ratio = 0.33";
+    study = study.replace("youngs_modulus = 1.5e11\npoissons_ratio = 0.28", aluminium);
+    let bench = bench(&study);
+    let outcome = bench.done(&format!("{PREDICT} --report r.html"));
+    let file = bench.json("j.joint.json");
+    close(entry(&file, "stiffness", 0, 0) / 5.73e5, 6300.0, 0.02);
+    close(entry(&file, "stiffness", 1, 1) / 1.29e3, 86.0, 0.02);
+    let notes = file["provenance"]["notes"].to_string();
+    for text in [&outcome.stdout, &bench.text("r.html"), &notes] {
+        has(
+            text,
+            &["the contact alone, not the joint: the bolt and the bending"],
+        );
+    }
+}
+
+/// Zhao's (29) with the factor that is printed, and with the energies of a cycle: q = T/(μP) is that of the real area.
+#[test]
+fn loss_factors_are_those_of_a_cycle_unless_the_paper_is_asked_for() {
+    let even = replaced(
+        STUDY,
+        "model = \"kavi\"\nthickness = [0.01, 0.01]",
+        "model = \"uniform\"",
+    );
+    let bench = bench(&even);
+    let of = || {
+        let json = bench.done(&format!("{PREDICT} --json")).json();
+        let state = &json["states"][0];
+        [
+            "largest_real_area_fraction",
+            "largest_pressure_pa",
+            "normal_loss_factor",
+            "tangential_loss_factor",
+        ]
+        .map(|key| number(&state[key]))
+    };
+    let [real_area, pressure_pa, normal, tangential] = of();
+    let q = 1e8 * real_area / (0.3 * pressure_pa);
+    let rest = 1.0 - q;
+    let h1 = 1.0 - rest.powf(5.0 / 3.0) - 5.0 * q / 6.0 * (1.0 + rest.powf(2.0 / 3.0));
+    let h2 = 0.6 + 0.4 * rest.powf(5.0 / 3.0) - rest.powf(2.0 / 3.0);
+    let energy_ratio = |factor: f64| 1.0 / (factor * h2 / h1 - 1.0);
+    let (pi, tau) = (std::f64::consts::PI, std::f64::consts::TAU);
+    close(tangential, energy_ratio(5.0 / 24.0) / tau, 1e-9);
+    let frequency = "frequency = 300\n";
+    let ratio = format!("{frequency}loss_factor = \"energy-ratio\"\n");
+    bench.edit("study.toml", frequency, &ratio);
+    let [.., of_ratio, along] = of();
+    close(of_ratio, tau * normal, 1e-12);
+    close(along, tau * tangential, 1e-12);
+    let published = format!("{ratio}stored_energy = \"pi-loadings\"\n");
+    bench.edit("study.toml", &ratio, &published);
+    let [.., of_ratio_again, along] = of();
+    assert_eq!(of_ratio_again, of_ratio);
+    close(along, energy_ratio(5.0 * pi / 24.0), 1e-9);
+}
+
 #[test]
 fn viscous_normal_damping_is_that_of_zhao() {
     let bench = bench(STUDY);

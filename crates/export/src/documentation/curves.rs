@@ -10,7 +10,7 @@ use num_complex::Complex64;
 use super::super::Interface;
 use super::Page;
 use bolted_joint_figures::html::number;
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 
 /// Frequencies of a curve, spread evenly over the logarithmic axis, without those about the resonances.
 const SAMPLES: usize = 300;
@@ -134,7 +134,7 @@ fn receptances<const D: usize>(
                     let value = receptance.as_ref().map_or(f64::NAN, |h| h[(row, i)].norm());
                     (*frequency, value)
                 });
-                curve(&name, points)
+                Line::curve(&name, points)
             };
             let figure = LineFigure {
                 title: "Receptances of both bodies over frequency",
@@ -193,7 +193,7 @@ fn dynamic_stiffness<const D: usize>(
             let (stiffness, damping) = (law.linear.stiffness[i][i], law.linear.damping[i][i]);
             let line = |name: &str, value: &dyn Fn(f64) -> f64| {
                 let at = |&frequency| (frequency, value(std::f64::consts::TAU * frequency));
-                curve(name, frequencies.iter().map(at))
+                Line::curve(name, frequencies.iter().map(at))
             };
             let figure = LineFigure {
                 title: "Dynamic stiffness of the joint over frequency",
@@ -255,7 +255,7 @@ fn load_curve<const D: usize>(
             let x = reach * f64::from(k) / f64::from(LOAD_POINTS / 2);
             (per_si * x, load(x))
         });
-        curve(name, points)
+        Line::curve(name, points)
     };
     let load = |x: f64| {
         let mut relative = Motion::REST;
@@ -291,14 +291,6 @@ fn load_curve<const D: usize>(
     let caption =
         format!("Static load of the joint over the relative motion <i>{motion}</i>. {part}");
     Some((figure, caption))
-}
-
-fn curve(name: &str, points: impl Iterator<Item = (f64, f64)>) -> Line {
-    Line {
-        name: name.to_owned(),
-        shape: Shape::Curve,
-        points: points.collect(),
-    }
 }
 
 fn three_digits(value: f64) -> f64 {

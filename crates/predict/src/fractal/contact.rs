@@ -153,6 +153,14 @@ impl FractalContact {
         self.critical_pressure_pa
     }
 
+    /// Loss factor η_T of the tangential direction at the friction ratio q = T/(μP), as this contact defines it.
+    ///
+    /// # Errors
+    /// As [`StoredEnergy::loss_factor`].
+    pub fn tangential_loss_factor(&self, friction_ratio: f64) -> Result<f64, ContactError> {
+        self.stored.loss_factor(friction_ratio)
+    }
+
     /// What the contact amounts to under a pressure (Pa).
     ///
     /// # Errors

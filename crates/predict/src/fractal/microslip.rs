@@ -1,12 +1,14 @@
 //! Energy that a tangentially loaded contact loses by microslip at its rim, over what it stores (Mindlin).
 
 use crate::ContactError;
+use serde::Deserialize;
 
 /// What the energy lost in a cycle is compared with.
 ///
 /// A contact that is loaded once to T = qμP takes up W, and a cycle between −T and T costs W_d; Mindlin's theory gives both, and
 /// the loss factor is W_d/(mW − W_d).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum StoredEnergy {
     /// m = 1: the energy of one loading. η_T = 1/((5/24) H₂/H₁ − 1), which is 4q/9 for small q and infinite at q = 0.9583.
     #[default]

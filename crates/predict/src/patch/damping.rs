@@ -2,16 +2,16 @@
 
 use serde::Deserialize;
 
-/// What a contact model's dissipated over stored energy is taken for.
+/// What a contact model's ratio of the energies D lost in a cycle and W stored is taken for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossFactor {
-    /// It is the loss factor η of K (1 + jη), as Zhao uses it: C_T = η_T K_T.
+    /// The loss factor is D/(2πW), as the energies have it: a spring K (1 + jη) of amplitude X dissipates π η K X² a cycle and
+    /// stores ½ K X² at most, a ratio of 2π η.
     #[default]
-    EnergyRatio,
-    /// The loss factor is the energy ratio over 2π, as the energies have it: a spring K (1 + jη) of amplitude X dissipates
-    /// π η K X² a cycle and stores ½ K X² at most, a ratio of 2π η.
     EnergyRatioOverTwoPi,
+    /// It is the loss factor η of K (1 + jη), as Zhao uses it: C_T = η_T K_T.
+    EnergyRatio,
 }
 
 impl LossFactor {

@@ -11,6 +11,9 @@ use crate::number::{NumberError, positive};
 /// Off the diagonal, what is at most this part of the diagonal is rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// Names of the rows and columns of a [`Matrix6`].
+pub const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
 /// A matrix over x, y, z, rx, ry, rz.
 pub type Matrix6 = [[f64; 6]; 6];
 

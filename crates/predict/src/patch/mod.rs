@@ -15,7 +15,7 @@ mod table;
 pub use axis::{Axis, AxisError, SignedAxis};
 pub use contact::{Contact, PatchMoments};
 pub use damping::{LossFactor, NormalDamping};
-pub use interface::{InterfaceJoint, Matrix6};
+pub use interface::{DOFS, InterfaceJoint, Matrix6};
 pub use matrix27::matrix27;
 pub use planar::{Planar, PlanarError, PlanarJoint};
 pub use table::table;

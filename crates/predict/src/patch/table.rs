@@ -2,10 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::interface::{InterfaceJoint, Matrix6};
+use super::interface::{DOFS, InterfaceJoint, Matrix6};
 use crate::NumberError;
-
-const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// The text: a row for each matrix and DOF. K is the stiffness, D the hysteretic damping, C the viscous one, and `C_total` all of
 /// it as a dashpot at the frequency (Hz).

@@ -9,7 +9,7 @@ use bolted_joint_joint::{
 use bolted_joint_study::provenance;
 
 use super::model::State;
-use super::prediction::Prediction;
+use super::prediction::{CONTACT_ALONE, Prediction};
 use super::results::{at, unknowns};
 
 impl Prediction<'_> {
@@ -168,6 +168,7 @@ impl Prediction<'_> {
                 "Computed from surfaces, materials and bolts, not measured: {}.",
                 study.pressure
             ),
+            CONTACT_ALONE.to_owned(),
             format!(
                 "{motions} of the interface (normal z) at x = {x} m, y = {y} m, z = {z} m; the other relative motions are held at zero."
             ),

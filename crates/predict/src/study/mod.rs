@@ -26,5 +26,5 @@ pub use error::ModelError;
 pub use geometry::Plate;
 pub use law::Layer;
 pub use model::State;
-pub use prediction::Prediction;
+pub use prediction::{CONTACT_ALONE, Prediction};
 pub use results::Unknown;

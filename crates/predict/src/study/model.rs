@@ -104,7 +104,7 @@ impl InterfaceStudy {
                 let contact =
                     FractalContact::new(&pair, roughness, of(hardness), friction, area_m2)?;
                 Ok(Law::Fractal(ContactLaw {
-                    contact,
+                    contact: contact.with_stored_energy(self.stored_energy),
                     loss_factor: self.loss_factor,
                 }))
             }

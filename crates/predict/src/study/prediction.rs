@@ -8,6 +8,10 @@ use crate::uncertain::{Estimate, Outcome, Refusal};
 use crate::virtual_material::VirtualMaterial;
 use bolted_joint_study::StudyError;
 
+/// What is said of every prediction of an interface.
+pub const CONTACT_ALONE: &str = "This is the contact alone, not the joint: the bolt and the bending of the parts where they overlap are missing, \
+                                 and can make a joint thousands of times as soft.";
+
 /// A predicted joint.
 #[derive(Debug, Clone)]
 pub struct Prediction<'s> {

@@ -2,12 +2,9 @@
 
 use super::model::State;
 use super::prediction::Prediction;
-use crate::patch::{InterfaceJoint, PlanarJoint};
+use crate::patch::{DOFS, InterfaceJoint, PlanarJoint};
 use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS};
 use bolted_joint_joint::DofSet;
-
-/// Names of the rows and columns of the 6×6 stiffness.
-pub(super) const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Names of the unknowns of a planar joint's stiffness, and of its damping, with the place of each in its matrix.
 pub(super) fn unknowns(dofs: DofSet) -> Vec<(String, bool, [usize; 2])> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+use crate::fractal::StoredEnergy;
 use crate::patch::{LossFactor, SignedAxis};
 use crate::pressure::{ConePressure, Reach, ZoneForce};
 use crate::uncertain::Uncertain;
@@ -208,8 +209,8 @@ pub(super) struct JointTable {
 pub(super) struct DampingTable {
     /// Hz.
     pub(super) frequency: f64,
-    #[serde(default)]
-    pub(super) loss_factor: LossFactor,
+    pub(super) loss_factor: Option<LossFactor>,
+    pub(super) stored_energy: Option<StoredEnergy>,
     /// kg.
     pub(super) mass: Option<f64>,
     #[serde(default)]

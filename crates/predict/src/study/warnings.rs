@@ -1,6 +1,7 @@
 //! What a reader should know before using a predicted joint.
 
 use super::prediction::Prediction;
+use crate::patch::LossFactor;
 
 /// An imbalance of field and preloads that is worth a word.
 const IMBALANCE: f64 = 0.01;
@@ -45,9 +46,15 @@ impl Prediction<'_> {
                 ("tangential", state.interface.tangential_loss_factor()),
             ] {
                 if loss_factor > LOSSY {
+                    let as_published = match self.study.loss_factor {
+                        LossFactor::EnergyRatio => {
+                            ", or take the energy ratio over 2π (damping.loss_factor)"
+                        }
+                        LossFactor::EnergyRatioOverTwoPi => "",
+                    };
                     warnings.push(format!(
                         "the {direction} loss factor is {loss_factor:.2}{at}: more is lost in a cycle than a spring can give back; \
-                         check roughness and hardness, or take the energy ratio over 2π (damping.loss_factor)"
+                         check roughness and hardness{as_published}"
                     ));
                 }
             }

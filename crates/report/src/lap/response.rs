@@ -6,7 +6,7 @@ use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{
     beside, cell, columns, escaped, number_cell, shown, spread, table,
 };
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapResponse, LapResponseStudy, SineRun, Use};
 
@@ -156,32 +156,22 @@ impl LapResponseReport<'_> {
             points
         };
         let values = &found.fit.values;
-        let model: Vec<(f64, f64)> = (1..=POINTS)
-            .map(|n| {
-                let amplitude = found.amplitude_m * n as f64 / POINTS as f64;
-                // Re z_r at no frequency is the equivalent stiffness K; ω² = K/(m/2)
-                let stiffness = found.model.equivalent_stiffness(values, amplitude);
-                (
-                    1e6 * amplitude,
-                    (stiffness / (0.5 * values.mass)).sqrt() / TAU,
-                )
-            })
-            .collect();
+        let model = (1..=POINTS).map(|n| {
+            let amplitude = found.amplitude_m * n as f64 / POINTS as f64;
+            // Re z_r at no frequency is the equivalent stiffness K; ω² = K/(m/2)
+            let stiffness = found.model.equivalent_stiffness(values, amplitude);
+            (
+                1e6 * amplitude,
+                (stiffness / (0.5 * values.mass)).sqrt() / TAU,
+            )
+        });
         let svg = LineFigure {
             title: "Frequency of resonance over amplitude",
             across: ("relative displacement, µm", Scale::Linear),
             up: ("frequency, Hz", Scale::Linear),
             lines: vec![
-                Line {
-                    name: "model without other modes".to_owned(),
-                    shape: Shape::Curve,
-                    points: model,
-                },
-                Line {
-                    name: "measured (−90°)".to_owned(),
-                    shape: Shape::Marks,
-                    points: measured,
-                },
+                Line::curve("model without other modes", model),
+                Line::marks("measured (−90°)", measured),
             ],
         }
         .to_svg()?;
@@ -249,27 +239,23 @@ impl LapResponseReport<'_> {
 /// |H| of one run, measured and regenerated.
 fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
     let regenerated = found.regenerated(run);
-    let points = |of: &dyn Fn(usize) -> f64| {
-        let lines = run.lines.iter().enumerate();
-        lines
-            .map(|(n, line)| (line.omega / TAU, of(n)))
-            .collect::<Vec<_>>()
+    let lines = || {
+        run.lines
+            .iter()
+            .map(|line| line.omega / TAU)
+            .zip(&run.lines)
     };
+    let measured = lines().map(|(hz, line)| (hz, line.displacement_m / line.force_n));
+    let model = lines()
+        .zip(&regenerated)
+        .map(|((hz, _), value)| (hz, value.norm()));
     LineFigure {
         title: "Receptance measured and regenerated",
         across: ("frequency, Hz", Scale::Linear),
         up: ("receptance, m/N", Scale::Logarithmic),
         lines: vec![
-            Line {
-                name: "measured".to_owned(),
-                shape: Shape::Marks,
-                points: points(&|n| run.lines[n].displacement_m / run.lines[n].force_n),
-            },
-            Line {
-                name: "regenerated".to_owned(),
-                shape: Shape::Curve,
-                points: points(&|n| regenerated[n].norm()),
-            },
+            Line::marks("measured", measured),
+            Line::curve("regenerated", model),
         ],
     }
     .to_svg()
@@ -283,13 +269,8 @@ pub fn level_figure(study: &LapResponseStudy, found: &LapResponse) -> Option<Str
     let lines = runs.iter().step_by(stride).map(|run| {
         let regenerated = found.regenerated(run);
         let lines = run.lines.iter().zip(regenerated);
-        Line {
-            name: escaped(&run.name),
-            shape: Shape::Curve,
-            points: lines
-                .map(|(line, value)| (line.omega / TAU, value.norm()))
-                .collect(),
-        }
+        let points = lines.map(|(line, value)| (line.omega / TAU, value.norm()));
+        Line::curve(escaped(&run.name), points)
     });
     LineFigure {
         title: "Receptances of the identified model",

@@ -2,7 +2,7 @@
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{beside, cell, columns, escaped, number, number_cell, table};
-use bolted_joint_figures::{Line, LineFigure, Scale, Shape};
+use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapParameter, LapUpdate, TorqueUpdate};
 
@@ -76,8 +76,7 @@ impl LapUpdateReport<'_> {
         for torque in &self.found.torques {
             for parameter in LapParameter::ALL {
                 let knowledge = torque.knowledge(parameter);
-                let value = torque.solution.of(parameter);
-                let shown = match knowledge.is_known() {
+                let shown = |value: f64| match knowledge.is_known() {
                     true => format!("<b>{}</b>", number(value)),
                     false => format!("<span class=\"faint\">({})</span>", number(value)),
                 };
@@ -85,11 +84,8 @@ impl LapUpdateReport<'_> {
                     [
                         number_cell(&place(torque)),
                         cell(parameter.symbol()),
-                        number_cell(&shown),
-                        number_cell(&format!(
-                            "<span class=\"faint\">{}</span>",
-                            number(torque.firefly.parameters.of(parameter))
-                        )),
+                        number_cell(&shown(torque.solution.of(parameter))),
+                        number_cell(&shown(torque.firefly.parameters.of(parameter))),
                         cell(parameter.unit()),
                         cell(knowledge.words()),
                     ]
@@ -98,8 +94,8 @@ impl LapUpdateReport<'_> {
             }
         }
         format!(
-            "<h2>Parameters</h2>\n<p>Values in brackets are not results: of all values that fit as well they are those nearest to the \
-             prior. The fireflies stop at another of them, which depends on their seed.</p>\n{}",
+            "<h2>Parameters</h2>\n<p>Values in brackets are not results: of all values that fit as well least squares have those \
+             nearest to the prior, and the fireflies others, which depend on their seed.</p>\n{}",
             table(
                 &columns("Torque, N·m||Least squares|Fireflies|Unit|What the frequencies say"),
                 &rows
@@ -195,17 +191,15 @@ fn place(torque: &TorqueUpdate) -> String {
 pub fn convergence_figure(found: &LapUpdate) -> Option<String> {
     let lines = found.torques.iter().take(4).map(|torque| {
         let history = torque.firefly.history.iter().enumerate();
-        Line {
-            shape: Shape::Curve,
-            name: torque.data.torque_n_m.map_or_else(
-                || "objective".to_owned(),
-                |torque| escaped(&format!("{torque} N·m")),
-            ),
-            points: history
-                .filter(|(_, objective)| **objective > 0.0)
-                .map(|(generation, objective)| (generation as f64, *objective))
-                .collect(),
-        }
+        let name = torque.data.torque_n_m.map_or_else(
+            || "objective".to_owned(),
+            |torque| escaped(&format!("{torque} N·m")),
+        );
+        let above_zero = history.filter(|(_, objective)| **objective > 0.0);
+        Line::curve(
+            name,
+            above_zero.map(|(generation, objective)| (generation as f64, *objective)),
+        )
     });
     LineFigure {
         title: "Convergence of the fireflies",

@@ -1,8 +1,9 @@
 //! What went into a prediction: every number with its distribution, and what the model takes for granted.
 
 use bolted_joint_figures::html::{cell, escaped, number, number_cell, spread, table};
+use bolted_joint_predict::fractal::StoredEnergy;
 use bolted_joint_predict::patch::{LossFactor, NormalDamping};
-use bolted_joint_predict::study::Prediction;
+use bolted_joint_predict::study::{CONTACT_ALONE, Prediction};
 use bolted_joint_study::Method;
 
 pub(super) fn section(found: &Prediction<'_>) -> String {
@@ -25,30 +26,21 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         })
         .collect();
     let mut taken = vec![
+        format!("<b>{CONTACT_ALONE}</b>"),
         "The parts are flat between their holes; the pressure is what the bolts make of them, and vibration does not change it.".to_owned(),
         "Motion is small: the interface neither opens nor slides as a whole.".to_owned(),
     ];
     match study.method {
-        Method::FractalContact => taken.push(
-            "Each point of the interface has the stiffness of two fractal surfaces under the pressure there (Zhao et al., 2016); bolts and parts \
-             are not in it: a structure's model has them."
+        Method::FractalContact => taken.extend([
+            "Each point of the interface has the stiffness of two fractal surfaces under the pressure there (Zhao et al., 2016)."
                 .to_owned(),
-        ),
+            energy_ratio(study.loss_factor, study.stored_energy),
+        ]),
         Method::VirtualMaterial => taken.push(
             "A layer of even elasticity stands for the interface (Tian et al., 2011).".to_owned(),
         ),
         _ => {}
     }
-    taken.push(match study.loss_factor {
-        LossFactor::EnergyRatio => {
-            "The ratio of the energies lost and stored is the loss factor itself, as published; by the energies of a cycle it would be 2π times \
-             less."
-                .to_owned()
-        }
-        LossFactor::EnergyRatioOverTwoPi => {
-            "The loss factor is the ratio of the energies lost and stored over 2π, as a cycle of a spring K(1 + jη) has it.".to_owned()
-        }
-    });
     taken.push(match study.normal_damping {
         NormalDamping::Hysteretic => {
             "Damping along the normal is hysteretic, <i>D</i> = ηK, as along the interface."
@@ -70,4 +62,22 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
             &rows
         )
     )
+}
+
+/// What a ratio of energies is taken for.
+fn energy_ratio(loss_factor: LossFactor, stored_energy: StoredEnergy) -> String {
+    let of = match loss_factor {
+        LossFactor::EnergyRatioOverTwoPi => {
+            "The loss factor is the ratio of the energies lost and stored over 2π, as a cycle of a spring K(1 + jη) has it"
+        }
+        LossFactor::EnergyRatio => {
+            "The ratio of the energies lost and stored is the loss factor itself, as published; by the energies of a cycle it would be 2π times \
+             less"
+        }
+    };
+    let stored = match stored_energy {
+        StoredEnergy::OneLoading => "one loading takes up",
+        StoredEnergy::PiLoadings => "π loadings take up, as published",
+    };
+    format!("{of}. Along the interface the energy stored is what {stored}, less what is lost.")
 }

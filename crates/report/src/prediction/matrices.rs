@@ -3,10 +3,8 @@
 use super::super::PressureFigure;
 use super::super::lap::figure;
 use bolted_joint_figures::html::{cell, columns, escaped, number, number_cell, shown, table};
-use bolted_joint_predict::patch::Matrix6;
+use bolted_joint_predict::patch::{DOFS, Matrix6};
 use bolted_joint_predict::study::Prediction;
-
-const DOFS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Digits of an entry of a matrix.
 const DIGITS: usize = 4;

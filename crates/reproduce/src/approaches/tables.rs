@@ -65,14 +65,6 @@ pub(crate) fn table_4_6(draws: Repetition<'_>) -> Result<Vec<Row>, ReproduceErro
         }
     }
     found.extend(single_point_rows(&case, &APPROACH_2)?);
-    for (name, joint) in [("end to end", END_TO_END), ("lap of 60 mm", LAPPED)] {
-        let found_hz = Case::new(joint)?.resonances_hz();
-        found.extend(Row::resonances(
-            &format!("resonances, {name}"),
-            &[(1, 20.4), (2, 123.8), (3, 312.5)],
-            &found_hz,
-        ));
-    }
     for &samples in draws.samples() {
         found.extend(case.noise_rows(0.01, samples));
     }

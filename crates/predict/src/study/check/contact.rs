@@ -22,6 +22,14 @@ impl Checker<'_> {
                         return self.study.refuse(key, found, expected);
                     }
                 }
+                let expected = "none of method \"virtual-material\", which takes layer.loss_factor";
+                let damping = &file.damping;
+                for (key, is_given) in [
+                    ("damping.loss_factor", damping.loss_factor.is_some()),
+                    ("damping.stored_energy", damping.stored_energy.is_some()),
+                ] {
+                    self.study.ensure(!is_given, key, "a word", expected)?;
+                }
                 self.layer(file, hardness)
             }
             _ => {

@@ -5,6 +5,7 @@ mod interface;
 mod surfaces;
 mod tightening;
 
+use crate::fractal::StoredEnergy;
 use crate::patch::{LossFactor, NormalDamping, Planar};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
@@ -48,8 +49,10 @@ pub struct InterfaceStudy {
     pub reference_m: [f64; 3],
     /// Frequency at which hysteretic damping is converted, Hz.
     pub frequency_hz: f64,
-    /// What the model's energy ratios are taken for.
+    /// What the fractal contact's energy ratios are taken for.
     pub loss_factor: LossFactor,
+    /// What its energy lost along the interface is compared with.
+    pub stored_energy: StoredEnergy,
     /// How the interface dissipates along its normal.
     pub normal_damping: NormalDamping,
     /// Draws, where a value is uncertain.
@@ -193,7 +196,8 @@ impl Checker<'_> {
             planar,
             reference_m,
             frequency_hz,
-            loss_factor: file.damping.loss_factor,
+            loss_factor: file.damping.loss_factor.unwrap_or_default(),
+            stored_energy: file.damping.stored_energy.unwrap_or_default(),
             normal_damping,
             monte_carlo,
             materials,

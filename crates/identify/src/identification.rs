@@ -185,13 +185,17 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips));
+    let has_budget = study.budget != Budget::none() && study.further.is_empty();
+    if has_budget && systematic.is_none() && slips.is_empty() {
+        reasons_against.extend(reliability::without_budget(&estimate.assessment));
+    }
     warnings.extend(study.rotations_not_corrected());
     if systematic.is_none() && slips.is_empty() && study.budget != Budget::none() {
         warnings.push(Systematic::NOT_APPLIED.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
-    let large = reliability::warning(&estimate, study.model, relative_rms, median_difference);
+    let large = reliability::warning(&estimate, study.model, relative_rms, unexplained);
     warnings.extend(large);
     let first = fitted.remove(0);
     Ok(Identification {

@@ -24,10 +24,22 @@ pub(super) const NOTABLE_UNREST: f64 = 0.05;
 /// χ² per degree of freedom up to which coherence, an estimate itself, accounts for a residual: n/(n − 2) of four averages.
 const MOST_OF_COHERENCE: f64 = 2.0;
 
+/// χ² per degree of freedom beyond which a residual is more than noise of the stated size.
+const MOST_WITHOUT_BUDGET: f64 = 1.3;
+
 /// What slips that explain the residual say against the estimate.
 pub(super) fn because_of(slips: &[FoundSlip]) -> Option<String> {
     let words: Vec<String> = slips.iter().map(FoundSlip::to_string).collect();
     (!words.is_empty()).then(|| format!("the data fit if {}", words.join(", or if ")))
+}
+
+/// What speaks against an estimate for which none with the errors of the set-up was found, where these would have to explain it.
+pub(super) fn without_budget(assessment: &Assessment) -> Option<String> {
+    let chi = assessment.reduced_chi_squared;
+    let chi = chi.filter(|chi| assessment.noise_is_stated && *chi > MOST_WITHOUT_BUDGET)?;
+    Some(format!(
+        "no estimate with the errors of the set-up was found, and without them χ² per degree of freedom is {chi:.2}"
+    ))
 }
 
 /// What speaks against the estimate, a line each; empty if nothing does.

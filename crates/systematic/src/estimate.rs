@@ -74,6 +74,8 @@ pub const CONTRADICTED: f64 = 2.5;
 const WIDER: f64 = 10.0;
 /// Priors that are made wider at most.
 const MOST_WIDENED: usize = 4;
+/// So many priors are not contradicted at once.
+const UNLIKELY: usize = 2;
 /// Steps of a search from a start of the grid.
 const FEW_ITERATIONS: usize = 25;
 /// A search that has not come to rest counts as if it left so much more.
@@ -117,9 +119,9 @@ pub struct Estimate {
     pub(crate) found: Found,
 }
 
-/// Finds the joint and the causes from `start` or, where that leads to
-/// nothing that fits, from others. Of the priors that the data contradict the worst is made wider, one after the other. `None`
-/// where the assembly is singular, the data do not determine the joint or a structure cannot be computed.
+/// Finds the joint and the causes from `start` or, where that leads to nothing that fits, from others. Of the priors that the
+/// data contradict the worst is made wider, one after the other. `None` where the assembly is singular, the data do not
+/// determine the joint or a structure cannot be computed.
 #[must_use]
 pub fn estimate(
     experiment: &Experiment<'_>,
@@ -129,37 +131,46 @@ pub fn estimate(
 ) -> Option<Estimate> {
     let mut priors = priors.to_vec();
     let mut contradicted: Vec<Option<f64>> = vec![None; priors.len()];
-    let mut start = start.clone();
-    for round in 0..=MOST_WIDENED {
-        let task = Task::new(experiment, &priors);
-        let found = match round {
-            0 => best_of_many(&task, &start, settings)?,
-            _ => best(&task, &start, settings)?,
-        };
-        let pulls = std::iter::zip(&found.point.causes, &priors)
-            .map(|(value, prior)| value / prior.standard_deviation)
-            .enumerate()
-            // where the search has not come to rest the pulls say nothing
-            .filter(|(number, pull)| {
-                found.converged && pull.abs() > CONTRADICTED && contradicted[*number].is_none()
-            });
-        let worst = pulls.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
-        let Some((number, pull)) = worst.filter(|_| round < MOST_WIDENED) else {
-            return of(&task, found, &contradicted);
+    let mut found = best_of_many(&Task::new(experiment, &priors), start, settings)?;
+    for _ in 0..MOST_WIDENED {
+        let pulls = contradictions(&priors, &found).into_iter();
+        let new = pulls.filter(|(number, _)| contradicted[*number].is_none());
+        let worst = new.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        let Some((number, pull)) = worst else {
+            break;
         };
         contradicted[number] = Some(pull);
-        start = Start::without_causes(&found.point.unknowns);
-        priors[number].standard_deviation *= WIDER;
+        let mut wider = priors.clone();
+        wider[number].standard_deviation *= WIDER;
+        let start = Start::without_causes(&found.point.unknowns);
+        let Some(next) = best(&Task::new(experiment, &wider), &start, settings) else {
+            break;
+        };
+        (priors, found) = (wider, next);
     }
-    None
+    of(&Task::new(experiment, &priors), found, &contradicted)
 }
 
-/// The best of what several starts lead to; the first that fits is taken.
+/// Causes beyond what their priors allow, with the pull. Where a search has not come to rest the pulls say nothing.
+fn contradictions(priors: &[Prior], found: &Found) -> Vec<(usize, f64)> {
+    let pulls = std::iter::zip(&found.point.causes, priors)
+        .map(|(value, prior)| value / prior.standard_deviation)
+        .enumerate();
+    pulls
+        .filter(|(_, pull)| found.converged && pull.abs() > CONTRADICTED)
+        .collect()
+}
+
+/// The best of what several starts lead to. The first that fits is taken, unless it contradicts so many priors that it is
+/// hardly true.
 fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
-    let first = best(task, start, settings);
-    let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
+    let fits = |found: &Found| {
+        let is_likely = contradictions(task.priors, found).len() < UNLIKELY;
+        is_likely && rank(task, found) < settings.most_reduced_chi_squared
+    };
     // without causes what is left is no noise as soon as there are errors
     let is_good = |found: &Found| task.priors.is_empty() || fits(found);
+    let first = best(task, start, settings);
     if first.as_ref().is_some_and(is_good) {
         return first;
     }
@@ -171,17 +182,10 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
     for unknowns in grid(task.experiment) {
         let start = Start {
             unknowns,
-            ..start.clone()
+            cause: None,
         };
-        let Some(found) = search(task, start.point(task.priors), &few, 1.0) else {
-            continue;
-        };
-        if nearest
-            .as_ref()
-            .is_none_or(|best| rank(task, &found) < rank(task, best))
-        {
-            nearest = Some(found);
-        }
+        let found = search(task, start.point(task.priors), &few, 1.0);
+        nearest = better(task, nearest, found);
         if nearest.as_ref().is_some_and(fits) {
             break;
         }
@@ -190,14 +194,15 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
         true => Some(nearest),
         false => best(
             task,
-            &Start {
-                unknowns: nearest.point.unknowns,
-                ..start.clone()
-            },
+            &Start::without_causes(&nearest.point.unknowns),
             settings,
         ),
     });
-    let both = first.into_iter().chain(second);
+    better(task, first, second)
+}
+
+fn better(task: &Task<'_>, one: Option<Found>, other: Option<Found>) -> Option<Found> {
+    let both = one.into_iter().chain(other);
     both.min_by(|one, other| rank(task, one).total_cmp(&rank(task, other)))
 }
 
@@ -226,6 +231,22 @@ pub(crate) fn estimate_with(
     )
 }
 
+/// What the data say of a joint without causes, not searched for. `None` as in [`estimate`].
+#[must_use]
+pub fn evaluated(
+    experiment: &Experiment<'_>,
+    unknowns: &[f64],
+    settings: &Settings,
+) -> Option<Estimate> {
+    let settings = Settings {
+        most_iterations: 1,
+        ..settings.clone()
+    };
+    let task = Task::new(experiment, &[]);
+    let start = Start::without_causes(unknowns).point(&[]);
+    of(&task, search(&task, start, &settings, 1.0)?, &[])
+}
+
 impl Estimate {
     /// χ² of each of its lines that another estimate uses, too.
     pub(crate) fn costs_at<'e>(&'e self, other: &'e Self) -> impl Iterator<Item = f64> + 'e {
@@ -236,25 +257,18 @@ impl Estimate {
 }
 
 fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
-    let mut best: Option<Found> = None;
+    let mut found: Option<Found> = None;
     for inflation in INFLATIONS {
-        let Some(found) = search(task, start.point(task.priors), settings, inflation) else {
-            continue;
-        };
-        if best
-            .as_ref()
-            .is_none_or(|best| rank(task, &found) < rank(task, best))
-        {
-            best = Some(found);
-        }
-        if best
-            .as_ref()
-            .is_some_and(|best| rank(task, best) < settings.most_reduced_chi_squared)
-        {
+        let next = search(task, start.point(task.priors), settings, inflation);
+        found = better(task, found, next);
+        let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
+        if found.as_ref().is_some_and(fits) {
             break;
         }
     }
-    best
+    let restless = found.as_ref().filter(|found| !found.converged);
+    let again = restless.and_then(|found| search(task, found.point.clone(), settings, 1.0));
+    better(task, found, again)
 }
 
 /// Degrees of freedom: as many causes as priors, so that the joint's unknowns alone cost some.

@@ -4,8 +4,9 @@ mod experiment;
 
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
-    BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Group, MeasuredSet,
-    Score, Settings, Shares, Side, Start, Suspect, consistency, diagnose, estimate, refine,
+    BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Estimate, Experiment,
+    Group, MeasuredSet, Prior, Score, Settings, Shares, Side, Start, Suspect, consistency,
+    diagnose, estimate, evaluated, refine,
 };
 use nalgebra::DMatrix;
 
@@ -119,32 +120,14 @@ impl Systematic {
         let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
-        let plain = estimate(&experiment, &[], &start, &settings)?;
+        let priors = study.budget.priors(&experiment);
+        // Without causes some data lead to no joint at all: then the one with causes is looked at without them.
+        let plain = estimate(&experiment, &[], &start, &settings).or_else(|| {
+            let found = estimate(&experiment, &priors, &start, &settings)?;
+            evaluated(&experiment, &found.unknowns, &settings)
+        })?;
         let diagnosis = diagnose(&experiment, &plain, &settings);
-        let mut priors = study.budget.priors(&experiment);
-        // A cause that stands out is let free from the beginning: a search that it keeps from converging finds nothing.
-        let mut contradicted: Option<(Cause, f64)> = None;
-        let first = diagnosis
-            .suspects
-            .first()
-            .filter(|suspect| suspect.reduced_chi_squared.is_some());
-        if let Some(first) = first
-            && let Some(prior) = priors.iter_mut().find(|prior| prior.cause == first.cause)
-        {
-            let pull = first.value / prior.standard_deviation;
-            if pull.abs() > CONTRADICTED {
-                prior.standard_deviation = first.value.abs();
-                contradicted = Some((first.cause, pull));
-            }
-        }
-        let mut found = estimate(&experiment, &priors, &diagnosis.start, &settings)?;
-        for cause in &mut found.causes {
-            if let Some((of, pull)) = contradicted
-                && of == cause.prior.cause
-            {
-                cause.contradicted = Some(pull);
-            }
-        }
+        let mut found = with_first_suspect_free(&experiment, &priors, &diagnosis, &settings)?;
         let Diagnosis {
             suspects, scores, ..
         } = diagnosis.with_contradicted(&experiment, &plain, &found, &settings);
@@ -299,6 +282,40 @@ impl Systematic {
         }
         warnings
     }
+}
+
+/// The estimate with all causes. One that stands out is let free from the beginning, as a search that it keeps from converging
+/// finds nothing; if it turns out to be no larger than its prior allows, it is held again.
+fn with_first_suspect_free(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    diagnosis: &Diagnosis,
+    settings: &Settings,
+) -> Option<Estimate> {
+    let with = |priors: &[Prior], start: &Start| estimate(experiment, priors, start, settings);
+    let first = diagnosis.suspects.first();
+    let first = first.filter(|suspect| suspect.reduced_chi_squared.is_some());
+    let held = first.and_then(|suspect| {
+        let number = priors.iter().position(|of| of.cause == suspect.cause)?;
+        let deviation = priors[number].standard_deviation;
+        let contradicts = (suspect.value / deviation).abs() > CONTRADICTED;
+        contradicts.then_some((number, deviation, suspect.value))
+    });
+    let Some((number, deviation, value)) = held else {
+        return with(priors, &diagnosis.start);
+    };
+    let mut freed = priors.to_vec();
+    freed[number].standard_deviation = value.abs();
+    let mut found = with(&freed, &diagnosis.start)?;
+    let cause = &mut found.causes[number];
+    let pull = cause.value / deviation;
+    if pull.abs() > CONTRADICTED {
+        cause.contradicted = Some(pull);
+        return Some(found);
+    }
+    let start = Start::without_causes(&found.unknowns);
+    let again = with(priors, &start).filter(|again| again.converged || !found.converged);
+    Some(again.unwrap_or(found))
 }
 
 /// Values of a cause in a unit for people.

@@ -26,9 +26,8 @@ pub(super) fn bolt_starts(
         let joints = layout.matrices(start.as_slice());
         alike.unknowns_of(&joints).map(DVector::from_vec)
     });
-    // Its own starts only: where they lead nowhere, the search proper has a grid.
     let given = given.into_iter().collect();
-    let Ok(found) = search::best(data, &alike.places(), noise, given, Effort::Related, None) else {
+    let Ok(found) = search::best(data, &alike.places(), noise, given, Effort::Whole, None) else {
         return first;
     };
     let joint = alike.matrices(found.estimate.unknowns.as_slice());

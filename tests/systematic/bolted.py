@@ -132,7 +132,7 @@ def identified(program, study, bolts):
     seconds = time.perf_counter() - begun
     assert done.returncode in (0, 3), done.stderr
     whole = json.loads(done.stdout)
-    files = [one["joint_file"] for one in whole["bolts"]] if "bolts" in whole else [whole["joint_file"]] * bolts
+    files = [one["joint_file"] for one in whole["bolts"]] if whole["bolts"] else [whole["joint_file"]] * bolts
     return [tuple(np.array(file["joint"][name]) for name in ("stiffness", "damping")) for file in files], seconds, whole
 
 

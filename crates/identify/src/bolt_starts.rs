@@ -16,8 +16,8 @@ const UNLIKE: [f64; 2] = [0.2, 5.0];
 /// Starts that agree on the joint that suits all bolts: more of them would not tell more.
 const ENOUGH: usize = 4;
 
-/// `first` and, in a whole search for bolts that differ, the starts that an estimate with bolts that are alike gives. Bolts that are
-/// in truth alike have their global minimum there, and others beside it that may pass for noise.
+/// `first` and, in a whole search for bolts that differ, the starts that an estimate with bolts that are alike gives. Bolts that
+/// are in truth alike have their global minimum there, and others beside it that may pass for noise.
 pub(super) fn bolt_starts(
     data: &Data<'_>,
     layout: &Layout,

@@ -83,8 +83,8 @@ class Body:
 
 
 def receptances(omega, bodies, wanted, joint=None, masses=()):
-    """Receptances between `wanted` (body, x, 0 for w or 1 for θ); `joint` is the dynamic stiffness between the bodies' joints,
-    `masses` are (body, x, kg)."""
+    """Receptances between `wanted` (body, x, 0 for w or 1 for θ); `joint` is the dynamic stiffness between the bodies' joints, or a
+    list of them, `masses` are (body, x, kg)."""
     sizes = [2 * len(body.x) for body in bodies]
     first = {body.name: start for body, start in zip(bodies, np.cumsum([0] + sizes[:-1]))}
     by_name = {body.name: body for body in bodies}
@@ -99,11 +99,11 @@ def receptances(omega, bodies, wanted, joint=None, masses=()):
     for body, x, kg in masses:
         at = place(body, x, 0)
         whole[:, at, at] -= omega**2 * kg
-    if joint is not None:
-        a = [place("A", joint["A"], dof) for dof in (0, 1)]
-        b = [place("B", joint["B"], dof) for dof in (0, 1)]
+    for bolt in [joint] if isinstance(joint, dict) else joint or []:
+        a = [place("A", bolt["A"], dof) for dof in (0, 1)]
+        b = [place("B", bolt["B"], dof) for dof in (0, 1)]
         for rows, columns, sign in ((a, a, 1), (b, b, 1), (a, b, -1), (b, a, -1)):
-            whole[np.ix_(range(len(omega)), rows, columns)] += sign * joint["stiffness"]
+            whole[np.ix_(range(len(omega)), rows, columns)] += sign * bolt["stiffness"]
     clamped = [place("A", 0.0, dof) for dof in (0, 1)] if "A" in by_name else []
     free = [i for i in range(sum(sizes)) if i not in clamped]
     columns = [free.index(place(*dof)) for dof in wanted]

@@ -31,8 +31,14 @@ macro_rules! for_dofs {
             2 => Some($function::<2> as _),
             3 => Some($function::<3> as _),
             4 => Some($function::<4> as _),
+            5 => Some($function::<5> as _),
             6 => Some($function::<6> as _),
+            7 => Some($function::<7> as _),
             8 => Some($function::<8> as _),
+            10 => Some($function::<10> as _),
+            12 => Some($function::<12> as _),
+            14 => Some($function::<14> as _),
+            16 => Some($function::<16> as _),
             _ => None,
         }
     };

@@ -9,6 +9,9 @@ use super::layout::Place;
 use super::noise::Noise;
 use super::trials::{best_trials, rank, same};
 
+/// An excess of −2 ln L on few lines that all the others do not make up for beside a fit beyond doubt.
+const RULED_OUT: f64 = 100.0;
+
 /// A minimum on thinned lines and where it lies on all of them, if it is one there.
 pub(super) struct Final {
     candidate: Estimate,
@@ -33,6 +36,15 @@ impl Final {
             end: self.end.map(give_up),
             ..self
         }
+    }
+
+    /// Whether it is beyond doubt on all lines, and `other` too far from it on the few, or no minimum.
+    fn rules_out(&self, other: &Estimate) -> bool {
+        let is_certain = |end: &End| end.estimate.converged && end.assessment.is_certain();
+        let own = &self.candidate;
+        let is_far =
+            own.measurements == other.measurements && other.misfit - own.misfit > RULED_OUT;
+        self.end.as_ref().is_some_and(is_certain) && (is_far || !other.converged)
     }
 
     pub(super) fn rank(&self) -> f64 {
@@ -112,8 +124,11 @@ pub(super) fn finalists(
     let whole = used.assemblies.objective(entries);
     // Thinned lines may have passed over the resonances that tell two minima apart.
     let mut finals: Vec<Final> = Vec::new();
-    // The corrections of all of them would be much memory: those of the last one are kept, most likely the best.
-    for candidate in best_trials(trials).into_iter().rev() {
+    // The corrections of all of them would be much memory: those of the last one are kept.
+    for candidate in best_trials(trials) {
+        if finals.iter().any(|one| one.rules_out(candidate)) {
+            continue;
+        }
         let is_it = |end: &Final| same(&end.candidate, candidate);
         if let Some(place) = known.iter().position(is_it) {
             finals.push(known.swap_remove(place));

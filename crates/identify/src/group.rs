@@ -29,10 +29,12 @@ impl Side {
 #[derive(Clone, Debug)]
 pub(super) struct Pattern<const N: usize> {
     pub(super) free: [[f64; N]; N],
-    /// Whether it enters F at all.
-    pub(super) acts_on_free: bool,
+    /// What of that is not zero, with row and column.
+    pub(super) entries_of_free: Vec<(usize, usize, f64)>,
     /// For each point; empty if it does not enter.
     pub(super) transfer: Vec<[f64; N]>,
+    /// DOFs of the joint at which that is not zero.
+    pub(super) dofs_of_transfer: Vec<usize>,
     /// For each entry; empty if it does not enter.
     pub(super) own: Vec<f64>,
 }
@@ -251,9 +253,17 @@ fn pattern<const N: usize>(
         }
     }
     let free: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| change(i, j)));
+    let every = (0..N).flat_map(|i| (0..N).map(move |j| (i, j)));
+    let shares = every.map(|(i, j)| (i, j, free[i][j]));
+    let moves = |dof: &usize| {
+        transfer
+            .iter()
+            .any(|of_point: &[f64; N]| of_point[*dof] != 0.0)
+    };
     Pattern {
-        acts_on_free: free.iter().flatten().any(|&share| share != 0.0),
+        entries_of_free: shares.filter(|(_, _, share)| *share != 0.0).collect(),
         free,
+        dofs_of_transfer: (0..N).filter(moves).collect(),
         transfer,
         own,
     }

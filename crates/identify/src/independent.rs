@@ -13,7 +13,9 @@ use super::noise::NoiseLevel;
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
-use super::strip::{ENTRIES_OF_ONE, InCommon, MOST_ENTRIES, Strip, Sums, Vector, are_of_one};
+use super::strip::{
+    ENTRIES_OF_FOUR, ENTRIES_OF_ONE, InCommon, MOST_ENTRIES, Strip, Sums, Vector, are_of_one,
+};
 use super::weights::of_one;
 
 /// Lines that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on how many
@@ -30,6 +32,8 @@ pub(super) fn accumulate<const N: usize>(
 ) -> Option<()> {
     if are_of_one::<N>(entries) {
         accumulate_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, weights, normal)
+    } else if entries.len() <= ENTRIES_OF_FOUR {
+        accumulate_rows::<N, ENTRIES_OF_FOUR>(group, entries, unknowns, weights, normal)
     } else {
         accumulate_rows::<N, MOST_ENTRIES>(group, entries, unknowns, weights, normal)
     }
@@ -81,6 +85,8 @@ pub(super) fn renew<const N: usize>(
 ) -> Option<Weights> {
     if are_of_one::<N>(entries) {
         renew_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, level, normal)
+    } else if entries.len() <= ENTRIES_OF_FOUR {
+        renew_rows::<N, ENTRIES_OF_FOUR>(group, entries, unknowns, level, normal)
     } else {
         renew_rows::<N, MOST_ENTRIES>(group, entries, unknowns, level, normal)
     }

@@ -6,6 +6,7 @@
 use num_complex::Complex64;
 
 use super::block::{Entry, Small};
+use super::group::Pattern;
 use super::lanes::Number;
 use super::layout::Place;
 
@@ -88,27 +89,16 @@ impl<const N: usize> Kernel<N> {
             .sum::<Complex64>()
     }
 
-    /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss in the given proportions.
-    pub(super) fn by_source(
-        &self,
-        entry: Entry,
-        free: Option<&[[f64; N]; N]>,
-        transfer: &[[f64; N]],
-        own: f64,
-    ) -> Complex64 {
+    /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss as the pattern says.
+    pub(super) fn by_source(&self, entry: Entry, pattern: &Pattern<N>, own: f64) -> Complex64 {
         let (x, y) = (&self.x[entry.row], &self.x[entry.column]);
         let mut derivative = Complex64::from(own);
-        if let Some(free) = free {
-            for i in 0..N {
-                for j in 0..N {
-                    derivative += x[i] * y[j] * free[i][j];
-                }
-            }
+        for &(i, j, share) in &pattern.entries_of_free {
+            derivative += x[i] * y[j] * share;
         }
-        if !transfer.is_empty() {
-            for i in 0..N {
-                derivative -= transfer[entry.row][i] * y[i] + transfer[entry.column][i] * x[i];
-            }
+        for &i in &pattern.dofs_of_transfer {
+            let share = |point: usize| pattern.transfer[point][i];
+            derivative -= share(entry.row) * y[i] + share(entry.column) * x[i];
         }
         derivative
     }

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::model::{JointMatrices, JointModel};
 
 /// Most bolts that one joint can have.
-pub const MOST_BOLTS: usize = 4;
+pub const MOST_BOLTS: usize = 8;
 
 /// The bolts between two substructures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

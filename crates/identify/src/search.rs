@@ -14,7 +14,7 @@ use super::strip::ENTRIES_OF_ONE;
 use super::trials::{SAME_MISFIT, rank, try_starts};
 
 /// Starts of the grid between two looks at whether the fit is beyond doubt.
-const STARTS_AT_A_TIME: usize = 4;
+pub(super) const STARTS_AT_A_TIME: usize = 4;
 
 /// How far to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -222,7 +222,7 @@ impl<'b, const N: usize> Transmitted<'b, N> {
                     products.add_common(&Vector::new(&w), &rows);
                 }
             }
-            sums.add_products(strip.omega, &products);
+            sums.add_products(strip.omega, &products, entries.len());
         }
         sums.add_to::<N>(normal, entries, 0);
         Some(())

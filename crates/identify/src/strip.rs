@@ -8,8 +8,10 @@ use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
 use super::normal::Normal;
 
-/// Most unknown entries of K*: those of four bolts with a joint of their own …
-pub(super) const MOST_ENTRIES: usize = 12;
+/// Most unknown entries of K*: those of eight bolts with a joint of their own …
+pub(super) const MOST_ENTRIES: usize = 24;
+/// … those of four, most joints being of no more …
+pub(super) const ENTRIES_OF_FOUR: usize = 12;
 /// … and those of one joint.
 pub(super) const ENTRIES_OF_ONE: usize = 3;
 
@@ -174,7 +176,7 @@ impl<const N: usize> InCommon<N> {
 }
 
 /// Products of one strip's rows of the Jacobian: by the places (0, 0), (0, 1) and (1, 1) of one joint's K*, or by the unknown
-/// entries of several bolts, up to E = 12.
+/// entries of several bolts, up to E.
 pub(super) struct Products<const E: usize> {
     /// Σ conj(∂H/∂K*_i) ∂H/∂K*_j / σ² for j ≤ i
     rows: [[Complexes; E]; E],
@@ -299,13 +301,18 @@ impl<const E: usize> Sums<E> {
                 products.add_common(u, sums);
             }
         }
-        self.add_products(strip.omega, &products);
+        self.add_products(strip.omega, &products, entries.len());
     }
 
     /// Adds rows by K*: ∂K*/∂k = E, ∂K*/∂c = jωE.
     #[inline(always)]
-    pub(super) fn add_products(&mut self, omega: Reals, products: &Products<E>) {
-        for i in 0..E {
+    pub(super) fn add_products(&mut self, omega: Reals, products: &Products<E>, entries: usize) {
+        let rows = if E == ENTRIES_OF_ONE {
+            E
+        } else {
+            entries.min(E)
+        };
+        for i in 0..rows {
             self.by_stiffness[i] += products.right[i].re;
             self.by_damping[i] += omega * products.right[i].im;
             for j in 0..=i {

@@ -14,12 +14,12 @@ use super::assessment::assess;
 use super::bolt_starts::bolt_starts;
 use super::choice::bayesian_criterion;
 use super::data::{Data, Used};
-use super::estimator::{Estimate, Free, estimate, first_levels};
+use super::estimator::{Estimate, Free, estimate};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::noise::Noise;
-use super::robust::robust;
 use super::search::{self, Effort, Found};
+use super::trials::rough;
 
 /// Whether the joint depends on the tightening torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -272,7 +272,8 @@ impl<'a> Problem<'a> {
                 used,
             })
         };
-        let near = self.moved_alike(entries, start)?;
+        // Each joint by itself has been moved by other corrections of the same substructures.
+        let near = rough(&self.data, entries, noise, start)?;
         if let Some(used) = used {
             return on(Arc::clone(used), &near);
         }
@@ -283,22 +284,6 @@ impl<'a> Problem<'a> {
         // Which lines can be used shows best at the estimate itself.
         let near = found.estimate;
         on(self.data.used_near(entries, near.place()), &near)
-    }
-
-    /// Each joint by itself has been moved by other corrections of the same substructures: where a start of all joints leads
-    /// without any.
-    fn moved_alike(&self, entries: &[Place], start: &DVector<f64>) -> Option<Estimate> {
-        let thinned = self.data.thinned.objective(entries);
-        match &self.data.thinned_whole {
-            Some(whole) => {
-                let whole = whole.objective(entries);
-                robust(thinned.as_ref(), whole.as_ref(), self.noise, start)
-            }
-            None => {
-                let levels = Some(first_levels(thinned.as_ref(), self.noise));
-                estimate(thinned.as_ref(), self.noise, levels, &Free, start, None)
-            }
-        }
     }
 }
 

@@ -32,6 +32,25 @@ const FINALISTS: usize = 4;
 /// the thinned lines makes up for it.
 const COMPARABLE: f64 = 10.0;
 
+/// Where a start leads on few lines if the receptances of the substructures stay as they were measured.
+pub(super) fn rough(
+    data: &Data<'_>,
+    entries: &[Place],
+    noise: &Noise,
+    start: &DVector<f64>,
+) -> Option<Estimate> {
+    let thinned = data.thinned.objective(entries);
+    let thinned = thinned.as_ref();
+    match &data.thinned_whole {
+        Some(whole) => robust(thinned, whole.objective(entries).as_ref(), noise, start),
+        None => {
+            // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
+            let levels = Some(first_levels(thinned, noise));
+            estimate(thinned, noise, levels, &Free, start, None)
+        }
+    }
+}
+
 /// Where each of the starts leads on few lines; `ways` are the robust estimates that led somewhere before.
 pub(super) fn try_starts(
     data: &Data<'_>,
@@ -40,18 +59,10 @@ pub(super) fn try_starts(
     starts: &[DVector<f64>],
     ways: &mut Vec<Way>,
 ) -> Vec<Estimate> {
-    let thinned = data.thinned.objective(entries);
-    let thinned = thinned.as_ref();
-    let Some(whole) = &data.thinned_whole else {
-        // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-        let levels = Some(first_levels(thinned, noise));
-        let trial = |start: &DVector<f64>| estimate(thinned, noise, levels, &Free, start, None);
-        return parallel::map(starts, trial).into_iter().flatten().collect();
-    };
-    let whole = whole.objective(entries);
-    let found = parallel::map(starts, |start| {
-        robust(thinned, whole.as_ref(), noise, start)
-    });
+    let found = parallel::map(starts, |start| rough(data, entries, noise, start));
+    if !data.has_errors() {
+        return found.into_iter().flatten().collect();
+    }
     let robust: Vec<Estimate> = found.into_iter().flatten().collect();
     let mut new: Vec<Estimate> = Vec::new();
     for one in &robust {

@@ -105,7 +105,8 @@ impl<const N: usize> Objective<'_, N> {
                         let sources = group.sources.iter().filter_map(|source| {
                             let pattern = source.patterns[number].as_ref()?;
                             let variance = source_variance(source, levels, line);
-                            pattern.acts_on_free.then_some((&pattern.free, variance))
+                            (!pattern.entries_of_free.is_empty())
+                                .then_some((&pattern.free, variance))
                         });
                         motion(block, line, &stiffness, sources)
                     };

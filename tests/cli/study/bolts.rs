@@ -62,8 +62,9 @@ fn bolts_that_contradict_each_other_are_named() {
         ("x = 0.045", "x = 0.015", ["`b.joint`: found x = 0.015 at \"left\" and at \"right\"", "a place of its own"]),
         ("x = 0.045", "x = 0.3", ["`b.joint \"right\".x`: found 0.3", "from 0 to 0.2 m"]),
         ("{ name = \"right\", x = 0.045 }",
-         "{ name = \"right\", x = 0.045 }, { name = \"c\", x = 0.05 }, { name = \"d\", x = 0.06 }, { name = \"e\", x = 0.07 }",
-         ["`b.joint`: found 5 places", "expected 4 at most"]),
+         "{ name = \"right\", x = 0.045 }, { name = \"c\", x = 0.05 }, { name = \"d\", x = 0.06 }, { name = \"e\", x = 0.07 }, \
+          { name = \"f\", x = 0.08 }, { name = \"g\", x = 0.09 }, { name = \"h\", x = 0.1 }, { name = \"i\", x = 0.11 }",
+         ["`b.joint`: found 9 places", "expected 8 at most"]),
         ("y = \"4:+Y\", theta = { points = [\"5:+Y\", \"4:+Y\", \"3:+Y\"]",
          "y = \"2:-Y\", theta = { points = [\"3:+Y\", \"2:-Y\", \"1:+Y\"]",
          ["`a.joint`: found 2:-Y at \"left\" and at \"right\"", "a place of its own"]),

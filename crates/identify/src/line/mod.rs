@@ -155,15 +155,11 @@ impl<'g, const N: usize> Line<'g, N> {
             self.transfer.extend_from_slice(&block.transfer[columns]);
             for (source, &delta) in self.group.sources.iter().zip(delta) {
                 if let Some(pattern) = &source.patterns[number] {
-                    if pattern.acts_on_free {
-                        for i in 0..N {
-                            for j in 0..N {
-                                free[i][j] += delta * pattern.free[i][j];
-                            }
-                        }
+                    for &(i, j, share) in &pattern.entries_of_free {
+                        free[i][j] += delta * share;
                     }
                     for (column, change) in self.transfer.iter_mut().zip(&pattern.transfer) {
-                        for i in 0..N {
+                        for &i in &pattern.dofs_of_transfer {
                             column[i] += delta * change[i];
                         }
                     }
@@ -193,8 +189,7 @@ impl<'g, const N: usize> Line<'g, N> {
                     self.by_source[s * size + at + e] =
                         source.patterns[number].as_ref().map_or(ZERO, |pattern| {
                             let own = pattern.own.get(e).copied().unwrap_or(0.0);
-                            let free = pattern.acts_on_free.then_some(&pattern.free);
-                            self.kernel.by_source(entry, free, &pattern.transfer, own)
+                            self.kernel.by_source(entry, pattern, own)
                         });
                 }
             }
@@ -300,6 +295,10 @@ impl<'g, const N: usize> Line<'g, N> {
         for (s, &variance) in variances.sources.iter().enumerate() {
             let column = &self.by_source[s * size..(s + 1) * size];
             for row in 0..size {
+                // Only receptances of the joint act on every entry.
+                if column[row] == ZERO {
+                    continue;
+                }
                 let left = column[row] * variance;
                 for other in 0..=row {
                     self.factor[row * size + other] += left * column[other].conj();

@@ -1,0 +1,183 @@
+"""Several bolts between the two beams of rig.py: joints drawn at random, and whether the search ends at the global minimum.
+
+The noise of exact data is stated as 1 % all the same: a minimum that leaves less than that must not pass for the best.
+
+    python tests/systematic/bolted.py [DRAWS [BOLTS]]
+
+The likelihood of what is found is computed here, from one global matrix, and compared with that of the joints that made the data.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+import rig
+
+SPACING = 0.03
+BEYOND = [0.10, 0.13, 0.16, 0.19, 0.215]
+# as few as two bolts can do with, far from them
+OUTER = [0.185, 0.200, 0.215]
+ASSEMBLY_ALONE = "relative = 0.01\nfloor = 0\na = { relative = 0, floor = 0 }\nb = { relative = 0, floor = 0 }\n"
+
+
+class Rig:
+    """So many bolts, with points of B between them or all beyond them."""
+
+    def __init__(self, bolts, between=True, points=None, frequency=rig.FREQUENCY):
+        self.frequency = np.asarray(frequency, float)
+        self.omega = 2 * np.pi * self.frequency
+        spacing = min(SPACING, 0.09 / max(bolts - 1, 1))
+        self.b = 0.015 + spacing * np.arange(bolts)
+        self.a = 0.285 - spacing * np.arange(bolts)[::-1]
+        inner = list(self.b + spacing / 2) if between else []
+        outer = [x for x in BEYOND if x > self.b[-1] + 0.02]
+        self.points = np.array(points or (inner + outer)[: 2 * bolts] + [0.221])
+        self.names = [f"b{i + 1}" for i in range(bolts)]
+
+    def substructures(self):
+        wanted = [("A", x, dof) for x in self.a for dof in (0, 1)]
+        a = rig.receptances(self.omega, [rig.Body("A", list(self.a))], wanted)
+        wanted = [("B", x, dof) for x in self.b for dof in (0, 1)] + [("B", x, 0) for x in self.points]
+        return a, rig.receptances(self.omega, [rig.Body("B", [*self.b, *self.points])], wanted)
+
+    def assembly(self, joints):
+        """Each joint is (K, C)."""
+        bodies = [rig.Body("A", list(self.a)), rig.Body("B", [*self.b, *self.points])]
+        bolts = [
+            {"A": a, "B": b, "stiffness": k + 1j * self.omega[:, None, None] * c}
+            for a, b, (k, c) in zip(self.a, self.b, joints)
+        ]
+        return rig.receptances(self.omega, bodies, [("B", x, 0) for x in self.points], bolts)
+
+    def write(self, folder, sets, noise, bolts="different", budget='"none"'):
+        """Archives and a study; its path."""
+        labels = {
+            side: [f"{first + i}:{axis}" for i in range(len(self.a)) for axis in ("+Y", "+RZ")]
+            for side, first in (("A", 1), ("B", 31))
+        }
+        labels["C"] = [f"{61 + i}:+Y" for i in range(len(self.points))]
+        labels["B"] = labels["B"] + labels["C"]
+        for name, z in sets.items():
+            np.savez(
+                folder / f"{name}.npz", frequency=self.frequency, frf=z, response=labels[name], reference=labels[name],
+                quantity="receptance", axes="frequency,response,reference",
+            )
+
+        def places(side):
+            of = [f'name = "{n}", y = "{y}", theta = "{t}"' for n, y, t in zip(self.names, labels[side][::2], labels[side][1::2])]
+            return "[" + ", ".join(f"{{ {one} }}" for one in of) + "]" if len(of) > 1 else f"{{ {of[0].split(', ', 1)[1]} }}"
+
+        study = folder / "study.toml"
+        study.write_text(
+            f"""method = "frf-decoupling"
+name = "rig"
+budget = {budget}
+[a]
+frf = "A.npz"
+joint = {places("A")}
+[b]
+frf = "B.npz"
+joint = {places("B")}
+[assembly]
+frf = "C.npz"
+points = {labels["C"]}
+[joint]
+model = "full"
+{f'bolts = "{bolts}"' if len(self.a) > 1 else ""}
+[noise]
+{noise}
+""",
+            encoding="utf-8",
+        )
+        return study
+
+    def misfit(self, measured, joints, relative):
+        """−2 ln L of independent errors that are this part of the computed modulus, but for a constant."""
+        computed = self.assembly(joints)
+        variance = (relative * abs(computed)) ** 2
+        return 2 * np.sum(abs(measured - computed) ** 2 / variance + np.log(variance))
+
+
+def drawn(generator, bolts, equal):
+    """Joints from soft to stiff, all the same or up to tenfold apart."""
+
+    def one():
+        y, theta = 1.2e6 * 10 ** generator.uniform(-0.5, 0.5), 1.3e3 * 10 ** generator.uniform(-0.5, 0.5)
+        coupling = generator.uniform(-0.3, 0.3) * np.sqrt(y * theta)
+        k = np.array([[y, coupling], [coupling, theta]])
+        return k, k * 10 ** generator.uniform(-5.3, -4.3)
+
+    if equal:
+        return [one()] * bolts
+    first = one()
+    return [first] + [tuple(m * 10 ** generator.uniform(-1, 1) for m in first) for _ in range(bolts - 1)]
+
+
+def noisy(generator, z, relative):
+    parts = generator.standard_normal((2, *z.shape))
+    return z * (1 + relative * (parts[0] + 1j * parts[1]) / np.sqrt(2))
+
+
+def identified(program, study, bolts):
+    """Joints, and seconds that it takes."""
+    begun = time.perf_counter()
+    done = subprocess.run(
+        [program, "identify", study, "-o", study.parent / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
+    )
+    seconds = time.perf_counter() - begun
+    assert done.returncode in (0, 3), done.stderr
+    whole = json.loads(done.stdout)
+    files = [one["joint_file"] for one in whole["bolts"]] if whole["bolts"] else [whole["joint_file"]] * bolts
+    return [tuple(np.array(file["joint"][name]) for name in ("stiffness", "damping")) for file in files], seconds, whole
+
+
+def error(joints, truth):
+    """Largest of all entries, relative to the diagonal."""
+
+    def of(found, exact):
+        scale = np.sqrt(np.diag(exact))
+        return np.max(abs(found - exact) / np.outer(scale, scale))
+
+    return max(of(f, e) for found, exact in zip(joints, truth) for f, e in zip(found, exact))
+
+
+def draw(program, seed, bolts=2, folder=None):
+    """Whether the search ends at the global minimum; what it is and how long it takes."""
+    generator = np.random.default_rng(seed)
+    equal, exact = seed % 2 == 0, seed // 2 % 2 == 0
+    where = ["outer", "between", "beyond"][seed % 3]
+    test = Rig(bolts, where == "between", OUTER if where == "outer" and bolts == 2 else None)
+    truth = drawn(generator, bolts, equal)
+    a, b = test.substructures()
+    relative = 0.0 if exact else 0.01
+    sets = {"A": a, "B": b, "C": noisy(generator, test.assembly(truth), relative)}
+    study = test.write(folder, sets, ASSEMBLY_ALONE)
+    found, seconds, whole = identified(program, study, bolts)
+    wrong = error(found, truth)
+    if exact:
+        is_there, excess = wrong < 1e-3, np.nan
+    else:
+        excess = test.misfit(sets["C"], found, relative) - test.misfit(sets["C"], truth, relative)
+        is_there = excess <= 0
+    words = f"{'equal' if equal else 'unequal':8}{'exact' if exact else '1 %':6}{where:8}"
+    return bool(is_there), f"{words} error {wrong:8.2e} excess {excess:8.1f} {seconds:6.2f} s"
+
+
+def main(draws=24, bolts=2):
+    program = os.environ.get("BOLTED_JOINT", pathlib.Path(__file__).resolve().parents[2] / "target/release/bolted-joint")
+    there = 0
+    for seed in range(draws):
+        with tempfile.TemporaryDirectory() as folder:
+            is_there, words = draw(program, seed, bolts, pathlib.Path(folder))
+        there += is_there
+        print(f"{seed:3} {words} {'' if is_there else 'NOT THE MINIMUM'}", flush=True)
+    print(f"{there} of {draws} at the global minimum")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

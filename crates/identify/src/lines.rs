@@ -1,12 +1,17 @@
 //! What the estimator works on: receptances of the substructures and of the assembly, line by line.
 
+use std::sync::OnceLock;
+
 use nalgebra::DMatrix;
+use num_complex::Complex64;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ComplexMatrix, Partition, SingularAssembly, transmission};
 
 use super::model::JointMatrices;
+use super::parallel;
 use super::receptances::Receptances;
+use super::roughness::Roughness;
 
 /// Receptances at the lines of one frequency axis.
 #[derive(Clone, Debug)]
@@ -27,6 +32,8 @@ pub struct Lines {
     pub relative_variance: Option<Vec<Vec<f64>>>,
     /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
     pub repeats: Option<Repeats>,
+    /// Floor of the noise of each of `measured`, in its unit; found when it is first asked for.
+    pub floors: OnceLock<Vec<f64>>,
 }
 
 /// Repeated measurements of the same functions.
@@ -50,6 +57,22 @@ impl Lines {
         independent(&self.measured, is_symmetric)
     }
 
+    fn floors(&self) -> &[f64] {
+        self.floors.get_or_init(|| {
+            parallel::map(&self.measured, |&place| {
+                let values: Vec<Complex64> =
+                    self.assembly.iter().map(|matrix| matrix[place]).collect();
+                Roughness::of(&self.frequency_hz, &values, None).floor
+            })
+        })
+    }
+
+    /// Floor of the noise of a measured entry, as it shows by itself: in the entry's unit; zero if it was not measured.
+    pub(super) fn floor(&self, place: (usize, usize)) -> f64 {
+        let index = self.measured.iter().position(|other| *other == place);
+        index.map_or(0.0, |index| self.floors()[index])
+    }
+
     /// Every so many lines, so that at most `most` are left.
     pub(super) fn at_most(&self, most: usize) -> Self {
         let stride = self.frequency_hz.len().div_ceil(most.max(1)).max(1);
@@ -68,6 +91,7 @@ impl Lines {
                 count: repeats.count,
                 scatter: every(&repeats.scatter, stride),
             }),
+            floors: self.floors().to_vec().into(),
         }
     }
 

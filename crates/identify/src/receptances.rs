@@ -1,7 +1,7 @@
 //! Receptances of a substructure, computed or measured.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -9,6 +9,8 @@ use num_complex::Complex64;
 use bolted_joint_frf::structure::ComplexMatrix;
 
 use super::lines::every;
+use super::parallel;
+use super::roughness::Roughness;
 
 /// Receptances of a substructure between the joint's DOFs, bolt by bolt, and then its points, at each line.
 #[derive(Clone, Debug)]
@@ -68,6 +70,12 @@ pub(super) fn with_lost(mut formed: ComplexMatrix, lost: Option<&DMatrix<f64>>) 
     formed
 }
 
+/// Where an entry is in the upper triangle, column by column.
+fn place(row: usize, column: usize) -> usize {
+    let (row, column) = (row.min(column), row.max(column));
+    column * (column + 1) / 2 + row
+}
+
 /// Measured receptances from which those of a substructure are formed.
 #[derive(Clone, Debug)]
 pub struct MeasuredSubstructure {
@@ -80,6 +88,11 @@ pub struct MeasuredSubstructure {
     relative_variance: Option<Vec<Vec<f64>>>,
     /// What is added at the joint's DOFs: what rotations by differences lose.
     lost: Option<DMatrix<f64>>,
+    /// Which of the measured DOFs are rotations; none, if nothing is said.
+    rotations: Vec<bool>,
+    frequency_hz: Vec<f64>,
+    /// Floor of the noise of each of `functions`, in its unit.
+    floors: OnceLock<Vec<f64>>,
 }
 
 impl MeasuredSubstructure {
@@ -105,6 +118,9 @@ impl MeasuredSubstructure {
             measured,
             relative_variance,
             lost: None,
+            rotations: Vec::new(),
+            frequency_hz: Vec::new(),
+            floors: OnceLock::new(),
         }
     }
 
@@ -114,8 +130,49 @@ impl MeasuredSubstructure {
         Self { lost, ..self }
     }
 
+    /// With the frequency of each line, and which of the measured DOFs are rotations. Without them lines are taken for evenly
+    /// spaced, and DOFs for translations.
+    #[must_use]
+    pub fn with_axis(self, frequency_hz: &[f64], rotations: Vec<bool>) -> Self {
+        Self {
+            frequency_hz: frequency_hz.to_vec(),
+            rotations,
+            ..self
+        }
+    }
+
+    /// Whether a measured DOF is a rotation.
+    pub(super) fn is_rotation(&self, label: usize) -> bool {
+        self.rotations.get(label) == Some(&true)
+    }
+
+    /// Noise of an entry of U, as it shows by itself; `known` variances as a fraction of |U|².
+    fn roughness(&self, function: &[Complex64]) -> Roughness {
+        let even: Vec<f64>;
+        let frequency_hz = match self.frequency_hz.is_empty() {
+            true => {
+                even = (0..function.len()).map(|line| line as f64).collect();
+                &even
+            }
+            false => &self.frequency_hz,
+        };
+        Roughness::of(frequency_hz, function, None)
+    }
+
+    fn floors(&self) -> &[f64] {
+        let of = |function: &Arc<Vec<Complex64>>| self.roughness(function).floor;
+        self.floors
+            .get_or_init(|| parallel::map(&self.functions, of))
+    }
+
+    /// Floor of the noise of an entry of U, in its unit.
+    pub(super) fn floor(&self, row: usize, column: usize) -> f64 {
+        self.floors()[place(row, column)]
+    }
+
     /// At every so many lines.
     fn every(&self, stride: usize) -> Self {
+        self.floors();
         let functions = self.functions.iter();
         let known = self.relative_variance.as_ref();
         Self {
@@ -124,6 +181,7 @@ impl MeasuredSubstructure {
                 .collect(),
             relative_variance: known
                 .map(|known| known.iter().map(|known| every(known, stride)).collect()),
+            frequency_hz: every(&self.frequency_hz, stride),
             ..self.clone()
         }
     }
@@ -136,6 +194,7 @@ impl MeasuredSubstructure {
         };
         Self {
             functions: self.functions.iter().map(multiplied).collect(),
+            floors: OnceLock::new(),
             ..self.clone()
         }
     }
@@ -171,8 +230,7 @@ impl MeasuredSubstructure {
     /// An entry of U over all lines.
     #[must_use]
     pub fn function(&self, row: usize, column: usize) -> &Arc<Vec<Complex64>> {
-        let (row, column) = (row.min(column), row.max(column));
-        &self.functions[column * (column + 1) / 2 + row]
+        &self.functions[place(row, column)]
     }
 
     /// U at a line.

@@ -295,7 +295,7 @@ impl<'a> Problem<'a> {
                 robust(thinned.as_ref(), whole.as_ref(), self.noise, start)
             }
             None => {
-                let levels = Some(first_levels(thinned.as_ref(), self.noise));
+                let levels = Some(first_levels(self.noise));
                 estimate(thinned.as_ref(), self.noise, levels, &Free, start, None)
             }
         }

@@ -44,7 +44,7 @@ pub(super) fn try_starts(
     let thinned = thinned.as_ref();
     let Some(whole) = &data.thinned_whole else {
         // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-        let levels = Some(first_levels(thinned, noise));
+        let levels = Some(first_levels(noise));
         let trial = |start: &DVector<f64>| estimate(thinned, noise, levels, &Free, start, None);
         return parallel::map(starts, trial).into_iter().flatten().collect();
     };

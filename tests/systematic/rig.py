@@ -82,9 +82,9 @@ class Body:
         return whole
 
 
-def receptances(omega, bodies, wanted, joint=None, masses=()):
-    """Receptances between `wanted` (body, x, 0 for w or 1 for θ); `joint` is the dynamic stiffness between the bodies' joints,
-    `masses` are (body, x, kg)."""
+def receptances(omega, bodies, wanted, joint=(), masses=()):
+    """Receptances between `wanted` (body, x, 0 for w or 1 for θ); `joint` is the dynamic stiffness between the bodies' joints, or a
+    list of several, `masses` are (body, x, kg)."""
     sizes = [2 * len(body.x) for body in bodies]
     first = {body.name: start for body, start in zip(bodies, np.cumsum([0] + sizes[:-1]))}
     by_name = {body.name: body for body in bodies}
@@ -99,7 +99,7 @@ def receptances(omega, bodies, wanted, joint=None, masses=()):
     for body, x, kg in masses:
         at = place(body, x, 0)
         whole[:, at, at] -= omega**2 * kg
-    if joint is not None:
+    for joint in [joint] if isinstance(joint, dict) else joint:
         a = [place("A", joint["A"], dof) for dof in (0, 1)]
         b = [place("B", joint["B"], dof) for dof in (0, 1)]
         for rows, columns, sign in ((a, a, 1), (b, b, 1), (a, b, -1), (b, a, -1)):

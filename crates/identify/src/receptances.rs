@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use bolted_joint_frf::structure::ComplexMatrix;
 
-use super::lines::every;
+use super::lines::chosen;
 use super::parallel;
 use super::roughness::Roughness;
 
@@ -31,12 +31,11 @@ impl Receptances {
         }
     }
 
-    /// At every so many lines.
-    pub(super) fn every(&self, stride: usize) -> Self {
+    /// At these lines.
+    pub(super) fn at_lines(&self, lines: &[usize]) -> Self {
         match self {
-            _ if stride == 1 => self.clone(),
-            Self::Exact(matrices) => Self::Exact(every(matrices, stride)),
-            Self::Measured(measured) => Self::Measured(Arc::new(measured.every(stride))),
+            Self::Exact(matrices) => Self::Exact(chosen(matrices, lines)),
+            Self::Measured(measured) => Self::Measured(Arc::new(measured.at_lines(lines))),
         }
     }
 
@@ -146,23 +145,36 @@ impl MeasuredSubstructure {
         self.rotations.get(label) == Some(&true)
     }
 
-    /// Noise of an entry of U, as it shows by itself; `known` variances as a fraction of |U|².
-    fn roughness(&self, function: &[Complex64]) -> Roughness {
-        let even: Vec<f64>;
-        let frequency_hz = match self.frequency_hz.is_empty() {
-            true => {
-                even = (0..function.len()).map(|line| line as f64).collect();
-                &even
-            }
+    /// Noise of each of `functions`, as it shows by itself.
+    fn roughness(&self) -> Vec<Roughness> {
+        let lines = self.functions.first().map_or(0, |function| function.len());
+        let even: Vec<f64> = (0..lines).map(|line| line as f64).collect();
+        let axis = match self.frequency_hz.is_empty() {
+            true => &even,
             false => &self.frequency_hz,
         };
-        Roughness::of(frequency_hz, function, None)
+        parallel::map(&self.functions, |function| {
+            Roughness::of(axis, function, None)
+        })
+    }
+
+    /// The same of those that were measured, by row and column.
+    pub(super) fn measured_functions(&self) -> Vec<((usize, usize), Roughness)> {
+        let rough = self.roughness();
+        self.floors
+            .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
+        let columns = 0..self.transformation.ncols();
+        let places = columns.flat_map(|column| (0..=column).map(move |row| (row, column)));
+        let is_measured = |&((row, column), _): &((usize, usize), Roughness)| {
+            self.measured.contains(&(row, column)) || self.measured.contains(&(column, row))
+        };
+        places.zip(rough).filter(is_measured).collect()
     }
 
     fn floors(&self) -> &[f64] {
-        let of = |function: &Arc<Vec<Complex64>>| self.roughness(function).floor;
+        let of = |rough: &Roughness| rough.floor;
         self.floors
-            .get_or_init(|| parallel::map(&self.functions, of))
+            .get_or_init(|| self.roughness().iter().map(of).collect())
     }
 
     /// Floor of the noise of an entry of U, in its unit.
@@ -170,18 +182,22 @@ impl MeasuredSubstructure {
         self.floors()[place(row, column)]
     }
 
-    /// At every so many lines.
-    fn every(&self, stride: usize) -> Self {
-        self.floors();
+    /// At these lines. The noise is as all lines show it.
+    fn at_lines(&self, lines: &[usize]) -> Self {
         let functions = self.functions.iter();
         let known = self.relative_variance.as_ref();
+        let axis = &self.frequency_hz;
         Self {
+            floors: self.floors().to_vec().into(),
             functions: functions
-                .map(|function| Arc::new(every(function, stride)))
+                .map(|function| Arc::new(chosen(function, lines)))
                 .collect(),
             relative_variance: known
-                .map(|known| known.iter().map(|known| every(known, stride)).collect()),
-            frequency_hz: every(&self.frequency_hz, stride),
+                .map(|known| known.iter().map(|known| chosen(known, lines)).collect()),
+            frequency_hz: match axis.is_empty() {
+                true => lines.iter().map(|&line| line as f64).collect(),
+                false => chosen(axis, lines),
+            },
             ..self.clone()
         }
     }

@@ -25,9 +25,15 @@ const FAR: f64 = 30.0;
 /// Most rounds of leaving out.
 const REMOVALS: usize = 60;
 /// A value that is closer than this part of the size around it is no outlier, however exact the others are …
-const NEAR: f64 = 0.02;
+const NEAR: f64 = 0.05;
 /// … nor one for which a shorter window shows another deviation: there the function is not smooth.
 const AGREEMENT: f64 = 0.5;
+/// A deviation of this part of the size around it is one in any case.
+const OBVIOUS: f64 = 0.5;
+/// The least squared value beside the smaller one of its neighbours.
+const LEAST_OF_NEIGHBOURS: f64 = 0.1;
+/// Lines on either side without which no value is judged.
+const FEWEST_BESIDE: usize = 2;
 /// A direction of the fit that is smaller than this part of its column tells nothing new.
 const NEGLIGIBLE: f64 = 1e-11;
 /// No floor is taken for less than this part of the function's median.
@@ -43,12 +49,8 @@ pub(super) struct Roughness {
 }
 
 impl Roughness {
-    /// Of a function over ascending frequencies; `variance` says what is known of each value's, as from coherence.
-    pub(super) fn of(
-        frequency_hz: &[f64],
-        values: &[Complex64],
-        variance: Option<&dyn Fn(usize) -> f64>,
-    ) -> Self {
+    /// Of a function over ascending frequencies; `known` variances are fractions of |H|², as from coherence.
+    pub(super) fn of(frequency_hz: &[f64], values: &[Complex64], known: Option<&[f64]>) -> Self {
         let mut sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
         let middle = sizes.len() / 2;
         let median = match sizes.is_empty() {
@@ -64,7 +66,7 @@ impl Roughness {
         let mut function = Function {
             frequency_hz,
             values,
-            variance,
+            known,
             used: (0..values.len()).collect(),
             level: Size {
                 relative: 1.0,
@@ -84,7 +86,7 @@ impl Roughness {
 struct Function<'f> {
     frequency_hz: &'f [f64],
     values: &'f [Complex64],
-    variance: Option<&'f dyn Fn(usize) -> f64>,
+    known: Option<&'f [f64]>,
     /// Lines that are taken for good.
     used: Vec<usize>,
     level: Size,
@@ -107,11 +109,23 @@ struct Deviation {
 
 impl Function<'_> {
     fn variance(&self, line: usize) -> f64 {
-        let power = self.values[line].norm_sqr();
+        // A value that is next to nothing between others is not exact for that.
+        let neighbour = |line: Option<usize>| line.and_then(|line| self.values.get(line));
+        let beside = [line.checked_sub(1), Some(line + 1)].map(neighbour);
+        let beside = beside.into_iter().flatten().map(|value| value.norm_sqr());
+        let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
+        let power = self.values[line].norm_sqr().max(least);
         let level = self.level.relative.powi(2) * power + (self.level.floor * self.median).powi(2);
         // rounding, at least
         let level = level.max(1e-30 * power).max(1e-32 * self.median.powi(2));
-        self.variance.map_or(level, |known| level.max(known(line)))
+        self.known
+            .map_or(level, |known| level.max(known[line] * power))
+    }
+
+    /// Squared frequency, as a part of the highest one's; never zero.
+    fn scale(&self, line: usize) -> f64 {
+        let highest = self.frequency_hz.last().copied().unwrap_or(1.0);
+        (self.frequency_hz[line] / highest).powi(2).max(1e-12)
     }
 
     /// The level under which the deviations are most likely, weights and level in turn; values that stand out are left out.
@@ -185,6 +199,12 @@ impl Function<'_> {
     }
 
     fn is_outlier(&self, line: usize) -> bool {
+        // Beyond the ends a fit says little.
+        let before = self.used.partition_point(|&other| other < line);
+        let after = self.used.len() - self.used.partition_point(|&other| other <= line);
+        if before.min(after) < FEWEST_BESIDE {
+            return false;
+        }
         let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
         let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1);
         let (Some(own), Some(shorter)) = (own, shorter) else {
@@ -193,7 +213,8 @@ impl Function<'_> {
         own.distance > FAR
             && shorter.distance > FAR
             && own.value.norm_sqr() > NEAR * NEAR * own.around
-            && (own.value - shorter.value).norm() < AGREEMENT * own.value.norm()
+            && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
+                || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm())
     }
 
     /// Of a line beside the lines in use around it: H (1 + d₁x + …) = n₀ + n₁x + …, weighted least squares in which the weights'
@@ -234,30 +255,24 @@ impl Function<'_> {
             Some(&other) => (self.frequency_hz[other] - centre) / reach,
             None => 0.0,
         });
-        let deviation = |k: usize| self.variance(window[k]).sqrt();
+        let deviation = |k: usize| self.variance(window[k]).sqrt() * self.scale(window[k]);
         let mut weights: [f64; WINDOW] = std::array::from_fn(|k| match k < length {
             true => deviation(k).recip(),
             false => 0.0,
         });
         let plain = weights;
-        let mut fit = Fit::default();
-        for _ in 0..2 {
-            fit = Fit::of(
-                &x[..length],
-                |k| self.values[window[k]],
-                &weights,
-                numerator,
-                denominator,
-            );
-            for k in 0..length {
-                let divisor = 1.0
-                    + (1..=denominator)
-                        .map(|power| fit.solution[numerator + power - 1] * x[k].powi(power as i32))
-                        .sum::<Complex64>();
-                weights[k] = plain[k] / divisor.norm().max(1e-6);
-            }
-        }
         let own = length - 1;
+        // ω²H: what moves as a whole has no pole at zero there.
+        let value = |k: usize| self.values[window[k]] * self.scale(window[k]);
+        // The line itself has no part in its denominator: a pole and a zero beside each other would take up any single value.
+        weights[own] = 0.0;
+        let first = Fit::of(&x[..length], value, &weights, numerator, denominator);
+        for k in 0..length {
+            let powers = 1..=denominator;
+            let parts = powers.map(|p| first.solution[numerator + p - 1] * x[k].powi(p as i32));
+            weights[k] = plain[k] / (1.0 + parts.sum::<Complex64>()).norm().max(1e-6);
+        }
+        let fit = Fit::of(&x[..length], value, &weights, numerator, denominator);
         let free = 1.0 - fit.leverage;
         if free < 0.02 {
             return None;
@@ -276,21 +291,10 @@ impl Function<'_> {
 }
 
 /// A weighted linear fit: what it leaves of the last line.
-#[derive(Clone, Copy)]
 struct Fit {
     solution: [Complex64; UNKNOWNS],
     residual: Complex64,
     leverage: f64,
-}
-
-impl Default for Fit {
-    fn default() -> Self {
-        Self {
-            solution: [Complex64::ZERO; UNKNOWNS],
-            residual: Complex64::ZERO,
-            leverage: 0.0,
-        }
-    }
 }
 
 impl Fit {

@@ -10,6 +10,7 @@ use bolted_joint_frf::Dof;
 
 use super::lines::Lines;
 use super::receptances::Receptances;
+use super::roughness::Roughness;
 
 /// Of so large a part of the lines nothing is left out: then it is not single values that are bad.
 const MOST: f64 = 0.2;
@@ -67,8 +68,7 @@ impl Outliers {
                 .floors
                 .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
             let functions = places.zip(rough);
-            let own = functions
-                .map(|(&(p, q), rough)| ((lines.points[p], lines.points[q]), rough.outliers));
+            let own = functions.map(|(&(p, q), rough)| ((lines.points[p], lines.points[q]), rough));
             let mut sets = vec![(assembly, own.collect::<Vec<_>>())];
             for (name, receptances, labels) in
                 [("A", &lines.a, labels[0]), ("B", &lines.b, labels[1])]
@@ -78,20 +78,23 @@ impl Outliers {
                 };
                 let functions = measured.measured_functions().into_iter();
                 let own = functions.filter_map(|((p, q), rough)| {
-                    Some(((*labels.get(p)?, *labels.get(q)?), rough.outliers))
+                    Some(((*labels.get(p)?, *labels.get(q)?), rough))
                 });
                 sets.push((name.to_owned(), own.collect()));
             }
             for (set, functions) in sets {
                 // Where most functions stand out a resonance lies between the lines.
                 let at = |line: usize| {
-                    let bad = functions.iter().filter(|(_, lines)| lines.contains(&line));
-                    bad.count()
+                    let suspicious = |rough: &Roughness| rough.suspicious.contains(&line);
+                    functions
+                        .iter()
+                        .filter(|(_, rough)| suspicious(rough))
+                        .count()
                 };
                 let is_single = |line: usize| functions.len() < 3 || 2 * at(line) < functions.len();
-                for ((response, reference), outliers) in &functions {
+                for ((response, reference), rough) in &functions {
                     let (response, reference) = (*response, *reference);
-                    for &line in outliers.iter().filter(|line| is_single(**line)) {
+                    for &line in rough.outliers.iter().filter(|line| is_single(**line)) {
                         bad[number].insert(line);
                         let outlier = Outlier {
                             set: set.clone(),

@@ -27,13 +27,17 @@ const REMOVALS: usize = 60;
 /// A value that is closer than this part of the size around it is no outlier, however exact the others are …
 const NEAR: f64 = 0.05;
 /// … nor one for which a shorter window shows another deviation: there the function is not smooth.
-const AGREEMENT: f64 = 0.5;
+const AGREEMENT: f64 = 0.7;
 /// A deviation of this part of the size around it is one in any case.
 const OBVIOUS: f64 = 0.5;
 /// The least squared value beside the smaller one of its neighbours.
 const LEAST_OF_NEIGHBOURS: f64 = 0.1;
-/// Lines on either side without which no value is judged.
+/// Lines on either side without which a short window has to agree.
 const FEWEST_BESIDE: usize = 2;
+/// Squared deviation over its variance that noise hardly reaches.
+const SUSPICIOUS: f64 = 9.0;
+/// Data with less noise than this part of the function are computed ones, without outliers: what is left is the fit's own error.
+const LEAST_NOISE: f64 = 1e-4;
 /// A direction of the fit that is smaller than this part of its column tells nothing new.
 const NEGLIGIBLE: f64 = 1e-11;
 /// No floor is taken for less than this part of the function's median.
@@ -46,6 +50,8 @@ pub(super) struct Roughness {
     pub(super) floor: f64,
     /// Lines whose value stands out.
     pub(super) outliers: Vec<usize>,
+    /// Lines whose value may: where those of most functions may, a resonance is too sharp for the lines.
+    pub(super) suspicious: Vec<usize>,
 }
 
 impl Roughness {
@@ -61,6 +67,7 @@ impl Roughness {
             return Self {
                 floor: median,
                 outliers: Vec::new(),
+                suspicious: Vec::new(),
             };
         }
         let mut function = Function {
@@ -75,9 +82,15 @@ impl Roughness {
             median: 0.3 * median,
         };
         function.settle();
-        let outliers = function.outliers();
+        let floor = function.level.floor * function.median;
+        let is_measured = function.level.relative.hypot(floor / median) > LEAST_NOISE;
+        let (outliers, suspicious) = match is_measured {
+            true => (function.outliers(), function.suspicious()),
+            false => (Vec::new(), Vec::new()),
+        };
         Self {
-            floor: (function.level.floor * function.median).max(LEAST_FLOOR * median),
+            suspicious,
+            floor: floor.max(LEAST_FLOOR * median),
             outliers,
         }
     }
@@ -198,13 +211,19 @@ impl Function<'_> {
         left_out.filter(|&line| self.is_outlier(line)).collect()
     }
 
+    fn suspicious(&self) -> Vec<usize> {
+        let is_suspicious = |line: &usize| {
+            let own = self.deviation(*line, WINDOW, NUMERATOR, DENOMINATOR);
+            own.is_some_and(|own| own.distance > SUSPICIOUS)
+        };
+        (0..self.values.len()).filter(is_suspicious).collect()
+    }
+
     fn is_outlier(&self, line: usize) -> bool {
         // Beyond the ends a fit says little.
         let before = self.used.partition_point(|&other| other < line);
         let after = self.used.len() - self.used.partition_point(|&other| other <= line);
-        if before.min(after) < FEWEST_BESIDE {
-            return false;
-        }
+        let is_inside = before.min(after) >= FEWEST_BESIDE;
         let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
         let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1);
         let (Some(own), Some(shorter)) = (own, shorter) else {
@@ -213,7 +232,7 @@ impl Function<'_> {
         own.distance > FAR
             && shorter.distance > FAR
             && own.value.norm_sqr() > NEAR * NEAR * own.around
-            && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
+            && (is_inside && own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
                 || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm())
     }
 

@@ -110,7 +110,7 @@ def identified(program, study):
 
 
 def first_joint(whole):
-    return (whole.get("joint_file") or whole["joint_files"][0])["joint"]
+    return (whole.get("joint_file") or whole["bolts"][0]["joint_file"])["joint"]
 
 
 def is_expected(warning):

@@ -32,7 +32,7 @@ const AGREEMENT: f64 = 0.7;
 const OBVIOUS: f64 = 0.5;
 /// The least squared value beside the smaller one of its neighbours.
 const LEAST_OF_NEIGHBOURS: f64 = 0.1;
-/// Lines on either side without which a short window has to agree.
+/// Lines on either side without which no value is judged.
 const FEWEST_BESIDE: usize = 2;
 /// Squared deviation over its variance that noise hardly reaches.
 const SUSPICIOUS: f64 = 9.0;
@@ -223,7 +223,9 @@ impl Function<'_> {
         // Beyond the ends a fit says little.
         let before = self.used.partition_point(|&other| other < line);
         let after = self.used.len() - self.used.partition_point(|&other| other <= line);
-        let is_inside = before.min(after) >= FEWEST_BESIDE;
+        if before.min(after) < FEWEST_BESIDE {
+            return false;
+        }
         let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
         let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1);
         let (Some(own), Some(shorter)) = (own, shorter) else {
@@ -232,7 +234,7 @@ impl Function<'_> {
         own.distance > FAR
             && shorter.distance > FAR
             && own.value.norm_sqr() > NEAR * NEAR * own.around
-            && (is_inside && own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
+            && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
                 || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm())
     }
 

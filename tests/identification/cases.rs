@@ -84,6 +84,7 @@ impl Pair {
             measured: places,
             relative_variance: None,
             repeats: None,
+            floors: Default::default(),
         }
     }
 }
@@ -122,6 +123,7 @@ pub(crate) fn bolted(
         measured: pairs(count),
         relative_variance: None,
         repeats: None,
+        floors: Default::default(),
     }
 }
 

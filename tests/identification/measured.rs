@@ -189,6 +189,7 @@ impl Rig {
             measured: pairs(3),
             relative_variance: None,
             repeats: None,
+            floors: Default::default(),
         };
         let with = |assembly| Lines {
             assembly,

@@ -59,8 +59,13 @@ def identify(program, tmp_path):
 def identified(program, folder, mistakes, seed, noise, budget=None, **options):
     sets = rig.test_data(mistakes, noise, seed)
     study = rig.write(folder, sets, noise, budget=budget, spacing=mistakes.spacing, **options)
+    return run(program, study)
+
+
+def run(program, study):
+    """What the program finds in a study."""
     done = subprocess.run(
-        [program, "identify", study, "-o", folder / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
+        [program, "identify", study, "-o", study.parent / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
     )
     assert done.returncode in (0, 3), done.stderr
     whole = json.loads(done.stdout)

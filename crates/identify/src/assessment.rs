@@ -13,8 +13,9 @@ use super::residuals::Residuals;
 /// Standard deviations beyond which a statistic is not chance.
 pub(super) const SIGNIFICANT: f64 = 5.0;
 
-/// Squared residuals of this part of the squared signal are rounding.
-const ROUNDING_POWER: f64 = 1e-20;
+/// Squared residuals of this part of the squared signal are rounding: no measurement is as exact. Stiff joints and sharp resonances
+/// make more of it than the last digit.
+const ROUNDING_POWER: f64 = 1e-16;
 
 /// Lines below which no test has power.
 const FEWEST_LINES: usize = 30;

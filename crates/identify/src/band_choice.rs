@@ -15,6 +15,7 @@ use super::kernel::{Kernel, complex_stiffness};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
+use super::noise::Noise;
 use super::parallel;
 use super::used::Chosen;
 
@@ -195,7 +196,12 @@ fn parts<const N: usize>(
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<(usize, Vec<Part>)> {
-    let block = Block::<N>::new(lines, 0, &Chosen::every(lines.frequency_hz.len()));
+    let block = Block::<N>::new(
+        lines,
+        0,
+        &Chosen::every(lines.frequency_hz.len()),
+        &Noise::none(),
+    );
     let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
     let parts = parallel::map(&parts, |lines| {
         Part::of(&block, lines.clone(), places, unknowns, decoupled)

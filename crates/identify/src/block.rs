@@ -11,18 +11,21 @@ use bolted_joint_frf::structure::ComplexMatrix;
 
 use super::layout::Place;
 use super::lines::Lines;
+use super::noise::{Floor, Noise, Of};
 use super::used::Chosen;
 
 /// A matrix of the joint's DOFs at one line, or at several side by side.
 pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
 
 /// One entry of the symmetric H^C_ss, measured once or more often.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) row: usize,
     pub(super) column: usize,
     /// Independent measurements of it.
     pub(super) count: u32,
+    /// Floor of the noise of one measurement.
+    pub(super) floor: Floor,
 }
 
 /// Receptances of one assembly and of what it was made from, over its lines.
@@ -57,9 +60,10 @@ const LEAST_VARIANCE: f64 = 1e-300;
 
 impl<const N: usize> Block<N> {
     /// The `chosen` ones of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
-    pub(super) fn new(lines: &Lines, joint: usize, chosen: &Chosen) -> Self {
+    pub(super) fn new(lines: &Lines, joint: usize, chosen: &Chosen, noise: &Noise) -> Self {
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let measured = lines.independent();
+        let is_rotation = |point: usize| lines.points[point].direction().is_rotation();
         let mut entries: Vec<Entry> = Vec::new();
         let mut places: Vec<Vec<(usize, usize)>> = Vec::new();
         for &(p, q) in &measured {
@@ -72,9 +76,22 @@ impl<const N: usize> Block<N> {
                 places[known].push((p, q));
             } else {
                 let count = repeats;
-                entries.push(Entry { row, column, count });
+                entries.push(Entry {
+                    row,
+                    column,
+                    count,
+                    floor: Floor::default(),
+                });
                 places.push(vec![(p, q)]);
             }
+        }
+        for (entry, places) in entries.iter_mut().zip(&places) {
+            let rotations = [entry.row, entry.column].map(is_rotation);
+            let own = || {
+                let floors = places.iter().map(|&place| lines.floor(place).powi(2));
+                (floors.sum::<f64>() * f64::from(repeats) / places.len() as f64).sqrt()
+            };
+            entry.floor = noise.floor(Of::Assembly, rotations, own);
         }
         let points = lines.points.len();
         let count = chosen.lines.len();

@@ -8,10 +8,10 @@ use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 
 use super::draw::draw;
-use super::group::{Group, Side};
+use super::group::Group;
 use super::layout::Place;
 use super::lines::Lines;
-use super::noise::{Levels, Noise, NoiseLevel};
+use super::noise::{Levels, Noise, Size};
 use super::objective::{Corrections, Objective, State, Weights};
 use super::residuals::Residuals;
 use super::used::{self, Chosen};
@@ -169,7 +169,7 @@ fn formed<const N: usize>(
     chosen: &[Chosen],
     noise: &Noise,
 ) -> Box<dyn Assemblies> {
-    let groups: Vec<Group<N>> = Group::all(all, chosen, |side: Side| noise.acts_on(side));
+    let groups: Vec<Group<N>> = Group::all(all, chosen, noise);
     Box::new(groups)
 }
 
@@ -246,7 +246,7 @@ pub(super) trait Misfit: Sync {
     fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>>;
     /// By what part errors of the substructures move each line, for each assembly of each group; see [`used`].
     fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>>;
-    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel>;
+    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size>;
     fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64;
     fn log_powers(&self) -> f64;
     /// Sums over the residuals of consecutive lines, for each group those of its pieces.
@@ -259,8 +259,6 @@ pub(super) trait Misfit: Sync {
     fn measurements(&self) -> usize;
     /// Lines of all groups.
     fn lines(&self) -> usize;
-    /// Largest measured |H|.
-    fn largest_measured(&self) -> f64;
     /// Dynamic stiffness of the substructures of the first assembly with this joint at the joint's DOFs, and ω in the middle
     /// of the range; ones if there is no such assembly.
     fn substructures(&self, joint: usize) -> (&[f64], f64);
@@ -320,7 +318,7 @@ impl<const N: usize> Misfit for Objective<'_, N> {
         Objective::moved(self, levels, unknowns)
     }
 
-    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel> {
+    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size> {
         Objective::level(self, noise, state, shrinkage)
     }
 
@@ -350,12 +348,6 @@ impl<const N: usize> Misfit for Objective<'_, N> {
 
     fn lines(&self) -> usize {
         self.groups.iter().map(Group::lines).sum()
-    }
-
-    fn largest_measured(&self) -> f64 {
-        let blocks = self.groups.iter().flat_map(|group| &group.blocks);
-        let values = blocks.flat_map(|block| &block.measured);
-        values.fold(0.0, |largest, value| f64::max(largest, value.norm()))
     }
 
     fn substructures(&self, joint: usize) -> (&[f64], f64) {

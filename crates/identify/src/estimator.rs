@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::data::Misfit;
 use super::likelihood::log_variances;
-use super::noise::{Levels, Noise, NoiseLevel};
+use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Corrections, State, Weights};
 
@@ -129,7 +129,7 @@ pub(super) fn estimate(
 ) -> Option<Estimate> {
     let is_trial = levels.is_some();
     let estimates_level = levels.is_none() && !noise.is_stated();
-    let mut levels = levels.unwrap_or_else(|| first_levels(objective, noise));
+    let mut levels = levels.unwrap_or_else(|| first_levels(noise));
     let mut coordinates = start.clone();
     let (mut weights, mut state) = objective.renewed(levels, chart.unknowns(start), corrections)?;
     let measurements = objective.measurements();
@@ -261,16 +261,12 @@ fn negligible_gain(objective: &dyn Misfit) -> f64 {
     }
 }
 
-/// Levels to begin with: what is not stated is proportional to the receptance.
-pub(super) fn first_levels(objective: &dyn Misfit, noise: &Noise) -> Levels {
-    let floor = if noise.assembly.relative == Some(0.0) {
-        objective.largest_measured()
-    } else {
-        0.0
-    };
-    noise.levels(NoiseLevel {
+/// Levels to begin with: what is not stated is proportional to the receptance, unless that is stated to be exact.
+pub(super) fn first_levels(noise: &Noise) -> Levels {
+    let has_floor = noise.assembly.relative == Some(0.0) || noise.is_stated();
+    noise.levels(Size {
         relative: 1.0,
-        floor,
+        floor: f64::from(u8::from(has_floor)),
     })
 }
 

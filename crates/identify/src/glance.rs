@@ -31,7 +31,7 @@ pub(super) fn least_left(
 ) -> Option<f64> {
     let thinned = data.thinned.objective(entries);
     let thinned = thinned.as_ref();
-    let levels = first_levels(thinned, noise);
+    let levels = first_levels(noise);
     let whole = data.thinned_whole.as_ref();
     let whole = whole.map(|whole| whole.objective(entries));
     let left = |start: &DVector<f64>| {

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use super::block::Block;
 use super::lines::Lines;
+use super::noise::{Floor, Noise, Of};
 use super::receptances::MeasuredSubstructure;
 use super::used::Chosen;
 
@@ -45,6 +46,8 @@ pub(super) struct Source<const N: usize> {
     pub(super) side: Side,
     /// Independent measurements that its value is the mean of.
     pub(super) count: u32,
+    /// Floor of the noise of one measurement.
+    pub(super) floor: Floor,
     /// The value at each line.
     pub(super) value: Arc<Vec<Complex64>>,
     /// Variance of one measurement as a fraction of |H|² at each line; empty where it follows from a level.
@@ -67,12 +70,9 @@ type Members<'l> = Vec<(&'l Lines, &'l Chosen)>;
 
 impl<const N: usize> Group<N> {
     /// Groups of the assemblies `all`, each with the number of its joint, of which the `chosen` lines are taken; the measured
-    /// receptances of substructures that are `noisy` become sources. Assemblies of one group have the same lines chosen.
-    pub(super) fn all(
-        all: &[(&Lines, usize)],
-        chosen: &[Chosen],
-        noisy: impl Fn(Side) -> bool,
-    ) -> Vec<Self> {
+    /// receptances of substructures that have noise become sources. Assemblies of one group have the same lines chosen.
+    pub(super) fn all(all: &[(&Lines, usize)], chosen: &[Chosen], noise: &Noise) -> Vec<Self> {
+        let noisy = |side: Side| noise.acts_on(side);
         let mut groups: Vec<(Members<'_>, Self)> = Vec::new();
         for (number, (&(lines, joint), chosen)) in all.iter().zip(chosen).enumerate() {
             let mut joined: (Members<'_>, Self) = Default::default();
@@ -90,13 +90,16 @@ impl<const N: usize> Group<N> {
             });
             joined.0.push((lines, chosen));
             joined.1.assemblies.push(number);
-            joined.1.blocks.push(Block::new(lines, joint, chosen));
+            joined
+                .1
+                .blocks
+                .push(Block::new(lines, joint, chosen, noise));
             groups.push(joined);
         }
         groups
             .into_iter()
             .map(|(members, mut group)| {
-                group.add_sources(&members, &noisy);
+                group.add_sources(&members, noise);
                 group
             })
             .collect()
@@ -112,10 +115,10 @@ impl<const N: usize> Group<N> {
         })
     }
 
-    fn add_sources(&mut self, members: &Members<'_>, noisy: &impl Fn(Side) -> bool) {
+    fn add_sources(&mut self, members: &Members<'_>, noise: &Noise) {
         let mut seen: Vec<&Arc<MeasuredSubstructure>> = Vec::new();
         for side in [Side::A, Side::B] {
-            if !noisy(side) {
+            if !noise.acts_on(side) {
                 continue;
             }
             let used = |&(lines, chosen)| Some((side.of(lines)?, chosen));
@@ -131,14 +134,14 @@ impl<const N: usize> Group<N> {
                             .is_some_and(|other| Arc::ptr_eq(other, measured))
                     })
                     .collect();
-                self.add_substructure(side, measured, &users, &chosen.lines);
+                self.add_substructure((side, noise), measured, &users, &chosen.lines);
             }
         }
     }
 
     fn add_substructure(
         &mut self,
-        side: Side,
+        (side, noise): (Side, &Noise),
         measured: &MeasuredSubstructure,
         users: &[bool],
         chosen: &[usize],
@@ -171,6 +174,11 @@ impl<const N: usize> Group<N> {
                 self.sources.push(Source {
                     side,
                     count: indices.len() as u32,
+                    floor: noise.floor(
+                        Of::Substructure(side),
+                        [row, column].map(|label| measured.is_rotation(label)),
+                        || measured.floor(row, column) * (indices.len() as f64).sqrt(),
+                    ),
                     value: if chosen.len() == value.len() {
                         Arc::clone(value)
                     } else {

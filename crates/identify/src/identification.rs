@@ -14,6 +14,7 @@ use super::level;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
+use super::outliers::Outliers;
 use super::provenance;
 use super::reliability;
 use super::slips::{self, FoundSlip};
@@ -65,6 +66,8 @@ pub struct Identification {
     pub systematic: Option<Systematic>,
     /// Slips that explain what the estimate leaves, the most likely first.
     pub slips: Vec<FoundSlip>,
+    /// Values that noise cannot have made; the lines of the assemblies are without theirs.
+    pub outliers: Outliers,
     /// What each file of functions states.
     pub files: Vec<FileSummary>,
     /// Of each bolt's joint.
@@ -118,11 +121,19 @@ pub fn identify_and_draw(
     watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
     let Assembled {
-        lines: all,
+        lines: mut all,
         files,
         mut warnings,
         from_modes,
     } = assemble::lines(study, watch)?;
+    let of_b = &all[0].points.clone();
+    let dofs = study.dofs_of_a_bolt();
+    let labels = [
+        assemble::measured_labels(&study.a, dofs, &[]),
+        assemble::measured_labels(&study.b, dofs, of_b),
+    ];
+    let outliers = Outliers::leave_out(&mut all, [&labels[0], &labels[1]]);
+    warnings.extend(outliers.warning());
     let options = Options {
         bolts: study.bolts.clone(),
         noise: study.noise,
@@ -221,6 +232,7 @@ pub fn identify_and_draw(
         from_modes,
         systematic,
         slips,
+        outliers,
         files,
         provenance,
         torque_n_m: torques(study).and_then(range),

@@ -9,7 +9,7 @@ use super::block::Block;
 use super::group::Group;
 use super::lanes::{LANES, Reals};
 use super::layout::Place;
-use super::noise::NoiseLevel;
+use super::noise::Size;
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
@@ -80,7 +80,7 @@ pub(super) fn renew<const N: usize>(
     group: &Group<N>,
     entries: &[Place],
     unknowns: &[f64],
-    level: NoiseLevel,
+    level: Size,
     normal: &mut Normal,
 ) -> Option<Weights> {
     if are_of_one::<N>(entries) {
@@ -96,7 +96,7 @@ fn renew_rows<const N: usize, const E: usize>(
     group: &Group<N>,
     entries: &[Place],
     unknowns: &[f64],
-    level: NoiseLevel,
+    level: Size,
     normal: &mut Normal,
 ) -> Option<Weights> {
     let size = group.entries();
@@ -182,15 +182,11 @@ pub(super) fn computed<const N: usize>(
 
 /// Variance of one measurement of an entry, whose computed |H^C|² is `power`.
 #[inline]
-fn variance<const N: usize>(
-    strip: &Strip<'_, N>,
-    e: usize,
-    level: NoiseLevel,
-    power: Reals,
-) -> Reals {
+fn variance<const N: usize>(strip: &Strip<'_, N>, e: usize, level: Size, power: Reals) -> Reals {
+    let floor = strip.block.entries[e].floor;
     if strip.block.known.is_empty() {
-        return Reals::of(|lane| of_one(level, None, power.0[lane]));
+        return Reals::of(|lane| of_one(level, floor, None, power.0[lane]));
     }
     let known = strip.real(&strip.block.known, e);
-    Reals::of(|lane| of_one(level, Some(known.0[lane]), power.0[lane]))
+    Reals::of(|lane| of_one(level, floor, Some(known.0[lane]), power.0[lane]))
 }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use bolted_joint_joint::{
     BootstrapRecord, BudgetRecord, Correlation, Format, FreeEstimate, FunctionResidual,
-    GroupRecord, Intervals, Joint, JointFile, NoiseRecord, OverPreload, Residual,
+    GroupRecord, Intervals, Joint, JointFile, NoiseRecord, OutlierRecord, OverPreload, Residual,
     StandardDeviation, Status, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
@@ -259,6 +259,18 @@ impl Identification {
                 })
                 .collect(),
             reduced_chi_squared: self.reduced_chi_squared,
+            outliers: self
+                .outliers
+                .values
+                .iter()
+                .map(|outlier| OutlierRecord {
+                    set: outlier.set.clone(),
+                    response: outlier.response.to_string(),
+                    reference: outlier.reference.to_string(),
+                    frequency_hz: outlier.frequency_hz,
+                })
+                .collect(),
+            lines_left_out: Some(self.outliers.lines_left_out).filter(|lines| *lines > 0),
             line_correlation: assessment
                 .line_correlation
                 .is_finite()

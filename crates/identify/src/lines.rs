@@ -1,12 +1,17 @@
 //! What the estimator works on: receptances of the substructures and of the assembly, line by line.
 
+use std::sync::OnceLock;
+
 use nalgebra::DMatrix;
+use num_complex::Complex64;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ComplexMatrix, Partition, SingularAssembly, transmission};
 
 use super::model::JointMatrices;
+use super::parallel;
 use super::receptances::Receptances;
+use super::roughness::Roughness;
 
 /// Receptances at the lines of one frequency axis.
 #[derive(Clone, Debug)]
@@ -27,6 +32,8 @@ pub struct Lines {
     pub relative_variance: Option<Vec<Vec<f64>>>,
     /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
     pub repeats: Option<Repeats>,
+    /// Floor of the noise of each of `measured`, in its unit; found when it is first asked for.
+    pub floors: OnceLock<Vec<f64>>,
 }
 
 /// Repeated measurements of the same functions.
@@ -50,24 +57,54 @@ impl Lines {
         independent(&self.measured, is_symmetric)
     }
 
+    /// Noise of each of `measured`, as it shows by itself.
+    pub(super) fn roughness(&self) -> Vec<Roughness> {
+        let all: Vec<usize> = (0..self.measured.len()).collect();
+        parallel::map(&all, |&index| {
+            let place = self.measured[index];
+            let values: Vec<Complex64> = self.assembly.iter().map(|matrix| matrix[place]).collect();
+            let known = self.relative_variance.as_ref();
+            let known = known.and_then(|known| known.get(index).map(Vec::as_slice));
+            Roughness::of(&self.frequency_hz, &values, known)
+        })
+    }
+
+    fn floors(&self) -> &[f64] {
+        let of = |rough: &Roughness| rough.floor;
+        self.floors
+            .get_or_init(|| self.roughness().iter().map(of).collect())
+    }
+
+    /// Floor of the noise of a measured entry, as it shows by itself: in the entry's unit; zero if it was not measured.
+    pub(super) fn floor(&self, place: (usize, usize)) -> f64 {
+        let index = self.measured.iter().position(|other| *other == place);
+        index.map_or(0.0, |index| self.floors()[index])
+    }
+
     /// Every so many lines, so that at most `most` are left.
     pub(super) fn at_most(&self, most: usize) -> Self {
         let stride = self.frequency_hz.len().div_ceil(most.max(1)).max(1);
+        let lines: Vec<usize> = (0..self.frequency_hz.len()).step_by(stride).collect();
+        self.at_lines(&lines)
+    }
+
+    /// These lines. The noise is as all lines show it.
+    pub(super) fn at_lines(&self, lines: &[usize]) -> Self {
+        let known = self.relative_variance.as_ref();
         Self {
-            frequency_hz: every(&self.frequency_hz, stride),
-            a: self.a.every(stride),
-            b: self.b.every(stride),
-            assembly: every(&self.assembly, stride),
+            frequency_hz: chosen(&self.frequency_hz, lines),
+            a: self.a.at_lines(lines),
+            b: self.b.at_lines(lines),
+            assembly: chosen(&self.assembly, lines),
             points: self.points.clone(),
             measured: self.measured.clone(),
-            relative_variance: self
-                .relative_variance
-                .as_ref()
-                .map(|known| known.iter().map(|known| every(known, stride)).collect()),
+            relative_variance: known
+                .map(|known| known.iter().map(|known| chosen(known, lines)).collect()),
             repeats: self.repeats.as_ref().map(|repeats| Repeats {
                 count: repeats.count,
-                scatter: every(&repeats.scatter, stride),
+                scatter: chosen(&repeats.scatter, lines),
             }),
+            floors: self.floors().to_vec().into(),
         }
     }
 
@@ -103,9 +140,9 @@ impl Lines {
     }
 }
 
-/// Every so many of these.
-pub(super) fn every<T: Clone>(values: &[T], stride: usize) -> Vec<T> {
-    values.iter().step_by(stride).cloned().collect()
+/// Those of these numbers.
+pub(super) fn chosen<T: Clone>(values: &[T], indices: &[usize]) -> Vec<T> {
+    indices.iter().map(|&index| values[index].clone()).collect()
 }
 
 /// Those of the `measured` entries that are not, bit by bit, their transpose: an analyser that fills the matrix by

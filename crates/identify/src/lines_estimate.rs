@@ -18,7 +18,7 @@ use super::layout::{Bolts, Layout};
 use super::line_by_line::{decouple, is_complete};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
-use super::noise::{Levels, Noise, NoiseLevel};
+use super::noise::{Levels, Noise, NoiseLevel, Of};
 use super::parallel;
 use super::passive;
 use super::reliability::{NOTABLE_UNREST, TOLERABLE_UNREST};
@@ -345,7 +345,10 @@ pub fn identify_lines(
     drop(passive);
     drop(objective);
     let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
-        .then_some(estimate.levels.assembly)
+        .then(|| NoiseLevel {
+            relative: estimate.levels.assembly.relative,
+            floor: floors_of_assembly(all, noise, estimate.levels),
+        })
         .filter(|_| !found.assessment.noise_is_known);
     let levels = estimate.levels;
     let found = found.clone().without_corrections();
@@ -388,6 +391,22 @@ pub fn identify_lines(
         warnings,
         joint_warnings,
     })
+}
+
+/// Root mean square of the floors of the assemblies' functions between translations, m/N.
+fn floors_of_assembly(all: &[Lines], noise: &Noise, levels: Levels) -> f64 {
+    let floors = all.iter().flat_map(|lines| {
+        let is_rotation = |point: usize| lines.points[point].direction().is_rotation();
+        let places = lines.measured.iter();
+        places
+            .filter(move |(p, q)| !is_rotation(*p) && !is_rotation(*q))
+            .map(|&place| {
+                let floor = noise.floor(Of::Assembly, [false; 2], || lines.floor(place));
+                floor.variance(levels.assembly)
+            })
+    });
+    let (sum, count) = floors.fold((0.0, 0), |(sum, count), floor| (sum + floor, count + 1));
+    (sum / f64::from(count.max(1))).sqrt()
 }
 
 /// By how many standard deviations an unknown still moved when the search ended. Exact data leave rounding alone, in which a

@@ -9,21 +9,38 @@ use super::group::Side;
 pub struct NoiseLevel {
     /// Standard deviation as a fraction of |H|.
     pub relative: f64,
-    /// Standard deviation that does not depend on |H|, in the receptance's SI unit (m/N).
+    /// Standard deviation that does not depend on |H|, in each function's SI unit (m/N, rad/N, rad/(N·m)).
     pub floor: f64,
 }
 
-impl NoiseLevel {
-    /// Both parts multiplied by a factor.
-    pub(super) fn scaled(self, factor: f64) -> Self {
+/// Floors of functions of each kind, of which some may not be known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StatedFloor {
+    /// Of a translation by a force, m/N.
+    pub yy: Option<f64>,
+    /// Of a rotation by a force, rad/N, and of a translation by a moment, m/(N·m).
+    pub ytheta: Option<f64>,
+    /// Of a rotation by a moment, rad/(N·m).
+    pub thetatheta: Option<f64>,
+}
+
+impl StatedFloor {
+    /// The same number for each kind, in its unit.
+    #[must_use]
+    pub fn all(value: f64) -> Self {
         Self {
-            relative: self.relative * factor,
-            floor: self.floor * factor,
+            yy: Some(value),
+            ytheta: Some(value),
+            thetatheta: Some(value),
         }
     }
 
-    pub(super) fn variance(self, magnitude_squared: f64) -> f64 {
-        self.relative * self.relative * magnitude_squared + self.floor * self.floor
+    fn of(self, [response, reference]: [bool; 2]) -> Option<f64> {
+        match (response, reference) {
+            (false, false) => self.yy,
+            (true, true) => self.thetatheta,
+            _ => self.ytheta,
+        }
     }
 }
 
@@ -32,22 +49,47 @@ impl NoiseLevel {
 pub struct StatedLevel {
     /// Standard deviation as a fraction of |H|, where it is stated.
     pub relative: Option<f64>,
-    /// Standard deviation that does not depend on |H|, m/N, where it is stated.
-    pub floor: Option<f64>,
+    /// Standard deviation that does not depend on |H|, where it is stated.
+    pub floor: StatedFloor,
+}
+
+impl StatedLevel {
+    /// No noise at all.
+    const EXACT: Self = Self {
+        relative: Some(0.0),
+        floor: StatedFloor {
+            yy: Some(0.0),
+            ytheta: Some(0.0),
+            thetatheta: Some(0.0),
+        },
+    };
+
+    /// Whether both parts are stated, as of functions between translations.
+    pub(super) fn is_stated(&self) -> bool {
+        self.relative.is_some() && self.floor.yy.is_some()
+    }
 }
 
 impl From<NoiseLevel> for StatedLevel {
     fn from(level: NoiseLevel) -> Self {
         Self {
             relative: Some(level.relative),
-            floor: Some(level.floor),
+            floor: StatedFloor::all(level.floor),
         }
     }
+}
+
+/// Whose functions noise is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Of {
+    Assembly,
+    Substructure(Side),
 }
 
 /// Noise of every measured function of a study.
 ///
 /// What is not stated of the assembly is estimated from the residual. What is not stated of a substructure is as the assembly's.
+/// A floor that is not stated is estimated from each function by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// Of the assembly's functions.
@@ -68,43 +110,43 @@ impl Noise {
         }
     }
 
+    /// No noise anywhere.
+    pub(super) fn none() -> Self {
+        Self::of_the_assembly(StatedLevel::EXACT)
+    }
+
     /// Noise of the assembly alone: the substructures are exact.
     #[must_use]
     pub fn of_the_assembly(assembly: StatedLevel) -> Self {
-        let exact = StatedLevel {
-            relative: Some(0.0),
-            floor: Some(0.0),
-        };
         Self {
             assembly,
-            a: exact,
-            b: exact,
+            a: StatedLevel::EXACT,
+            b: StatedLevel::EXACT,
         }
     }
 
     /// Whether nothing is left to estimate.
     #[must_use]
     pub fn is_stated(&self) -> bool {
-        self.assembly.relative.is_some() && self.assembly.floor.is_some()
+        self.assembly.is_stated()
+    }
+
+    fn stated_of(&self, side: Side) -> StatedLevel {
+        match side {
+            Side::A => self.a,
+            Side::B => self.b,
+        }
     }
 
     /// Whether measured functions of that substructure have errors.
     pub(super) fn acts_on(&self, side: Side) -> bool {
-        let stated = match side {
-            Side::A => self.a,
-            Side::B => self.b,
-        };
-        let exact = StatedLevel {
-            relative: Some(0.0),
-            floor: Some(0.0),
-        };
-        stated != exact
+        self.stated_of(side) != StatedLevel::EXACT
     }
 
-    pub(super) fn levels(&self, estimated: NoiseLevel) -> Levels {
-        let of = |stated: StatedLevel, otherwise: NoiseLevel| NoiseLevel {
+    pub(super) fn levels(&self, estimated: Size) -> Levels {
+        let of = |stated: StatedLevel, otherwise: Size| Size {
             relative: stated.relative.unwrap_or(otherwise.relative),
-            floor: stated.floor.unwrap_or(otherwise.floor),
+            ..otherwise
         };
         let assembly = of(self.assembly, estimated);
         Levels {
@@ -113,14 +155,82 @@ impl Noise {
             b: of(self.b, assembly),
         }
     }
+
+    /// The floor of a function; `rotations` says of response and reference whether they are rotations, `own` what the function
+    /// says itself.
+    pub(super) fn floor(&self, of: Of, rotations: [bool; 2], own: impl FnOnce() -> f64) -> Floor {
+        let assembly = self.assembly.floor.of(rotations);
+        let stated = match of {
+            Of::Assembly => assembly,
+            Of::Substructure(side) => self.stated_of(side).floor.of(rotations).or(assembly),
+        };
+        match stated {
+            Some(floor) => Floor {
+                stated: floor * floor,
+                own: 0.0,
+            },
+            None => Floor {
+                stated: 0.0,
+                own: own().powi(2),
+            },
+        }
+    }
+}
+
+/// The part of a function's variance that does not depend on |H|, in its own unit: stated, or else a multiple, common to all
+/// functions, of what the function itself says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Floor {
+    pub(super) stated: f64,
+    pub(super) own: f64,
+}
+
+impl Floor {
+    /// At this level.
+    pub(super) fn variance(self, level: Size) -> f64 {
+        self.stated + level.floor * level.floor * self.own
+    }
+}
+
+/// How much noise there is: σ² = (relative·|H|)² + [floor](Floor)².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Size {
+    /// Standard deviation as a fraction of |H|.
+    pub(super) relative: f64,
+    /// What multiple of its own floor each function has.
+    pub(super) floor: f64,
+}
+
+impl Size {
+    /// Both parts multiplied by a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self {
+            relative: self.relative * factor,
+            floor: self.floor * factor,
+        }
+    }
+
+    pub(super) fn variance(self, magnitude_squared: f64, floor: Floor) -> f64 {
+        self.relative * self.relative * magnitude_squared + floor.variance(self)
+    }
 }
 
 /// Levels with every part known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
-    pub(super) assembly: NoiseLevel,
-    pub(super) a: NoiseLevel,
-    pub(super) b: NoiseLevel,
+    pub(super) assembly: Size,
+    pub(super) a: Size,
+    pub(super) b: Size,
+}
+
+impl Levels {
+    pub(super) fn of(self, of: Of) -> Size {
+        match of {
+            Of::Assembly => self.assembly,
+            Of::Substructure(Side::A) => self.a,
+            Of::Substructure(Side::B) => self.b,
+        }
+    }
 }
 
 /// One squared residual and what its variance is made of: relative²·α + floor²·β + known.
@@ -140,15 +250,15 @@ const MAX_ROUNDS: usize = 60;
 /// By how much a variance component may move in one round.
 const LARGEST_FACTOR: f64 = 30.0;
 
-/// Level under which the residuals are most likely; parts that are `stated` stay.
+/// Level under which the residuals are most likely; a part that is stated stays.
 ///
 /// |r|² of a complex circular residual is exponentially distributed about its variance v, so Σ ln v + |r|²/v is
 /// minimised over v = relative²·α + floor²·β + known, by scoring, neither part below zero.
-pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> NoiseLevel {
-    let fixed = [stated.relative, stated.floor].map(|part| part.map(|value| value * value));
+pub(super) fn most_likely_level(samples: &[Sample], relative: Option<f64>) -> Size {
+    let fixed = relative.map(|relative| relative * relative);
     let mut parts = [
-        fixed[0].unwrap_or_else(|| first_guess(samples, |s| s.by_relative)),
-        fixed[1].unwrap_or_else(|| 0.1 * first_guess(samples, |s| s.by_floor)),
+        fixed.unwrap_or_else(|| first_guess(samples, |s| s.by_relative)),
+        0.1 * first_guess(samples, |s| s.by_floor),
     ];
     let least = LEAST_RELATIVE * LEAST_RELATIVE;
     for _ in 0..MAX_ROUNDS {
@@ -170,11 +280,9 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
         }
         let only_relative = [ap / aa, 0.0];
         let only_floor = [0.0, bp / bb];
-        parts = match (fixed[0], fixed[1]) {
-            (Some(a), Some(b)) => [a, b],
-            (Some(a), None) => [a, (bp - a * ab) / bb],
-            (None, Some(b)) => [(ap - b * ab) / aa, b],
-            (None, None) => {
+        parts = match fixed {
+            Some(a) => [a, (bp - a * ab) / bb],
+            None => {
                 let determinant = aa * bb - ab * ab;
                 if determinant <= 1e-12 * aa * bb {
                     only_relative
@@ -208,14 +316,12 @@ pub(super) fn most_likely_level(samples: &[Sample], stated: StatedLevel) -> Nois
             break;
         }
     }
-    NoiseLevel {
-        relative: parts[0]
-            .sqrt()
-            .max(if fixed[0].is_none() && parts[1] == 0.0 {
-                LEAST_RELATIVE
-            } else {
-                0.0
-            }),
+    Size {
+        relative: parts[0].sqrt().max(if fixed.is_none() && parts[1] == 0.0 {
+            LEAST_RELATIVE
+        } else {
+            0.0
+        }),
         floor: parts[1].sqrt(),
     }
 }
@@ -252,10 +358,14 @@ mod tests {
             let samples: Vec<Sample> = (0..count)
                 .map(|i| {
                     let magnitude = 1e-8 * 1e4_f64.powf(f64::from(i) / f64::from(count));
-                    let level = NoiseLevel { relative, floor };
+                    let level = Size { relative, floor };
+                    let unit = Floor {
+                        stated: 0.0,
+                        own: 1.0,
+                    };
                     let draw: f64 = Exp1.sample(&mut generator);
                     Sample {
-                        power: draw * level.variance(magnitude * magnitude),
+                        power: draw * level.variance(magnitude * magnitude, unit),
                         by_relative: magnitude * magnitude,
                         by_floor: 1.0,
                         known: 0.0,
@@ -263,7 +373,7 @@ mod tests {
                     }
                 })
                 .collect();
-            let found = most_likely_level(&samples, StatedLevel::default());
+            let found = most_likely_level(&samples, None);
             // A standard deviation from 20 000 exponential draws is known to about 0.5 %, a part of it to a few times that.
             assert!(
                 (found.relative - relative).abs() < 0.03 * relative + 1e-4,
@@ -273,13 +383,7 @@ mod tests {
                 (found.floor - floor).abs() < 0.05 * floor + 1e-10,
                 "{found:?}"
             );
-            let known = most_likely_level(
-                &samples,
-                StatedLevel {
-                    relative: Some(relative),
-                    floor: None,
-                },
-            );
+            let known = most_likely_level(&samples, Some(relative));
             assert_eq!(known.relative, relative);
             assert!(
                 (known.floor - floor).abs() < 0.05 * floor + 1e-10,

@@ -18,7 +18,7 @@ use super::group::Group;
 use super::independent;
 use super::layout::Place;
 use super::line::{Line, Variances};
-use super::noise::{Levels, NoiseLevel};
+use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::parallel;
 use super::weights::line_variances;
@@ -58,7 +58,7 @@ enum Whitening<'w> {
     None,
     Held(&'w Weights),
     /// By what the level makes of the computed receptance.
-    Renewed(NoiseLevel),
+    Renewed(Size),
 }
 
 /// The model with data and weights.

@@ -1,14 +1,16 @@
 //! Receptances of a substructure, computed or measured.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use bolted_joint_frf::structure::ComplexMatrix;
 
-use super::lines::every;
+use super::lines::chosen;
+use super::parallel;
+use super::roughness::Roughness;
 
 /// Receptances of a substructure between the joint's DOFs, bolt by bolt, and then its points, at each line.
 #[derive(Clone, Debug)]
@@ -29,12 +31,11 @@ impl Receptances {
         }
     }
 
-    /// At every so many lines.
-    pub(super) fn every(&self, stride: usize) -> Self {
+    /// At these lines.
+    pub(super) fn at_lines(&self, lines: &[usize]) -> Self {
         match self {
-            _ if stride == 1 => self.clone(),
-            Self::Exact(matrices) => Self::Exact(every(matrices, stride)),
-            Self::Measured(measured) => Self::Measured(Arc::new(measured.every(stride))),
+            Self::Exact(matrices) => Self::Exact(chosen(matrices, lines)),
+            Self::Measured(measured) => Self::Measured(Arc::new(measured.at_lines(lines))),
         }
     }
 
@@ -68,6 +69,12 @@ pub(super) fn with_lost(mut formed: ComplexMatrix, lost: Option<&DMatrix<f64>>) 
     formed
 }
 
+/// Where an entry is in the upper triangle, column by column.
+fn place(row: usize, column: usize) -> usize {
+    let (row, column) = (row.min(column), row.max(column));
+    column * (column + 1) / 2 + row
+}
+
 /// Measured receptances from which those of a substructure are formed.
 #[derive(Clone, Debug)]
 pub struct MeasuredSubstructure {
@@ -80,6 +87,11 @@ pub struct MeasuredSubstructure {
     relative_variance: Option<Vec<Vec<f64>>>,
     /// What is added at the joint's DOFs: what rotations by differences lose.
     lost: Option<DMatrix<f64>>,
+    /// Which of the measured DOFs are rotations; none, if nothing is said.
+    rotations: Vec<bool>,
+    frequency_hz: Vec<f64>,
+    /// Floor of the noise of each of `functions`, in its unit.
+    floors: OnceLock<Vec<f64>>,
 }
 
 impl MeasuredSubstructure {
@@ -105,6 +117,9 @@ impl MeasuredSubstructure {
             measured,
             relative_variance,
             lost: None,
+            rotations: Vec::new(),
+            frequency_hz: Vec::new(),
+            floors: OnceLock::new(),
         }
     }
 
@@ -114,16 +129,75 @@ impl MeasuredSubstructure {
         Self { lost, ..self }
     }
 
-    /// At every so many lines.
-    fn every(&self, stride: usize) -> Self {
+    /// With the frequency of each line, and which of the measured DOFs are rotations. Without them lines are taken for evenly
+    /// spaced, and DOFs for translations.
+    #[must_use]
+    pub fn with_axis(self, frequency_hz: &[f64], rotations: Vec<bool>) -> Self {
+        Self {
+            frequency_hz: frequency_hz.to_vec(),
+            rotations,
+            ..self
+        }
+    }
+
+    /// Whether a measured DOF is a rotation.
+    pub(super) fn is_rotation(&self, label: usize) -> bool {
+        self.rotations.get(label) == Some(&true)
+    }
+
+    /// Noise of each of `functions`, as it shows by itself.
+    fn roughness(&self) -> Vec<Roughness> {
+        let lines = self.functions.first().map_or(0, |function| function.len());
+        let even: Vec<f64> = (0..lines).map(|line| line as f64).collect();
+        let axis = match self.frequency_hz.is_empty() {
+            true => &even,
+            false => &self.frequency_hz,
+        };
+        parallel::map(&self.functions, |function| {
+            Roughness::of(axis, function, None)
+        })
+    }
+
+    /// The same of those that were measured, by row and column.
+    pub(super) fn measured_functions(&self) -> Vec<((usize, usize), Roughness)> {
+        let rough = self.roughness();
+        self.floors
+            .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
+        let columns = 0..self.transformation.ncols();
+        let places = columns.flat_map(|column| (0..=column).map(move |row| (row, column)));
+        let is_measured = |&((row, column), _): &((usize, usize), Roughness)| {
+            self.measured.contains(&(row, column)) || self.measured.contains(&(column, row))
+        };
+        places.zip(rough).filter(is_measured).collect()
+    }
+
+    fn floors(&self) -> &[f64] {
+        let of = |rough: &Roughness| rough.floor;
+        self.floors
+            .get_or_init(|| self.roughness().iter().map(of).collect())
+    }
+
+    /// Floor of the noise of an entry of U, in its unit.
+    pub(super) fn floor(&self, row: usize, column: usize) -> f64 {
+        self.floors()[place(row, column)]
+    }
+
+    /// At these lines. The noise is as all lines show it.
+    fn at_lines(&self, lines: &[usize]) -> Self {
         let functions = self.functions.iter();
         let known = self.relative_variance.as_ref();
+        let axis = &self.frequency_hz;
         Self {
+            floors: self.floors().to_vec().into(),
             functions: functions
-                .map(|function| Arc::new(every(function, stride)))
+                .map(|function| Arc::new(chosen(function, lines)))
                 .collect(),
             relative_variance: known
-                .map(|known| known.iter().map(|known| every(known, stride)).collect()),
+                .map(|known| known.iter().map(|known| chosen(known, lines)).collect()),
+            frequency_hz: match axis.is_empty() {
+                true => lines.iter().map(|&line| line as f64).collect(),
+                false => chosen(axis, lines),
+            },
             ..self.clone()
         }
     }
@@ -136,6 +210,7 @@ impl MeasuredSubstructure {
         };
         Self {
             functions: self.functions.iter().map(multiplied).collect(),
+            floors: OnceLock::new(),
             ..self.clone()
         }
     }
@@ -171,8 +246,7 @@ impl MeasuredSubstructure {
     /// An entry of U over all lines.
     #[must_use]
     pub fn function(&self, row: usize, column: usize) -> &Arc<Vec<Complex64>> {
-        let (row, column) = (row.min(column), row.max(column));
-        &self.functions[column * (column + 1) / 2 + row]
+        &self.functions[place(row, column)]
     }
 
     /// U at a line.

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use super::group::{Side, Source};
 use super::line::Line;
-use super::noise::{Noise, StatedLevel};
+use super::noise::Noise;
 use super::objective::{Objective, State, Weights};
 
 /// Sums over the whitened residuals of consecutive lines.
@@ -86,13 +86,12 @@ impl<const N: usize> Objective<'_, N> {
 
     /// Whether no variance depends on a level that is estimated.
     pub(super) fn is_known(&self, noise: &Noise) -> bool {
-        let is_stated = |level: StatedLevel| level.relative.is_some() && level.floor.is_some();
         let of_source = |source: &Source<N>| {
             !source.known.is_empty()
-                || is_stated(match source.side {
-                    Side::A => noise.a,
-                    Side::B => noise.b,
-                })
+                || match source.side {
+                    Side::A => noise.a.is_stated(),
+                    Side::B => noise.b.is_stated(),
+                }
         };
         self.groups.iter().all(|group| {
             let mut blocks = group.blocks.iter();

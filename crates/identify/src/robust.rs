@@ -24,7 +24,7 @@ pub(super) fn robust(
     noise: &Noise,
     start: &DVector<f64>,
 ) -> Option<Estimate> {
-    let first = first_levels(whole, noise);
+    let first = first_levels(noise);
     let mut unknowns = start.clone();
     let mut converged = false;
     let mut rest = None;

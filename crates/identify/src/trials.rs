@@ -45,7 +45,7 @@ pub(super) fn rough(
         Some(whole) => robust(thinned, whole.objective(entries).as_ref(), noise, start),
         None => {
             // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
-            let levels = Some(first_levels(thinned, noise));
+            let levels = Some(first_levels(noise));
             estimate(thinned, noise, levels, &Free, start, None)
         }
     }

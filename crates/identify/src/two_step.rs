@@ -10,6 +10,7 @@ use super::kernel::{Kernel, complex_stiffness};
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
+use super::noise::Noise;
 use super::used::Chosen;
 
 /// A step that would move no unknown by more than this part of itself ends an iteration.
@@ -115,7 +116,12 @@ struct Minimum {
 
 impl<const N: usize> Problem<N> {
     fn new(lines: &Lines, model: JointModel, amplitudes: Amplitudes) -> Self {
-        let block = Block::new(lines, 0, &Chosen::every(lines.frequency_hz.len()));
+        let block = Block::new(
+            lines,
+            0,
+            &Chosen::every(lines.frequency_hz.len()),
+            &Noise::none(),
+        );
         let entries = Layout::of_different(model, N / model.dofs()).places();
         let scale = match amplitudes {
             Amplitudes::Squared => block.measured.iter().map(|h| h.norm_sqr().powi(2)).sum(),

@@ -6,7 +6,7 @@
 
 use super::group::{Group, Side, Source};
 use super::line::Line;
-use super::noise::{Levels, Noise, NoiseLevel, Sample, StatedLevel, most_likely_level};
+use super::noise::{Floor, Levels, Noise, Of, Sample, Size, most_likely_level};
 use super::objective::{Objective, State, Weights};
 
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
@@ -78,7 +78,7 @@ impl<const N: usize> Objective<'_, N> {
     /// The level that makes the residuals at `state` most likely, where `noise` does not state it.
     ///
     /// `shrinkage` is what fitting has left of the residuals' variance.
-    pub(super) fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<NoiseLevel> {
+    pub(super) fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size> {
         let mut samples = Vec::new();
         self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
@@ -91,8 +91,12 @@ impl<const N: usize> Objective<'_, N> {
                 let of_one = |known: Option<f64>| Sample {
                     power: 0.0,
                     by_relative: if known.is_some() { 0.0 } else { entry.power },
-                    by_floor: if known.is_some() { 0.0 } else { 1.0 },
-                    known: known.map_or(0.0, |known| known * entry.power),
+                    by_floor: if known.is_some() {
+                        0.0
+                    } else {
+                        entry.floor.own
+                    },
+                    known: known.map_or(entry.floor.stated, |known| known * entry.power),
                     count: 1.0,
                 };
                 let one = of_one(entry.known);
@@ -119,17 +123,17 @@ impl<const N: usize> Objective<'_, N> {
                 samples.push(sample);
             });
         })?;
-        Some(most_likely_level(&samples, noise.assembly))
+        Some(most_likely_level(&samples, noise.assembly.relative))
     }
 }
 
 /// Variance of one measurement of the assembly from its computed |H^C|², or from what is `known` of it as a fraction of that.
 #[inline]
-pub(super) fn of_one(level: NoiseLevel, known: Option<f64>, power: f64) -> f64 {
+pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) -> f64 {
     let least = LEAST_RELATIVE * LEAST_RELATIVE * power;
     let variance = match known {
         Some(known) => known * power,
-        None => level.variance(power),
+        None => level.variance(power, floor),
     };
     if variance < least { least } else { variance }
 }
@@ -146,25 +150,17 @@ fn add_source<const N: usize>(
         sample.known += known * gain * power;
         return;
     }
-    let stated: StatedLevel = match source.side {
+    let stated = match source.side {
         Side::A => noise.a,
         Side::B => noise.b,
     };
-    match stated.relative {
+    // What is not stated of a substructure is as the assembly's.
+    match stated.relative.or(noise.assembly.relative) {
         Some(relative) => sample.known += relative * relative * gain * power,
         None => sample.by_relative += gain * power,
     }
-    match stated.floor {
-        Some(floor) => sample.known += floor * floor * gain,
-        None => sample.by_floor += gain,
-    }
-}
-
-fn level_of<const N: usize>(source: &Source<N>, levels: Levels) -> NoiseLevel {
-    match source.side {
-        Side::A => levels.a,
-        Side::B => levels.b,
-    }
+    sample.known += source.floor.stated * gain;
+    sample.by_floor += source.floor.own * gain;
 }
 
 /// Variances of one computed line: of the mean of each entry, from the computed receptances, infinite where it is left out, and of
@@ -188,7 +184,7 @@ pub(super) fn line_variances<const N: usize>(
         } else {
             entry.held_power()
         };
-        let variance = of_one(levels.assembly, entry.known, power);
+        let variance = of_one(levels.assembly, entry.floor, entry.known, power);
         usable &= variance.is_finite() && variance > 0.0;
         entries[entry.index] = variance / f64::from(entry.count);
         scatter += entry.scatter / variance;
@@ -208,7 +204,9 @@ pub(super) fn source_variance<const N: usize>(
     let power = source.value[line].norm_sqr();
     let variance = match source.known.get(line) {
         Some(known) => known * power,
-        None => level_of(source, levels).variance(power),
+        None => levels
+            .of(Of::Substructure(source.side))
+            .variance(power, source.floor),
     };
     variance / f64::from(source.count)
 }
@@ -224,6 +222,7 @@ struct EntryView {
     measured: f64,
     scatter: f64,
     known: Option<f64>,
+    floor: Floor,
     takes_part: bool,
 }
 
@@ -258,6 +257,7 @@ fn for_each_entry<const N: usize>(
                 measured: block.measured[line.index * count + e].norm_sqr(),
                 scatter: block.scatter[line.index * count + e],
                 known: block.known.get(line.index * count + e).copied(),
+                floor: entry.floor,
                 takes_part: block.takes_part(line.index),
             });
             index += 1;

@@ -369,9 +369,31 @@ pub struct Residual {
     /// Correlation of the weighted residuals of neighbouring lines: about 0 if they are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line_correlation: Option<f64>,
+    /// Values that noise cannot have made, found before the fit.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outliers: Vec<OutlierRecord>,
+    /// Lines that were left out for them; `lines` are without these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lines_left_out: Option<usize>,
     /// Noise of the assembly's functions, unless coherence told it line by line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
+}
+
+/// A measured value that noise cannot have made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct OutlierRecord {
+    /// Whose function it is of: `A`, `B`, `assembly`, or `assembly 2` where there are several.
+    pub set: String,
+    /// Response DOF.
+    pub response: String,
+    /// Reference DOF.
+    pub reference: String,
+    /// Its line.
+    #[cfg_attr(test, schemars(range(min = 0)))]
+    pub frequency_hz: f64,
 }
 
 /// Noise of measured functions: standard deviation √((relative·|H|)² + floor²) of the complex error.

@@ -1,7 +1,7 @@
 //! Receptances of a substructure between the joint's degrees of freedom and its points: read, synthesised or computed.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -38,6 +38,7 @@ pub(super) fn substructures(
         measured: Vec::new(),
         relative_variance: None,
         repeats: None,
+        floors: OnceLock::new(),
     })
 }
 
@@ -89,6 +90,9 @@ fn joint_and_points(
             let functions = labelled.symmetrised();
             let measured =
                 MeasuredSubstructure::new(whole, functions, measured, variance).with_lost(lost);
+            let rotations = motions.labels.iter();
+            let rotations = rotations.map(|label| label.direction().is_rotation());
+            let measured = measured.with_axis(axis.frequency_hz, rotations.collect());
             Ok(Receptances::Measured(Arc::new(measured)))
         }
     }

@@ -9,9 +9,10 @@ use num_complex::Complex64;
 use bolted_joint_frf::Dof;
 
 use super::super::assemble::{beam_at, measured_labels};
+use super::super::group;
 use super::super::layout::Layout;
 use super::super::lines::Lines;
-use super::super::noise::{Levels, NoiseLevel};
+use super::super::noise::{Floor, Levels, Of, Size};
 use super::super::receptances::{MeasuredSubstructure, Receptances};
 use super::super::study::{Study, Substructure};
 
@@ -38,8 +39,8 @@ pub(super) fn of<'a>(
         entries,
     };
     let structures = [
-        structure(study, Side::A, lines, levels.a)?,
-        structure(study, Side::B, lines, levels.b)?,
+        structure(study, Side::A, lines, levels)?,
+        structure(study, Side::B, lines, levels)?,
     ];
     let assembly = assembly(study, lines, levels.assembly);
     Some(Experiment::new(
@@ -51,7 +52,7 @@ pub(super) fn of<'a>(
 }
 
 /// The measured functions of the assembly, each on its own: reciprocity speaks for the channels' gains.
-fn assembly(study: &Study, lines: &Lines, level: NoiseLevel) -> MeasuredFunctions {
+fn assembly(study: &Study, lines: &Lines, level: Size) -> MeasuredFunctions {
     let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
     let entry = |place: (usize, usize)| {
         let values: Vec<Complex64> = lines.assembly.iter().map(|matrix| matrix[place]).collect();
@@ -62,10 +63,13 @@ fn assembly(study: &Study, lines: &Lines, level: NoiseLevel) -> MeasuredFunction
                 .position(|&measured| measured == place)?;
             known.get(index)
         });
+        let own = || lines.floor(place) * f64::from(repeats).sqrt();
+        let rotations = [place.0, place.1].map(|p| lines.points[p].direction().is_rotation());
+        let floor = study.noise.floor(Of::Assembly, rotations, own);
         Entry {
             place,
             measurements: vec![place],
-            variance: variances(&values, known.map(Vec::as_slice), level, repeats),
+            variance: variances(&values, known.map(Vec::as_slice), (level, floor), repeats),
             values,
         }
     };
@@ -99,12 +103,12 @@ fn positions_m(b: &Substructure, points: &[Dof]) -> Option<Vec<f64>> {
 fn variances(
     values: &[Complex64],
     known: Option<&[f64]>,
-    level: NoiseLevel,
+    (level, floor): (Size, Floor),
     count: u32,
 ) -> Vec<f64> {
     let of = |(line, value): (usize, &Complex64)| {
         let power = value.norm_sqr();
-        let one = known.map_or_else(|| level.variance(power), |known| known[line] * power);
+        let one = known.map_or_else(|| level.variance(power, floor), |known| known[line] * power);
         one / f64::from(count)
     };
     values.iter().enumerate().map(of).collect()
@@ -130,11 +134,11 @@ fn structure<'a>(
     study: &'a Study,
     side: Side,
     lines: &'a Lines,
-    level: NoiseLevel,
+    levels: Levels,
 ) -> Option<Structure<'a>> {
-    let (substructure, receptances, points): (_, _, &[Dof]) = match side {
-        Side::A => (&study.a, &lines.a, &[]),
-        Side::B => (&study.b, &lines.b, &lines.points),
+    let (substructure, receptances, points, of): (_, _, &[Dof], _) = match side {
+        Side::A => (&study.a, &lines.a, &[], group::Side::A),
+        Side::B => (&study.b, &lines.b, &lines.points, group::Side::B),
     };
     match (substructure, receptances) {
         (Substructure::Beam { .. }, _) => {
@@ -146,7 +150,10 @@ fn structure<'a>(
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
         (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured {
-            functions: functions(measured, &labels(study, side, lines), level)?,
+            functions: functions(measured, &labels(study, side, lines), &|rotations, own| {
+                let of = Of::Substructure(of);
+                (levels.of(of), study.noise.floor(of, rotations, || own))
+            })?,
             transformation: measured.transformation().clone(),
             correction: substructure.rotation_lost(study.dofs_of_a_bolt()),
         })),
@@ -157,7 +164,7 @@ fn structure<'a>(
 fn functions(
     measured: &MeasuredSubstructure,
     labels: &[Dof],
-    level: NoiseLevel,
+    noise: &dyn Fn([bool; 2], f64) -> (Size, Floor),
 ) -> Option<MeasuredFunctions> {
     let count = measured.transformation().ncols();
     if labels.len() != count {
@@ -179,13 +186,18 @@ fn functions(
             (0..values.len()).map(mean).collect()
         });
         let known = known.filter(|_| !own.is_empty());
+        let count = own.len().max(1) as u32;
+        let level = noise(
+            [place.0, place.1].map(|label| measured.is_rotation(label)),
+            measured.floor(place.0, place.1) * f64::from(count).sqrt(),
+        );
         Entry {
             place,
             measurements: own
                 .iter()
                 .map(|&index| measured.measured()[index])
                 .collect(),
-            variance: variances(&values, known.as_deref(), level, own.len().max(1) as u32),
+            variance: variances(&values, known.as_deref(), level, count),
             values,
         }
     };

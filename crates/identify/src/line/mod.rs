@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::group::Group;
 use super::kernel::{Kernel, complex_stiffness};
 use super::layout::Place;
-use super::noise::NoiseLevel;
+use super::noise::Size;
 use super::normal::Normal;
 use super::objective::Weights;
 use super::strip::{ENTRIES_OF_ONE, MOST_ENTRIES};
@@ -213,7 +213,7 @@ impl<'g, const N: usize> Line<'g, N> {
     }
 
     /// The same with the variances that `level` gives for the computed receptances.
-    pub(super) fn whiten_by(&mut self, level: NoiseLevel) {
+    pub(super) fn whiten_by(&mut self, level: Size) {
         self.measure();
         let mut at = 0;
         for block in &self.group.blocks {
@@ -223,7 +223,7 @@ impl<'g, const N: usize> Line<'g, N> {
                 .get(self.index * count..(self.index + 1) * count);
             for (e, entry) in block.entries.iter().enumerate() {
                 let known = known.map(|known| known[e]);
-                let variance = of_one(level, known, self.computed[at + e].norm_sqr());
+                let variance = of_one(level, entry.floor, known, self.computed[at + e].norm_sqr());
                 self.residual[at + e] *= (f64::from(entry.count) / variance).sqrt();
             }
             at += count;

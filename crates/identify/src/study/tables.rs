@@ -16,6 +16,7 @@ use bolted_joint_study::{FrequencyTable, Method, OneOrMore, one_or_more_tables};
 use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
 use super::super::model::JointModel;
+use super::super::noise::StatedFloor;
 use super::super::torque::TorqueDependence;
 use super::budget::BudgetKey;
 
@@ -292,7 +293,8 @@ pub(super) struct StartTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseTable {
     pub(super) relative: Option<f64>,
-    pub(super) floor: Option<f64>,
+    #[serde(default)]
+    pub(super) floor: FloorKey,
     #[serde(default)]
     pub(super) a: LevelTable,
     #[serde(default)]
@@ -303,5 +305,64 @@ pub(super) struct NoiseTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct LevelTable {
     pub(super) relative: Option<f64>,
-    pub(super) floor: Option<f64>,
+    #[serde(default)]
+    pub(super) floor: FloorKey,
+}
+
+/// A floor between translations, or one for each kind of function.
+#[derive(Clone, Copy, Default)]
+pub(super) struct FloorKey(pub(super) StatedFloor);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FloorsOfKinds {
+    yy: Option<f64>,
+    ytheta: Option<f64>,
+    thetatheta: Option<f64>,
+}
+
+/// By hand, for the same reason as [`ThetaTable`].
+impl<'de> Deserialize<'de> for FloorKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct FloorVisitor;
+        impl<'de> Visitor<'de> for FloorVisitor {
+            type Value = FloorKey;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a floor in m/N, or { yy = m/N, ytheta = rad/N, thetatheta = rad/(N·m) }",
+                )
+            }
+
+            fn visit_f64<E: de::Error>(self, floor: f64) -> Result<FloorKey, E> {
+                // No floor is none in any unit.
+                Ok(FloorKey(if floor == 0.0 {
+                    StatedFloor::all(0.0)
+                } else {
+                    StatedFloor {
+                        yy: Some(floor),
+                        ..StatedFloor::default()
+                    }
+                }))
+            }
+
+            fn visit_i64<E: de::Error>(self, floor: i64) -> Result<FloorKey, E> {
+                self.visit_f64(floor as f64)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FloorKey, A::Error> {
+                let FloorsOfKinds {
+                    yy,
+                    ytheta,
+                    thetatheta,
+                } = FloorsOfKinds::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(FloorKey(StatedFloor {
+                    yy,
+                    ytheta,
+                    thetatheta,
+                }))
+            }
+        }
+        deserializer.deserialize_any(FloorVisitor)
+    }
 }

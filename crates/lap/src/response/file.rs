@@ -152,6 +152,8 @@ impl LapResponse {
                 .collect(),
             reduced_chi_squared: study.noise.is_stated.then_some(reduced),
             line_correlation: None,
+            outliers: Vec::new(),
+            lines_left_out: None,
             noise: Some(NoiseRecord {
                 relative: study.noise.response.hypot(study.noise.force) * level,
                 floor: 0.0,

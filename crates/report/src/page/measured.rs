@@ -8,7 +8,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, Boundary, Damping, Theory};
 use bolted_joint_identify::{
     Bolts, FrfFile, JointModel, Level, Lines, NoiseLevel, Receptances, Rotation, Source,
-    Substructure,
+    StatedFloor, Substructure,
 };
 
 pub(super) fn section(report: &IdentificationReport<'_>) -> String {
@@ -256,7 +256,10 @@ fn noise(report: &IdentificationReport<'_>) -> String {
             parts.push(format!("{} of the receptance", percent(level.relative)));
         }
         if level.floor > 0.0 {
-            parts.push(format!("{} m/N everywhere", shown(level.floor, 3)));
+            parts.push(format!(
+                "{} m/N everywhere (r.m.s. over functions)",
+                shown(level.floor, 3)
+            ));
         }
         parts.join(" and ")
     };
@@ -301,9 +304,11 @@ fn noise(report: &IdentificationReport<'_>) -> String {
     ] {
         let words = match (measured, (stated.relative, stated.floor)) {
             (None, _) => "taken as exact".to_owned(),
-            (Some(_), (Some(0.0), Some(0.0))) => "stated to be exact".to_owned(),
+            (Some(_), (Some(0.0), StatedFloor { yy: Some(0.0), .. })) => {
+                "stated to be exact".to_owned()
+            }
             (Some(true), _) => "from coherence, line by line".to_owned(),
-            (Some(false), (None, None)) => "as the assembly's".to_owned(),
+            (Some(false), (None, StatedFloor { yy: None, .. })) => "as the assembly's".to_owned(),
             (Some(false), (relative, floor)) => {
                 let part = |value: Option<f64>, unit: &str| match value {
                     Some(value) => format!("{}{unit}", shown(value, 3)),
@@ -312,7 +317,7 @@ fn noise(report: &IdentificationReport<'_>) -> String {
                 format!(
                     "stated: fraction of the receptance {}, floor {}",
                     part(relative, ""),
-                    part(floor, " m/N")
+                    part(floor.yy, " m/N")
                 )
             }
         };

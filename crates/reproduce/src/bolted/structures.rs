@@ -130,6 +130,7 @@ pub(super) fn lines(
             .collect(),
         relative_variance: None,
         repeats: None,
+        floors: Default::default(),
     };
     lines.assembly = lines.regenerated(joint)?;
     Ok(lines)

@@ -2,7 +2,7 @@
 
 use super::super::super::bands::{BandChoice, BandChoices};
 use super::super::super::layout::Bolts;
-use super::super::super::noise::{Noise, StatedLevel};
+use super::super::super::noise::{Noise, StatedFloor, StatedLevel};
 use super::super::tables::{LevelTable, NoiseTable};
 use bolted_joint_joint::Bodies;
 use bolted_joint_study::{StudyError, StudyText};
@@ -40,11 +40,17 @@ pub(crate) fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, Stud
     let of = |key: &str, table: LevelTable| {
         let usable = |value: f64| value.is_finite() && value >= 0.0;
         let LevelTable { relative, floor } = table;
-        if relative.is_none_or(usable) && floor.is_none_or(usable) {
+        let floor = floor.0;
+        let parts = [
+            ("relative", relative),
+            ("floor.yy", floor.yy),
+            ("floor.ytheta", floor.ytheta),
+            ("floor.thetatheta", floor.thetatheta),
+        ];
+        if parts.iter().all(|(_, part)| part.is_none_or(usable)) {
             return Ok(StatedLevel { relative, floor });
         }
-        let show = |name: &str, value: Option<f64>| Some(format!("{name} = {}", value?));
-        let given = [show("relative", relative), show("floor", floor)];
+        let given = parts.map(|(name, value)| Some(format!("{name} = {}", value?)));
         study.refuse(
             key,
             given.into_iter().flatten().collect::<Vec<_>>().join(", "),
@@ -57,7 +63,7 @@ pub(crate) fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, Stud
         b: of("noise.b", table.b)?,
     };
     study.ensure(
-        noise.assembly.relative != Some(0.0) || noise.assembly.floor != Some(0.0),
+        noise.assembly.relative != Some(0.0) || noise.assembly.floor != StatedFloor::all(0.0),
         "noise",
         "relative = 0, floor = 0",
         "at least one of them above zero, or left out to be estimated",

@@ -1,0 +1,385 @@
+//! Noise of a measured function by itself: how far each line is from a smooth curve through its neighbours.
+//!
+//! H over a few lines is a rational function, whatever the structure and however wrong the set-up (McKelvey and Guérin 2012).
+//! So what it leaves is noise, and a value far off it is an outlier. No joint and no substructure takes part: errors of the
+//! set-up, and joint models that are too simple, are smooth.
+
+use num_complex::Complex64;
+
+use super::noise::{Sample, Size, most_likely_level};
+
+/// Lines of a window.
+const WINDOW: usize = 9;
+/// Coefficients of numerator and denominator, beside the leading 1 of this.
+const NUMERATOR: usize = 4;
+const DENOMINATOR: usize = 2;
+const UNKNOWNS: usize = NUMERATOR + DENOMINATOR;
+/// Fewer lines show nothing.
+const FEWEST_LINES: usize = 3 * WINDOW;
+/// Windows that are enough to tell a level.
+const WINDOWS_FOR_LEVEL: usize = 600;
+/// Refinements of the level, each with the weights of the one before.
+const ROUNDS: usize = 5;
+/// Squared deviation over its variance that noise does not reach: e⁻³⁰ of all values that are normal.
+const FAR: f64 = 30.0;
+/// Most rounds of leaving out.
+const REMOVALS: usize = 60;
+/// A value that is closer than this part of the size around it is no outlier, however exact the others are …
+const NEAR: f64 = 0.05;
+/// … nor one for which a shorter window shows another deviation: there the function is not smooth.
+const AGREEMENT: f64 = 0.7;
+/// A deviation of this part of the size around it is one in any case.
+const OBVIOUS: f64 = 0.5;
+/// The least squared value beside the smaller one of its neighbours.
+const LEAST_OF_NEIGHBOURS: f64 = 0.1;
+/// Lines on either side without which no value is judged.
+const FEWEST_BESIDE: usize = 2;
+/// Squared deviation over its variance that noise hardly reaches.
+const SUSPICIOUS: f64 = 9.0;
+/// Data with less noise than this part of the function are computed ones, without outliers: what is left is the fit's own error.
+const LEAST_NOISE: f64 = 1e-4;
+/// A direction of the fit that is smaller than this part of its column tells nothing new.
+const NEGLIGIBLE: f64 = 1e-11;
+/// No floor is taken for less than this part of the function's median.
+const LEAST_FLOOR: f64 = 1e-12;
+
+/// What a function says of its noise.
+#[derive(Clone, Debug)]
+pub(super) struct Roughness {
+    /// Floor of the noise, in the function's unit.
+    pub(super) floor: f64,
+    /// Lines whose value stands out.
+    pub(super) outliers: Vec<usize>,
+    /// Lines whose value may: where those of most functions may, a resonance is too sharp for the lines.
+    pub(super) suspicious: Vec<usize>,
+}
+
+impl Roughness {
+    /// Of a function over ascending frequencies; `known` variances are fractions of |H|², as from coherence.
+    pub(super) fn of(frequency_hz: &[f64], values: &[Complex64], known: Option<&[f64]>) -> Self {
+        let mut sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
+        let middle = sizes.len() / 2;
+        let median = match sizes.is_empty() {
+            true => 0.0,
+            false => *sizes.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
+        if values.len() < FEWEST_LINES || median == 0.0 {
+            return Self {
+                floor: median,
+                outliers: Vec::new(),
+                suspicious: Vec::new(),
+            };
+        }
+        let mut function = Function {
+            frequency_hz,
+            values,
+            known,
+            used: (0..values.len()).collect(),
+            level: Size {
+                relative: 1.0,
+                floor: 1.0,
+            },
+            median: 0.3 * median,
+        };
+        function.settle();
+        let floor = function.level.floor * function.median;
+        let is_measured = function.level.relative.hypot(floor / median) > LEAST_NOISE;
+        let (outliers, suspicious) = match is_measured {
+            true => (function.outliers(), function.suspicious()),
+            false => (Vec::new(), Vec::new()),
+        };
+        Self {
+            suspicious,
+            floor: floor.max(LEAST_FLOOR * median),
+            outliers,
+        }
+    }
+}
+
+struct Function<'f> {
+    frequency_hz: &'f [f64],
+    values: &'f [Complex64],
+    known: Option<&'f [f64]>,
+    /// Lines that are taken for good.
+    used: Vec<usize>,
+    level: Size,
+    /// What the level's floor is a multiple of.
+    median: f64,
+}
+
+/// A value beside what its window makes of it.
+#[derive(Clone, Copy)]
+struct Deviation {
+    /// The value less what the other lines predict.
+    value: Complex64,
+    /// Its squared deviation from the fit, as large as it would be without that value's own part in the fit.
+    power: f64,
+    /// The same over its variance.
+    distance: f64,
+    /// Mean |H|² of the window.
+    around: f64,
+}
+
+impl Function<'_> {
+    fn variance(&self, line: usize) -> f64 {
+        // A value that is next to nothing between others is not exact for that.
+        let neighbour = |line: Option<usize>| line.and_then(|line| self.values.get(line));
+        let beside = [line.checked_sub(1), Some(line + 1)].map(neighbour);
+        let beside = beside.into_iter().flatten().map(|value| value.norm_sqr());
+        let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
+        let power = self.values[line].norm_sqr().max(least);
+        let level = self.level.relative.powi(2) * power + (self.level.floor * self.median).powi(2);
+        // rounding, at least
+        let level = level.max(1e-30 * power).max(1e-32 * self.median.powi(2));
+        self.known
+            .map_or(level, |known| level.max(known[line] * power))
+    }
+
+    /// Squared frequency, as a part of the highest one's; never zero.
+    fn scale(&self, line: usize) -> f64 {
+        let highest = self.frequency_hz.last().copied().unwrap_or(1.0);
+        (self.frequency_hz[line] / highest).powi(2).max(1e-12)
+    }
+
+    /// The level under which the deviations are most likely, weights and level in turn; values that stand out are left out.
+    fn settle(&mut self) {
+        for _ in 0..ROUNDS {
+            self.refine();
+        }
+        for _ in 0..REMOVALS {
+            let far = self.farthest();
+            if far.is_empty() {
+                break;
+            }
+            self.used.retain(|line| !far.contains(line));
+            if self.used.len() < FEWEST_LINES {
+                break;
+            }
+            self.refine();
+        }
+        self.refine();
+    }
+
+    fn refine(&mut self) {
+        let stride = self.used.len().div_ceil(WINDOWS_FOR_LEVEL);
+        let places = (0..self.used.len()).step_by(stride);
+        let samples: Vec<Sample> = places
+            .filter_map(|place| {
+                let own = self.deviation(self.used[place], WINDOW, NUMERATOR, DENOMINATOR)?;
+                Some(Sample {
+                    power: own.power,
+                    by_relative: self.values[self.used[place]].norm_sqr(),
+                    by_floor: self.median.powi(2),
+                    known: 0.0,
+                    count: 1.0,
+                })
+            })
+            .collect();
+        self.level = most_likely_level(&samples, None);
+    }
+
+    /// Lines in use that are far off, each farther than any of those around it.
+    fn farthest(&self) -> Vec<usize> {
+        let distances: Vec<f64> = (self.used.iter())
+            .map(|&line| {
+                let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
+                own.map_or(0.0, |own| own.distance)
+            })
+            .collect();
+        let mut sorted = distances.clone();
+        let middle = sorted.len() / 2;
+        let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
+        let limit = FAR * (*median / std::f64::consts::LN_2).max(1.0);
+        let is_highest = |place: usize| {
+            let around =
+                place.saturating_sub(WINDOW / 2)..(place + WINDOW / 2 + 1).min(distances.len());
+            distances[around]
+                .iter()
+                .all(|other| *other <= distances[place])
+        };
+        let places =
+            (0..distances.len()).filter(|&place| distances[place] > limit && is_highest(place));
+        places
+            .filter(|&place| self.is_outlier(self.used[place]))
+            .map(|place| self.used[place])
+            .collect()
+    }
+
+    /// Of the lines that were left out those that stand out beside the ones in use.
+    fn outliers(&self) -> Vec<usize> {
+        let left_out = (0..self.values.len()).filter(|line| self.used.binary_search(line).is_err());
+        left_out.filter(|&line| self.is_outlier(line)).collect()
+    }
+
+    fn suspicious(&self) -> Vec<usize> {
+        let is_suspicious = |line: &usize| {
+            let own = self.deviation(*line, WINDOW, NUMERATOR, DENOMINATOR);
+            own.is_some_and(|own| own.distance > SUSPICIOUS)
+        };
+        (0..self.values.len()).filter(is_suspicious).collect()
+    }
+
+    fn is_outlier(&self, line: usize) -> bool {
+        // Beyond the ends a fit says little.
+        let before = self.used.partition_point(|&other| other < line);
+        let after = self.used.len() - self.used.partition_point(|&other| other <= line);
+        if before.min(after) < FEWEST_BESIDE {
+            return false;
+        }
+        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
+        let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1);
+        let (Some(own), Some(shorter)) = (own, shorter) else {
+            return false;
+        };
+        own.distance > FAR
+            && shorter.distance > FAR
+            && own.value.norm_sqr() > NEAR * NEAR * own.around
+            && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
+                || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm())
+    }
+
+    /// Of a line beside the lines in use around it: H (1 + d₁x + …) = n₀ + n₁x + …, weighted least squares in which the weights'
+    /// denominator follows from a first solution (Sanathanan and Koerner 1963). `None` where the others say nothing of it.
+    fn deviation(
+        &self,
+        line: usize,
+        length: usize,
+        numerator: usize,
+        denominator: usize,
+    ) -> Option<Deviation> {
+        let place = self.used.partition_point(|&other| other < line);
+        let is_used = self.used.get(place) == Some(&line);
+        let others = length - 1;
+        // As many lines on either side as there are.
+        let after = place + usize::from(is_used);
+        let first = place
+            .saturating_sub(others / 2)
+            .min((self.used.len() + usize::from(!is_used)).checked_sub(length)?);
+        let mut window = [line; WINDOW];
+        let mut count = 0;
+        let before = self.used[first..place].iter();
+        for &other in before.chain(&self.used[after..]).take(others) {
+            window[count] = other;
+            count += 1;
+        }
+        if count < others {
+            return None;
+        }
+        // The line itself stands last.
+        let window = &window[..length];
+        let centre = self.frequency_hz[line];
+        let reach = window
+            .iter()
+            .map(|&other| (self.frequency_hz[other] - centre).abs())
+            .fold(0.0, f64::max);
+        let x: [f64; WINDOW] = std::array::from_fn(|k| match window.get(k) {
+            Some(&other) => (self.frequency_hz[other] - centre) / reach,
+            None => 0.0,
+        });
+        let deviation = |k: usize| self.variance(window[k]).sqrt() * self.scale(window[k]);
+        let mut weights: [f64; WINDOW] = std::array::from_fn(|k| match k < length {
+            true => deviation(k).recip(),
+            false => 0.0,
+        });
+        let plain = weights;
+        let own = length - 1;
+        // ω²H: what moves as a whole has no pole at zero there.
+        let value = |k: usize| self.values[window[k]] * self.scale(window[k]);
+        // The line itself has no part in its denominator: a pole and a zero beside each other would take up any single value.
+        weights[own] = 0.0;
+        let first = Fit::of(&x[..length], value, &weights, numerator, denominator);
+        for k in 0..length {
+            let powers = 1..=denominator;
+            let parts = powers.map(|p| first.solution[numerator + p - 1] * x[k].powi(p as i32));
+            weights[k] = plain[k] / (1.0 + parts.sum::<Complex64>()).norm().max(1e-6);
+        }
+        let fit = Fit::of(&x[..length], value, &weights, numerator, denominator);
+        let free = 1.0 - fit.leverage;
+        if free < 0.02 {
+            return None;
+        }
+        let variance = self.variance(line);
+        // At the line itself x = 0, so that the divisor is 1.
+        let distance = fit.residual.norm_sqr() / free;
+        let powers = window.iter().map(|&other| self.values[other].norm_sqr());
+        Some(Deviation {
+            value: fit.residual * variance.sqrt() / free,
+            power: distance * variance,
+            distance,
+            around: (powers.sum::<f64>() - self.values[window[own]].norm_sqr()) / own as f64,
+        })
+    }
+}
+
+/// A weighted linear fit: what it leaves of the last line.
+struct Fit {
+    solution: [Complex64; UNKNOWNS],
+    residual: Complex64,
+    leverage: f64,
+}
+
+impl Fit {
+    /// By Gram and Schmidt, twice for each column; columns that add nothing are left out.
+    fn of(
+        x: &[f64],
+        value: impl Fn(usize) -> Complex64,
+        weights: &[f64; WINDOW],
+        numerator: usize,
+        denominator: usize,
+    ) -> Self {
+        let unknowns = numerator + denominator;
+        let lines = x.len();
+        let mut q = [[Complex64::ZERO; WINDOW]; UNKNOWNS];
+        let mut r = [[Complex64::ZERO; UNKNOWNS]; UNKNOWNS];
+        let mut rest: [Complex64; WINDOW] = std::array::from_fn(|k| match k < lines {
+            true => value(k) * weights[k],
+            false => Complex64::ZERO,
+        });
+        let target = rest;
+        let mut right = [Complex64::ZERO; UNKNOWNS];
+        let dot = |a: &[Complex64; WINDOW], b: &[Complex64; WINDOW]| -> Complex64 {
+            a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
+        };
+        for column in 0..unknowns {
+            let mut own: [Complex64; WINDOW] = std::array::from_fn(|k| match k < lines {
+                false => Complex64::ZERO,
+                true if column < numerator => {
+                    Complex64::from(weights[k] * x[k].powi(column as i32))
+                }
+                true => -target[k] * x[k].powi((column - numerator + 1) as i32),
+            });
+            let before = dot(&own, &own).re;
+            for _ in 0..2 {
+                for earlier in 0..column {
+                    let part = dot(&q[earlier], &own);
+                    r[earlier][column] += part;
+                    for k in 0..lines {
+                        own[k] -= part * q[earlier][k];
+                    }
+                }
+            }
+            let size = dot(&own, &own).re.sqrt();
+            if size <= NEGLIGIBLE * before.sqrt() {
+                continue;
+            }
+            r[column][column] = Complex64::from(size);
+            q[column] = own.map(|value| value / size);
+            right[column] = dot(&q[column], &rest);
+            for k in 0..lines {
+                rest[k] -= right[column] * q[column][k];
+            }
+        }
+        let mut solution = [Complex64::ZERO; UNKNOWNS];
+        for row in (0..unknowns).rev() {
+            if r[row][row] != Complex64::ZERO {
+                let later: Complex64 = (row + 1..unknowns).map(|c| r[row][c] * solution[c]).sum();
+                solution[row] = (right[row] - later) / r[row][row];
+            }
+        }
+        Self {
+            solution,
+            residual: rest[lines - 1],
+            leverage: q.iter().map(|column| column[lines - 1].norm_sqr()).sum(),
+        }
+    }
+}

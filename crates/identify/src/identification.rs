@@ -156,8 +156,12 @@ pub fn identify_and_draw(
         _ => Vec::new(),
     };
     // A slip is none where an error of the set-up explains the data; where none does, what it leaves tells nothing of errors.
-    let systematic = Systematic::of(study, &all, &estimate)
-        .filter(|found| slips.is_empty() || found.explains_the_data());
+    let systematic = if slips::are_certain(&slips, &estimate.assessment) {
+        None
+    } else {
+        Systematic::of(study, &all, &estimate)
+            .filter(|found| slips.is_empty() || found.explains_the_data())
+    };
     let slips = match systematic {
         Some(_) => Vec::new(),
         None => slips,

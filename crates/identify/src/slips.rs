@@ -85,6 +85,12 @@ pub(super) fn are_possible(assessment: &Assessment) -> bool {
     !assessment.fits() && is_much
 }
 
+/// Whether undoing a slip leaves so little that no other error need be thought of.
+pub(super) fn are_certain(found: &[FoundSlip], assessment: &Assessment) -> bool {
+    let left = assessment.reduced_chi_squared.zip(found.first());
+    left.is_some_and(|(chi, first)| chi * first.left < SUSPICIOUS)
+}
+
 /// The slips that explain what an estimate leaves of one assembly's lines, the most likely first; none where no slip does.
 pub(super) fn found(
     lines: &Lines,

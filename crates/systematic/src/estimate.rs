@@ -248,6 +248,13 @@ pub fn evaluated(
 }
 
 impl Estimate {
+    /// Whether the search came to rest and what is left is noise.
+    #[must_use]
+    pub fn fits(&self, settings: &Settings) -> bool {
+        let chi = self.reduced_chi_squared;
+        self.converged && chi.is_some_and(|chi| chi <= settings.most_reduced_chi_squared)
+    }
+
     /// χ² of each of its lines that another estimate uses, too.
     pub(crate) fn costs_at<'e>(&'e self, other: &'e Self) -> impl Iterator<Item = f64> + 'e {
         let own = self.found.lines.iter().zip(&self.found.shares);

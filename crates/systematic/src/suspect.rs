@@ -60,7 +60,7 @@ struct Case<'c> {
     careful: Budget,
 }
 
-/// Looks for what is wrong with an estimate without causes.
+/// Looks for what is wrong with an estimate without causes, from where that is.
 #[must_use]
 pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settings) -> Diagnosis {
     let case = Case::of(experiment, plain, settings);
@@ -69,29 +69,40 @@ pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settin
         .map(|cause| case.careful_prior(cause))
         .collect();
     let scores = score_tests(experiment, plain, &candidates);
-    let mut trials = case.near(&scores);
-    sort(&mut trials);
-    let is_far = plain.reduced_chi_squared.is_none_or(|chi| chi > FAR);
-    if is_far && !trials.first().is_some_and(|trial| case.is_explained(trial)) {
-        for trial in case.far(&candidates) {
-            add(&mut trials, trial);
-        }
-        if trials.iter().any(|(_, start)| start.is_some()) {
-            // one step from the wrong place says nothing
-            trials.retain(|(_, start)| start.is_some());
-        }
-    }
-    trials.retain(|(suspect, _)| suspect.drop > TELLING);
-    sort(&mut trials);
-    let first = trials.first().and_then(|(_, start)| start.clone());
-    Diagnosis {
-        suspects: trials.into_iter().map(|(suspect, _)| suspect).collect(),
-        scores,
-        start: first.unwrap_or_else(|| Start::without_causes(&plain.unknowns)),
-    }
+    let trials = case.near(&scores);
+    case.diagnosis(trials, scores)
 }
 
 impl Diagnosis {
+    /// Looks for causes so large that the estimate without them is in the wrong place altogether; `None` where what it leaves is
+    /// not so much, or where a suspect explains it.
+    #[must_use]
+    pub fn from_far(
+        &self,
+        experiment: &Experiment<'_>,
+        plain: &Estimate,
+        settings: &Settings,
+    ) -> Option<Self> {
+        let case = Case::of(experiment, plain, settings);
+        let is_far = plain.reduced_chi_squared.is_none_or(|chi| chi > FAR);
+        let first = self.suspects.first();
+        if !is_far || first.is_some_and(|suspect| case.is_explained(suspect)) {
+            return None;
+        }
+        // one step from the wrong place says nothing
+        let refitted = self.suspects.iter().copied();
+        let refitted = refitted.filter(|suspect| suspect.reduced_chi_squared.is_some());
+        let own = |suspect: Suspect| (suspect, first == Some(&suspect));
+        let mut trials: Vec<Trial> = refitted
+            .map(own)
+            .map(|(suspect, is_first)| (suspect, is_first.then(|| self.start.clone())))
+            .collect();
+        for trial in case.far() {
+            add(&mut trials, trial);
+        }
+        Some(case.diagnosis(trials, self.scores.clone()))
+    }
+
     /// Adds the causes whose priors an estimate with all causes contradicts: it may have come near the joint where no cause
     /// alone did.
     #[must_use]
@@ -169,11 +180,24 @@ impl<'c> Case<'c> {
         telling.map(trial).collect()
     }
 
+    fn diagnosis(&self, mut trials: Vec<Trial>, scores: Vec<Score>) -> Diagnosis {
+        trials.retain(|(suspect, _)| suspect.drop > TELLING);
+        // what lowers χ² most comes first
+        trials.sort_by(|(one, _), (other, _)| other.drop.total_cmp(&one.drop));
+        let first = trials.first().and_then(|(_, start)| start.clone());
+        Diagnosis {
+            suspects: trials.into_iter().map(|(suspect, _)| suspect).collect(),
+            scores,
+            start: first.unwrap_or_else(|| Start::without_causes(&self.plain.unknowns)),
+        }
+    }
+
     /// The causes that fit best from far away.
-    fn far(&self, candidates: &[Prior]) -> Vec<Trial> {
-        let candidates = candidates.iter().copied();
-        let candidates: Vec<Prior> = candidates
-            .filter(|prior| prior.cause != Cause::CommonGain)
+    fn far(&self) -> Vec<Trial> {
+        let candidates: Vec<Prior> = causes(self.experiment)
+            .into_iter()
+            .filter(|cause| *cause != Cause::CommonGain)
+            .map(|cause| self.careful_prior(cause))
             .collect();
         let places = from_far(self.experiment, &candidates, WIDE, self.settings);
         let trial = |(careful, start): (Prior, Start)| {
@@ -217,16 +241,11 @@ impl<'c> Case<'c> {
     }
 
     /// Whether this cause leaves noise, at nearly all lines.
-    fn is_explained(&self, (suspect, _): &Trial) -> bool {
+    fn is_explained(&self, suspect: &Suspect) -> bool {
         let chi = suspect.reduced_chi_squared;
         let fits = chi.is_some_and(|chi| chi < self.settings.most_reduced_chi_squared);
         fits && suspect.lines as f64 > ENOUGH * self.plain.lines.0 as f64
     }
-}
-
-/// What lowers χ² most comes first.
-fn sort(trials: &mut [Trial]) {
-    trials.sort_by(|(one, _), (other, _)| other.drop.total_cmp(&one.drop));
 }
 
 /// Keeps the better of two trials of the same cause.

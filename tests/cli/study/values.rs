@@ -20,7 +20,7 @@ fn values_that_cannot_be_are_named_by_key() {
          "modal = \"a.toml\"\nbeam = { length = 0.2, width = 0.02, height = 0.006, youngs_modulus = 7e10, density = 2700, boundary = \"free-free\", loss_factor = 0.01 }",
          ["`a`: found modal and beam", "or `frf` with `modal`"]),
         ("modal = \"a.toml\"", "modal = \"a.toml\"\nquantity = \"mobility\"", ["`a.quantity`", "beside `frf` only"]),
-        ("modal = \"a.toml\"", "modal = \"a.toml\"\npoints = { \"1:+Y\" = 0.1 }", ["`a.points`", "beside `beam` only"]),
+        ("modal = \"a.toml\"", "modal = \"a.toml\"\npoints = { \"1:+Y\" = 0.1 }", ["`a.points`", "the assembly's points, which are on B"]),
         ("beam = {", "quantity = \"mobility\"\nbeam = {", ["`b.quantity`", "beside `frf` only"]),
         ("{ x = 0.015 }", "{ y = \"21:+Y\" }", ["`b.joint`: found y", "{ x = "]),
         ("{ x = 0.015 }", "{}", ["`b.joint`: found no key", "{ x = "]),

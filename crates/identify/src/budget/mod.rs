@@ -126,8 +126,19 @@ impl Systematic {
             let found = estimate(&experiment, &priors, &start, &settings)?;
             evaluated(&experiment, &found.unknowns, &settings)
         })?;
-        let diagnosis = diagnose(&experiment, &plain, &settings);
-        let mut found = with_first_suspect_free(&experiment, &priors, &diagnosis, &settings)?;
+        let mut diagnosis = diagnose(&experiment, &plain, &settings);
+        let mut found = with_first_suspect_free(&experiment, &priors, &diagnosis, &settings);
+        if !found.as_ref().is_some_and(|found| found.fits(&settings))
+            && let Some(other) = diagnosis.from_far(&experiment, &plain, &settings)
+        {
+            let next = with_first_suspect_free(&experiment, &priors, &other, &settings);
+            let is_better = next.as_ref().is_some_and(|next| next.fits(&settings));
+            if is_better || found.is_none() {
+                found = next;
+            }
+            diagnosis = other;
+        }
+        let mut found = found?;
         let Diagnosis {
             suspects, scores, ..
         } = diagnosis.with_contradicted(&experiment, &plain, &found, &settings);

@@ -14,7 +14,7 @@ use super::level;
 use super::lines::Lines;
 use super::lines_estimate::{LinesEstimate, Options, identify_lines};
 use super::model::{JointMatrices, JointModel};
-use super::outliers::Outliers;
+use super::outliers::{Candidates, Outliers};
 use super::provenance;
 use super::reliability;
 use super::slips::{self, FoundSlip};
@@ -121,7 +121,7 @@ pub fn identify_and_draw(
     watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
     let Assembled {
-        lines: mut all,
+        lines: all,
         files,
         mut warnings,
         from_modes,
@@ -132,9 +132,7 @@ pub fn identify_and_draw(
         assemble::measured_labels(&study.a, dofs, &[]),
         assemble::measured_labels(&study.b, dofs, of_b),
     ];
-    let outliers = Outliers::leave_out(&mut all, [&labels[0], &labels[1]]);
-    warnings.extend(outliers.warning());
-    let options = Options {
+    let mut options = Options {
         bolts: study.bolts.clone(),
         noise: study.noise,
         bands: study.bands.clone(),
@@ -145,7 +143,26 @@ pub fn identify_and_draw(
         bootstrap,
         progress: Some(&|| watch.drawn()),
     };
-    let estimate = identify_lines(&all, study.model, &options)?;
+    let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
+    let (all, outliers, estimate) = if candidates.is_empty() {
+        let estimate = identify_lines(&all, study.model, &options)?;
+        (all, Outliers::default(), estimate)
+    } else {
+        let bootstrap = options.bootstrap.take();
+        let (left, outliers) = candidates.leave_out(&all);
+        let estimate = identify_lines(&left, study.model, &options)?;
+        let joint = |assembly: usize| &estimate.joint_of(assembly).whole;
+        let (candidates, is_fewer) = candidates.beside(&all, joint);
+        options.bootstrap = bootstrap;
+        if is_fewer || options.bootstrap.is_some() {
+            let (left, outliers) = candidates.leave_out(&all);
+            let estimate = identify_lines(&left, study.model, &options)?;
+            (left, outliers, estimate)
+        } else {
+            (left, outliers, estimate)
+        }
+    };
+    warnings.extend(outliers.warning());
     let slips = match all.as_slice() {
         [lines] if slips::are_possible(&estimate.assessment) => slips::found(
             lines,

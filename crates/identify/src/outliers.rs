@@ -9,11 +9,15 @@ use std::sync::Arc;
 use bolted_joint_frf::Dof;
 
 use super::lines::Lines;
+use super::model::JointMatrices;
 use super::receptances::Receptances;
 use super::roughness::Roughness;
 
 /// Of so large a part of the lines nothing is left out: then it is not single values that are bad.
 const MOST: f64 = 0.2;
+/// A value that a joint explains up to this part of how far its neighbours are from it is none …
+/// … and neither is a substructure's where everything that was measured of the assembly is explained up to this part of itself.
+const EXPLAINED: f64 = 0.3;
 /// Values that are named one by one.
 const MOST_NAMED: usize = 12;
 
@@ -51,86 +55,121 @@ pub struct Outliers {
     pub lines_left_out: usize,
 }
 
-impl Outliers {
-    /// Finds them and leaves their lines out. `labels` are those of A's and B's measured functions.
-    pub(super) fn leave_out(all: &mut [Lines], labels: [&[Dof]; 2]) -> Self {
-        let mut found = Self::default();
-        let several = all.len() > 1;
-        let mut bad: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); all.len()];
+/// A value that stands out from its neighbours, before any fit.
+struct Candidate {
+    assembly: usize,
+    line: usize,
+    /// Row and column in the assembly's matrix; `None` for a substructure's function.
+    place: Option<(usize, usize)>,
+    /// How far it is from what its neighbours predict.
+    deviation: f64,
+    outlier: Outlier,
+}
+
+/// Values that stand out from their neighbours.
+pub(super) struct Candidates(Vec<Candidate>);
+
+impl Candidates {
+    /// Those of all assemblies and their substructures. `labels` are those of A's and B's measured functions.
+    pub(super) fn of(all: &[Lines], labels: [&[Dof]; 2]) -> Self {
+        let mut found: Vec<Candidate> = Vec::new();
         for (number, lines) in all.iter().enumerate() {
-            let assembly = match several {
-                true => format!("assembly {}", number + 1),
-                false => "assembly".to_owned(),
-            };
-            let places = lines.measured.iter();
-            let rough = lines.roughness();
-            lines
-                .floors
-                .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
-            let functions = places.zip(rough);
-            let own = functions.map(|(&(p, q), rough)| ((lines.points[p], lines.points[q]), rough));
-            let mut sets = vec![(assembly, own.collect::<Vec<_>>())];
-            for (name, receptances, labels) in
-                [("A", &lines.a, labels[0]), ("B", &lines.b, labels[1])]
-            {
-                let Some(measured) = receptances.measured() else {
-                    continue;
-                };
-                let functions = measured.measured_functions().into_iter();
-                let own = functions.filter_map(|((p, q), rough)| {
-                    Some(((*labels.get(p)?, *labels.get(q)?), rough))
-                });
-                sets.push((name.to_owned(), own.collect()));
-            }
-            for (set, functions) in sets {
+            for (set, functions) in functions(lines, labels, (all.len() > 1).then_some(number)) {
                 // Where most functions stand out a resonance lies between the lines.
                 let at = |line: usize| {
                     let suspicious = |rough: &Roughness| rough.suspicious.contains(&line);
-                    functions
-                        .iter()
-                        .filter(|(_, rough)| suspicious(rough))
-                        .count()
+                    let functions = functions.iter();
+                    functions.filter(|of| suspicious(&of.rough)).count()
                 };
                 let is_single = |line: usize| functions.len() < 3 || 2 * at(line) < functions.len();
-                for ((response, reference), rough) in &functions {
-                    let (response, reference) = (*response, *reference);
-                    for &line in rough.outliers.iter().filter(|line| is_single(**line)) {
-                        bad[number].insert(line);
+                for of in &functions {
+                    let lines_of = of.rough.outliers.iter();
+                    for &(line, deviation) in lines_of.filter(|(line, _)| is_single(*line)) {
                         let outlier = Outlier {
                             set: set.clone(),
-                            response,
-                            reference,
+                            response: of.response,
+                            reference: of.reference,
                             frequency_hz: lines.frequency_hz[line],
                         };
-                        if !found.values.contains(&outlier) {
-                            found.values.push(outlier);
-                        }
+                        found.push(Candidate {
+                            assembly: number,
+                            line,
+                            place: of.place,
+                            deviation,
+                            outlier,
+                        });
                     }
                 }
             }
         }
-        let order = |one: &Outlier, other: &Outlier| {
-            (one.set.cmp(&other.set)).then(one.frequency_hz.total_cmp(&other.frequency_hz))
+        Self(found)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Those that a joint which was found without their lines does not explain, and whether these are fewer: beside a resonance
+    /// that is too sharp for the lines a good value stands out from its neighbours, too. `joint` is that of an assembly.
+    pub(super) fn beside<'j>(
+        self,
+        all: &[Lines],
+        joint: impl Fn(usize) -> &'j JointMatrices,
+    ) -> (Self, bool) {
+        let before = self.0.len();
+        let is_explained = |of: &Candidate| {
+            let lines = all[of.assembly].at_lines(&[of.line]);
+            let Ok(computed) = lines.regenerated(joint(of.assembly)) else {
+                return false;
+            };
+            let differs = |&place: &(usize, usize)| {
+                let (measured, computed) = (lines.assembly[0][place], computed[0][place]);
+                match of.place {
+                    Some(_) => (measured - computed).norm() > EXPLAINED * of.deviation,
+                    None => (measured - computed).norm() > EXPLAINED * measured.norm(),
+                }
+            };
+            match of.place {
+                Some(place) => !differs(&place),
+                None => !lines.measured.iter().any(differs),
+            }
         };
-        found.values.sort_by(order);
+        let candidates = self.0.into_iter();
+        let left: Vec<Candidate> = candidates.filter(|of| !is_explained(of)).collect();
+        let is_fewer = left.len() < before;
+        (Self(left), is_fewer)
+    }
+
+    /// What is left of the lines, and what was left out.
+    pub(super) fn leave_out(&self, all: &[Lines]) -> (Vec<Lines>, Outliers) {
+        let mut found = Outliers::default();
+        let mut bad: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); all.len()];
+        for of in &self.0 {
+            bad[of.assembly].insert(of.line);
+            if !found.values.contains(&of.outlier) {
+                found.values.push(of.outlier.clone());
+            }
+        }
+        found.values.sort_by(|one, other| {
+            (one.set.cmp(&other.set)).then(one.frequency_hz.total_cmp(&other.frequency_hz))
+        });
         // Assemblies that share what was measured keep the same lines.
-        let together = share_lines(all);
-        if together {
+        if share_lines(all) {
             let union: BTreeSet<usize> = bad.iter().flatten().copied().collect();
             bad.fill(union);
         }
-        let counts = bad.iter().zip(all.iter());
-        if counts
-            .into_iter()
-            .any(|(bad, lines)| bad.len() as f64 > MOST * lines.frequency_hz.len() as f64)
-        {
-            return found;
+        let is_too_many = |(bad, lines): (&BTreeSet<usize>, &Lines)| {
+            bad.len() as f64 > MOST * lines.frequency_hz.len() as f64
+        };
+        if bad.iter().zip(all).any(is_too_many) {
+            return (all.to_vec(), found);
         }
         let mut kept: Vec<(Receptances, Receptances)> = Vec::new();
-        for (lines, bad) in all.iter_mut().zip(&bad) {
+        let mut without = |(lines, bad): (&Lines, &BTreeSet<usize>)| {
             if bad.is_empty() {
-                continue;
+                return lines.clone();
             }
+            found.lines_left_out += bad.len();
             let good: Vec<usize> = (0..lines.frequency_hz.len())
                 .filter(|line| !bad.contains(line))
                 .collect();
@@ -143,16 +182,67 @@ impl Outliers {
                 }
             };
             let (a, b) = (of(&lines.a), of(&lines.b));
-            *lines = Lines {
+            Lines {
                 a,
                 b,
                 ..lines.at_lines(&good)
-            };
-            found.lines_left_out += bad.len();
-        }
-        found
+            }
+        };
+        let left = all.iter().zip(&bad).map(&mut without).collect();
+        (left, found)
     }
+}
 
+/// A measured function and its noise.
+struct Function {
+    response: Dof,
+    reference: Dof,
+    /// Row and column in the assembly's matrix.
+    place: Option<(usize, usize)>,
+    rough: Roughness,
+}
+
+/// The measured functions of an assembly, with its number if there are several, and of its substructures, by set.
+fn functions(
+    lines: &Lines,
+    labels: [&[Dof]; 2],
+    number: Option<usize>,
+) -> Vec<(String, Vec<Function>)> {
+    let assembly = match number {
+        Some(number) => format!("assembly {}", number + 1),
+        None => "assembly".to_owned(),
+    };
+    let rough = lines.roughness();
+    lines
+        .floors
+        .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
+    let own = lines.measured.iter().zip(rough);
+    let own = own.map(|(&(p, q), rough)| Function {
+        response: lines.points[p],
+        reference: lines.points[q],
+        place: Some((p, q)),
+        rough,
+    });
+    let mut sets = vec![(assembly, own.collect::<Vec<_>>())];
+    for (name, receptances, labels) in [("A", &lines.a, labels[0]), ("B", &lines.b, labels[1])] {
+        let Some(measured) = receptances.measured() else {
+            continue;
+        };
+        let own = measured.measured_functions().into_iter();
+        let own = own.filter_map(|((p, q), rough)| {
+            Some(Function {
+                response: *labels.get(p)?,
+                reference: *labels.get(q)?,
+                place: None,
+                rough,
+            })
+        });
+        sets.push((name.to_owned(), own.collect()));
+    }
+    sets
+}
+
+impl Outliers {
     /// What the user should know of them.
     #[must_use]
     pub fn warning(&self) -> Option<String> {

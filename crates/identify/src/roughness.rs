@@ -48,8 +48,8 @@ const LEAST_FLOOR: f64 = 1e-12;
 pub(super) struct Roughness {
     /// Floor of the noise, in the function's unit.
     pub(super) floor: f64,
-    /// Lines whose value stands out.
-    pub(super) outliers: Vec<usize>,
+    /// Lines whose value stands out, with how far it is from what its neighbours predict.
+    pub(super) outliers: Vec<(usize, f64)>,
     /// Lines whose value may: where those of most functions may, a resonance is too sharp for the lines.
     pub(super) suspicious: Vec<usize>,
 }
@@ -200,15 +200,17 @@ impl Function<'_> {
         let places =
             (0..distances.len()).filter(|&place| distances[place] > limit && is_highest(place));
         places
-            .filter(|&place| self.is_outlier(self.used[place]))
+            .filter(|&place| self.outlying(self.used[place]).is_some())
             .map(|place| self.used[place])
             .collect()
     }
 
     /// Of the lines that were left out those that stand out beside the ones in use.
-    fn outliers(&self) -> Vec<usize> {
+    fn outliers(&self) -> Vec<(usize, f64)> {
         let left_out = (0..self.values.len()).filter(|line| self.used.binary_search(line).is_err());
-        left_out.filter(|&line| self.is_outlier(line)).collect()
+        left_out
+            .filter_map(|line| Some((line, self.outlying(line)?)))
+            .collect()
     }
 
     fn suspicious(&self) -> Vec<usize> {
@@ -219,23 +221,22 @@ impl Function<'_> {
         (0..self.values.len()).filter(is_suspicious).collect()
     }
 
-    fn is_outlier(&self, line: usize) -> bool {
+    /// How far a value is from what its neighbours predict, if noise and a sharp resonance do not explain it.
+    fn outlying(&self, line: usize) -> Option<f64> {
         // Beyond the ends a fit says little.
         let before = self.used.partition_point(|&other| other < line);
         let after = self.used.len() - self.used.partition_point(|&other| other <= line);
         if before.min(after) < FEWEST_BESIDE {
-            return false;
+            return None;
         }
-        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
-        let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1);
-        let (Some(own), Some(shorter)) = (own, shorter) else {
-            return false;
-        };
-        own.distance > FAR
+        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR)?;
+        let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1)?;
+        let is_far = own.distance > FAR
             && shorter.distance > FAR
             && own.value.norm_sqr() > NEAR * NEAR * own.around
             && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
-                || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm())
+                || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm());
+        is_far.then(|| own.value.norm())
     }
 
     /// Of a line beside the lines in use around it: H (1 + d₁x + …) = n₀ + n₁x + …, weighted least squares in which the weights'

@@ -16,6 +16,10 @@ const NEAR: f64 = 0.1;
 const LAST: usize = 15;
 /// Part of a step that a line may take, best first.
 const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.0];
+/// A step that goes back by more than this part of the one before …
+const FALLING: f64 = 0.3;
+/// … is shortened, to this part of it at most.
+const SHORTEST: f64 = 0.25;
 /// Steps below this part of a standard deviation are none.
 pub(crate) const TOLERANCE: f64 = 0.01;
 /// Of a search that has used up its steps, the last one may have been so many standard deviations long.
@@ -67,6 +71,7 @@ pub(crate) fn search(
     let mut lines: Vec<usize> = all.clone();
     let mut inflated = inflation;
     let mut rests = !has_labelled;
+    let mut before: Option<DVector<f64>> = None;
     for iteration in 0..settings.most_iterations {
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
         let frozen = !rests;
@@ -121,7 +126,9 @@ pub(crate) fn search(
                 converged: largest < TOLERABLE && !frozen,
             });
         }
-        let step = step * part;
+        let damping = damping(before.as_ref(), &step, &deviation);
+        let step = step * (part * damping);
+        before = Some(step.component_div(&deviation));
         if has_labelled && !frozen {
             let mut next = labelled.clone();
             for ((line, _), whitened) in terms.iter().zip(&whitened) {
@@ -133,6 +140,24 @@ pub(crate) fn search(
         inflated *= ANNEALING;
     }
     None
+}
+
+/// Part of a step that is taken: one that goes back by more than [`FALLING`] of the step `before` (in standard deviations) shows
+/// that steps overshoot, as those of frequency scales do, whose derivatives come from a smooth fit.
+fn damping(before: Option<&DVector<f64>>, step: &DVector<f64>, deviation: &DVector<f64>) -> f64 {
+    let Some(before) = before else {
+        return 1.0;
+    };
+    let step = step.component_div(deviation);
+    let length = before.norm();
+    // how far it goes back along the one before, as a part of that one
+    let back = -step.dot(before) / (length * length);
+    if back.is_finite() && back > FALLING {
+        // of a step t with the next one −ρt the sum is t/(1 + ρ)
+        (1.0 + back).recip().max(SHORTEST)
+    } else {
+        1.0
+    }
 }
 
 /// Each line takes the part of the step that leaves least: near a structure's resonance it is not linear in the receptances.

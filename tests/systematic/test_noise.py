@@ -46,7 +46,7 @@ def test_floors_are_stated_for_each_kind_of_function(program, tmp_path):
 
 @pytest.mark.parametrize(
     "floor, said",
-    [('"small"', "a floor in m/N, or { yy = m/N"), ("{ yy = -1 }", "floor.yy = -1"), ("{ thetay = 1 }", "thetay")],
+    [('"small"', "a floor in m/N, or { yy = m/N"), ("{ ytheta = -1 }", "floor.ytheta = -1"), ("{ thetay = 1 }", "thetay")],
 )
 def test_a_floor_that_is_none_is_refused(program, tmp_path, floor, said):
     with pytest.raises(AssertionError) as refused:

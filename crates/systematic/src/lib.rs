@@ -14,6 +14,7 @@ mod effect;
 mod estimate;
 mod experiment;
 mod far;
+mod freed;
 mod line;
 mod modal_fit;
 mod normal;

@@ -7,10 +7,8 @@ use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
 use super::effect::{At, slopes};
-use super::experiment::{ComplexMatrix, Entry, Experiment, MeasuredFunctions, Structure};
+use super::experiment::{ComplexMatrix, Entry, Experiment, Structure};
 use super::structures::Recomputations;
-
-const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// What does not change during a search.
 pub(crate) struct Task<'t> {
@@ -93,23 +91,6 @@ impl<'t> Task<'t> {
         fit.map_or(Complex64::from(1.0), |fit| fit.ratio(entry, omega, epsilon))
     }
 
-    /// Receptances of the labels without their noise, where a fit gives them.
-    pub(crate) fn smooth(&self, line: usize, point: &Point, labelled: &Labelled) -> Labelled {
-        [Side::A, Side::B].map(|side| {
-            let (now, omega) = (&labelled[side as usize], self.experiment.omega[line]);
-            let needed = !self.priors.is_empty();
-            let Some(fit) = needed.then(|| self.experiment.fit(side)).flatten() else {
-                return now.clone();
-            };
-            let fitted = now.iter().enumerate();
-            let fitted: Vec<Complex64> = fitted
-                .map(|(entry, now)| fit.value(entry, omega).unwrap_or(*now))
-                .collect();
-            let unloaded = self.unloaded(side, line, point, &fitted);
-            self.freed(side, line, point, &unloaded, |entry| fitted[entry])
-        })
-    }
-
     /// A structure's receptances at a line.
     pub(crate) fn formed(
         &self,
@@ -166,143 +147,6 @@ impl<'t> Task<'t> {
     fn mass_dof(&self, side: Side, bolt: usize) -> usize {
         let joint = &self.experiment.joint;
         joint.translation(bolt) + if side == Side::B { joint.dofs } else { 0 }
-    }
-
-    /// What was measured of a structure at a line, without the masses of accelerometers as far as the drive points tell.
-    pub(crate) fn unloaded(
-        &self,
-        side: Side,
-        line: usize,
-        point: &Point,
-        raw: &[Complex64],
-    ) -> Vec<Complex64> {
-        let Structure::Measured(measured) = self.experiment.side(side) else {
-            return Vec::new();
-        };
-        let mass_kg = super::structures::value_of(
-            Cause::Accelerometer(MeasuredSet::Of(side)),
-            self.priors,
-            &point.causes,
-        );
-        if mass_kg == 0.0 {
-            return raw.to_vec();
-        }
-        let measured_matrix = measured.functions.matrix(raw);
-        let at = self.at_structure(side, &measured.functions, &measured_matrix, line);
-        at.unloaded(mass_kg)
-    }
-
-    /// What was measured of a structure at a line, without the causes.
-    pub(crate) fn without_causes(
-        &self,
-        side: Side,
-        line: usize,
-        point: &Point,
-        labelled: &[Complex64],
-    ) -> Vec<Complex64> {
-        let Structure::Measured(measured) = self.experiment.side(side) else {
-            return Vec::new();
-        };
-        self.freed(side, line, point, labelled, |entry| {
-            measured.functions.entries[entry].values[line]
-        })
-    }
-
-    /// h₀ = R z/φ − a, a following from the true receptances.
-    fn freed(
-        &self,
-        side: Side,
-        line: usize,
-        point: &Point,
-        truth: &[Complex64],
-        measured_at: impl Fn(usize) -> Complex64,
-    ) -> Vec<Complex64> {
-        let Structure::Measured(measured) = self.experiment.side(side) else {
-            return Vec::new();
-        };
-        let functions = &measured.functions;
-        let epsilon =
-            super::structures::value_of(Cause::Frequency(side), self.priors, &point.causes);
-        let ratio = |number: usize, entry: &Entry| {
-            if epsilon == 0.0 || entry.measurements.is_empty() {
-                Complex64::from(1.0)
-            } else {
-                self.ratio(side, line, number, epsilon)
-            }
-        };
-        let entries = || functions.entries.iter().enumerate();
-        // as they were in the structure's own test
-        let now: Vec<Complex64> = entries()
-            .zip(truth)
-            .map(|((number, entry), truth)| truth / ratio(number, entry))
-            .collect();
-        let truth = functions.matrix(&now);
-        let at = self.at_structure(side, functions, &truth, line);
-        let beside = at.beside(self.priors, &point.causes);
-        let left: Vec<Complex64> = entries()
-            .map(|(number, entry)| {
-                if entry.measurements.is_empty() {
-                    return ZERO;
-                }
-                let clean = measured_at(number) / at.factor(entry, self.priors, &point.causes);
-                clean - now[number] - beside[number]
-            })
-            .collect();
-        let change = match at.by_truth(self.priors, &point.causes) {
-            Some(by_truth) => at.by_loaded(&by_truth, &left),
-            None => left,
-        };
-        entries()
-            .map(|(number, entry)| {
-                if entry.measurements.is_empty() {
-                    measured_at(number)
-                } else {
-                    ratio(number, entry) * (now[number] + change[number])
-                }
-            })
-            .collect()
-    }
-
-    /// How [`Self::without_causes`] moves with each cause; `None` where it does not.
-    fn by_causes(
-        &self,
-        side: Side,
-        line: usize,
-        point: &Point,
-        labelled: &[Complex64],
-    ) -> Vec<Option<Vec<Complex64>>> {
-        let Structure::Measured(measured) = self.experiment.side(side) else {
-            return vec![None; self.priors.len()];
-        };
-        let functions = &measured.functions;
-        let truth = functions.matrix(labelled);
-        let at = self.at_structure(side, functions, &truth, line);
-        let by_truth = at.by_truth(self.priors, &point.causes);
-        let of = |(prior, value): (&Prior, &f64)| match prior.cause {
-            Cause::Frequency(of) if of == side => {
-                let step = 1e-3 * prior.standard_deviation;
-                let ratio = |number, epsilon| self.ratio(side, line, number, epsilon);
-                let entries = functions.entries.iter().zip(labelled).enumerate();
-                let change = entries.map(|(number, (entry, value_here))| {
-                    if entry.measurements.is_empty() {
-                        return ZERO;
-                    }
-                    let slope =
-                        (ratio(number, value + step) - ratio(number, value - step)) / (2.0 * step);
-                    value_here * slope / ratio(number, *value)
-                });
-                Some(change.collect())
-            }
-            cause => {
-                let by_cause = at.by_cause(cause, *value)?.into_iter();
-                let change: Vec<Complex64> = by_cause.map(|change| -change).collect();
-                Some(match &by_truth {
-                    Some(by_truth) => at.by_loaded(by_truth, &change),
-                    None => change,
-                })
-            }
-        };
-        self.priors.iter().zip(&point.causes).map(of).collect()
     }
 
     /// Linearises a line; `None` where the assembly is singular.
@@ -444,22 +288,6 @@ impl<'t> Task<'t> {
         super::structures::value_of(Cause::LossFactor, self.priors, &point.causes)
     }
 
-    fn at_structure<'r>(
-        &self,
-        side: Side,
-        functions: &'r MeasuredFunctions,
-        truth: &'r ComplexMatrix,
-        line: usize,
-    ) -> At<'r> {
-        At {
-            set: MeasuredSet::Of(side),
-            functions,
-            truth,
-            omega: self.experiment.omega[line],
-            slopes: None,
-        }
-    }
-
     fn at_assembly<'r>(&'r self, receptance: &'r ComplexMatrix, omega: f64) -> At<'r> {
         At {
             set: MeasuredSet::Assembly,
@@ -497,25 +325,6 @@ impl<'t> Task<'t> {
         } else {
             DMatrix::from_columns(&columns)
         }
-    }
-
-    /// Variance of each labelled receptance of A, then of B, at a line.
-    fn labelled_variance(&self, line: usize, point: &Point, labelled: &Labelled) -> Vec<f64> {
-        let of = |side: Side| {
-            let Structure::Measured(measured) = self.experiment.side(side) else {
-                return Vec::new();
-            };
-            let functions = &measured.functions;
-            let entries = functions.entries.iter();
-            let mut variances: Vec<f64> = entries.map(|entry| variance(entry, line)).collect();
-            let truth = functions.matrix(&labelled[side as usize]);
-            let at = self.at_structure(side, functions, &truth, line);
-            if let Some(by_truth) = at.by_truth(self.priors, &point.causes) {
-                at.variance_of_truth(&by_truth, &mut variances);
-            }
-            variances
-        };
-        [of(Side::A), of(Side::B)].concat()
     }
 
     /// Sum of squared residuals over their variances with these receptances, nothing linearised.

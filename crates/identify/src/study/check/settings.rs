@@ -43,7 +43,8 @@ pub(crate) fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, Stud
         let floor = floor.0;
         let parts = [
             ("relative", relative),
-            ("floor.yy", floor.yy),
+            // also a floor that is a plain number
+            ("floor", floor.yy),
             ("floor.ytheta", floor.ytheta),
             ("floor.thetatheta", floor.thetatheta),
         ];

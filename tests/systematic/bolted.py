@@ -54,6 +54,39 @@ class Rig:
         ]
         return rig.receptances(self.omega, bodies, [("B", x, 0) for x in self.points], bolts)
 
+    def test_data(self, mistakes, joints, noise, seed):
+        """Measured functions of A, of B and of the assembly by a laboratory that makes these mistakes, both structures as they are
+        believed to be."""
+        bolts = range(len(self.a))
+        at = {
+            side: [x + mistakes.joint_sensor.get((side, bolt), 0.0) for bolt, x in zip(bolts, joints_m)]
+            for side, joints_m in (("A", self.a), ("B", self.b))
+        }
+        points = self.points + np.array([mistakes.point.get(i, 0.0) for i in range(len(self.points))])
+
+        def body(side, nodes, scale=0.0):
+            return rig.Body(side, nodes, rig.YOUNG * (1 + scale) ** 2)
+
+        wanted = {side: [(side, x, dof) for x in at[side] for dof in (0, 1)] for side in "AB"}
+        wanted["B"] += [("B", x, 0) for x in self.points]
+        sets = {
+            "A": rig.receptances(self.omega, [body("A", at["A"])], wanted["A"]),
+            "B": rig.receptances(self.omega, [body("B", [*at["B"], *self.points])], wanted["B"]),
+        }
+        together = [
+            body("A", list(self.a), mistakes.frequency.get("A", 0.0)),
+            body("B", [*self.b, *points], mistakes.frequency.get("B", 0.0)),
+        ]
+        elements = [
+            {"A": a, "B": b, "stiffness": k * (1 + 1j * mistakes.loss_factor) + 1j * self.omega[:, None, None] * c}
+            for a, b, (k, c) in zip(self.a, self.b, joints)
+        ]
+        masses = [(side, (self.a if side == "A" else self.b)[bolt], kg) for (side, bolt), kg in mistakes.joint_mass.items()]
+        sets["C"] = rig.receptances(self.omega, together, [("B", x, 0) for x in points], elements, masses)
+        count, own = len(self.points), 2 * len(self.a)
+        translations = {"A": range(0, own, 2), "B": [*range(0, own, 2), *range(own, own + count)], "C": range(count)}
+        return rig.measured(sets, self.omega, mistakes, translations, noise, seed)
+
     def write(self, folder, sets, noise, bolts="different", budget='"none"'):
         """Archives and a study; its path."""
         labels = {
@@ -72,17 +105,19 @@ class Rig:
             of = [f'name = "{n}", y = "{y}", theta = "{t}"' for n, y, t in zip(self.names, labels[side][::2], labels[side][1::2])]
             return "[" + ", ".join(f"{{ {one} }}" for one in of) + "]" if len(of) > 1 else f"{{ {of[0].split(', ', 1)[1]} }}"
 
+        positions = ", ".join(f'"{label}" = {x}' for label, x in zip(labels["C"], self.points))
         study = folder / "study.toml"
         study.write_text(
             f"""method = "frf-decoupling"
 name = "rig"
-budget = {budget}
+{"" if budget is None else f"budget = {budget}"}
 [a]
 frf = "A.npz"
 joint = {places("A")}
 [b]
 frf = "B.npz"
 joint = {places("B")}
+points = {{ {positions} }}
 [assembly]
 frf = "C.npz"
 points = {labels["C"]}

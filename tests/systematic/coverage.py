@@ -1,36 +1,68 @@
-"""Coverage of intervals over draws of all mistakes at once: `python tests/systematic/coverage.py [DRAWS] [computed]`."""
+"""Coverage of intervals over draws of all mistakes at once: `python tests/systematic/coverage.py [DRAWS] [computed | two | alike]`.
+
+With `computed` B is computed and its material wrong; `two` has two bolts that differ, `alike` two that are the same.
+"""
 
 import os
 import pathlib
 import sys
 import tempfile
 
+import bolted
 import numpy as np
 import rig
-from conftest import identified
+from conftest import entries, identified
 from mistakes import drawn
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOFTER = 0.6  # of the second bolt that differs
 
 
-def main(draws, computed_b):
+def of_one_bolt(program, folder, draw, budget, computed_b):
+    """Errors of the unknowns in standard deviations; None where the program refuses the joint."""
+    mistakes = drawn(np.random.default_rng(100 + draw))
+    if computed_b:
+        normal = np.random.default_rng(1000 + draw).standard_normal
+        mistakes.young, mistakes.density = 0.01 * normal(), 0.005 * normal()
+        mistakes.frequency.pop("B")
+        mistakes.joint_sensor.pop("B")
+    found = identified(program, folder, mistakes, draw, 0.01, budget, computed_b=computed_b)
+    return found.z if found.whole["usable"] else None
+
+
+def of_two_bolts(program, folder, draw, budget, kind):
+    """The same of two bolts, one after the other if they differ."""
+    test = bolted.Rig(2)
+    rows = {"A": 4, "B": 4 + len(test.points), "C": len(test.points)}
+    mistakes = drawn(np.random.default_rng(100 + draw), rows, [(side, bolt) for side in "AB" for bolt in (0, 1)])
+    joints = [(part * rig.STIFFNESS, part * rig.DAMPING) for part in (1.0, SOFTER if kind == "different" else 1.0)]
+    sets = test.test_data(mistakes, joints, 0.01, draw)
+    study = test.write(folder, sets, "relative = 0.01\nfloor = 0", kind, budget)
+    _, _, whole = bolted.identified(program, study, 2)
+    files = [one["joint_file"] for one in whole["bolts"]] if whole["bolts"] else [whole["joint_file"]]
+    if not whole["usable"]:
+        return None
+    truth = [np.array([*k[np.triu_indices(2)], *c[np.triu_indices(2)]]) for k, c in joints]
+    z = [(entries(file["joint"]) - exact) / entries(file["uncertainty"]["standard_deviation"]) for file, exact in zip(files, truth)]
+    return np.concatenate(z)
+
+
+def main(draws, kind):
     program = pathlib.Path(os.environ.get("BOLTED_JOINT", ROOT / "target/release/bolted-joint"))
     rows, refused = {"careful": [], "none": []}, 0
     for draw in range(draws):
-        mistakes = drawn(np.random.default_rng(100 + draw))
-        if computed_b:
-            normal = np.random.default_rng(1000 + draw).standard_normal
-            mistakes.young, mistakes.density = 0.01 * normal(), 0.005 * normal()
-            mistakes.frequency.pop("B")
-            mistakes.joint_sensor.pop("B")
         for name, budget in (("careful", None), ("none", '"none"')):
             with tempfile.TemporaryDirectory() as folder:
-                found = identified(program, pathlib.Path(folder), mistakes, draw, 0.01, budget, computed_b=computed_b)
-            if found.whole["usable"]:
-                rows[name].append(found.z)
+                folder = pathlib.Path(folder)
+                if kind in ("two", "alike"):
+                    z = of_two_bolts(program, folder, draw, budget, "different" if kind == "two" else "alike")
+                else:
+                    z = of_one_bolt(program, folder, draw, budget, kind == "computed")
+            if z is not None:
+                rows[name].append(z)
             if name == "careful":
-                refused += not found.whole["usable"]
-                print(draw, found.z.round(2), "" if found.whole["usable"] else "refused", flush=True)
+                refused += z is None
+                print(draw, "refused" if z is None else z.round(2), flush=True)
     print(f"{draws} draws, {refused} refused: {' '.join(rig.NAMES)}")
     for name, z in rows.items():
         z = np.array(z)
@@ -38,4 +70,5 @@ def main(draws, computed_b):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 60, "computed" in sys.argv)
+    words = [word for word in sys.argv[1:] if not word.isdigit()]
+    main(next((int(word) for word in sys.argv[1:] if word.isdigit()), 60), words[0] if words else "")

@@ -45,17 +45,18 @@ CASES = {
 }
 
 
-def drawn(generator):
-    """Every mistake at once, each as large as a careful laboratory makes it."""
+def drawn(generator, rows=None, joints=("A", "B")):
+    """Every mistake at once, each as large as a careful laboratory makes it; `joints` are those of both sides at each bolt."""
     normal = generator.standard_normal
+    rows = rows or {"A": 2, "B": 5, "C": 3}
     return Mistakes(
         gain={name: 0.01 * normal() for name in "ABC"},
-        channel={(name, row): 0.005 * normal() for name, rows in (("A", 2), ("B", 5), ("C", 3)) for row in range(rows)},
+        channel={(name, row): 0.005 * normal() for name in "ABC" for row in range(rows[name])},
         delay={name: 5e-6 * normal() for name in "ABC"},
         accelerometer={name: 3e-4 * normal() for name in "ABC"},
-        joint_sensor={side: 5e-4 * normal() for side in "AB"},
+        joint_sensor={joint: 5e-4 * normal() for joint in joints},
         frequency={side: 0.002 * normal() for side in "AB"},
-        joint_mass={side: 0.010 * normal() for side in "AB"},
+        joint_mass={joint: 0.010 * normal() for joint in joints},
         loss_factor=0.02 * normal(),
-        point={point: 5e-4 * normal() for point in range(3)},
+        point={point: 5e-4 * normal() for point in range(rows["C"])},
     )

@@ -123,12 +123,12 @@ class Mistakes:
     delay: dict = dataclasses.field(default_factory=dict)  # set: s
     phase: dict = dataclasses.field(default_factory=dict)  # set: rad
     accelerometer: dict = dataclasses.field(default_factory=dict)  # set: kg, moving from response to response
-    joint_sensor: dict = dataclasses.field(default_factory=dict)  # A or B: m
+    joint_sensor: dict = dataclasses.field(default_factory=dict)  # A or B, with several bolts (A or B, bolt): m
     point: dict = dataclasses.field(default_factory=dict)  # point: m
     frequency: dict = dataclasses.field(default_factory=dict)  # A or B: relative, in the assembly
     young: float = 0.0  # of B as it is over what is believed
     density: float = 0.0
-    joint_mass: dict = dataclasses.field(default_factory=dict)  # A or B: kg
+    joint_mass: dict = dataclasses.field(default_factory=dict)  # A or B, with several bolts (A or B, bolt): kg
     loss_factor: float = 0.0
     hysteretic_only: bool = False
     spacing: float = 0.0  # of the rotation by central differences
@@ -179,6 +179,11 @@ def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
     translations = {"A": [0], "B": [0, 2, 3, 4], "C": [0, 1, 2]}
     if mistakes.spacing:
         translations = {name: range(z.shape[1]) for name, z in sets.items()}
+    return measured(sets, omega, mistakes, translations, noise, seed)
+
+
+def measured(sets, omega, mistakes, translations, noise, seed):
+    """What sensors and channels make of receptances; `translations` are the rows of a set with an accelerometer."""
     generator = np.random.default_rng(seed)
     for name, z in sets.items():
         z = loaded(z, omega, mistakes.accelerometer.get(name, 0.0), translations[name])

@@ -145,18 +145,18 @@ pub fn identify_and_draw(
     };
     let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
     let (all, outliers, estimate) = if candidates.is_empty() {
-        let estimate = identify_lines(&all, study.model, &options)?;
+        let estimate = estimated(study, &all, &options)?;
         (all, Outliers::default(), estimate)
     } else {
         let bootstrap = options.bootstrap.take();
         let (left, outliers) = candidates.leave_out(&all);
-        let estimate = identify_lines(&left, study.model, &options)?;
+        let estimate = estimated(study, &left, &options)?;
         let joint = |assembly: usize| &estimate.joint_of(assembly).whole;
         let (candidates, is_fewer) = candidates.beside(&all, joint);
         options.bootstrap = bootstrap;
         if is_fewer || options.bootstrap.is_some() {
             let (left, outliers) = candidates.leave_out(&all);
-            let estimate = identify_lines(&left, study.model, &options)?;
+            let estimate = estimated(study, &left, &options)?;
             (left, outliers, estimate)
         } else {
             (left, outliers, estimate)
@@ -261,6 +261,29 @@ pub fn identify_and_draw(
         noise_is_stated: study.noise.is_stated(),
         bodies: study.bodies.clone(),
         estimate,
+    })
+}
+
+/// The estimate without causes. Where errors of the set-up leave it none, it begins at the joint that is found with them.
+fn estimated(
+    study: &Study,
+    all: &[Lines],
+    options: &Options<'_>,
+) -> Result<LinesEstimate, IdentifyError> {
+    identify_lines(all, study.model, options).or_else(|error| {
+        let is_none = matches!(error, IdentifyError::NoEstimate { .. });
+        let start = is_none.then(|| Systematic::start(study, all)).flatten();
+        match start {
+            Some(start) => {
+                let start = Some(start);
+                let options = Options {
+                    start,
+                    ..options.clone()
+                };
+                identify_lines(all, study.model, &options)
+            }
+            None => Err(error),
+        }
     })
 }
 

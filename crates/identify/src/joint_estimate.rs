@@ -84,12 +84,12 @@ impl JointEstimate {
     }
 
     /// The same with the joint and the deviations of an estimate in which the set-up's errors take part.
-    pub(super) fn with_systematic_errors(self, found: &Systematic) -> Self {
+    pub(super) fn with_systematic_errors(self, found: &Systematic, bolts: &[String]) -> Self {
         let layout = &self.layout;
         let free = layout.matrices(&found.unknowns);
         let passive = passive::nearest(layout, &found.unknowns, &found.covariance);
         let passive = passive.map(|unknowns| layout.matrices(&unknowns));
-        let covariance = self.covariance.with_systematic_errors(layout, found);
+        let covariance = self.covariance.with_systematic_errors(layout, found, bolts);
         Self {
             whole: layout.whole(passive.as_ref().unwrap_or(&free)),
             free,
@@ -244,8 +244,9 @@ impl CovarianceOfAll {
             .iter()
             .map(|unknown| unknown.label(bolts))
             .collect();
-        let (identified, sizes) =
-            uncertainty::identified(layout, &values, &deviation, dynamic, omega);
+        let negligible = uncertainty::negligible(layout, dynamic, omega);
+        let sizes = uncertainty::sizes(layout, &values, &negligible);
+        let identified = uncertainty::identified(&deviation, &sizes);
         Covariance {
             determined_together: uncertainty::determined_together(
                 &names,
@@ -257,7 +258,7 @@ impl CovarianceOfAll {
             values,
             coverage_factor: self.coverage_factor,
             inflation: self.inflation[own].to_vec(),
-            sizes,
+            negligible,
             identified,
             matrix,
         }

@@ -107,7 +107,7 @@ impl LinesEstimate {
     pub(super) fn with_systematic_errors(self, found: &Systematic, bolts: &[String]) -> Self {
         let plain = self.joints.into_iter();
         let joints: Vec<JointEstimate> = plain
-            .map(|joint| joint.with_systematic_errors(found))
+            .map(|joint| joint.with_systematic_errors(found, bolts))
             .collect();
         let mut warnings = self.warnings;
         warnings.retain(|warning| !self.joint_warnings.contains(warning));

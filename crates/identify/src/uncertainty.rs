@@ -36,8 +36,8 @@ pub struct Covariance {
     pub identified: Vec<bool>,
     /// What of the others is determined together, in words.
     pub determined_together: Vec<String>,
-    /// Below these standard deviations the unknowns count as determined.
-    pub(super) sizes: Vec<f64>,
+    /// What of each unknown would have no effect.
+    pub(super) negligible: Vec<f64>,
 }
 
 impl Covariance {
@@ -48,24 +48,21 @@ impl Covariance {
     }
 
     /// The same of an estimate in which the set-up's errors take part.
-    pub(super) fn with_systematic_errors(self, layout: &Layout, found: &Systematic) -> Self {
+    pub(super) fn with_systematic_errors(
+        self,
+        layout: &Layout,
+        found: &Systematic,
+        bolts: &[String],
+    ) -> Self {
         let deviation = found.covariance.diagonal().map(f64::sqrt);
-        let pairs = deviation.iter().zip(&self.sizes);
-        let identified: Vec<bool> = pairs.map(|(deviation, size)| deviation <= size).collect();
-        let names: Vec<String> = self
-            .unknowns
-            .iter()
-            .map(|unknown| unknown.label(&[]))
-            .collect();
-        debug_assert_eq!(layout.unknowns(), found.unknowns.len());
+        let sizes = sizes(layout, &found.unknowns, &self.negligible);
+        let identified = identified(deviation.as_slice(), &sizes);
+        let unknowns = self.unknowns.iter();
+        let names: Vec<String> = unknowns.map(|unknown| unknown.label(bolts)).collect();
+        let together = determined_together(&names, &identified, &sizes, &found.covariance);
         Self {
             values: found.unknowns.clone(),
-            determined_together: determined_together(
-                &names,
-                &identified,
-                &self.sizes,
-                &found.covariance,
-            ),
+            determined_together: together,
             matrix: found.covariance.clone(),
             inflation: vec![1.0; found.unknowns.len()],
             identified,
@@ -118,16 +115,23 @@ pub fn unit_covariance(information: &DMatrix<f64>) -> DMatrix<f64> {
     0.5 * scaled_by(&covariance, &scale)
 }
 
-/// Which unknowns are determined: those whose standard deviation is below their size, or below what would have no effect.
-///
-/// `dynamic` is the substructures' dynamic stiffness at each of the joint's DOFs, `omega` the middle of the range.
-pub(super) fn identified(
-    layout: &Layout,
-    values: &[f64],
-    deviation: &[f64],
-    dynamic: &[f64],
-    omega: f64,
-) -> (Vec<bool>, Vec<f64>) {
+/// What of each unknown would have no effect: `dynamic` is the substructures' dynamic stiffness at each of the joint's DOFs, `omega`
+/// the middle of the range.
+pub(super) fn negligible(layout: &Layout, dynamic: &[f64], omega: f64) -> Vec<f64> {
+    let places = layout.places();
+    let of_entry = |part: f64| {
+        places.iter().map(move |place| {
+            let (i, j) = place.first();
+            part * (dynamic[i] * dynamic[j]).sqrt()
+        })
+    };
+    let damping = of_entry(NEGLIGIBLE_DAMPING / omega);
+    of_entry(NEGLIGIBLE_STIFFNESS).chain(damping).collect()
+}
+
+/// The size of each unknown, or what would have no effect if that is more. A coupling may be zero: it counts beside the largest
+/// that a passive joint has, √(A_ii A_jj).
+pub(super) fn sizes(layout: &Layout, values: &[f64], negligible: &[f64]) -> Vec<f64> {
     let entries: Vec<(usize, usize)> = layout.places().iter().map(|place| place.first()).collect();
     let size = |index: usize| {
         let matrix = index / entries.len() * entries.len();
@@ -136,19 +140,16 @@ pub(super) fn identified(
             let entry = entries.iter().position(|&entry| entry == (i, j));
             entry.map_or(0.0, |entry| values[matrix + entry].max(0.0))
         };
-        // A coupling may be zero: it counts beside the largest that a passive joint has, √(A_ii A_jj).
         let bound = (of(i, i) * of(j, j)).sqrt();
-        let own = (dynamic[i] * dynamic[j]).sqrt();
-        let negligible = if matrix == 0 {
-            NEGLIGIBLE_STIFFNESS * own
-        } else {
-            NEGLIGIBLE_DAMPING * own / omega
-        };
-        values[index].abs().max(bound).max(negligible)
+        values[index].abs().max(bound).max(negligible[index])
     };
-    let sizes: Vec<f64> = (0..values.len()).map(size).collect();
-    let identified = deviation.iter().zip(&sizes).map(|(d, size)| d <= size);
-    (identified.collect(), sizes)
+    (0..values.len()).map(size).collect()
+}
+
+/// Which unknowns are determined: those whose standard deviation is below their size.
+pub(super) fn identified(deviation: &[f64], sizes: &[f64]) -> Vec<bool> {
+    let pairs = deviation.iter().zip(sizes);
+    pairs.map(|(deviation, size)| deviation <= size).collect()
 }
 
 /// Combinations of the unknowns that are not `identified` which the data do determine, in words.

@@ -108,7 +108,9 @@ impl Budget {
             Cause::Delay(_) => self.delay_s,
             Cause::Phase(_) => self.phase_rad,
             Cause::Accelerometer(_) => self.accelerometer_mass_kg,
-            Cause::Position(_) | Cause::JointPosition(..) => self.position_m,
+            Cause::Position(_) | Cause::JointPosition(..) | Cause::JointBending(..) => {
+                self.position_m
+            }
             Cause::Frequency(_) => self.frequency,
             Cause::YoungsModulus(_) => self.youngs_modulus,
             Cause::Density(_) => self.density,
@@ -133,7 +135,12 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
                     causes.push(Cause::DifferenceStiffness(side));
                 }
                 if experiment.joint.has_rotation() {
-                    causes.extend(bolts.clone().map(|bolt| Cause::JointPosition(side, bolt)));
+                    causes.extend(bolts.clone().flat_map(|bolt| {
+                        [
+                            Cause::JointPosition(side, bolt),
+                            Cause::JointBending(side, bolt),
+                        ]
+                    }));
                 }
             }
             Structure::Computed(_) => {

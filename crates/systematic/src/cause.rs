@@ -57,6 +57,8 @@ pub enum Cause {
     Position(usize),
     /// Position of the joint at a bolt of a structure, m.
     JointPosition(Side, usize),
+    /// Length of a structure that bends between the joint at a bolt and where it was taken to be, m.
+    JointBending(Side, usize),
     /// Frequencies of a structure in the assembly over those in its own test; relative.
     Frequency(Side),
     /// Young's modulus of a computed structure; relative.
@@ -153,7 +155,9 @@ impl Cause {
             Self::ChannelGain(..) => Group::Channels,
             Self::Delay(_) | Self::Phase(_) => Group::Timing,
             Self::Accelerometer(_) => Group::Accelerometers,
-            Self::Position(_) | Self::JointPosition(..) => Group::Positions,
+            Self::Position(_) | Self::JointPosition(..) | Self::JointBending(..) => {
+                Group::Positions
+            }
             Self::Frequency(_) => Group::Clamping,
             Self::YoungsModulus(_) | Self::Density(_) | Self::DifferenceStiffness(_) => {
                 Group::Material
@@ -163,6 +167,12 @@ impl Cause {
         }
     }
 
+    /// Whether it equals a change of the joint, which no data can tell from one: it makes intervals wider, and never stands out.
+    #[must_use]
+    pub fn is_hidden(self) -> bool {
+        matches!(self, Self::CommonGain | Self::JointBending(..))
+    }
+
     /// A value of it in a unit that people read, and that unit.
     #[must_use]
     pub fn shown(self, value: f64) -> (f64, &'static str) {
@@ -170,7 +180,9 @@ impl Cause {
             Self::Delay(_) => (1e6 * value, "µs"),
             Self::Phase(_) => (value.to_degrees(), "°"),
             Self::Accelerometer(_) | Self::JointMass(..) => (1e3 * value, "g"),
-            Self::Position(_) | Self::JointPosition(..) => (1e3 * value, "mm"),
+            Self::Position(_) | Self::JointPosition(..) | Self::JointBending(..) => {
+                (1e3 * value, "mm")
+            }
             Self::Gain(_)
             | Self::CommonGain
             | Self::ChannelGain(..)

@@ -56,6 +56,13 @@ impl Start {
         }
     }
 
+    /// Begins with a joint about ten times as stiff as the structures are there; `None` where these cannot be computed.
+    #[must_use]
+    pub fn typical(experiment: &Experiment<'_>) -> Option<Self> {
+        let unknowns = grid(experiment).into_iter().next()?;
+        Some(Self::without_causes(&unknowns))
+    }
+
     pub(crate) fn point(&self, priors: &[Prior]) -> Point {
         let value = |prior: &Prior| match self.cause {
             Some((cause, value)) if cause == prior.cause => value,
@@ -76,12 +83,17 @@ const WIDER: f64 = 10.0;
 const MOST_WIDENED: usize = 4;
 /// So many priors are not contradicted at once.
 const UNLIKELY: usize = 2;
-/// Steps of a search from a start of the grid.
+/// Steps of a search from a start of the grid, …
 const FEW_ITERATIONS: usize = 25;
+/// … and its lines.
+const FEW_LINES: usize = 120;
 /// A search that has not come to rest counts as if it left so much more.
 const UNREST: f64 = 0.5;
 /// First inflations of the assembly's standard deviation, one after the other until the data are fitted.
 const INFLATIONS: [f64; 3] = [1.0, 30.0, 100.0];
+
+/// χ² per degree of freedom beyond which a joint may have been sought in the wrong place.
+const FAR: f64 = 3.0;
 
 /// What is known of a cause after the measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,27 +188,29 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
     }
     let few = Settings {
         most_iterations: settings.most_iterations.min(FEW_ITERATIONS),
+        most_lines: settings.most_lines.min(FEW_LINES),
         ..settings.clone()
     };
     let mut nearest: Option<Found> = None;
     for unknowns in grid(task.experiment) {
-        let start = Start {
-            unknowns,
-            cause: None,
+        let start = Start::without_causes(&unknowns);
+        let near = search(task, start.point(task.priors), &few, 1.0);
+        let promises = |found: &Found| {
+            let reduced = reduced_chi_squared(task, found);
+            reduced.is_some_and(|reduced| reduced < settings.most_reduced_chi_squared)
         };
-        let found = search(task, start.point(task.priors), &few, 1.0);
-        nearest = better(task, nearest, found);
-        if nearest.as_ref().is_some_and(fits) {
-            break;
+        if let Some(near) = near.as_ref().filter(|near| promises(near)) {
+            let found = search(task, near.point.clone(), settings, 1.0);
+            if found.as_ref().is_some_and(fits) {
+                return found;
+            }
         }
+        nearest = better(task, nearest, near);
     }
-    let second = nearest.and_then(|nearest| match fits(&nearest) {
-        true => Some(nearest),
-        false => best(
-            task,
-            &Start::without_causes(&nearest.point.unknowns),
-            settings,
-        ),
+    let second = nearest.and_then(|nearest| {
+        let near = Start::without_causes(&nearest.point.unknowns);
+        let found = best(task, &near, settings);
+        found.or_else(|| search(task, nearest.point, settings, 1.0))
     });
     better(task, first, second)
 }
@@ -248,6 +262,18 @@ pub fn evaluated(
 }
 
 impl Estimate {
+    /// Whether it leaves so much that it may be in the wrong place altogether.
+    #[must_use]
+    pub fn is_far(&self) -> bool {
+        self.reduced_chi_squared.is_none_or(|chi| chi > FAR)
+    }
+
+    /// Whether no prior is contradicted.
+    #[must_use]
+    pub fn is_within_the_budget(&self) -> bool {
+        self.causes.iter().all(|cause| cause.contradicted.is_none())
+    }
+
     /// Whether the search came to rest and what is left is noise.
     #[must_use]
     pub fn fits(&self, settings: &Settings) -> bool {

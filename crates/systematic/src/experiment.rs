@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use super::bending::flexibility_from_drive_points;
 use super::cause::Side;
 use super::modal_fit::ModalFit;
 
@@ -81,6 +82,36 @@ pub struct Measured {
     pub transformation: DMatrix<f64>,
     /// What rotations by differences lack, with its derivative by ln EI: real, at the joint's DOFs, rad/(N·m) and so on.
     pub correction: Option<[DMatrix<f64>; 2]>,
+    /// 1/EI of the structure beside each bolt, 1/(N·m²); empty where the joint has no rotation.
+    pub flexibility: Vec<f64>,
+}
+
+impl Measured {
+    /// A structure formed from these functions; where its bending stiffness EI (N·m²) is not known, its drive points tell it.
+    #[must_use]
+    pub fn new(
+        functions: MeasuredFunctions,
+        transformation: DMatrix<f64>,
+        correction: Option<[DMatrix<f64>; 2]>,
+        bending_stiffness_n_m2: Option<f64>,
+        joint: &JointShape,
+    ) -> Self {
+        let mut new = Self {
+            functions,
+            transformation,
+            correction,
+            flexibility: Vec::new(),
+        };
+        new.flexibility = match bending_stiffness_n_m2 {
+            Some(stiffness) if joint.has_rotation() => vec![stiffness.recip(); joint.bolts()],
+            Some(_) => Vec::new(),
+            None => {
+                let formed = |values: &[Complex64]| new.as_measured(values);
+                flexibility_from_drive_points(&new.functions, formed, joint)
+            }
+        };
+        new
+    }
 }
 
 /// A change of a computed structure.

@@ -72,7 +72,8 @@ fn beginnings(cause: Cause) -> &'static [f64] {
         | Cause::CommonGain
         | Cause::ChannelGain(..)
         | Cause::Phase(_)
-        | Cause::LossFactor => &[0.0],
+        | Cause::LossFactor
+        | Cause::JointBending(..) => &[0.0],
         Cause::Accelerometer(_) | Cause::JointMass(..) => &[0.0, 7.0, 17.0],
         Cause::Delay(_)
         | Cause::Position(_)

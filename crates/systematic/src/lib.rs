@@ -6,6 +6,7 @@
 //! [`score_tests`] name what is wrong where something is.
 #![forbid(unsafe_code)]
 
+mod bending;
 mod budget;
 mod cause;
 mod consistency;

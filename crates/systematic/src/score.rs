@@ -32,9 +32,8 @@ pub fn score_tests(
 ) -> Vec<Score> {
     let own = estimate.causes.iter().map(|cause| cause.prior);
     let base: Vec<Prior> = own.collect();
-    // A gain that all sets have in common is a change of K and C: no data can tell it.
     let is_new = |prior: &&Prior| {
-        prior.cause != Cause::CommonGain && base.iter().all(|own| own.cause != prior.cause)
+        !prior.cause.is_hidden() && base.iter().all(|own| own.cause != prior.cause)
     };
     let mut priors = base.clone();
     priors.extend(candidates.iter().filter(is_new));

@@ -122,7 +122,17 @@ fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f
 }
 
 impl Measured {
-    /// H = W U Wᵀ at the joint and the points, with what the differences lack and the joint where it is.
+    /// H = W U Wᵀ at the joint and the points, with what the differences lack.
+    pub(crate) fn as_measured(&self, labelled: &[Complex64]) -> ComplexMatrix {
+        let whole = self.transformation.map(Complex64::from);
+        let mut formed = &whole * self.functions.matrix(labelled) * whole.transpose();
+        if let Some([correction, _]) = &self.correction {
+            add_at_joint(&mut formed, correction);
+        }
+        formed
+    }
+
+    /// The same with the causes: EI of the correction, and the joint where it is.
     pub(crate) fn formed(
         &self,
         dofs_of_a_bolt: usize,
@@ -131,18 +141,21 @@ impl Measured {
         priors: &[Prior],
         values: &[f64],
     ) -> ComplexMatrix {
-        let whole = self.transformation.map(Complex64::from);
-        let mut formed = &whole * self.functions.matrix(labelled) * whole.transpose();
-        if let Some([correction, by_stiffness]) = &self.correction {
+        let mut formed = self.as_measured(labelled);
+        if let Some([_, by_stiffness]) = &self.correction {
             let stiffness = value_of(Cause::DifferenceStiffness(side), priors, values);
-            add_at_joint(&mut formed, &(correction + by_stiffness * stiffness));
+            add_at_joint(&mut formed, &(by_stiffness * stiffness));
         }
         for (prior, &value) in priors.iter().zip(values) {
-            if let Cause::JointPosition(of, bolt) = prior.cause
-                && of == side
-                && value != 0.0
-            {
-                shift(&mut formed, dofs_of_a_bolt, bolt, value);
+            match prior.cause {
+                Cause::JointPosition(of, bolt) if of == side && value != 0.0 => {
+                    shift(&mut formed, dofs_of_a_bolt, bolt, value)
+                }
+                Cause::JointBending(of, bolt) if of == side => {
+                    let theta = bolt * dofs_of_a_bolt + 1;
+                    formed[(theta, theta)] -= self.flexibility[bolt] * value;
+                }
+                _ => {}
             }
         }
         formed
@@ -165,6 +178,12 @@ impl Measured {
             }
             Cause::JointPosition(of, bolt) if of == side => {
                 Some(-displaced(formed, dofs_of_a_bolt, bolt))
+            }
+            Cause::JointBending(of, bolt) if of == side => {
+                let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
+                let theta = bolt * dofs_of_a_bolt + 1;
+                change[(theta, theta)] = Complex64::from(-self.flexibility[bolt]);
+                Some(change)
             }
             _ => None,
         }

@@ -13,8 +13,6 @@ pub const TELLING: f64 = 10.0;
 const MOST: usize = 6;
 /// A score below this part of the largest is not looked at.
 const WORTH: f64 = 0.05;
-/// χ² per degree of freedom beyond which the joint may have been sought in the wrong place.
-const FAR: f64 = 3.0;
 /// A cause that leaves fewer of the lines than this part has not explained them.
 const ENOUGH: f64 = 0.9;
 /// A cause that is let free has a prior so many times wider than the budget's.
@@ -64,16 +62,19 @@ struct Case<'c> {
 #[must_use]
 pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settings) -> Diagnosis {
     let case = Case::of(experiment, plain, settings);
-    let candidates: Vec<Prior> = causes(experiment)
-        .into_iter()
-        .map(|cause| case.careful_prior(cause))
-        .collect();
-    let scores = score_tests(experiment, plain, &candidates);
+    let scores = case.scores();
     let trials = case.near(&scores);
     case.diagnosis(trials, scores)
 }
 
 impl Diagnosis {
+    /// What the score tests say alone, where the causes together explain the data and none stands out.
+    #[must_use]
+    pub fn of_scores(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settings) -> Self {
+        let case = Case::of(experiment, plain, settings);
+        case.diagnosis(Vec::new(), case.scores())
+    }
+
     /// Looks for causes so large that the estimate without them is in the wrong place altogether; `None` where what it leaves is
     /// not so much, or where a suspect explains it.
     #[must_use]
@@ -84,9 +85,8 @@ impl Diagnosis {
         settings: &Settings,
     ) -> Option<Self> {
         let case = Case::of(experiment, plain, settings);
-        let is_far = plain.reduced_chi_squared.is_none_or(|chi| chi > FAR);
         let first = self.suspects.first();
-        if !is_far || first.is_some_and(|suspect| case.is_explained(suspect)) {
+        if !plain.is_far() || first.is_some_and(|suspect| case.is_explained(suspect)) {
             return None;
         }
         // one step from the wrong place says nothing
@@ -164,6 +164,15 @@ impl<'c> Case<'c> {
         }
     }
 
+    /// The score tests of all causes.
+    fn scores(&self) -> Vec<Score> {
+        let candidates: Vec<Prior> = causes(self.experiment)
+            .into_iter()
+            .map(|cause| self.careful_prior(cause))
+            .collect();
+        score_tests(self.experiment, self.plain, &candidates)
+    }
+
     /// The causes that the scores point to, each let free from where the estimate is.
     fn near(&self, scores: &[Score]) -> Vec<Trial> {
         let largest = scores.first().map_or(0.0, |score| score.drop);
@@ -196,7 +205,7 @@ impl<'c> Case<'c> {
     fn far(&self) -> Vec<Trial> {
         let candidates: Vec<Prior> = causes(self.experiment)
             .into_iter()
-            .filter(|cause| *cause != Cause::CommonGain)
+            .filter(|cause| !cause.is_hidden())
             .map(|cause| self.careful_prior(cause))
             .collect();
         let places = from_far(self.experiment, &candidates, WIDE, self.settings);

@@ -49,11 +49,17 @@ impl Section {
             return None;
         }
         let area = self.width_m * self.height_m;
-        let bending = self.youngs_modulus_pa * area * self.height_m * self.height_m / 12.0;
+        let bending = self.bending_stiffness_n_m2();
         let shear =
             SHEAR_COEFFICIENT * area * self.youngs_modulus_pa / (2.0 * (1.0 + self.poissons_ratio));
         let s = difference.spacing_m();
         let by_bending = s / (3.0 * bending);
         Some([by_bending - 1.0 / (2.0 * s * shear), -by_bending])
+    }
+
+    /// EI, N·m².
+    #[must_use]
+    pub fn bending_stiffness_n_m2(&self) -> f64 {
+        self.youngs_modulus_pa * self.width_m * self.height_m.powi(3) / 12.0
     }
 }

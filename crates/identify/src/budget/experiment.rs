@@ -7,6 +7,7 @@ use bolted_joint_systematic::{
 use num_complex::Complex64;
 
 use bolted_joint_frf::Dof;
+use bolted_joint_frf::structure::Section;
 
 use super::super::assemble::{beam_at, measured_labels};
 use super::super::group;
@@ -39,8 +40,8 @@ pub(super) fn of<'a>(
         entries,
     };
     let structures = [
-        structure(study, Side::A, lines, levels)?,
-        structure(study, Side::B, lines, levels)?,
+        structure(study, Side::A, lines, levels, &joint)?,
+        structure(study, Side::B, lines, levels, &joint)?,
     ];
     let assembly = assembly(study, lines, levels.assembly);
     Some(Experiment::new(
@@ -135,6 +136,7 @@ fn structure<'a>(
     side: Side,
     lines: &'a Lines,
     levels: Levels,
+    joint: &JointShape,
 ) -> Option<Structure<'a>> {
     let (substructure, receptances, points, of): (_, _, &[Dof], _) = match side {
         Side::A => (&study.a, &lines.a, &[], group::Side::A),
@@ -149,14 +151,16 @@ fn structure<'a>(
             Some(Structure::Computed(Computed { compute }))
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
-        (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured {
-            functions: functions(measured, &labels(study, side, lines), &|rotations, own| {
+        (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured::new(
+            functions(measured, &labels(study, side, lines), &|rotations, own| {
                 let of = Of::Substructure(of);
                 (levels.of(of), study.noise.floor(of, rotations, || own))
             })?,
-            transformation: measured.transformation().clone(),
-            correction: substructure.rotation_lost(study.dofs_of_a_bolt()),
-        })),
+            measured.transformation().clone(),
+            substructure.rotation_lost(study.dofs_of_a_bolt()),
+            substructure.section().map(Section::bending_stiffness_n_m2),
+            joint,
+        ))),
     }
 }
 

@@ -12,9 +12,11 @@ use nalgebra::DMatrix;
 
 use bolted_joint_frf::Dof;
 
+use super::estimator::first_levels;
 use super::layout::Layout;
 use super::lines::Lines;
 use super::lines_estimate::LinesEstimate;
+use super::model::JointMatrices;
 use super::noise::Levels;
 use super::study::Study;
 
@@ -109,6 +111,26 @@ impl Systematic {
         Some(found)
     }
 
+    /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
+    pub(super) fn start(study: &Study, all: &[Lines]) -> Option<JointMatrices> {
+        let [lines] = all else { return None };
+        if study.budget == Budget::none() || !study.noise.is_stated() {
+            return None;
+        }
+        let layout = study.layout();
+        let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
+        let experiment = experiment::of(study, &few, &layout, first_levels(&study.noise))?;
+        let priors = study.budget.priors(&experiment);
+        let settings = Settings::default();
+        let found = estimate(
+            &experiment,
+            &priors,
+            &Start::typical(&experiment)?,
+            &settings,
+        )?;
+        layout.matrices(&found.unknowns).into_iter().next()
+    }
+
     fn at_levels(
         study: &Study,
         lines: &Lines,
@@ -121,27 +143,10 @@ impl Systematic {
         let settings = Settings::default();
         let start = Start::without_causes(start);
         let priors = study.budget.priors(&experiment);
-        // Without causes some data lead to no joint at all: then the one with causes is looked at without them.
-        let plain = estimate(&experiment, &[], &start, &settings).or_else(|| {
-            let found = estimate(&experiment, &priors, &start, &settings)?;
-            evaluated(&experiment, &found.unknowns, &settings)
-        })?;
-        let mut diagnosis = diagnose(&experiment, &plain, &settings);
-        let mut found = with_first_suspect_free(&experiment, &priors, &diagnosis, &settings);
-        if !found.as_ref().is_some_and(|found| found.fits(&settings))
-            && let Some(other) = diagnosis.from_far(&experiment, &plain, &settings)
-        {
-            let next = with_first_suspect_free(&experiment, &priors, &other, &settings);
-            let is_better = next.as_ref().is_some_and(|next| next.fits(&settings));
-            if is_better || found.is_none() {
-                found = next;
-            }
-            diagnosis = other;
-        }
-        let mut found = found?;
+        let (plain, mut found, diagnosis) = diagnosed(&experiment, &priors, &start, &settings)?;
         let Diagnosis {
             suspects, scores, ..
-        } = diagnosis.with_contradicted(&experiment, &plain, &found, &settings);
+        } = diagnosis;
         let mut noise_alone = plain.covariance.clone();
         let mut noise_reduced = plain.reduced_chi_squared;
         if few.frequency_hz.len() < lines.frequency_hz.len() {
@@ -295,6 +300,41 @@ impl Systematic {
     }
 }
 
+/// The estimate without causes, that with them, and what speaks against the first.
+fn diagnosed(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &Start,
+    settings: &Settings,
+) -> Option<(Estimate, Estimate, Diagnosis)> {
+    let plain = estimate(experiment, &[], start, settings);
+    // Many errors, each within its limits, can lead an estimate without causes to no joint at all, or to one that says nothing.
+    if plain.as_ref().is_none_or(Estimate::is_far)
+        && let Some(found) = estimate(experiment, priors, start, settings)
+        && (plain.is_none() || found.fits(settings) && found.is_within_the_budget())
+        && let Some(plain) = evaluated(experiment, &found.unknowns, settings)
+    {
+        let diagnosis = Diagnosis::of_scores(experiment, &plain, settings);
+        return Some((plain, found, diagnosis));
+    }
+    let plain = plain?;
+    let mut diagnosis = diagnose(experiment, &plain, settings);
+    let mut found = with_first_suspect_free(experiment, priors, &diagnosis, settings);
+    if !found.as_ref().is_some_and(|found| found.fits(settings))
+        && let Some(other) = diagnosis.from_far(experiment, &plain, settings)
+    {
+        let next = with_first_suspect_free(experiment, priors, &other, settings);
+        let is_better = next.as_ref().is_some_and(|next| next.fits(settings));
+        if is_better || found.is_none() {
+            found = next;
+        }
+        diagnosis = other;
+    }
+    let found = found?;
+    let diagnosis = diagnosis.with_contradicted(experiment, &plain, &found, settings);
+    Some((plain, found, diagnosis))
+}
+
 /// The estimate with all causes. One that stands out is let free from the beginning, as a search that it keeps from converging
 /// finds nothing; if it turns out to be no larger than its prior allows, it is held again.
 fn with_first_suspect_free(
@@ -362,6 +402,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
             label(MeasuredSet::Assembly, point)
         ),
         Cause::JointPosition(side, of) => format!("position of the joint on {side}{}", bolt(of)),
+        Cause::JointBending(side, of) => format!("bending beside the joint on {side}{}", bolt(of)),
         Cause::Frequency(side) => format!("frequencies of {side} in the assembly"),
         Cause::YoungsModulus(side) => format!("Young's modulus of {side}"),
         Cause::Density(side) => format!("density of {side}"),

@@ -124,6 +124,14 @@ pub struct MeasuredJoint {
 }
 
 impl Substructure {
+    /// The cross-section at the joint, where the study states it.
+    pub(super) fn section(&self) -> Option<&Section> {
+        match self {
+            Self::Measured { section, .. } => section.as_ref(),
+            Self::Beam { .. } => None,
+        }
+    }
+
     /// What rotations by differences lose at the joint's DOFs, with its derivative by ln EI, rad/(N·m); `None` where nothing is
     /// known of it or nothing is lost.
     pub(super) fn rotation_lost(&self, dofs_of_a_bolt: usize) -> Option<[DMatrix<f64>; 2]> {

@@ -140,6 +140,7 @@ pub fn identify_and_draw(
         compare_models: true,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
+        has_budget: study.has_budget(),
         bootstrap,
         progress: Some(&|| watch.drawn()),
     };
@@ -217,8 +218,7 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips));
-    let has_budget = study.budget != Budget::none() && study.further.is_empty();
-    if has_budget && systematic.is_none() && slips.is_empty() {
+    if study.has_budget() && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }
     warnings.extend(study.rotations_not_corrected());

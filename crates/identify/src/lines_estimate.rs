@@ -45,10 +45,22 @@ pub struct Options<'a> {
     pub torques_n_m: Vec<f64>,
     /// Whether each torque has a joint of its own.
     pub dependence: TorqueDependence,
+    /// Whether an estimate with errors of the set-up follows, which has a search of its own where these lead this one astray.
+    pub has_budget: bool,
     /// Bootstrap to run, if any.
     pub bootstrap: Option<Bootstrap>,
     /// Called after each draw of the bootstrap.
     pub progress: Option<&'a (dyn Fn() + Sync)>,
+}
+
+impl Options<'_> {
+    fn effort(&self) -> Effort {
+        if self.has_budget && self.noise.is_stated() {
+            Effort::BesideBudget
+        } else {
+            Effort::Whole
+        }
+    }
 }
 
 /// The estimate from lines alone, with what led to it.
@@ -292,7 +304,7 @@ pub fn identify_lines(
         .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
     let found = problem
-        .best(&layout, &starts, Effort::Whole, None)
+        .best(&layout, &starts, options.effort(), None)
         .map_err(|starts| no_estimate(all, starts))?;
     let places = layout.places();
     let objective = found.used.assemblies.objective(&places);

@@ -11,7 +11,7 @@ use super::finals::{End, Finals, finalists, finalists_of_own_lines};
 use super::layout::Place;
 use super::noise::Noise;
 use super::strip::ENTRIES_OF_ONE;
-use super::trials::{SAME_MISFIT, rank, try_starts};
+use super::trials::{SAME_MISFIT, best_trials, rank, try_starts};
 
 /// Starts of the grid between two looks at whether the fit is beyond doubt.
 pub(super) const STARTS_AT_A_TIME: usize = 4;
@@ -21,6 +21,9 @@ pub(super) const STARTS_AT_A_TIME: usize = 4;
 pub(super) enum Effort {
     /// Until the fit is beyond doubt, or the grid is exhausted.
     Whole,
+    /// The same, unless the first starts leave so much that only errors of the set-up can explain it: the estimate with these has a
+    /// search of its own.
+    BesideBudget,
     /// From starts that come from the estimate of another joint model.
     Related,
 }
@@ -68,8 +71,12 @@ pub(super) fn best(
         Some(used) => Some(finalists(used, entries, noise, trials, known)),
         None => finalists_of_own_lines(data, entries, noise, trials, known),
     };
+    let gives_up = effort == Effort::BesideBudget && are_far(&trials, noise);
+    if gives_up {
+        trials = best_trials(&trials).into_iter().take(1).cloned().collect();
+    }
     let mut finals = search(&trials, None);
-    if effort == Effort::Whole {
+    if effort != Effort::Related && !gives_up {
         for part in data.thinned.grid(entries).chunks(STARTS_AT_A_TIME) {
             let is_enough = |finals: &Finals| {
                 is_certain(&trials, finals) || is_settled(&trials, finals, entries)
@@ -135,6 +142,15 @@ fn is_certain(trials: &[Estimate], finals: &Finals) -> bool {
     finals.best().is_some_and(|best| {
         best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
     })
+}
+
+/// χ² per degree of freedom beyond which errors of the set-up have led the search astray.
+const FAR: f64 = 3.0;
+
+/// Whether no start comes near the data, whose noise is stated.
+fn are_far(trials: &[Estimate], noise: &Noise) -> bool {
+    let chi = trials.iter().filter_map(Estimate::reduced_chi_squared);
+    noise.is_stated() && chi.fold(f64::INFINITY, f64::min) > FAR
 }
 
 /// Starts that agree on a minimum of one bolt's joint: where what it leaves is no noise, no other start would find another.

@@ -148,7 +148,6 @@ impl Systematic {
             suspects, scores, ..
         } = diagnosis;
         let mut noise_alone = plain.covariance.clone();
-        let mut noise_reduced = plain.reduced_chi_squared;
         if few.frequency_hz.len() < lines.frequency_hz.len() {
             let many = lines.at_most(MOST_LINES);
             let experiment = experiment::of(study, &many, layout, levels)?;
@@ -157,7 +156,6 @@ impl Systematic {
             }
             if let Some(refined) = refine(&experiment, &plain, &settings) {
                 noise_alone.clone_from(&refined.covariance);
-                noise_reduced = refined.reduced_chi_squared;
             }
         }
         let name = |cause: Cause| name(cause, study, lines);
@@ -182,7 +180,7 @@ impl Systematic {
             suspects: suspects.collect(),
             scores: scores.collect(),
             consistency: tested.collect(),
-            noise_covariance: widened(noise_alone, noise_reduced),
+            noise_covariance: widened(noise_alone, found.reduced_chi_squared),
             covariance: widened(found.covariance, found.reduced_chi_squared),
             unknowns: found.unknowns,
             shares: found.shares,
@@ -263,6 +261,9 @@ impl Systematic {
         for (found, p) in &self.consistency {
             if *p < CHANCE {
                 let suspect = match self.suspects.first() {
+                    None if self.explains_the_data() => {
+                        "the error budget as a whole explains it".to_owned()
+                    }
                     None => "none of the known causes explains it".to_owned(),
                     Some((name, suspect)) => {
                         let ([value, _], unit) = shown(suspect.cause, [suspect.value, 0.0]);

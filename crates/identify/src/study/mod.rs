@@ -241,6 +241,11 @@ impl Substructure {
 }
 
 impl Study {
+    /// Whether errors of the set-up take part: they do with one assembly.
+    pub(super) fn has_budget(&self) -> bool {
+        self.budget != Budget::none() && self.further.is_empty()
+    }
+
     /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
     /// can neither be identified nor compared.
     #[must_use]

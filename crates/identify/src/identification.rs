@@ -164,7 +164,9 @@ pub fn identify_and_draw(
         }
     };
     warnings.extend(outliers.warning());
+    let within_limits = Systematic::within_limits(study, &all, &estimate);
     let slips = match all.as_slice() {
+        _ if within_limits.is_some() => Vec::new(),
         [lines] if slips::are_possible(&estimate.assessment) => slips::found(
             lines,
             &study.layout(),
@@ -174,12 +176,13 @@ pub fn identify_and_draw(
         _ => Vec::new(),
     };
     // A slip is none where an error of the set-up explains the data; where none does, what it leaves tells nothing of errors.
-    let systematic = if slips::are_certain(&slips, &estimate.assessment) {
-        None
-    } else {
+    let systematic = within_limits.or_else(|| {
+        if slips::are_certain(&slips, &estimate.assessment) {
+            return None;
+        }
         Systematic::of(study, &all, &estimate)
             .filter(|found| slips.is_empty() || found.explains_the_data())
-    };
+    });
     let slips = match systematic {
         Some(_) => Vec::new(),
         None => slips,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use bolted_joint_systematic::FAR;
 use nalgebra::DVector;
 
 use super::assessment::Assessment;
@@ -143,9 +144,6 @@ fn is_certain(trials: &[Estimate], finals: &Finals) -> bool {
         best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
     })
 }
-
-/// χ² per degree of freedom beyond which errors of the set-up have led the search astray.
-const FAR: f64 = 3.0;
 
 /// Whether no start comes near the data, whose noise is stated.
 fn are_far(trials: &[Estimate], noise: &Noise) -> bool {

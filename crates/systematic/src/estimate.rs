@@ -93,7 +93,7 @@ const UNREST: f64 = 0.5;
 const INFLATIONS: [f64; 3] = [1.0, 30.0, 100.0];
 
 /// χ² per degree of freedom beyond which a joint may have been sought in the wrong place.
-const FAR: f64 = 3.0;
+pub const FAR: f64 = 3.0;
 
 /// What is known of a cause after the measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -263,8 +263,7 @@ pub fn evaluated(
 
 impl Estimate {
     /// Whether it leaves so much that it may be in the wrong place altogether.
-    #[must_use]
-    pub fn is_far(&self) -> bool {
+    pub(crate) fn is_far(&self) -> bool {
         self.reduced_chi_squared.is_none_or(|chi| chi > FAR)
     }
 

@@ -30,7 +30,9 @@ mod suspect;
 pub use budget::{Budget, Prior};
 pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
-pub use estimate::{CONTRADICTED, CauseEstimate, Estimate, Settings, Start, estimate, evaluated};
+pub use estimate::{
+    CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, evaluated,
+};
 pub use experiment::{
     Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
     MeasuredFunctions, Structure,

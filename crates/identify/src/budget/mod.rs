@@ -5,7 +5,7 @@ mod experiment;
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Estimate, Experiment,
-    Group, MeasuredSet, Prior, Score, Settings, Shares, Side, Start, Suspect, consistency,
+    FAR, Group, MeasuredSet, Prior, Score, Settings, Shares, Side, Start, Suspect, consistency,
     diagnose, estimate, evaluated, refine,
 };
 use nalgebra::DMatrix;
@@ -88,7 +88,7 @@ impl Systematic {
         // Noise that a residual full of other errors shows can be so large that no line is linear in it.
         for part in PARTS_OF_NOISE {
             levels = study.noise.levels(estimate.levels.assembly.scaled(part));
-            found = Self::at_levels(study, lines, &layout, levels, &start);
+            found = Self::at_levels(study, lines, (&layout, levels), &start, &diagnosed);
             if found.is_some() || study.noise.is_stated() {
                 break;
             }
@@ -103,12 +103,32 @@ impl Systematic {
                 break;
             };
             levels = study.noise.levels(levels.assembly.scaled(reduced.sqrt()));
-            let Some(next) = Self::at_levels(study, lines, &layout, levels, &start) else {
+            let next = Self::at_levels(study, lines, (&layout, levels), &start, &diagnosed);
+            let Some(next) = next else {
                 break;
             };
             found = next;
         }
         Some(found)
+    }
+
+    /// As [`Self::of`], where the estimate without causes leaves much more than the noise that the study states and all causes
+    /// together explain it within their limits. `None` where that is not so.
+    pub(super) fn within_limits(
+        study: &Study,
+        all: &[Lines],
+        estimate: &LinesEstimate,
+    ) -> Option<Self> {
+        let [lines] = all else { return None };
+        let reduced = estimate.assessment.reduced_chi_squared;
+        let is_far = reduced.is_none_or(|reduced| reduced > FAR);
+        if !study.has_budget() || !study.noise.is_stated() || !is_far {
+            return None;
+        }
+        let start = &estimate.covariance().values;
+        let layout = study.layout();
+        let place = (&layout, estimate.levels);
+        Self::at_levels(study, lines, place, start, &explained)
     }
 
     /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
@@ -134,16 +154,16 @@ impl Systematic {
     fn at_levels(
         study: &Study,
         lines: &Lines,
-        layout: &Layout,
-        levels: Levels,
+        (layout, levels): (&Layout, Levels),
         start: &[f64],
+        find: &Find,
     ) -> Option<Self> {
         let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
         let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
         let priors = study.budget.priors(&experiment);
-        let (plain, mut found, diagnosis) = diagnosed(&experiment, &priors, &start, &settings)?;
+        let (plain, mut found, diagnosis) = find(&experiment, &priors, &start, &settings)?;
         let Diagnosis {
             suspects, scores, ..
         } = diagnosis;
@@ -302,23 +322,46 @@ impl Systematic {
 }
 
 /// The estimate without causes, that with them, and what speaks against the first.
+type Explanation = (Estimate, Estimate, Diagnosis);
+
+/// A way to an explanation from a start.
+type Find = dyn Fn(&Experiment<'_>, &[Prior], &Start, &Settings) -> Option<Explanation>;
+
+/// Many errors, each within its limits, can lead an estimate without causes to no joint at all, or to one that says nothing: then
+/// the one with them is found first. `None` where it does not explain the data, or contradicts a limit.
+fn explained(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &Start,
+    settings: &Settings,
+) -> Option<Explanation> {
+    let found = estimate(experiment, priors, start, settings)?;
+    let is_it = found.fits(settings) && found.is_within_the_budget();
+    is_it.then(|| beside(experiment, found, settings)).flatten()
+}
+
+/// An estimate with causes, with one without them at the same joint.
+fn beside(
+    experiment: &Experiment<'_>,
+    found: Estimate,
+    settings: &Settings,
+) -> Option<Explanation> {
+    let plain = evaluated(experiment, &found.unknowns, settings)?;
+    let diagnosis = Diagnosis::of_scores(experiment, &plain, settings);
+    Some((plain, found, diagnosis))
+}
+
+/// The estimate without causes first, and what speaks against it.
 fn diagnosed(
     experiment: &Experiment<'_>,
     priors: &[Prior],
     start: &Start,
     settings: &Settings,
-) -> Option<(Estimate, Estimate, Diagnosis)> {
-    let plain = estimate(experiment, &[], start, settings);
-    // Many errors, each within its limits, can lead an estimate without causes to no joint at all, or to one that says nothing.
-    if plain.as_ref().is_none_or(Estimate::is_far)
-        && let Some(found) = estimate(experiment, priors, start, settings)
-        && (plain.is_none() || found.fits(settings) && found.is_within_the_budget())
-        && let Some(plain) = evaluated(experiment, &found.unknowns, settings)
-    {
-        let diagnosis = Diagnosis::of_scores(experiment, &plain, settings);
-        return Some((plain, found, diagnosis));
-    }
-    let plain = plain?;
+) -> Option<Explanation> {
+    let Some(plain) = estimate(experiment, &[], start, settings) else {
+        let found = estimate(experiment, priors, start, settings)?;
+        return beside(experiment, found, settings);
+    };
     let mut diagnosis = diagnose(experiment, &plain, settings);
     let mut found = with_first_suspect_free(experiment, priors, &diagnosis, settings);
     if !found.as_ref().is_some_and(|found| found.fits(settings))

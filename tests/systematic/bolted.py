@@ -28,10 +28,10 @@ ASSEMBLY_ALONE = "relative = 0.01\nfloor = 0\na = { relative = 0, floor = 0 }\nb
 class Rig:
     """So many bolts, with points of B between them or all beyond them."""
 
-    def __init__(self, bolts, between=True, points=None, frequency=rig.FREQUENCY):
+    def __init__(self, bolts, between=True, points=None, frequency=rig.FREQUENCY, spacing=SPACING):
         self.frequency = np.asarray(frequency, float)
         self.omega = 2 * np.pi * self.frequency
-        spacing = min(SPACING, 0.09 / max(bolts - 1, 1))
+        spacing = min(spacing, 0.09 / max(bolts - 1, 1))
         self.b = 0.015 + spacing * np.arange(bolts)
         self.a = 0.285 - spacing * np.arange(bolts)[::-1]
         inner = list(self.b + spacing / 2) if between else []

@@ -123,7 +123,7 @@ pub(crate) fn substructure(
     })
 }
 
-/// A cross-section is that of a beam, and says what a difference to both sides loses.
+/// A cross-section is that of a beam. It says what a difference to both sides loses, and how the beam bends beside the joint.
 fn check_section(
     study: &StudyText,
     key: &str,
@@ -150,9 +150,7 @@ fn check_section(
         Some(Rotation::Difference { difference, .. }) => Some(difference),
         _ => None,
     });
-    let mut count = 0;
     for difference in differences {
-        count += 1;
         study.ensure(
             difference.side() == Difference::Central,
             format_args!("{key}.section"),
@@ -161,10 +159,10 @@ fn check_section(
         )?;
     }
     study.ensure(
-        count > 0,
+        joints.iter().any(|joint| joint.theta.is_some()),
         format_args!("{key}.section"),
-        "it without a rotation by differences",
-        "it only where `theta` is a difference over points",
+        "it without a rotation",
+        "it only where `joint` has a `theta`",
     )
 }
 

@@ -20,7 +20,6 @@ use super::reliability;
 use super::slips::{self, FoundSlip};
 use super::study::Study;
 use super::watch::Watch;
-use bolted_joint_systematic::Budget;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -137,7 +136,7 @@ pub fn identify_and_draw(
         noise: study.noise,
         bands: study.bands.clone(),
         start: study.start.clone(),
-        compare_models: true,
+        compare_models: study.compares_rivals,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
         bootstrap,
@@ -217,12 +216,12 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips));
-    let has_budget = study.budget != Budget::none() && study.further.is_empty();
+    let has_budget = study.has_causes() && study.further.is_empty();
     if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }
     warnings.extend(study.rotations_not_corrected());
-    if systematic.is_none() && slips.is_empty() && study.budget != Budget::none() {
+    if systematic.is_none() && slips.is_empty() && study.has_causes() {
         warnings.push(Systematic::NOT_APPLIED.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;

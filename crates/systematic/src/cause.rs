@@ -65,6 +65,8 @@ pub enum Cause {
     Density(Side),
     /// Mass at a bolt of a structure that only the assembly has, kg.
     JointMass(Side, usize),
+    /// Moment of inertia at a bolt of a structure that only the assembly has, kg·m².
+    JointInertia(Side, usize),
     /// Loss factor of the joint beside its damping.
     LossFactor,
     /// Bending stiffness that the correction of a rotation by differences is made with; relative.
@@ -158,7 +160,7 @@ impl Cause {
             Self::YoungsModulus(_) | Self::Density(_) | Self::DifferenceStiffness(_) => {
                 Group::Material
             }
-            Self::JointMass(..) => Group::JointMass,
+            Self::JointMass(..) | Self::JointInertia(..) => Group::JointMass,
             Self::LossFactor => Group::LossFactor,
         }
     }
@@ -170,6 +172,7 @@ impl Cause {
             Self::Delay(_) => (1e6 * value, "µs"),
             Self::Phase(_) => (value.to_degrees(), "°"),
             Self::Accelerometer(_) | Self::JointMass(..) => (1e3 * value, "g"),
+            Self::JointInertia(..) => (1e6 * value, "kg·mm²"),
             Self::Position(_) | Self::JointPosition(..) => (1e3 * value, "mm"),
             Self::Gain(_)
             | Self::CommonGain

@@ -67,6 +67,8 @@ pub fn diagnose(experiment: &Experiment<'_>, plain: &Estimate, settings: &Settin
     let candidates: Vec<Prior> = causes(experiment)
         .into_iter()
         .map(|cause| case.careful_prior(cause))
+        // what a careful laboratory knows exactly is no suspect
+        .filter(|prior| prior.standard_deviation > 0.0)
         .collect();
     let scores = score_tests(experiment, plain, &candidates);
     let trials = case.near(&scores);
@@ -198,6 +200,7 @@ impl<'c> Case<'c> {
             .into_iter()
             .filter(|cause| *cause != Cause::CommonGain)
             .map(|cause| self.careful_prior(cause))
+            .filter(|prior| prior.standard_deviation > 0.0)
             .collect();
         let places = from_far(self.experiment, &candidates, WIDE, self.settings);
         let trial = |(careful, start): (Prior, Start)| {

@@ -6,7 +6,7 @@ use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Estimate, Experiment,
     Group, MeasuredSet, Prior, Score, Settings, Shares, Side, Start, Suspect, consistency,
-    diagnose, estimate, evaluated, refine,
+    diagnose, estimate, evaluated, priors, refine,
 };
 use nalgebra::DMatrix;
 
@@ -76,7 +76,7 @@ impl Systematic {
     /// there are several assemblies, or where no estimate is found.
     pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
         let [lines] = all else { return None };
-        if study.budget == Budget::none() {
+        if !study.has_causes() {
             return None;
         }
         let start = estimate.covariance().values.clone();
@@ -120,7 +120,7 @@ impl Systematic {
         let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
-        let priors = study.budget.priors(&experiment);
+        let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
         // Without causes some data lead to no joint at all: then the one with causes is looked at without them.
         let plain = estimate(&experiment, &[], &start, &settings).or_else(|| {
             let found = estimate(&experiment, &priors, &start, &settings)?;
@@ -366,6 +366,9 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::YoungsModulus(side) => format!("Young's modulus of {side}"),
         Cause::Density(side) => format!("density of {side}"),
         Cause::JointMass(side, of) => format!("mass at the joint on {side}{}", bolt(of)),
+        Cause::JointInertia(side, of) => {
+            format!("moment of inertia at the joint on {side}{}", bolt(of))
+        }
         Cause::LossFactor => "loss factor of the joint".to_owned(),
         Cause::DifferenceStiffness(side) => {
             format!("bending stiffness of {side} behind its rotation")

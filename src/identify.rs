@@ -47,6 +47,9 @@ pub(super) struct IdentifyArguments {
     /// Seed of the bootstrap [default: 1]
     #[arg(long, requires = "bootstrap")]
     seed: Option<u64>,
+    /// Do not compare the joint model with others, as `rivals = false` in the study's [joint]
+    #[arg(long)]
+    no_rivals: bool,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -80,7 +83,8 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     }
     let written = arguments.report.as_ref();
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
-    let study = Study::of(&study)?;
+    let mut study = Study::of(&study)?;
+    study.compares_rivals &= !arguments.no_rivals;
     let outputs = of_bolts(&arguments.output, &study.bolts);
     if outputs.len() > 1 {
         for output in &outputs {
@@ -285,12 +289,12 @@ fn parameters(joint: &JointEstimate, bolts: &[String]) -> String {
 
 /// The joint models beside each other.
 fn models(found: &Identification, study: &Study) -> String {
-    let Some(choice) = found.estimate.model_choice() else {
-        return String::new();
-    };
     if let Some(reason) = study.models_not_compared() {
         return format!("joint models are not compared: {reason}\n");
     }
+    let Some(choice) = found.estimate.model_choice() else {
+        return String::new();
+    };
     let compared: Vec<String> = choice
         .models
         .iter()

@@ -34,6 +34,13 @@ fn report_time(arguments: &IdentifyArguments) -> Result<Option<Timestamp>, CliEr
             "a study of method \"frf-decoupling\"; the intervals of a lap model come from its information matrix",
         ));
     }
+    if arguments.no_rivals {
+        return Err(CliError::option(
+            "--no-rivals",
+            "it",
+            "a study of method \"frf-decoupling\"; a lap model has no rivals",
+        ));
+    }
     let report = arguments.report.as_ref();
     Ok(report.map(|_| Timestamp::from_environment()).transpose()?)
 }

@@ -82,9 +82,9 @@ class Body:
         return whole
 
 
-def receptances(omega, bodies, wanted, joint=None, masses=()):
+def receptances(omega, bodies, wanted, joint=None, masses=(), inertias=(), ground=None):
     """Receptances between `wanted` (body, x, 0 for w or 1 for θ); `joint` is the dynamic stiffness between the bodies' joints, or a
-    list of them, `masses` are (body, x, kg)."""
+    list of them, `masses` are (body, x, kg), `inertias` (body, x, kg m²). `ground` holds B to what does not move."""
     sizes = [2 * len(body.x) for body in bodies]
     first = {body.name: start for body, start in zip(bodies, np.cumsum([0] + sizes[:-1]))}
     by_name = {body.name: body for body in bodies}
@@ -99,6 +99,12 @@ def receptances(omega, bodies, wanted, joint=None, masses=()):
     for body, x, kg in masses:
         at = place(body, x, 0)
         whole[:, at, at] -= omega**2 * kg
+    for body, x, inertia in inertias:
+        at = place(body, x, 1)
+        whole[:, at, at] -= omega**2 * inertia
+    if ground:
+        held = [place("B", ground["B"], dof) for dof in (0, 1)]
+        whole[np.ix_(range(len(omega)), held, held)] += ground["stiffness"]
     for bolt in [joint] if isinstance(joint, dict) else joint or []:
         a = [place("A", bolt["A"], dof) for dof in (0, 1)]
         b = [place("B", bolt["B"], dof) for dof in (0, 1)]
@@ -129,6 +135,7 @@ class Mistakes:
     young: float = 0.0  # of B as it is over what is believed
     density: float = 0.0
     joint_mass: dict = dataclasses.field(default_factory=dict)  # A or B, with several bolts (A or B, bolt): kg
+    joint_inertia: dict = dataclasses.field(default_factory=dict)  # A or B: kg m²
     loss_factor: float = 0.0
     hysteretic_only: bool = False
     spacing: float = 0.0  # of the rotation by central differences
@@ -174,8 +181,9 @@ def test_data(mistakes, noise, seed, frequency=FREQUENCY, timoshenko=True):
         body("B", [JOINT["B"], *points], *real_b, mistakes.frequency.get("B", 0.0)),
     ]
     masses = [(side, JOINT[side], kg) for side, kg in mistakes.joint_mass.items()]
+    inertias = [(side, JOINT[side], inertia) for side, inertia in mistakes.joint_inertia.items()]
     joint = {**JOINT, "stiffness": stiffness}
-    sets["C"] = receptances(omega, together, [("B", x, 0) for x in points], joint, masses)
+    sets["C"] = receptances(omega, together, [("B", x, 0) for x in points], joint, masses, inertias)
     translations = {"A": [0], "B": [0, 2, 3, 4], "C": [0, 1, 2]}
     if mistakes.spacing:
         translations = {name: range(z.shape[1]) for name, z in sets.items()}

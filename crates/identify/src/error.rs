@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use bolted_joint_frf::FrfError;
 use bolted_joint_frf::structure::{SingularAssembly, StructureError};
+use bolted_joint_frf::{Dof, FrfError};
 use bolted_joint_study::StudyError;
 
 use super::model::JointModel;
@@ -13,6 +13,29 @@ use super::model::JointModel;
 /// Why a joint cannot be identified.
 #[derive(Debug, Error)]
 pub enum IdentifyError {
+    /// An accelerometer cannot be taken out.
+    #[error(
+        "{}: found no function of {point} at {point}, expected it: `accelerometer_mass` = {mass_kg} kg is taken out of what was \
+         measured at {point} with it; measure it, or leave the mass to `budget.accelerometer_mass`",
+        path.display()
+    )]
+    NoDrivePoint {
+        /// The file.
+        path: PathBuf,
+        /// The response.
+        point: Dof,
+        /// The mass, kg.
+        mass_kg: f64,
+    },
+    /// A structure cannot be computed with the mass that is known to be at the joint.
+    #[error(
+        "with the mass at the joint a substructure has an undamped resonance at or above {frequency_hz} Hz, where it has no finite \
+         response; give it damping, or leave that line out with [frequency]"
+    )]
+    SingularWithMass {
+        /// A line, Hz.
+        frequency_hz: f64,
+    },
     /// The study cannot be used, or a file that it names cannot be read.
     #[error(transparent)]
     Study(#[from] StudyError),

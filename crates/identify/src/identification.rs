@@ -20,7 +20,6 @@ use super::reliability;
 use super::slips::{self, FoundSlip};
 use super::study::Study;
 use super::watch::Watch;
-use bolted_joint_systematic::Budget;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -137,7 +136,7 @@ pub fn identify_and_draw(
         noise: study.noise,
         bands: study.bands.clone(),
         start: study.start.clone(),
-        compare_models: true,
+        compare_models: study.compares_rivals,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
         has_budget: study.has_budget(),
@@ -225,7 +224,7 @@ pub fn identify_and_draw(
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }
     warnings.extend(study.rotations_not_corrected());
-    if systematic.is_none() && slips.is_empty() && study.budget != Budget::none() {
+    if systematic.is_none() && slips.is_empty() && study.has_causes() {
         warnings.push(Systematic::NOT_APPLIED.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;

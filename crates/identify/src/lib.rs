@@ -88,7 +88,10 @@ pub use outliers::{Outlier, Outliers};
 pub use receptances::{MeasuredSubstructure, Receptances};
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use slips::{FoundSlip, Slip};
-pub use study::{FrfFile, FurtherAssembly, MeasuredJoint, Rotation, Source, Study, Substructure};
+pub use study::{
+    Accelerometer, Deviations, FrfFile, FurtherAssembly, MassAtJoint, MeasuredJoint, Rotation,
+    SetUp, Source, Study, Substructure,
+};
 pub use torque::{DependenceFit, TorqueChoice, TorqueDependence};
 pub use two_step::{Amplitudes, TwoStep, update_in_two_steps};
 pub use uncertainty::{Covariance, unit_covariance};

@@ -25,14 +25,14 @@ pub(super) fn of(
             Source::Frf { file, .. } => file.path.clone(),
             Source::Modal(path) => path.clone(),
         }),
-        Substructure::Beam { .. } => None,
+        Substructure::Beam { .. } | Substructure::Ground { .. } => None,
     };
     let modes_of = |substructure: &Substructure| match substructure {
         Substructure::Measured {
             source: Source::Frf { modes, .. },
             ..
         } => modes.clone(),
-        Substructure::Measured { .. } | Substructure::Beam { .. } => None,
+        _ => None,
     };
     let mut named = vec![
         ("study", Some(study.path.clone())),

@@ -92,6 +92,8 @@ pub struct MeasuredSubstructure {
     frequency_hz: Vec<f64>,
     /// Floor of the noise of each of `functions`, in its unit.
     floors: OnceLock<Vec<f64>>,
+    /// The same as it was measured, where `functions` are those with a mass that is known.
+    before: Option<Arc<MeasuredSubstructure>>,
 }
 
 impl MeasuredSubstructure {
@@ -120,7 +122,34 @@ impl MeasuredSubstructure {
             rotations: Vec::new(),
             frequency_hz: Vec::new(),
             floors: OnceLock::new(),
+            before: None,
         }
+    }
+
+    /// With other functions, `change` of U at each line, such as those with a mass that is known. `None` where one has no value.
+    pub(super) fn changed(
+        self,
+        change: impl Fn(usize, ComplexMatrix) -> Option<ComplexMatrix>,
+    ) -> Option<Self> {
+        let lines = self.functions.first().map_or(0, |function| function.len());
+        let matrices: Option<Vec<ComplexMatrix>> = (0..lines)
+            .map(|line| change(line, self.receptance(line)))
+            .collect();
+        let matrices = matrices?;
+        let columns = 0..self.transformation.ncols();
+        let places = columns.flat_map(|column| (0..=column).map(move |row| (row, column)));
+        let of = |place| Arc::new(matrices.iter().map(|matrix| matrix[place]).collect());
+        Some(Self {
+            functions: places.map(of).collect(),
+            floors: OnceLock::new(),
+            before: Some(Arc::new(self.clone())),
+            ..self
+        })
+    }
+
+    /// As it was measured, without a mass that is known.
+    pub(super) fn as_measured(&self) -> &Self {
+        self.before.as_deref().unwrap_or(self)
     }
 
     /// With what rotations by differences lose at the joint's DOFs, rad/(N·m).
@@ -194,6 +223,10 @@ impl MeasuredSubstructure {
                 .collect(),
             relative_variance: known
                 .map(|known| known.iter().map(|known| chosen(known, lines)).collect()),
+            before: self
+                .before
+                .as_ref()
+                .map(|before| Arc::new(before.at_lines(lines))),
             frequency_hz: match axis.is_empty() {
                 true => lines.iter().map(|&line| line as f64).collect(),
                 false => chosen(axis, lines),

@@ -20,11 +20,13 @@ mod check;
 mod error;
 mod method;
 mod origin;
+mod stated;
 mod tables;
 mod text;
 
 pub use error::StudyError;
 pub use method::Method;
 pub use origin::{input_file, name_in, provenance};
+pub use stated::{Stated, StatedDeviation};
 pub use tables::{FrequencyTable, OneOrMore, UncertaintyTable, one_or_more_tables};
 pub use text::StudyText;

@@ -28,6 +28,8 @@ pub struct Budget {
     pub density: f64,
     /// Mass at the joint that only the assembly has, kg.
     pub joint_mass_kg: f64,
+    /// Moment of inertia at the joint that only the assembly has, kg·m².
+    pub joint_inertia_kg_m2: f64,
     /// Loss factor of the joint.
     pub loss_factor: f64,
     /// Bending stiffness behind the correction of rotations by differences, relative.
@@ -49,6 +51,7 @@ impl Default for Budget {
             youngs_modulus: 0.01,
             density: 0.005,
             joint_mass_kg: 0.010,
+            joint_inertia_kg_m2: 0.0,
             loss_factor: 0.02,
             difference_stiffness: 0.05,
         }
@@ -80,6 +83,7 @@ impl Budget {
             youngs_modulus: 0.0,
             density: 0.0,
             joint_mass_kg: 0.0,
+            joint_inertia_kg_m2: 0.0,
             loss_factor: 0.0,
             difference_stiffness: 0.0,
         }
@@ -88,14 +92,7 @@ impl Budget {
     /// The causes of an experiment that are not exact.
     #[must_use]
     pub fn priors(&self, experiment: &Experiment<'_>) -> Vec<Prior> {
-        causes(experiment)
-            .into_iter()
-            .map(|cause| Prior {
-                cause,
-                standard_deviation: self.standard_deviation(cause),
-            })
-            .filter(|prior| prior.standard_deviation > 0.0)
-            .collect()
+        priors(experiment, |cause| self.standard_deviation(cause))
     }
 
     /// Prior standard deviation of a cause, in its unit.
@@ -115,10 +112,24 @@ impl Budget {
             Cause::YoungsModulus(_) => self.youngs_modulus,
             Cause::Density(_) => self.density,
             Cause::JointMass(..) => self.joint_mass_kg,
+            Cause::JointInertia(..) => self.joint_inertia_kg_m2,
             Cause::LossFactor => self.loss_factor,
             Cause::DifferenceStiffness(_) => self.difference_stiffness,
         }
     }
+}
+
+/// The causes of an experiment that are not exact by these standard deviations.
+#[must_use]
+pub fn priors(experiment: &Experiment<'_>, deviation: impl Fn(Cause) -> f64) -> Vec<Prior> {
+    causes(experiment)
+        .into_iter()
+        .map(|cause| Prior {
+            cause,
+            standard_deviation: deviation(cause),
+        })
+        .filter(|prior| prior.standard_deviation > 0.0)
+        .collect()
 }
 
 /// Every cause that can act on an experiment.
@@ -149,7 +160,10 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
             }
             Structure::Exact(_) => {}
         }
-        causes.extend(bolts.map(|bolt| Cause::JointMass(side, bolt)));
+        causes.extend(bolts.clone().map(|bolt| Cause::JointMass(side, bolt)));
+        if experiment.joint.has_rotation() {
+            causes.extend(bolts.map(|bolt| Cause::JointInertia(side, bolt)));
+        }
     }
     for (set, functions) in measured {
         causes.extend([Cause::Gain(set), Cause::Delay(set), Cause::Phase(set)]);

@@ -67,6 +67,8 @@ pub enum Cause {
     Density(Side),
     /// Mass at a bolt of a structure that only the assembly has, kg.
     JointMass(Side, usize),
+    /// Moment of inertia at a bolt of a structure that only the assembly has, kg·m².
+    JointInertia(Side, usize),
     /// Loss factor of the joint beside its damping.
     LossFactor,
     /// Bending stiffness that the correction of a rotation by differences is made with; relative.
@@ -162,7 +164,7 @@ impl Cause {
             Self::YoungsModulus(_) | Self::Density(_) | Self::DifferenceStiffness(_) => {
                 Group::Material
             }
-            Self::JointMass(..) => Group::JointMass,
+            Self::JointMass(..) | Self::JointInertia(..) => Group::JointMass,
             Self::LossFactor => Group::LossFactor,
         }
     }
@@ -180,6 +182,7 @@ impl Cause {
             Self::Delay(_) => (1e6 * value, "µs"),
             Self::Phase(_) => (value.to_degrees(), "°"),
             Self::Accelerometer(_) | Self::JointMass(..) => (1e3 * value, "g"),
+            Self::JointInertia(..) => (1e6 * value, "kg·mm²"),
             Self::Position(_) | Self::JointPosition(..) | Self::JointBending(..) => {
                 (1e3 * value, "mm")
             }

@@ -20,7 +20,7 @@ pub(crate) struct JointValues<'v> {
     pub(crate) unknowns: &'v [f64],
     /// η
     pub(crate) loss_factor: f64,
-    /// Mass at DOFs of A (below n) and B, kg.
+    /// Mass at DOFs of A (below n) and B, kg, or moment of inertia, kg·m².
     pub(crate) masses: &'v [(usize, f64)],
 }
 

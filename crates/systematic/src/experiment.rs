@@ -24,6 +24,8 @@ pub struct Experiment<'a> {
     pub b: Structure<'a>,
     /// The assembly at the points.
     pub assembly: MeasuredFunctions,
+    /// Masses that only the assembly has, as far as they are known: at DOFs of the joint on A and then on B, kg or kg·m².
+    pub known_masses: Vec<(usize, f64)>,
     /// Smooth fits of A and B where they are measured, made when they are first asked for.
     fits: OnceLock<[Option<ModalFit>; 2]>,
 }
@@ -151,6 +153,7 @@ impl<'a> Experiment<'a> {
             a,
             b,
             assembly,
+            known_masses: Vec::new(),
             fits: OnceLock::new(),
         }
     }

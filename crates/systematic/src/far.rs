@@ -74,7 +74,9 @@ fn beginnings(cause: Cause) -> &'static [f64] {
         | Cause::Phase(_)
         | Cause::LossFactor
         | Cause::JointBending(..) => &[0.0],
-        Cause::Accelerometer(_) | Cause::JointMass(..) => &[0.0, 7.0, 17.0],
+        Cause::Accelerometer(_) | Cause::JointMass(..) | Cause::JointInertia(..) => {
+            &[0.0, 7.0, 17.0]
+        }
         Cause::Delay(_)
         | Cause::Position(_)
         | Cause::JointPosition(..)

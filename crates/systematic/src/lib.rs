@@ -27,7 +27,7 @@ mod starts;
 mod structures;
 mod suspect;
 
-pub use budget::{Budget, Prior};
+pub use budget::{Budget, Prior, priors};
 pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
 pub use estimate::{

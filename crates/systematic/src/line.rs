@@ -123,11 +123,14 @@ impl<'t> Task<'t> {
     ) -> Option<(ComplexMatrix, ComplexMatrix, Coupled)> {
         let experiment = self.experiment;
         let omega = experiment.omega[line];
-        let mut masses = Vec::new();
+        let mut masses = experiment.known_masses.clone();
         let mut loss_factor = 0.0;
         for (prior, &value) in self.priors.iter().zip(&point.causes) {
             match prior.cause {
                 Cause::JointMass(side, bolt) => masses.push((self.mass_dof(side, bolt), value)),
+                Cause::JointInertia(side, bolt) => {
+                    masses.push((self.mass_dof(side, bolt) + 1, value));
+                }
                 Cause::LossFactor => loss_factor = value,
                 _ => {}
             }
@@ -223,6 +226,9 @@ impl<'t> Task<'t> {
                 Cause::LossFactor => add(&smooth_coupled.by_loss_factor()),
                 Cause::JointMass(side, bolt) => {
                     add(&smooth_coupled.by_mass(self.mass_dof(side, bolt), omega))
+                }
+                Cause::JointInertia(side, bolt) => {
+                    add(&smooth_coupled.by_mass(self.mass_dof(side, bolt) + 1, omega))
                 }
                 _ => {}
             }

@@ -169,6 +169,8 @@ impl<'c> Case<'c> {
         let candidates: Vec<Prior> = causes(self.experiment)
             .into_iter()
             .map(|cause| self.careful_prior(cause))
+            // what a careful laboratory knows exactly is no suspect
+            .filter(|prior| prior.standard_deviation > 0.0)
             .collect();
         score_tests(self.experiment, self.plain, &candidates)
     }
@@ -207,6 +209,7 @@ impl<'c> Case<'c> {
             .into_iter()
             .filter(|cause| !cause.is_hidden())
             .map(|cause| self.careful_prior(cause))
+            .filter(|prior| prior.standard_deviation > 0.0)
             .collect();
         let places = from_far(self.experiment, &candidates, WIDE, self.settings);
         let trial = |(careful, start): (Prior, Start)| {

@@ -1,6 +1,7 @@
 //! Studies that are wrong: each fault is named by file and key or line, with what was found and expected.
 
 mod bolts;
+mod stated;
 mod values;
 
 use crate::bench::{Bench, IDENTIFY, PNG};

@@ -5,6 +5,7 @@ use std::path::Path;
 use num_complex::Complex64;
 
 use super::super::error::IdentifyError;
+use super::super::study::FrfFile;
 use super::reader::in_file;
 use bolted_joint_frf::structure::{ComplexMatrix, ModalModel};
 use bolted_joint_frf::{Dof, FrfSet};
@@ -32,13 +33,14 @@ pub(super) enum Completeness<'m> {
     WithModes(&'m ModalModel),
 }
 
-/// Functions of a set between all `labels`; `path` is its file.
+/// Functions of a set between all `labels`, which is in `file`, without the accelerometer that moved with the response.
 pub(super) fn labelled_functions(
     set: &FrfSet,
     labels: &[Dof],
     completeness: Completeness<'_>,
-    path: &Path,
+    file: &FrfFile,
 ) -> Result<Labelled, IdentifyError> {
+    let path = file.path.as_path();
     let mut measured = Vec::new();
     let mut from_modes = Vec::new();
     let mut functions = Vec::with_capacity(labels.len() * labels.len());
@@ -81,15 +83,77 @@ pub(super) fn labelled_functions(
     let fatal = missing.into_iter().find(|&(row, column, _)| {
         matches!(completeness, Completeness::All) || !is_used(row) || !is_used(column)
     });
-    match fatal {
-        Some((_, _, error)) => Err(in_file(path, error)),
-        None => Ok(Labelled {
-            labels: labels.len(),
-            functions,
-            relative_variance: relative_variances(set, labels, &measured),
-            measured,
-            from_modes,
-        }),
+    if let Some((_, _, error)) = fatal {
+        return Err(in_file(path, error));
+    }
+    let known = file
+        .accelerometer
+        .map(|accelerometer| accelerometer.mass_kg);
+    if let Some(mass_kg) = known.filter(|&mass_kg| mass_kg > 0.0) {
+        let all = Unloaded {
+            set,
+            labels,
+            measured: &measured,
+            path,
+        };
+        functions = all.without(mass_kg, &functions)?;
+    }
+    Ok(Labelled {
+        labels: labels.len(),
+        functions,
+        relative_variance: relative_variances(set, labels, &measured),
+        measured,
+        from_modes,
+    })
+}
+
+/// Functions that were measured with an accelerometer which moved from response to response.
+struct Unloaded<'s> {
+    set: &'s FrfSet,
+    labels: &'s [Dof],
+    measured: &'s [(usize, usize)],
+    path: &'s Path,
+}
+
+impl Unloaded<'_> {
+    /// h_ij = z_ij/(1 + ω² m z_ii), z being what was measured with a mass m at the response i; every function column by column.
+    fn without(
+        &self,
+        mass_kg: f64,
+        functions: &[Vec<Complex64>],
+    ) -> Result<Vec<Vec<Complex64>>, IdentifyError> {
+        let count = self.labels.len();
+        let places = (0..count).flat_map(|column| (0..count).map(move |row| (row, column)));
+        let of = |((row, column), function): ((usize, usize), &Vec<Complex64>)| {
+            // a function that follows from its transpose was measured at the other one
+            let response = match (
+                self.measured.contains(&(row, column)),
+                self.measured.contains(&(column, row)),
+            ) {
+                (true, _) => row,
+                (false, true) => column,
+                (false, false) => return Ok(function.clone()),
+            };
+            if self.labels[response].direction().is_rotation() {
+                return Ok(function.clone());
+            }
+            if !self.measured.contains(&(response, response)) {
+                return Err(IdentifyError::NoDrivePoint {
+                    path: self.path.to_owned(),
+                    point: self.labels[response],
+                    mass_kg,
+                });
+            }
+            let drive_point = &functions[response * count + response];
+            let lines = function.iter().zip(drive_point);
+            let lines = lines.zip(self.set.frequency_hz());
+            let free = lines.map(|((value, drive_point), hz)| {
+                let omega = std::f64::consts::TAU * hz;
+                value / (1.0 + omega * omega * mass_kg * drive_point)
+            });
+            Ok(free.collect())
+        };
+        places.zip(functions).map(of).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a study to lines: reads the files, computes the beams, forms rotations, and puts all on one frequency axis.
 
 mod axis;
+mod known_mass;
 mod labelled;
 mod prediction;
 mod reader;
@@ -20,6 +21,7 @@ use super::study::{Study, Substructure};
 use super::watch::Watch;
 use axis::Axis;
 use bolted_joint_frf::FileSummary;
+pub(super) use known_mass::masses_at;
 use labelled::{Completeness, labelled_functions};
 use reader::{Reader, in_file};
 use repeats::repeated;
@@ -114,7 +116,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         frequency_hz: assembly.frequency_hz(),
     };
     let points = &study.points;
-    let labelled = labelled_functions(&assembly, points, Completeness::Any, path)?;
+    let labelled = labelled_functions(&assembly, points, Completeness::Any, &study.assembly)?;
     let unsound = soundness::warnings(&labelled, points, path);
     reader.warnings.extend(unsound);
     let mean = repeated(study, labelled, &axis, reader)?;

@@ -51,7 +51,7 @@ pub(super) fn repeated(
             &set,
             &study.points,
             Completeness::Any,
-            &file.path,
+            file,
         )?);
     }
     let count = all.len() as f64;

@@ -12,6 +12,7 @@ use super::super::lines::{Lines, independent};
 use super::super::receptances::{MeasuredSubstructure, Receptances, with_lost};
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
+use super::known_mass::{masses_at, with_masses};
 use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
 use super::reader::{Reader, in_file};
 use super::soundness;
@@ -52,16 +53,23 @@ fn joint_and_points(
 ) -> Result<Receptances, IdentifyError> {
     let dofs_of_a_bolt = study.dofs_of_a_bolt();
     let substructure = if key == "a" { &study.a } else { &study.b };
+    let masses = masses_at(substructure.masses(), dofs_of_a_bolt);
     match substructure {
         Substructure::Beam {
             beam,
             joints_m,
             positions_m,
+            ..
         } => {
             let dofs = beam_dofs(dofs_of_a_bolt, joints_m, points, positions_m);
             let receptances = beam_receptances(beam, &dofs, axis.frequency_hz);
             let refused = |source| StudyError::model(&study.path, Some(key), source);
-            Ok(Receptances::Exact(receptances.map_err(refused)?))
+            massed_exact(receptances.map_err(refused)?, &masses, axis)
+        }
+        Substructure::Ground { bolts } => {
+            let size = bolts * dofs_of_a_bolt;
+            let still = ComplexMatrix::zeros(size, size);
+            Ok(Receptances::Exact(vec![still; axis.frequency_hz.len()]))
         }
         Substructure::Measured { source, joints, .. } => {
             let lost = substructure
@@ -81,7 +89,7 @@ fn joint_and_points(
                         lost.as_ref(),
                     )
                 });
-                return Ok(Receptances::Exact(formed.collect()));
+                return massed_exact(formed.collect(), &masses, axis);
             }
             let (measured, variance) = (
                 labelled.measured.clone(),
@@ -93,9 +101,54 @@ fn joint_and_points(
             let rotations = motions.labels.iter();
             let rotations = rotations.map(|label| label.direction().is_rotation());
             let measured = measured.with_axis(axis.frequency_hz, rotations.collect());
+            let measured = massed(measured, &masses, axis)?;
             Ok(Receptances::Measured(Arc::new(measured)))
         }
     }
+}
+
+/// Receptances at the joint's DOFs and the points with these masses at DOFs of the joint.
+fn massed_exact(
+    matrices: Vec<ComplexMatrix>,
+    masses: &[(usize, f64)],
+    axis: &Axis<'_>,
+) -> Result<Receptances, IdentifyError> {
+    if masses.is_empty() {
+        return Ok(Receptances::Exact(matrices));
+    }
+    let with = matrices.into_iter().zip(axis.frequency_hz);
+    let with = with.map(|(matrix, &frequency_hz)| {
+        let motions = ComplexMatrix::identity(matrix.nrows(), matrix.nrows());
+        let (motions, kg) = moved_with(&motions, masses);
+        with_masses(matrix, &motions, &kg, frequency_hz)
+            .ok_or(IdentifyError::SingularWithMass { frequency_hz })
+    });
+    Ok(Receptances::Exact(with.collect::<Result<_, _>>()?))
+}
+
+/// Measured functions with these masses at DOFs of the joint. Their noise is taken as if they had been measured so.
+fn massed(
+    measured: MeasuredSubstructure,
+    masses: &[(usize, f64)],
+    axis: &Axis<'_>,
+) -> Result<MeasuredSubstructure, IdentifyError> {
+    if masses.is_empty() {
+        return Ok(measured);
+    }
+    let whole = measured.transformation().map(Complex64::from);
+    let (motions, kg) = moved_with(&whole, masses);
+    let with = |line: usize, u| with_masses(u, &motions, &kg, axis.frequency_hz[line]);
+    let failed = IdentifyError::SingularWithMass {
+        frequency_hz: axis.first_hz(),
+    };
+    measured.changed(with).ok_or(failed)
+}
+
+/// The rows of the motions that masses take part in, and the masses.
+fn moved_with(whole: &ComplexMatrix, masses: &[(usize, f64)]) -> (ComplexMatrix, Vec<f64>) {
+    let rows: Vec<usize> = masses.iter().map(|&(dof, _)| dof).collect();
+    let kg = masses.iter().map(|&(_, kg)| kg);
+    (whole.select_rows(&rows), kg.collect())
 }
 
 /// Labels of a measured substructure's functions, in their order; none of one that is computed.
@@ -108,7 +161,7 @@ pub(in super::super) fn measured_labels(
         Substructure::Measured { joints, .. } => {
             Motions::new(joints, dofs_of_a_bolt, points).labels
         }
-        Substructure::Beam { .. } => Vec::new(),
+        Substructure::Beam { .. } | Substructure::Ground { .. } => Vec::new(),
     }
 }
 
@@ -124,6 +177,7 @@ pub(in super::super) fn beam_at(
         beam,
         joints_m,
         positions_m,
+        ..
     } = substructure
     else {
         return None;
@@ -267,7 +321,7 @@ fn labelled_receptances(
             let completeness = modal
                 .as_ref()
                 .map_or(Completeness::All, Completeness::WithModes);
-            let mut labelled = labelled_functions(&set, labels, completeness, &file.path)?;
+            let mut labelled = labelled_functions(&set, labels, completeness, file)?;
             let unsound = soundness::warnings(&labelled, labels, &file.path);
             reader.warnings.extend(unsound);
             let is_symmetric = |p, q| labelled.function(p, q) == labelled.function(q, p);

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::Section;
 
-use super::super::assemble::{beam_at, measured_labels};
+use super::super::assemble::{beam_at, masses_at, measured_labels};
 use super::super::group;
 use super::super::layout::Layout;
 use super::super::lines::Lines;
@@ -43,13 +43,27 @@ pub(super) fn of<'a>(
         structure(study, Side::A, lines, levels, &joint)?,
         structure(study, Side::B, lines, levels, &joint)?,
     ];
+    let of_a = known_masses(study, Side::A, lines).into_iter();
+    let of_b = known_masses(study, Side::B, lines).into_iter();
+    let of_b = of_b.map(|(dof, mass)| (dofs + dof, mass));
+    let known_masses = of_a.chain(of_b).collect();
     let assembly = assembly(study, lines, levels.assembly);
-    Some(Experiment::new(
-        omega.collect(),
-        joint,
-        structures,
-        assembly,
-    ))
+    let mut experiment = Experiment::new(omega.collect(), joint, structures, assembly);
+    experiment.known_masses = known_masses;
+    Some(experiment)
+}
+
+/// The known masses at the joint's DOFs of a structure whose receptances here are without them.
+fn known_masses(study: &Study, side: Side, lines: &Lines) -> Vec<(usize, f64)> {
+    let (substructure, receptances) = match side {
+        Side::A => (&study.a, &lines.a),
+        Side::B => (&study.b, &lines.b),
+    };
+    let is_computed_anew = matches!(substructure, Substructure::Beam { .. });
+    match receptances {
+        Receptances::Exact(_) if !is_computed_anew => Vec::new(),
+        _ => masses_at(substructure.masses(), study.dofs_of_a_bolt()),
+    }
 }
 
 /// The measured functions of the assembly, each on its own: reciprocity speaks for the channels' gains.
@@ -152,10 +166,14 @@ fn structure<'a>(
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
         (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured::new(
-            functions(measured, &labels(study, side, lines), &|rotations, own| {
-                let of = Of::Substructure(of);
-                (levels.of(of), study.noise.floor(of, rotations, || own))
-            })?,
+            functions(
+                measured.as_measured(),
+                &labels(study, side, lines),
+                &|rotations, own| {
+                    let of = Of::Substructure(of);
+                    (levels.of(of), study.noise.floor(of, rotations, || own))
+                },
+            )?,
             measured.transformation().clone(),
             substructure.rotation_lost(study.dofs_of_a_bolt()),
             substructure.section().map(Section::bending_stiffness_n_m2),

@@ -6,7 +6,7 @@ use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, CONTRADICTED, Cause, CauseEstimate, Diagnosis, Estimate, Experiment,
     FAR, Group, MeasuredSet, Prior, Score, Settings, Shares, Side, Start, Suspect, consistency,
-    diagnose, estimate, evaluated, refine,
+    diagnose, estimate, evaluated, priors, refine,
 };
 use nalgebra::DMatrix;
 
@@ -78,7 +78,7 @@ impl Systematic {
     /// there are several assemblies, or where no estimate is found.
     pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
         let [lines] = all else { return None };
-        if study.budget == Budget::none() {
+        if !study.has_causes() {
             return None;
         }
         let start = estimate.covariance().values.clone();
@@ -134,13 +134,13 @@ impl Systematic {
     /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
     pub(super) fn start(study: &Study, all: &[Lines]) -> Option<JointMatrices> {
         let [lines] = all else { return None };
-        if study.budget == Budget::none() || !study.noise.is_stated() {
+        if !study.has_budget() || !study.noise.is_stated() {
             return None;
         }
         let layout = study.layout();
         let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
         let experiment = experiment::of(study, &few, &layout, first_levels(&study.noise))?;
-        let priors = study.budget.priors(&experiment);
+        let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
         let settings = Settings::default();
         let found = estimate(
             &experiment,
@@ -162,7 +162,7 @@ impl Systematic {
         let experiment = experiment::of(study, &few, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
-        let priors = study.budget.priors(&experiment);
+        let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
         let (plain, mut found, diagnosis) = find(&experiment, &priors, &start, &settings)?;
         let Diagnosis {
             suspects, scores, ..
@@ -451,6 +451,9 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::YoungsModulus(side) => format!("Young's modulus of {side}"),
         Cause::Density(side) => format!("density of {side}"),
         Cause::JointMass(side, of) => format!("mass at the joint on {side}{}", bolt(of)),
+        Cause::JointInertia(side, of) => {
+            format!("moment of inertia at the joint on {side}{}", bolt(of))
+        }
         Cause::LossFactor => "loss factor of the joint".to_owned(),
         Cause::DifferenceStiffness(side) => {
             format!("bending stiffness of {side} behind its rotation")

@@ -29,6 +29,7 @@ pub(super) struct BudgetTable {
     youngs_modulus: Option<Deviation>,
     density: Option<Deviation>,
     joint_mass: Option<Deviation>,
+    joint_inertia: Option<Deviation>,
     loss_factor: Option<Deviation>,
     fd_stiffness: Option<Deviation>,
 }
@@ -135,6 +136,12 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
             " in kg",
             table.joint_mass,
             careful.joint_mass_kg,
+        )?,
+        joint_inertia_kg_m2: of(
+            "joint_inertia",
+            " in kg·m²",
+            table.joint_inertia,
+            careful.joint_inertia_kg_m2,
         )?,
         loss_factor: of("loss_factor", "", table.loss_factor, careful.loss_factor)?,
         difference_stiffness: of(

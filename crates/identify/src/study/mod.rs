@@ -2,6 +2,8 @@
 
 mod budget;
 mod check;
+mod deviations;
+mod set_up;
 mod tables;
 
 use std::collections::BTreeMap;
@@ -23,6 +25,7 @@ use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::Noise;
 use super::torque::TorqueDependence;
+pub use set_up::{Accelerometer, Deviations, MassAtJoint, SetUp};
 use tables::StudyFile;
 
 /// A validated study of method `frf-decoupling`.
@@ -60,8 +63,10 @@ pub struct Study {
     pub bands: BandChoices,
     /// Noise of the measured receptances, as far as the study states it.
     pub noise: Noise,
-    /// How well the set-up of the test is known.
+    /// How well the set-up of the test is known, but for what the substructures state of themselves.
     pub budget: Budget,
+    /// Whether the joint model is compared with the others, and a common joint with one for each torque.
+    pub compares_rivals: bool,
     /// A presumed joint, one of the starts of the search at every bolt.
     pub start: Option<JointMatrices>,
     /// Bodies of a lap model, which go into the joint file.
@@ -102,6 +107,8 @@ pub enum Substructure {
         section: Option<Section>,
         /// Positions of labelled points along the structure, m, where the study states them.
         positions_m: BTreeMap<Dof, f64>,
+        /// Masses that are known, and how well single values are.
+        set_up: SetUp,
     },
     /// A computed beam.
     Beam {
@@ -111,6 +118,13 @@ pub enum Substructure {
         joints_m: Vec<f64>,
         /// Distance of labelled points from the beam's first end, m.
         positions_m: BTreeMap<Dof, f64>,
+        /// Masses that are known, and how well single values are.
+        set_up: SetUp,
+    },
+    /// What does not move.
+    Ground {
+        /// Bolts that hold the other structure to it.
+        bolts: usize,
     },
 }
 
@@ -128,7 +142,7 @@ impl Substructure {
     pub(super) fn section(&self) -> Option<&Section> {
         match self {
             Self::Measured { section, .. } => section.as_ref(),
-            Self::Beam { .. } => None,
+            Self::Beam { .. } | Self::Ground { .. } => None,
         }
     }
 
@@ -200,6 +214,8 @@ pub struct FrfFile {
     pub units: Option<UnitSystem>,
     /// Averages behind every function, which its coherence needs to become a variance.
     pub averages: Option<f64>,
+    /// The accelerometer that its functions are to be freed of.
+    pub accelerometer: Option<Accelerometer>,
 }
 
 /// Where rotational receptances come from.
@@ -226,7 +242,7 @@ impl Substructure {
                 }
                 Source::Modal(_) => None,
             },
-            Self::Beam { .. } => None,
+            Self::Beam { .. } | Self::Ground { .. } => None,
         };
         key(self).is_some() && key(self) == key(other)
     }
@@ -235,7 +251,7 @@ impl Substructure {
     fn has_rotation(&self) -> bool {
         match self {
             Self::Measured { joints, .. } => joints.iter().all(|joint| joint.theta.is_some()),
-            Self::Beam { .. } => true,
+            Self::Beam { .. } | Self::Ground { .. } => true,
         }
     }
 }
@@ -243,7 +259,7 @@ impl Substructure {
 impl Study {
     /// Whether errors of the set-up take part: they do with one assembly.
     pub(super) fn has_budget(&self) -> bool {
-        self.budget != Budget::none() && self.further.is_empty()
+        self.has_causes() && self.further.is_empty()
     }
 
     /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
@@ -268,7 +284,7 @@ impl Study {
 
     /// What rotations by differences lose, where nothing corrects them and the study does not say that its set-up is exact.
     pub(super) fn rotations_not_corrected(&self) -> Vec<String> {
-        if self.budget == Budget::none() || self.model.dofs() < 2 {
+        if !self.has_causes() || self.model.dofs() < 2 {
             return Vec::new();
         }
         let of = |(key, substructure): (&str, &Substructure)| {
@@ -330,6 +346,9 @@ impl Study {
     /// Why the joint models cannot be compared, if they cannot.
     #[must_use]
     pub fn models_not_compared(&self) -> Option<String> {
+        if !self.compares_rivals {
+            return Some("the study or the command line says so".to_owned());
+        }
         let keys: Vec<String> = self
             .without_rotation()
             .iter()
@@ -382,7 +401,11 @@ impl Study {
         let file: StudyFile = study.tables()?;
         study.check_method(file.method, &[Method::FrfDecoupling])?;
         let model = file.joint.model;
-        let bolts = check::bolts(study, &file.a.joint, file.joint.bolts)?;
+        let (key, places) = match file.a.ground {
+            true => ("b.joint", &file.b.joint),
+            false => ("a.joint", &file.a.joint),
+        };
+        let bolts = check::bolts(study, (key, places), file.joint.bolts)?;
         let a = check::substructure(study, "a", file.a, model, &bolts)?;
         let b = check::substructure(study, "b", file.b, model, &bolts)?;
         study.check_name("name", &file.name)?;
@@ -399,8 +422,13 @@ impl Study {
                 None => Ok(otherwise.clone()),
             };
             let measured_in = |path: PathBuf| {
-                let (units, averages) = (table.units.as_ref(), table.averages);
-                check::frf_file(study, "assembly", &path, table.quantity, units, averages)
+                let stated = check::MeasuredAs {
+                    quantity: table.quantity,
+                    units: table.units.as_ref(),
+                    averages: table.averages,
+                    accelerometer_mass: table.accelerometer_mass.as_ref(),
+                };
+                check::frf_file(study, "assembly", &path, &stated)
             };
             let assembly = FurtherAssembly {
                 file: measured_in(table.frf)?,
@@ -453,6 +481,7 @@ impl Study {
             bands: file.bands.0,
             noise,
             budget,
+            compares_rivals: file.joint.rivals.unwrap_or(true),
             start,
             bodies: file.bodies,
             notes: file.notes,

@@ -8,10 +8,10 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use bolted_joint_frf::structure::{Boundary, Difference, Section};
+use bolted_joint_frf::structure::{Boundary, Difference};
 use bolted_joint_frf::{Dof, Quantity};
 use bolted_joint_joint::Bodies;
-use bolted_joint_study::{FrequencyTable, Method, OneOrMore, one_or_more_tables};
+use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Stated, one_or_more_tables};
 
 use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
@@ -49,13 +49,26 @@ pub(super) struct SubstructureTable {
     pub(super) quantity: Option<Quantity>,
     pub(super) units: Option<UnitsTable>,
     pub(super) averages: Option<f64>,
+    pub(super) accelerometer_mass: Option<Stated>,
     pub(super) modal: Option<PathBuf>,
     pub(super) beam: Option<BeamTable>,
-    pub(super) section: Option<Section>,
-    #[serde(deserialize_with = "places")]
+    #[serde(default)]
+    pub(super) ground: bool,
+    pub(super) section: Option<SectionTable>,
+    #[serde(default, deserialize_with = "places")]
     pub(super) joint: Vec<JointPlaceTable>,
     #[serde(default)]
-    pub(super) points: BTreeMap<Dof, f64>,
+    pub(super) points: BTreeMap<Dof, Stated>,
+}
+
+/// A rectangular cross-section that bends about its width.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SectionTable {
+    pub(super) width: Stated,
+    pub(super) height: Stated,
+    pub(super) youngs_modulus: Stated,
+    pub(super) poissons_ratio: Option<Stated>,
 }
 
 /// Units of a file of functions, by name.
@@ -69,17 +82,17 @@ pub(super) struct UnitsTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BeamTable {
-    pub(super) length: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) youngs_modulus: f64,
-    pub(super) density: f64,
+    pub(super) length: Stated,
+    pub(super) width: Stated,
+    pub(super) height: Stated,
+    pub(super) youngs_modulus: Stated,
+    pub(super) density: Stated,
     #[serde(default)]
     pub(super) theory: TheoryName,
-    pub(super) poissons_ratio: Option<f64>,
+    pub(super) poissons_ratio: Option<Stated>,
     pub(super) boundary: Boundary,
     pub(super) damping_ratio: Option<OneOrMore>,
-    pub(super) loss_factor: Option<f64>,
+    pub(super) loss_factor: Option<Stated>,
 }
 
 /// Which theory a computed beam follows.
@@ -103,7 +116,9 @@ pub(super) struct JointPlaceTable {
     pub(super) name: Option<String>,
     pub(super) y: Option<Dof>,
     pub(super) theta: Option<ThetaTable>,
-    pub(super) x: Option<f64>,
+    pub(super) x: Option<Stated>,
+    pub(super) mass: Option<Stated>,
+    pub(super) inertia: Option<Stated>,
 }
 
 pub(super) enum ThetaTable {
@@ -141,7 +156,7 @@ impl<'de> Deserialize<'de> for ThetaTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct DifferenceTable {
     pub(super) points: Vec<Dof>,
-    pub(super) spacing: f64,
+    pub(super) spacing: Stated,
     #[serde(default)]
     pub(super) difference: Difference,
 }
@@ -157,6 +172,7 @@ pub(super) struct AssemblyTable {
     pub(super) quantity: Option<Quantity>,
     pub(super) units: Option<UnitsTable>,
     pub(super) averages: Option<f64>,
+    pub(super) accelerometer_mass: Option<Stated>,
     pub(super) points: Vec<Dof>,
     #[serde(default)]
     pub(super) repeats: Vec<PathBuf>,
@@ -173,6 +189,7 @@ pub(super) struct JointTable {
     #[serde(default)]
     pub(super) torques: TorqueDependence,
     pub(super) bolts: Option<BoltsKey>,
+    pub(super) rivals: Option<bool>,
 }
 
 /// Level at which an assembly was measured.

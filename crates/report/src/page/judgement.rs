@@ -186,15 +186,15 @@ impl Compared<'_> {
 pub(super) const COMPARED: [&str; 5] = ["Unknowns", "BIC", "χ²/ν", "Leaves", ""];
 
 fn choice(report: &IdentificationReport<'_>) -> String {
-    let Some(choice) = report.found.estimate.model_choice() else {
-        return String::new();
-    };
     if let Some(reason) = report.study.models_not_compared() {
         return format!(
             "<h3>Choice of the joint model</h3>\n<p>The joint models are not compared: {}.</p>\n",
             escaped(&reason)
         );
     }
+    let Some(choice) = report.found.estimate.model_choice() else {
+        return String::new();
+    };
     let used = report.found.model;
     let rows: Vec<String> = choice
         .models

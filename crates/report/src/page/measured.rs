@@ -114,6 +114,7 @@ fn at_bolts(places: Vec<String>, bolts: &Bolts) -> String {
 
 fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
     match substructure {
+        Substructure::Ground { .. } => "ground: it does not move".to_owned(),
         Substructure::Measured { source, joints, .. } => {
             let origin = match source {
                 Source::Frf { file, modes } => {
@@ -144,6 +145,7 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
             beam,
             joints_m,
             positions_m,
+            ..
         } => {
             let points: Vec<String> = positions_m
                 .iter()
@@ -343,6 +345,7 @@ fn assumptions(report: &IdentificationReport<'_>) -> String {
     ];
     for (name, substructure) in [("A", &study.a), ("B", &study.b)] {
         match substructure {
+            Substructure::Ground { .. } => list.push(format!("{name} is the ground: it does not move at the joint.")),
             Substructure::Beam { .. } if report.found.systematic.is_some() => list.push(format!(
                 "Substructure {name} is computed: errors of its material and positions are in the intervals, within the error \
                  budget; those of beam theory are not."

@@ -4,18 +4,30 @@ use std::path::Path;
 
 use super::super::FrfFile;
 use super::super::Substructure;
+use super::super::set_up::Accelerometer;
 use super::super::tables::UnitsTable;
+use super::stated::not_negative;
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{Stated, StudyError, StudyText};
+
+/// What a study says of a file of functions.
+#[derive(Clone, Copy)]
+pub(crate) struct MeasuredAs<'t> {
+    pub(crate) quantity: Option<Quantity>,
+    pub(crate) units: Option<&'t UnitsTable>,
+    pub(crate) averages: Option<f64>,
+    pub(crate) accelerometer_mass: Option<&'t Stated>,
+}
+
+/// More than that is no accelerometer, and a slip of the unit.
+const MOST_ACCELEROMETER_KG: f64 = 1.0;
 
 /// A file of functions with what `[key]` states beside it.
 pub(crate) fn frf_file(
     study: &StudyText,
     key: &str,
     path: &Path,
-    quantity: Option<Quantity>,
-    units: Option<&UnitsTable>,
-    averages: Option<f64>,
+    stated: &MeasuredAs<'_>,
 ) -> Result<FrfFile, StudyError> {
     let named = |UnitsTable { length, force }: &UnitsTable| {
         let found = format!("length = {length:?}, force = {force:?}");
@@ -23,16 +35,25 @@ pub(crate) fn frf_file(
         let units = UnitSystem::named(length, force);
         units.ok_or_else(|| study.refusal(format_args!("{key}.units"), found, expected))
     };
-    let units = units.map(named).transpose()?;
-    if let Some(found) = averages {
+    let units = stated.units.map(named).transpose()?;
+    if let Some(found) = stated.averages {
         let key = format!("{key}.averages");
         study.within(key, found, 1.0..=f64::MAX, "a number of at least 1")?;
     }
+    let accelerometer = |mass: &Stated| {
+        let key = format!("{key}.accelerometer_mass");
+        not_negative(study, &key, mass, "kg", MOST_ACCELEROMETER_KG)?;
+        Ok::<_, StudyError>(Accelerometer {
+            mass_kg: mass.value,
+            standard_deviation_kg: mass.standard_deviation(),
+        })
+    };
     Ok(FrfFile {
         path: study.resolved(path),
-        quantity,
+        quantity: stated.quantity,
         units,
-        averages,
+        averages: stated.averages,
+        accelerometer: stated.accelerometer_mass.map(accelerometer).transpose()?,
     })
 }
 
@@ -65,6 +86,7 @@ pub(crate) fn positions(
 ) -> Result<(), StudyError> {
     let (positions_m, origin) = match b {
         Substructure::Beam { positions_m, .. } => (positions_m, "the beam's first end"),
+        Substructure::Ground { .. } => return Ok(()),
         Substructure::Measured { positions_m, .. } if positions_m.is_empty() => return Ok(()),
         Substructure::Measured { positions_m, .. } => {
             (positions_m, "any point along the structure")

@@ -11,13 +11,13 @@ fn is_part_of_a_file_name(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '-' || character == '_'
 }
 
-/// The bolts that the places on A name.
+/// The bolts that the places on A name, or on B where A is the ground.
 pub(crate) fn bolts(
     study: &StudyText,
-    places: &[JointPlaceTable],
+    (place, places): (&str, &[JointPlaceTable]),
     key: Option<BoltsKey>,
 ) -> Result<Bolts, StudyError> {
-    let names = names(study, "a.joint", places)?;
+    let names = names(study, place, places)?;
     match (names.is_empty(), key) {
         (true, None) => Ok(Bolts::One),
         (true, Some(_)) => study.refuse(

@@ -5,10 +5,11 @@ mod bolts;
 mod rotation;
 mod settings;
 mod start;
+mod stated;
 mod substructure;
 mod torque;
 
-pub(super) use assembly::{frf_file, points, positions, torque};
+pub(super) use assembly::{MeasuredAs, frf_file, points, positions, torque};
 pub(super) use bolts::bolts;
 pub(super) use settings::{bands, bodies, noise};
 pub(super) use start::start;

@@ -3,6 +3,7 @@
 use super::super::super::model::JointModel;
 use super::super::Rotation;
 use super::super::tables::{DifferenceTable, ThetaTable};
+use super::stated::without_deviation;
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Difference, FiniteDifference, Order};
 use bolted_joint_study::{StudyError, StudyText};
@@ -46,6 +47,7 @@ fn difference(
         spacing,
         difference,
     } = table;
+    let spacing = without_deviation(study, &format!("{key}.spacing"), &spacing)?;
     let expected = "the distance between neighbouring points in m";
     study.positive(format_args!("{key}.spacing"), spacing, expected)?;
     study.ensure(

@@ -1,15 +1,26 @@
 //! `[a]` and `[b]`: one source of receptances, and where the joint is on it.
 
+use std::collections::BTreeMap;
+
 use super::super::super::layout::Bolts;
 use super::super::super::model::JointModel;
-use super::super::tables::{BeamTable, JointPlaceTable, SubstructureTable, TheoryName};
+use super::super::set_up::{Deviations, MassAtJoint, SetUp};
+use super::super::tables::{
+    BeamTable, JointPlaceTable, SectionTable, SubstructureTable, TheoryName,
+};
 use super::super::{MeasuredJoint, Rotation, Source, Substructure};
-use super::assembly::frf_file;
+use super::assembly::{MeasuredAs, frf_file};
 use super::bolts::{apart, apart_on_beam, places_of_bolts};
 use super::names_given;
 use super::rotation::rotation;
+use super::stated::{not_negative, without_deviation};
+use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, Damping, Difference, Section, Theory};
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{Stated, StudyError, StudyText};
+
+/// More than that is no bolt, and a slip of the unit.
+const MOST_MASS_KG: f64 = 100.0;
+const MOST_INERTIA_KG_M2: f64 = 100.0;
 
 pub(crate) fn substructure(
     study: &StudyText,
@@ -22,6 +33,11 @@ pub(crate) fn substructure(
         ("quantity", "a quantity", table.quantity.is_some()),
         ("units", "units", table.units.is_some()),
         ("averages", "averages", table.averages.is_some()),
+        (
+            "accelerometer_mass",
+            "a mass",
+            table.accelerometer_mass.is_some(),
+        ),
     ] {
         let good = !there || table.frf.is_some();
         study.ensure(
@@ -31,15 +47,27 @@ pub(crate) fn substructure(
             "it beside `frf` only",
         )?;
     }
+    if table.ground {
+        return ground(study, key, &table, bolts);
+    }
+    study.ensure(
+        !table.joint.is_empty(),
+        format_args!("{key}.joint"),
+        "nothing",
+        "the joint's place on this structure, such as { y = \"2:+Y\", theta = \"2:+RZ\" }",
+    )?;
     let source = match (table.frf, table.modal, table.beam) {
         (Some(path), modes, None) => Source::Frf {
             file: frf_file(
                 study,
                 key,
                 &path,
-                table.quantity,
-                table.units.as_ref(),
-                table.averages,
+                &MeasuredAs {
+                    quantity: table.quantity,
+                    units: table.units.as_ref(),
+                    averages: table.averages,
+                    accelerometer_mass: table.accelerometer_mass.as_ref(),
+                },
             )?,
             modes: modes.map(|modes| study.resolved(&modes)),
         },
@@ -53,22 +81,29 @@ pub(crate) fn substructure(
                 found,
                 expected,
             )?;
+            let mut set_up = SetUp::default();
+            set_up.deviations.youngs_modulus = beam.youngs_modulus.relative_deviation();
+            set_up.deviations.density = beam.density.relative_deviation();
             let beam = computed(study, key, beam)?;
             let mut joints_m = Vec::new();
             for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
-                let x_m = position(study, &key, &place)?;
-                on_the_beam(study, &format!("{key}.x"), x_m, beam.length_m)?;
-                joints_m.push(x_m);
+                let x = position(study, &key, &place)?;
+                on_the_beam(study, &format!("{key}.x"), x.value, beam.length_m)?;
+                joints_m.push(x.value);
+                set_up.deviations.joints_m.push(x.standard_deviation());
+                add_mass(study, &key, &place, model, &mut set_up)?;
             }
             apart_on_beam(study, key, &joints_m, bolts)?;
-            for (point, &x_m) in &table.points {
+            for (point, x) in &table.points {
                 let key = format!("{key}.points.\"{point}\"");
-                on_the_beam(study, &key, x_m, beam.length_m)?;
+                on_the_beam(study, &key, x.value, beam.length_m)?;
             }
+            let positions_m = positions(&table.points, &mut set_up.deviations);
             return Ok(Substructure::Beam {
                 beam,
                 joints_m,
-                positions_m: table.points,
+                positions_m,
+                set_up,
             });
         }
         (frf, modal, beam) => {
@@ -90,17 +125,20 @@ pub(crate) fn substructure(
         "positions",
         "those of the assembly's points, which are on B",
     )?;
-    for (point, &x_m) in &table.points {
+    for (point, x) in &table.points {
         let key = format!("{key}.points.\"{point}\"");
         study.ensure(
-            x_m.is_finite(),
+            x.value.is_finite(),
             key,
-            x_m,
+            x.value,
             "a position along the structure in m",
         )?;
     }
+    let mut set_up = SetUp::default();
+    let positions_m = positions(&table.points, &mut set_up.deviations);
     let mut joints = Vec::new();
     for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
+        add_mass(study, &key, &place, model, &mut set_up)?;
         let (None, Some(y)) = (place.x, place.y) else {
             return study.refuse(
                 key,
@@ -112,14 +150,120 @@ pub(crate) fn substructure(
         joints.push(MeasuredJoint { y, theta });
     }
     apart(study, key, &joints, bolts)?;
-    if let Some(section) = &table.section {
-        check_section(study, key, section, &joints)?;
-    }
+    let section = match &table.section {
+        None => None,
+        Some(table) => {
+            let section = section(study, key, table)?;
+            check_section(study, key, &section, &joints)?;
+            // What it loses follows a moment of inertia on the structure itself, not one that is added.
+            let turned = set_up.masses.iter().find(|mass| mass.inertia_kg_m2 > 0.0);
+            if let Some(mass) = turned {
+                return study.refuse(
+                    format_args!("{key}.joint.inertia"),
+                    mass.inertia_kg_m2,
+                    "none beside a `section`: a rotation by differences carries no known moment of inertia; leave it to \
+                     `budget.joint_inertia`",
+                );
+            }
+            set_up.deviations.difference_stiffness = table.youngs_modulus.relative_deviation();
+            Some(section)
+        }
+    };
     Ok(Substructure::Measured {
         source,
         joints,
-        section: table.section,
-        positions_m: table.points,
+        section,
+        positions_m,
+        set_up,
+    })
+}
+
+/// A structure that does not move: nothing is measured of it, and the joint is wherever the other structure has it.
+fn ground(
+    study: &StudyText,
+    key: &str,
+    table: &SubstructureTable,
+    bolts: &Bolts,
+) -> Result<Substructure, StudyError> {
+    study.ensure(
+        key.ends_with('a'),
+        format_args!("{key}.ground"),
+        "true",
+        "the ground as `a`: the assembly's points are on `b`, which moves",
+    )?;
+    let others = [
+        ("frf", table.frf.is_some()),
+        ("modal", table.modal.is_some()),
+        ("beam", table.beam.is_some()),
+        ("section", table.section.is_some()),
+        ("joint", !table.joint.is_empty()),
+        ("points", !table.points.is_empty()),
+    ];
+    let is_alone = others.iter().all(|(_, there)| !there);
+    let found = format!("ground = true and {}", names_given("", &others));
+    study.ensure(
+        is_alone,
+        key,
+        found,
+        "ground = true alone: it does not move, and `b.joint` says where the joint is",
+    )?;
+    Ok(Substructure::Ground {
+        bolts: bolts.count(),
+    })
+}
+
+/// Positions of points; their deviations go to those of the set-up.
+fn positions(points: &BTreeMap<Dof, Stated>, deviations: &mut Deviations) -> BTreeMap<Dof, f64> {
+    let stated = points.iter();
+    let stated = stated.filter_map(|(&point, x)| Some((point, x.standard_deviation()?)));
+    deviations.points_m = stated.collect();
+    points.iter().map(|(&point, x)| (point, x.value)).collect()
+}
+
+/// What is known of a mass at the joint.
+fn add_mass(
+    study: &StudyText,
+    key: &str,
+    place: &JointPlaceTable,
+    model: JointModel,
+    set_up: &mut SetUp,
+) -> Result<(), StudyError> {
+    let mut mass = MassAtJoint::default();
+    let mut deviations = [None, None];
+    if let Some(stated) = &place.mass {
+        not_negative(study, &format!("{key}.mass"), stated, "kg", MOST_MASS_KG)?;
+        mass.mass_kg = stated.value;
+        deviations[0] = stated.standard_deviation();
+    }
+    if let Some(stated) = &place.inertia {
+        let key = format!("{key}.inertia");
+        not_negative(study, &key, stated, "kg·m²", MOST_INERTIA_KG_M2)?;
+        study.ensure(
+            model.dofs() == 2,
+            &key,
+            stated,
+            "it only where the joint has a rotation: model \"diagonal\" or \"full\"",
+        )?;
+        mass.inertia_kg_m2 = stated.value;
+        deviations[1] = stated.standard_deviation();
+    }
+    set_up.masses.push(mass);
+    set_up.deviations.masses_kg.push(deviations[0]);
+    set_up.deviations.inertias_kg_m2.push(deviations[1]);
+    Ok(())
+}
+
+fn section(study: &StudyText, key: &str, table: &SectionTable) -> Result<Section, StudyError> {
+    let of = |name: &str, stated: &Stated| {
+        without_deviation(study, &format!("{key}.section.{name}"), stated)
+    };
+    let ratio = table.poissons_ratio.as_ref();
+    let ratio = ratio.map(|ratio| of("poissons_ratio", ratio)).transpose()?;
+    Ok(Section {
+        width_m: of("width", &table.width)?,
+        height_m: of("height", &table.height)?,
+        youngs_modulus_pa: table.youngs_modulus.value,
+        poissons_ratio: ratio.unwrap_or(Theory::USUAL_POISSONS_RATIO),
     })
 }
 
@@ -166,7 +310,7 @@ fn check_section(
     )
 }
 
-fn position(study: &StudyText, key: &str, joint: &JointPlaceTable) -> Result<f64, StudyError> {
+fn position(study: &StudyText, key: &str, joint: &JointPlaceTable) -> Result<Stated, StudyError> {
     match (joint.x, joint.y, &joint.theta) {
         (Some(x), None, None) => Ok(x),
         _ => study.refuse(
@@ -185,9 +329,19 @@ fn on_the_beam(study: &StudyText, key: &str, x_m: f64, length_m: f64) -> Result<
 }
 
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {
+    let of = |name: &str, stated: &Stated| {
+        without_deviation(study, &format!("{key}.beam.{name}"), stated)
+    };
+    let [length_m, width_m, height_m] = [
+        of("length", &table.length)?,
+        of("width", &table.width)?,
+        of("height", &table.height)?,
+    ];
+    let loss_factor = table.loss_factor.as_ref();
+    let loss_factor = loss_factor.map(|eta| of("loss_factor", eta)).transpose()?;
     plausible(study, key, &table)?;
     let theory = theory(study, key, &table)?;
-    let damping = match (table.damping_ratio, table.loss_factor) {
+    let damping = match (table.damping_ratio, loss_factor) {
         (Some(ratio), None) => Damping::Ratios(ratio.list()),
         (None, Some(eta)) => Damping::LossFactor(eta),
         (ratio, _) => {
@@ -199,11 +353,11 @@ fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, Stud
         }
     };
     Ok(Beam {
-        length_m: table.length,
-        width_m: table.width,
-        height_m: table.height,
-        youngs_modulus_pa: table.youngs_modulus,
-        density_kg_per_m3: table.density,
+        length_m,
+        width_m,
+        height_m,
+        youngs_modulus_pa: table.youngs_modulus.value,
+        density_kg_per_m3: table.density.value,
         theory,
         boundary: table.boundary,
         damping,
@@ -211,7 +365,10 @@ fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, Stud
 }
 
 fn theory(study: &StudyText, key: &str, table: &BeamTable) -> Result<Theory, StudyError> {
-    match (table.theory, table.poissons_ratio) {
+    let ratio = table.poissons_ratio.as_ref();
+    let name = format!("{key}.beam.poissons_ratio");
+    let ratio = ratio.map(|ratio| without_deviation(study, &name, ratio));
+    match (table.theory, ratio.transpose()?) {
         (TheoryName::Timoshenko, None) => Ok(Theory::default()),
         (TheoryName::Timoshenko, Some(poissons_ratio)) => Ok(Theory::Timoshenko { poissons_ratio }),
         (TheoryName::EulerBernoulli, None) => Ok(Theory::EulerBernoulli),
@@ -229,31 +386,31 @@ fn plausible(study: &StudyText, key: &str, table: &BeamTable) -> Result<(), Stud
     for (name, found, [least, most], expected) in [
         (
             "length",
-            table.length,
+            table.length.value,
             [1e-3, 20.0],
             "a length in m, from 0.001 to 20 (is it in millimetres?)",
         ),
         (
             "width",
-            table.width,
+            table.width.value,
             [1e-4, 2.0],
             "a width in m, from 0.0001 to 2 (is it in millimetres?)",
         ),
         (
             "height",
-            table.height,
+            table.height.value,
             [1e-4, 2.0],
             "a height in m, from 0.0001 to 2 (is it in millimetres?)",
         ),
         (
             "youngs_modulus",
-            table.youngs_modulus,
+            table.youngs_modulus.value,
             [1e8, 2e12],
             "Young's modulus in Pa, from 1e8 to 2e12 (is it in GPa or MPa?)",
         ),
         (
             "density",
-            table.density,
+            table.density.value,
             [50.0, 30e3],
             "a density in kg/m³, from 50 to 30000 (is it in g/cm³ or t/mm³?)",
         ),
@@ -305,7 +462,7 @@ mod tests {
             let study = Study::from_toml(&text, Path::new("study.toml")).unwrap();
             match study.b {
                 Substructure::Beam { beam, .. } => assert_eq!(beam.theory, expected, "{said}"),
-                Substructure::Measured { .. } => panic!("no beam"),
+                _ => panic!("no beam"),
             }
         }
     }

@@ -11,14 +11,10 @@ import tempfile
 import bolted
 import numpy as np
 import rig
-from conftest import entries, identified
+from conftest import identified
 from mistakes import drawn
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOFTER = 0.6  # of the second bolt that differs
-# Bolts that are nearer to each other move nearly alike: what tells them apart is then less than 1 % of noise on A and B.
-APART = 0.08
-BETWEEN_AND_BEYOND = [0.055, 0.120, 0.150, 0.185]
 
 
 def of_one_bolt(program, folder, draw, budget, computed_b):
@@ -33,23 +29,6 @@ def of_one_bolt(program, folder, draw, budget, computed_b):
     return found.z if found.whole["usable"] else None
 
 
-def of_two_bolts(program, folder, draw, budget, kind):
-    """The same of two bolts, one after the other if they differ."""
-    test = bolted.Rig(2, points=BETWEEN_AND_BEYOND, spacing=APART)
-    rows = {"A": 4, "B": 4 + len(test.points), "C": len(test.points)}
-    mistakes = drawn(np.random.default_rng(100 + draw), rows, [(side, bolt) for side in "AB" for bolt in (0, 1)])
-    joints = [(part * rig.STIFFNESS, part * rig.DAMPING) for part in (1.0, SOFTER if kind == "different" else 1.0)]
-    sets = test.test_data(mistakes, joints, 0.01, draw)
-    study = test.write(folder, sets, "relative = 0.01\nfloor = 0", kind, budget)
-    _, _, whole = bolted.identified(program, study, 2)
-    files = [one["joint_file"] for one in whole["bolts"]] if whole["bolts"] else [whole["joint_file"]]
-    if not whole["usable"]:
-        return None
-    truth = [np.array([*k[np.triu_indices(2)], *c[np.triu_indices(2)]]) for k, c in joints]
-    z = [(entries(file["joint"]) - exact) / entries(file["uncertainty"]["standard_deviation"]) for file, exact in zip(files, truth)]
-    return np.concatenate(z)
-
-
 def main(draws, kind):
     program = pathlib.Path(os.environ.get("BOLTED_JOINT", ROOT / "target/release/bolted-joint"))
     rows, refused = {"careful": [], "none": []}, 0
@@ -60,7 +39,7 @@ def main(draws, kind):
             with tempfile.TemporaryDirectory() as folder:
                 folder = pathlib.Path(folder)
                 if kind in ("two", "alike"):
-                    z = of_two_bolts(program, folder, draw, budget, "different" if kind == "two" else "alike")
+                    z = bolted.a_little_wrong(program, folder, draw, budget, "different" if kind == "two" else "alike")
                 else:
                     z = of_one_bolt(program, folder, draw, budget, kind == "computed")
             if z is not None:

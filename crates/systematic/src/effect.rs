@@ -230,16 +230,20 @@ fn share_of_row(entry: &Entry, row: usize) -> f64 {
     with.count() as f64 / entry.measurements.len().max(1) as f64
 }
 
-/// Weights of the labels in the slope at each label: the derivative of the parabola through it and its neighbours, or of the
-/// line through two.
+/// Points that a slope is taken through.
+const NEAR_POINTS: usize = 5;
+
+/// Weights of the labels in the slope at each label: the derivative of the polynomial through it and its nearest neighbours, two
+/// to each side inside.
 pub(crate) fn slopes(positions_m: &[f64]) -> nalgebra::DMatrix<f64> {
     let count = positions_m.len();
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&one, &other| positions_m[one].total_cmp(&positions_m[other]));
     let mut weights = nalgebra::DMatrix::zeros(count, count);
     for (rank, &label) in order.iter().enumerate() {
-        let first = rank.saturating_sub(1).min(count.saturating_sub(3));
-        let near = &order[first..(first + 3).min(count)];
+        let first = rank.saturating_sub(NEAR_POINTS / 2);
+        let first = first.min(count.saturating_sub(NEAR_POINTS));
+        let near = &order[first..(first + NEAR_POINTS).min(count)];
         let x = positions_m[label];
         for &j in near {
             // Lagrange: Σ_{i≠j} 1/(x_j − x_i) Π_{k≠i,j} (x − x_k)/(x_j − x_k)
@@ -328,16 +332,23 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_exact_on_a_parabola() {
-        let x = [0.3_f64, 0.1, 0.25, 0.6];
-        let weights = slopes(&x);
-        for (label, at) in x.iter().enumerate() {
-            let found: f64 = x
-                .iter()
-                .enumerate()
-                .map(|(j, x)| weights[(label, j)] * (2.0 + 3.0 * x - 5.0 * x * x))
-                .sum();
-            assert!((found - (3.0 - 10.0 * at)).abs() < 1e-9, "{label}: {found}");
+    fn slopes_are_exact_on_polynomials_through_the_nearest_points() {
+        let x = [0.3_f64, 0.1, 0.25, 0.6, 0.42, 0.9];
+        for count in 3..=x.len() {
+            let x = &x[..count];
+            let weights = slopes(x);
+            let degree = (count - 1).min(4) as i32;
+            for (label, at) in x.iter().enumerate() {
+                let values = x.iter().enumerate();
+                let found: f64 = values
+                    .map(|(j, x)| weights[(label, j)] * x.powi(degree))
+                    .sum();
+                let exact = f64::from(degree) * at.powi(degree - 1);
+                assert!(
+                    (found - exact).abs() < 1e-9,
+                    "{count}, {label}: {found}, not {exact}"
+                );
+            }
         }
         // a line through two
         assert!((slopes(&[0.0, 0.5]) - nalgebra::dmatrix![-2.0, 2.0; -2.0, 2.0]).amax() < 1e-12);

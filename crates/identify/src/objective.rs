@@ -63,13 +63,13 @@ enum Whitening<'w> {
 
 /// The model with data and weights.
 #[derive(Clone, Copy)]
-pub(super) struct Objective<'a, const N: usize> {
-    pub(super) groups: &'a [Group<N>],
+pub(super) struct Objective<'a> {
+    pub(super) groups: &'a [Group],
     /// Unknown entries of the K* of each torque.
     pub(super) entries: &'a [Place],
 }
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Whether no unknown is so large that the joint would be rigid whatever its value: there a search must not run away to.
     pub(super) fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool {
         let Some(block) = self.groups.first().and_then(|group| group.blocks.first()) else {
@@ -125,7 +125,7 @@ impl<const N: usize> Objective<'_, N> {
 
     /// Corrections of zero.
     pub(super) fn no_corrections(&self) -> Corrections {
-        let zero = |group: &Group<N>| vec![ZERO; group.sources.len() * group.lines()];
+        let zero = |group: &Group| vec![ZERO; group.sources.len() * group.lines()];
         Arc::new(self.groups.iter().map(zero).collect())
     }
 
@@ -137,7 +137,7 @@ impl<const N: usize> Objective<'_, N> {
     /// Adds a group whose lines have corrections, which follow the unknowns, to the normal equations.
     fn settle(
         &self,
-        group: &Group<N>,
+        group: &Group,
         weights: &Weights,
         unknowns: &DVector<f64>,
         corrections: &mut [Complex64],
@@ -164,7 +164,7 @@ impl<const N: usize> Objective<'_, N> {
     /// The same with the variances that `levels` give at `unknowns`, which it returns.
     fn settle_renewed(
         &self,
-        group: &Group<N>,
+        group: &Group,
         levels: Levels,
         unknowns: &DVector<f64>,
         corrections: &mut [Complex64],
@@ -243,7 +243,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: Option<&[Weights]>,
         state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_>),
     ) -> Option<()> {
         for (number, group) in self.groups.iter().enumerate() {
             let weights = weights.map(|weights| &weights[number]);
@@ -264,7 +264,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         levels: Levels,
         state: &State,
-        visit: impl Fn(&mut T, &Line<'_, N>) + Sync,
+        visit: impl Fn(&mut T, &Line<'_>) + Sync,
     ) -> Option<Vec<Vec<T>>> {
         if !self.is_independent() {
             let weights = self.weights(levels, state)?;
@@ -276,7 +276,7 @@ impl<const N: usize> Objective<'_, N> {
             return Some(gathered);
         }
         let own = Whitening::Renewed(levels.assembly);
-        let of_group = |group: &Group<N>| {
+        let of_group = |group: &Group| {
             let pieces = parallel::pieces(group.lines(), independent::PIECE);
             let of_piece = |lines: &Range<usize>| {
                 let mut gathered = T::default();
@@ -295,7 +295,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: &[Weights],
         state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_>),
     ) -> Option<()> {
         for (number, weights) in weights.iter().enumerate() {
             self.visit_linearised(number, Some(weights), state, &mut |line| {
@@ -307,11 +307,11 @@ impl<const N: usize> Objective<'_, N> {
 
     fn visit_independent(
         &self,
-        group: &Group<N>,
+        group: &Group,
         whitening: Whitening<'_>,
         state: &State,
         lines: Range<usize>,
-        visit: &mut dyn FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_>),
     ) -> Option<()> {
         let unknowns = state.unknowns.as_slice();
         let blocks = group.blocks.iter();
@@ -341,7 +341,7 @@ impl<const N: usize> Objective<'_, N> {
         number: usize,
         weights: Option<&Weights>,
         state: &State,
-        visit: &mut dyn FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_>),
     ) -> Option<()> {
         let group = &self.groups[number];
         let mut line = Line::new(group, self.entries);

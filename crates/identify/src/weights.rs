@@ -12,7 +12,7 @@ use super::objective::{Objective, State, Weights};
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
 const LEAST_RELATIVE: f64 = 1e-14;
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Variances at `state`; `None` where one is not a number above zero.
     pub(super) fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
         let mut all: Vec<Weights> = self
@@ -138,9 +138,9 @@ pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) 
     if variance < least { least } else { variance }
 }
 
-fn add_source<const N: usize>(
+fn add_source(
     sample: &mut Sample,
-    source: &Source<N>,
+    source: &Source,
     noise: &Noise,
     gain: f64,
     power: f64,
@@ -165,9 +165,9 @@ fn add_source<const N: usize>(
 
 /// Variances of one computed line: of the mean of each entry, from the computed receptances, infinite where it is left out, and of
 /// each source, from the measured ones. Returns Σ|y − mean|²/σ² over repeated measurements; `None` where a variance is not a number above zero.
-pub(super) fn line_variances<const N: usize>(
-    group: &Group<N>,
-    line: &Line<'_, N>,
+pub(super) fn line_variances(
+    group: &Group,
+    line: &Line<'_>,
     levels: Levels,
     entries: &mut [f64],
     sources: &mut [f64],
@@ -196,11 +196,7 @@ pub(super) fn line_variances<const N: usize>(
 }
 
 /// Variance of a source at a line, from its measured value.
-pub(super) fn source_variance<const N: usize>(
-    source: &Source<N>,
-    levels: Levels,
-    line: usize,
-) -> f64 {
+pub(super) fn source_variance(source: &Source, levels: Levels, line: usize) -> f64 {
     let power = source.value[line].norm_sqr();
     let variance = match source.known.get(line) {
         Some(known) => known * power,
@@ -241,11 +237,7 @@ impl EntryView {
     }
 }
 
-fn for_each_entry<const N: usize>(
-    group: &Group<N>,
-    line: &Line<'_, N>,
-    mut visit: impl FnMut(EntryView),
-) {
+fn for_each_entry(group: &Group, line: &Line<'_>, mut visit: impl FnMut(EntryView)) {
     let mut index = 0;
     for block in &group.blocks {
         let count = block.entries.len();

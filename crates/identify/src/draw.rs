@@ -8,6 +8,7 @@ use rand_distr::{Distribution, Exp1, StandardNormal};
 
 use super::group::Group;
 use super::objective::{Objective, State, Weights};
+use super::weights::source_variances;
 
 /// Data as the model makes them at `state`, with errors of these variances.
 pub(super) fn draw(
@@ -17,6 +18,7 @@ pub(super) fn draw(
     generator: &mut ChaCha8Rng,
 ) -> Option<Vec<Group>> {
     let mut drawn = objective.groups.to_vec();
+    let mut variances = Vec::new();
     objective.visit(None, state, &mut |number, line| {
         let group = &mut drawn[number];
         let weights = &weights[number];
@@ -40,10 +42,11 @@ pub(super) fn draw(
             }
             at += count;
         }
-        let sources = group.sources.len();
-        for s in 0..sources {
-            let place = line.index * sources + s;
-            let error = circular(weights.sources[place], generator);
+        let own = &objective.groups[number];
+        source_variances(own, weights.levels, line.index, &mut variances);
+        for (s, variance) in variances.iter().enumerate() {
+            let place = line.index * variances.len() + s;
+            let error = circular(*variance, generator);
             shift(
                 group,
                 s,
@@ -58,7 +61,8 @@ pub(super) fn draw(
 /// Adds to a measured receptance of a substructure, and to all that was formed from it.
 fn shift(group: &mut Group, s: usize, line: usize, by: Complex64) {
     let source = &mut group.sources[s];
-    Arc::make_mut(&mut source.value)[line] += by;
+    let place = source.place(line);
+    Arc::make_mut(&mut source.value)[place] += by;
     for (block, pattern) in group.blocks.iter_mut().zip(&source.patterns) {
         let Some(pattern) = pattern else { continue };
         let add = |values: &mut [Complex64], size: usize, shares: &[f64]| {

@@ -49,12 +49,26 @@ pub(super) struct Source {
     pub(super) count: u32,
     /// Floor of the noise of one measurement.
     pub(super) floor: Floor,
-    /// The value at each line.
+    /// The value at each line that was measured …
     pub(super) value: Arc<Vec<Complex64>>,
+    /// … and which of them are used; `None` if all are.
+    pub(super) used: Option<Arc<Vec<usize>>>,
     /// Variance of one measurement as a fraction of |H|² at each line; empty where it follows from a level.
     pub(super) known: Vec<f64>,
     /// For each block of the group, whether and how it enters.
     pub(super) patterns: Vec<Option<Pattern>>,
+}
+
+impl Source {
+    /// Where the value at a line that is used stands.
+    pub(super) fn place(&self, line: usize) -> usize {
+        self.used.as_ref().map_or(line, |used| used[line])
+    }
+
+    /// The value at a line that is used.
+    pub(super) fn value_at(&self, line: usize) -> Complex64 {
+        self.value[self.place(line)]
+    }
 }
 
 /// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
@@ -147,6 +161,7 @@ impl Group {
         users: &[bool],
         chosen: &[usize],
     ) {
+        let used = (chosen.len() < measured.lines()).then(|| Arc::new(chosen.to_vec()));
         let labels = measured.transformation().ncols();
         for column in 0..labels {
             for row in 0..=column {
@@ -180,11 +195,8 @@ impl Group {
                         [row, column].map(|label| measured.is_rotation(label)),
                         || measured.floor(row, column) * (indices.len() as f64).sqrt(),
                     ),
-                    value: if chosen.len() == value.len() {
-                        Arc::clone(value)
-                    } else {
-                        Arc::new(chosen.iter().map(|&line| value[line]).collect())
-                    },
+                    value: Arc::clone(value),
+                    used: used.clone(),
                     known: known.unwrap_or_default(),
                     patterns,
                 });

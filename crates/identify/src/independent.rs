@@ -10,7 +10,7 @@ use super::group::Group;
 use super::kernel::for_dofs;
 use super::lanes::{LANES, Reals};
 use super::layout::Place;
-use super::noise::Size;
+use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
@@ -79,26 +79,26 @@ pub(super) fn renew(
     group: &Group,
     entries: &[Place],
     unknowns: &[f64],
-    level: Size,
+    levels: Levels,
     normal: &mut Normal,
 ) -> Option<Weights> {
     let renew: Option<Renew> = for_strips!(group.dofs(), entries, renew_rows);
-    renew?(group, entries, unknowns, level, normal)
+    renew?(group, entries, unknowns, levels, normal)
 }
 
-type Renew = fn(&Group, &[Place], &[f64], Size, &mut Normal) -> Option<Weights>;
+type Renew = fn(&Group, &[Place], &[f64], Levels, &mut Normal) -> Option<Weights>;
 
 fn renew_rows<const N: usize, const E: usize>(
     group: &Group,
     entries: &[Place],
     unknowns: &[f64],
-    level: Size,
+    levels: Levels,
     normal: &mut Normal,
 ) -> Option<Weights> {
     let size = group.entries();
     let mut weights = Weights {
         entries: vec![0.0; size * group.lines()],
-        sources: Vec::new(),
+        levels,
         scatter: 0.0,
     };
     let mut at = 0;
@@ -126,7 +126,7 @@ fn renew_rows<const N: usize, const E: usize>(
                 strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
                 sums.add_strip(strip, entries, &mut rows, |e, power| {
-                    let variance = variance(strip, e, level, power);
+                    let variance = variance(strip, e, levels.assembly, power);
                     sum += variance;
                     let one = variance.reciprocal();
                     if counts[e] > 1.0 {

@@ -10,8 +10,8 @@ use super::group::Pattern;
 use super::lanes::Number;
 use super::layout::Place;
 
-/// Room for a matrix of the joint's DOFs at one line, or at several side by side. What of it a joint with fewer DOFs leaves is
-/// zero.
+/// Room for a matrix of the joint's DOFs at one line, or at several side by side. What a joint with fewer DOFs leaves of it
+/// is zero.
 pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
 
 /// The instance of a generic function with room for so many joint DOFs; `None` where there is no such joint.
@@ -29,7 +29,8 @@ macro_rules! for_dofs {
 }
 pub(super) use for_dofs;
 
-/// How many of N rows a joint with so many DOFs fills. Of one and two DOFs, which have their own instances, the compiler knows it.
+/// How many of N rows a joint with so many DOFs fills. Of one and two DOFs, which have instances of their own, the compiler
+/// knows it.
 #[inline(always)]
 pub(super) const fn filled<const N: usize>(dofs: usize) -> usize {
     if N <= 2 || dofs > N { N } else { dofs }

@@ -21,7 +21,7 @@ use super::line::{Line, Variances};
 use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::parallel;
-use super::weights::line_variances;
+use super::weights::{line_variances, source_variances};
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
@@ -35,10 +35,27 @@ const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 pub(super) struct Weights {
     /// σ_C² of the mean of each entry of all blocks, line by line.
     pub(super) entries: Vec<f64>,
-    /// σ_H² of each source, line by line.
-    pub(super) sources: Vec<f64>,
+    /// What the variances of the sources follow from, which no unknown changes.
+    pub(super) levels: Levels,
     /// Σ|y − mean|²/σ² over repeated measurements: part of the cost that no joint changes.
     pub(super) scatter: f64,
+}
+
+impl Weights {
+    /// σ_C² of one line.
+    fn of_entries(&self, group: &Group, line: usize) -> &[f64] {
+        let size = group.entries();
+        &self.entries[line * size..(line + 1) * size]
+    }
+
+    /// All variances of one line; those of the sources are put into `sources`.
+    fn at<'w>(&'w self, group: &Group, line: usize, sources: &'w mut Vec<f64>) -> Variances<'w> {
+        source_variances(group, self.levels, line, sources);
+        Variances {
+            entries: self.of_entries(group, line),
+            sources,
+        }
+    }
 }
 
 /// For each group, δ of each source, line by line. They take as much memory as the substructures' data.
@@ -148,8 +165,9 @@ impl Objective<'_> {
         let sums = parallel::map_each(pieces, |(piece, corrections)| {
             let mut line = Line::new(group, self.entries);
             let mut normal = Normal::zero(unknowns.len());
+            let mut sources = Vec::new();
             for (index, delta) in (piece * PIECE..).zip(corrections.chunks_mut(count)) {
-                let variances = line.weights(weights, index);
+                let variances = weights.at(group, index, &mut sources);
                 line.settle(index, variances, unknowns, delta)?;
                 line.add_to(&mut normal);
             }
@@ -172,25 +190,25 @@ impl Objective<'_> {
     ) -> Option<Weights> {
         let (count, size) = (group.sources.len(), group.entries());
         let mut entries = vec![0.0; size * group.lines()];
-        let mut sources = vec![0.0; count * group.lines()];
         let pieces: Vec<_> = corrections
             .chunks_mut(count * PIECE)
             .zip(entries.chunks_mut(size * PIECE))
-            .zip(sources.chunks_mut(count * PIECE))
             .enumerate()
             .collect();
-        let sums = parallel::map_each(pieces, |(piece, ((corrections, entries), sources))| {
+        let sums = parallel::map_each(pieces, |(piece, (corrections, entries))| {
             let mut line = Line::new(group, self.entries);
             let mut normal = Normal::zero(unknowns.len());
             let mut scatter = 0.0;
-            let own = corrections
-                .chunks_mut(count)
-                .zip(entries.chunks_mut(size))
-                .zip(sources.chunks_mut(count));
-            for (index, ((delta, entries), sources)) in (piece * PIECE..).zip(own) {
+            let mut sources = Vec::new();
+            let own = corrections.chunks_mut(count).zip(entries.chunks_mut(size));
+            for (index, (delta, entries)) in (piece * PIECE..).zip(own) {
                 line.linearise(index, unknowns.as_slice(), delta)?;
-                scatter += line_variances(group, &line, levels, entries, sources)?;
-                let variances = Variances { entries, sources };
+                scatter += line_variances(group, &line, levels, entries)?;
+                source_variances(group, levels, index, &mut sources);
+                let variances = Variances {
+                    entries,
+                    sources: &sources,
+                };
                 line.settle_linearised(variances, unknowns, delta)?;
                 line.add_to(&mut normal);
             }
@@ -204,7 +222,7 @@ impl Objective<'_> {
         }
         Some(Weights {
             entries,
-            sources,
+            levels,
             scatter: all,
         })
     }
@@ -226,8 +244,8 @@ impl Objective<'_> {
         let mut all = Vec::with_capacity(self.groups.len());
         for (group, corrections) in self.groups.iter().zip(&mut corrections) {
             let weights = if group.sources.is_empty() {
-                let (unknowns, level) = (unknowns.as_slice(), levels.assembly);
-                independent::renew(group, self.entries, unknowns, level, &mut normal)?
+                let unknowns = unknowns.as_slice();
+                independent::renew(group, self.entries, unknowns, levels, &mut normal)?
             } else {
                 self.settle_renewed(group, levels, &unknowns, corrections, &mut normal)?
             };
@@ -326,8 +344,7 @@ impl Objective<'_> {
             match whitening {
                 Whitening::None => {}
                 Whitening::Held(weights) => {
-                    let variances = line.weights(weights, index);
-                    line.whiten_independent(variances.entries);
+                    line.whiten_independent(weights.of_entries(group, index));
                 }
                 Whitening::Renewed(level) => line.whiten_by(level),
             }
@@ -345,12 +362,13 @@ impl Objective<'_> {
     ) -> Option<()> {
         let group = &self.groups[number];
         let mut line = Line::new(group, self.entries);
-        let sources = group.sources.len();
+        let count = group.sources.len();
+        let mut sources = Vec::new();
         for index in 0..group.lines() {
-            let delta = &state.corrections[number][index * sources..(index + 1) * sources];
+            let delta = &state.corrections[number][index * count..(index + 1) * count];
             line.linearise(index, state.unknowns.as_slice(), delta)?;
             if let Some(weights) = weights {
-                let variances = line.weights(weights, index);
+                let variances = weights.at(group, index, &mut sources);
                 line.whiten(variances, delta)?;
             } else {
                 line.add_corrections(delta);

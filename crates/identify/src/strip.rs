@@ -8,8 +8,8 @@ use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
 use super::normal::Normal;
 
-/// The instance of a generic function for a joint with so many DOFs and these unknown entries: with room for the DOFs and for the
-/// entries; `None` where there is no such joint.
+/// The instance of a generic function with room for so many joint DOFs and for these unknown entries; `None` where there is no
+/// such joint.
 macro_rules! for_strips {
     ($dofs:expr, $entries:expr, $function:ident) => {
         match $dofs {

@@ -113,8 +113,8 @@ impl Objective<'_> {
 
 type OfBlock = fn(&Group, usize, Levels, (&[Place], &[f64])) -> Vec<f64>;
 
-/// √E‖A‖² of each line of one block, displacements in proportion to what a unit load on each DOF of the substructures does; infinite
-/// at a singular line.
+/// √E‖A‖² of each line of one block, displacements in proportion to what a unit load on each DOF of the substructures does;
+/// infinite at a singular line.
 fn motion<const N: usize>(
     group: &Group,
     number: usize,

@@ -10,7 +10,6 @@ use super::kernel::Kernel;
 use super::layout::Place;
 use super::noise::Size;
 use super::normal::Normal;
-use super::objective::Weights;
 use super::strip::{ENTRIES_OF_ONE, MOST_ENTRIES};
 use super::weights::of_one;
 use row_products::{RowProducts, add_coupling};
@@ -84,14 +83,6 @@ impl<'g> Line<'g> {
             relative_power: 0.0,
             signal: 0.0,
             trial: Vec::new(),
-        }
-    }
-
-    pub(super) fn weights<'w>(&self, weights: &'w Weights, index: usize) -> Variances<'w> {
-        let (size, sources) = (self.computed.len(), self.group.sources.len());
-        Variances {
-            entries: &weights.entries[index * size..(index + 1) * size],
-            sources: &weights.sources[index * sources..(index + 1) * sources],
         }
     }
 

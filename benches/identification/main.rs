@@ -2,8 +2,11 @@
 //!
 //! `cargo bench --bench identification` times 2,048 lines at three points, with intervals, and 1,000 bootstrap draws.
 //! `-- against PYTHON` runs `same_in_numpy.py`, the same algorithm in NumPy and SciPy, with that interpreter in turns with ours, with
-//! one BLAS thread and with as many as it takes by itself, and prints the ratios.
-//! `-- write FILE` writes the data that the script reads, `-- repeat COUNT` identifies them so many times, for a profiler.
+//! one BLAS thread and with as many as it takes by itself, and prints the ratios; then `measured_in_numpy.py` in the same way, where
+//! the substructures are measured, too. It fails where both do not find the same joint there.
+//! `-- write FILE` and `-- write-measured FILE` write the data that the scripts read, `-- repeat COUNT` and
+//! `-- repeat-measured COUNT` identify them so many times, for a profiler.
+//! `-- growth [lines|points|bolts]` prints how the time grows with these.
 //! `-- table [DRAWS [CASE]]` prints the errors of stiff and soft joints with light and heavy damping over many draws of
 //! noise, of the cases whose names hold the words CASE.
 
@@ -13,10 +16,14 @@
 )]
 
 #[path = "../../tests/identification/beams.rs"]
-#[expect(dead_code, reason = "the tests of identification need more of them")]
 mod beams;
+#[path = "../../tests/identification/cases.rs"]
+#[expect(dead_code, reason = "the tests of identification need more of them")]
+mod cases;
+mod growth;
 #[path = "../../tests/identification/measured.rs"]
 mod measured;
+mod measured_beside;
 #[path = "../../tests/identification/monte_carlo.rs"]
 mod monte_carlo;
 
@@ -48,7 +55,15 @@ fn main() {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
         ["write", file] => write(file),
-        ["against", python] => against(python),
+        ["write-measured", file] => measured_beside::write(Path::new(file)),
+        ["against", python] => {
+            against(python);
+            measured_beside::against(python);
+        }
+        ["against-measured", python] => measured_beside::against(python),
+        ["growth"] => growth::table(None),
+        ["growth", quantity] => growth::table(Some(quantity)),
+        ["repeat-measured", count] => measured_beside::repeat(count.parse().unwrap()),
         ["repeat", count] => drop(repeat(count.parse().unwrap(), BandChoice::Automatic)),
         ["table"] => table(100, ""),
         ["table", draws] => table(draws.parse().unwrap(), ""),
@@ -85,12 +100,24 @@ fn repeat_with(count: usize, options: &Options) -> Vec<f64> {
 
 /// Seconds that each identification of the script takes; with `threads` of BLAS, or as many as it takes by itself.
 fn repeat_in_numpy(python: &str, file: &Path, threads: Option<&str>) -> Vec<f64> {
-    let script = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/benches/identification/same_in_numpy.py"
-    );
+    let mut lines = in_numpy(python, "same_in_numpy.py", file, &["--seconds"], threads);
+    lines.remove(0)
+}
+
+/// The numbers that a script prints, line by line.
+fn in_numpy(
+    python: &str,
+    script: &str,
+    file: &Path,
+    more: &[&str],
+    threads: Option<&str>,
+) -> Vec<Vec<f64>> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/identification/");
     let mut command = Command::new(python);
-    command.arg(script).arg(file).arg("--seconds");
+    command
+        .arg(format!("{folder}{script}"))
+        .arg(file)
+        .args(more);
     for library in ["OPENBLAS", "MKL", "OMP"] {
         let name = format!("{library}_NUM_THREADS");
         match threads {
@@ -102,8 +129,11 @@ fn repeat_in_numpy(python: &str, file: &Path, threads: Option<&str>) -> Vec<f64>
     let text = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{errors}");
-    let words = text.split_whitespace();
-    words.map(|word| word.parse().unwrap()).collect()
+    let numbers = |line: &str| {
+        let words = line.split_whitespace();
+        words.map(|word| word.parse().unwrap()).collect()
+    };
+    text.lines().map(numbers).collect()
 }
 
 /// Both in turns, so that they share whatever else the machine does.

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::Misfit;
 use super::estimator::Estimate;
 use super::noise::Noise;
-use super::objective::{State, Weights};
+use super::objective::{Objective, State, Weights};
 use super::residuals::Residuals;
 
 /// Standard deviations beyond which a statistic is not chance.
@@ -80,7 +79,7 @@ impl Assessment {
 
 /// Judges the residuals of `estimate`.
 pub(super) fn assess(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     estimate: &Estimate,
     noise: &Noise,
 ) -> Option<Assessment> {
@@ -121,7 +120,7 @@ pub(super) fn assess(
 /// correlated: √ of the variance of the scores beside the one that the information promises (a sandwich with Bartlett's
 /// weights; Newey and West), at least one. `unit` times `scale` is the covariance that it promises.
 pub(super) fn inflation(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     estimate: &Estimate,
     unit: &DMatrix<f64>,
     scale: f64,
@@ -154,7 +153,7 @@ pub(super) fn inflation(
 
 /// The point at which an estimate came to rest, with its weights.
 pub(super) fn reached(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     estimate: &Estimate,
 ) -> Option<(Vec<Weights>, State)> {
     let corrections = Some(Arc::clone(&estimate.corrections));

@@ -9,9 +9,8 @@ use bolted_joint_frf::structure::SingularAssembly;
 
 use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
 use super::block::Block;
-use super::data::for_dofs;
 use super::independent_parts::IndependentParts;
-use super::kernel::{Kernel, complex_stiffness};
+use super::kernel::Kernel;
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
@@ -164,7 +163,6 @@ fn measures(
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<Vec<Vec<f64>>> {
-    let parts: PartsOf = for_dofs!(lines.joint_dofs(), parts)?;
     let (entries, parts) = parts(lines, places, unknowns, decoupled)?;
     let usual: Vec<f64> = (0..entries)
         .map(|e| {
@@ -188,15 +186,13 @@ struct Part {
 }
 
 /// How many entries the assembly's block has, and all its parts.
-type PartsOf = fn(&Lines, &[Place], &[f64], &[Place]) -> Option<(usize, Vec<Part>)>;
-
-fn parts<const N: usize>(
+fn parts(
     lines: &Lines,
     places: &[Place],
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<(usize, Vec<Part>)> {
-    let block = Block::<N>::new(
+    let block = Block::new(
         lines,
         0,
         &Chosen::every(lines.frequency_hz.len()),
@@ -211,8 +207,8 @@ fn parts<const N: usize>(
 }
 
 impl Part {
-    fn of<const N: usize>(
-        block: &Block<N>,
+    fn of(
+        block: &Block,
         lines: Range<usize>,
         places: &[Place],
         unknowns: &[f64],
@@ -223,11 +219,10 @@ impl Part {
             sizes: Vec::with_capacity(lines.len() * entries),
             jacobians: Vec::with_capacity(lines.len() * entries * decoupled.len()),
         };
-        let mut kernel = Kernel::new();
+        let mut kernel = Kernel::new(block.dofs);
         for line in lines {
-            let stiffness = complex_stiffness::<N>(places, unknowns, block.omega[line]);
-            let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
-            kernel.solve(&block.free[line], transfer.iter().copied(), &stiffness)?;
+            let joint = (places, unknowns, block.omega[line]);
+            kernel.solve(block.free_at(line), block.transfer_at(line), joint)?;
             for (e, &entry) in block.entries.iter().enumerate() {
                 let own = block.own[line * entries + e];
                 let size = kernel.receptance(own, entry).norm_sqr().sqrt();

@@ -14,9 +14,6 @@ use super::lines::Lines;
 use super::noise::{Floor, Noise, Of};
 use super::used::Chosen;
 
-/// A matrix of the joint's DOFs at one line, or at several side by side.
-pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
-
 /// One entry of the symmetric H^C_ss, measured once or more often.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Entry {
@@ -30,19 +27,21 @@ pub(super) struct Entry {
 
 /// Receptances of one assembly and of what it was made from, over its lines.
 #[derive(Clone, Debug)]
-pub(super) struct Block<const N: usize> {
+pub(super) struct Block {
     /// Which of the joints that are sought is in this assembly.
     pub(super) joint: usize,
+    /// DOFs of that joint.
+    pub(super) dofs: usize,
     pub(super) points: usize,
     pub(super) entries: Vec<Entry>,
     /// ω of each line.
     pub(super) omega: Vec<f64>,
-    /// H_jj + H_kk of each line.
-    pub(super) free: Vec<Small<N>>,
+    /// H_jj + H_kk of each line, row by row.
+    pub(super) free: Vec<Complex64>,
     /// Median over the lines of 1/|H_jj + H_kk| on each DOF.
-    pub(super) dynamic_stiffness: [f64; N],
+    pub(super) dynamic_stiffness: Vec<f64>,
     /// H_ks: one column for each point, of each line.
-    pub(super) transfer: Vec<[Complex64; N]>,
+    pub(super) transfer: Vec<Complex64>,
     /// H_ss at the entries, of each line.
     pub(super) own: Vec<Complex64>,
     /// Mean of the measured H^C_ss at the entries, of each line.
@@ -58,8 +57,8 @@ pub(super) struct Block<const N: usize> {
 /// No measurement is taken for better than that: its reciprocal is a number.
 const LEAST_VARIANCE: f64 = 1e-300;
 
-impl<const N: usize> Block<N> {
-    /// The `chosen` ones of `lines`, whose joint has N DOFs and is number `joint` of those that are sought.
+impl Block {
+    /// The `chosen` ones of `lines`, whose joint is number `joint` of those that are sought.
     pub(super) fn new(lines: &Lines, joint: usize, chosen: &Chosen, noise: &Noise) -> Self {
         let repeats = lines.repeats.as_ref().map_or(1, |repeats| repeats.count);
         let measured = lines.independent();
@@ -93,19 +92,21 @@ impl<const N: usize> Block<N> {
             };
             entry.floor = noise.floor(Of::Assembly, rotations, own);
         }
+        let dofs = lines.joint_dofs();
         let points = lines.points.len();
         let count = chosen.lines.len();
         let mut block = Self {
             joint,
+            dofs,
             points,
             omega: chosen
                 .lines
                 .iter()
                 .map(|&line| std::f64::consts::TAU * lines.frequency_hz[line])
                 .collect(),
-            free: Vec::with_capacity(count),
-            dynamic_stiffness: [0.0; N],
-            transfer: Vec::with_capacity(count * points),
+            free: Vec::with_capacity(count * dofs * dofs),
+            dynamic_stiffness: Vec::new(),
+            transfer: Vec::with_capacity(count * points * dofs),
             own: Vec::with_capacity(count * entries.len()),
             measured: Vec::with_capacity(count * entries.len()),
             scatter: Vec::with_capacity(count * entries.len()),
@@ -118,8 +119,12 @@ impl<const N: usize> Block<N> {
             block.push_substructures(lines, line);
             block.push_assembly(lines, &places, variances.as_deref(), line);
         }
-        block.dynamic_stiffness = std::array::from_fn(|dof| {
-            let diagonal = block.free.iter().map(|free| free[dof][dof]);
+        let of_dof = |dof: usize| {
+            let diagonal = block
+                .free
+                .iter()
+                .skip(dof * (dofs + 1))
+                .step_by(dofs * dofs);
             let mut sizes: Vec<f64> = diagonal.map(|value| value.norm_sqr()).collect();
             if sizes.is_empty() {
                 return 1.0;
@@ -128,22 +133,26 @@ impl<const N: usize> Block<N> {
             let middle = (sizes.len() - 1) / 2;
             let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
             median.sqrt().recip()
-        });
+        };
+        block.dynamic_stiffness = (0..dofs).map(of_dof).collect();
         block
     }
 
     fn push_substructures(&mut self, lines: &Lines, line: usize) {
         let (a, b) = (lines.a.at(line), lines.b.at(line));
         let (a, b) = (Columns::of(&a), Columns::of(&b));
-        self.free.push(std::array::from_fn(|i| {
-            std::array::from_fn(|j| a.symmetric(i, j) + b.symmetric(i, j))
-        }));
-        let points = N..N + self.points;
-        self.transfer
-            .extend(points.map(|point| std::array::from_fn(|i| b.symmetric(i, point))));
+        let dofs = self.dofs;
+        for i in 0..dofs {
+            let row = (0..dofs).map(|j| a.symmetric(i, j) + b.symmetric(i, j));
+            self.free.extend(row);
+        }
+        for point in dofs..dofs + self.points {
+            let column = (0..dofs).map(|i| b.symmetric(i, point));
+            self.transfer.extend(column);
+        }
         let own = self.entries.iter();
         self.own
-            .extend(own.map(|entry| b.symmetric(N + entry.row, N + entry.column)));
+            .extend(own.map(|entry| b.symmetric(dofs + entry.row, dofs + entry.column)));
     }
 
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
@@ -193,6 +202,18 @@ impl<const N: usize> Block<N> {
     pub(super) fn unknowns(&self, entries: &[Place]) -> Range<usize> {
         let size = 2 * entries.len();
         self.joint * size..(self.joint + 1) * size
+    }
+
+    /// H_jj + H_kk at one line.
+    pub(super) fn free_at(&self, line: usize) -> &[Complex64] {
+        let size = self.dofs * self.dofs;
+        &self.free[line * size..(line + 1) * size]
+    }
+
+    /// H_ks at one line, a column for each point.
+    pub(super) fn transfer_at(&self, line: usize) -> &[Complex64] {
+        let size = self.points * self.dofs;
+        &self.transfer[line * size..(line + 1) * size]
     }
 
     pub(super) fn lines(&self) -> usize {

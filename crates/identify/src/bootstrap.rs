@@ -5,10 +5,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::assessment::reached;
-use super::data::Misfit;
 use super::estimator::{Estimate, Free, estimate};
 use super::layout::Place;
 use super::noise::Noise;
+use super::objective::Objective;
 use super::parallel;
 
 /// How many draws to take, and from which seed.
@@ -22,7 +22,7 @@ pub struct Bootstrap {
 
 /// Estimates from the draws that could be estimated, each in the order of the unknowns. `progress` is called after each.
 pub(super) fn draws(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     entries: &[Place],
     noise: &Noise,
     found: &Estimate,
@@ -36,14 +36,7 @@ pub(super) fn draws(
         generator.set_stream(number);
         let drawn = objective.drawn(&weights, &state, &mut generator)?;
         let objective = drawn.objective(entries);
-        let found = estimate(
-            objective.as_ref(),
-            noise,
-            None,
-            &Free,
-            &found.unknowns,
-            None,
-        );
+        let found = estimate(&objective, noise, None, &Free, &found.unknowns, None);
         progress();
         found.filter(|estimate| estimate.converged)
     };

@@ -1,5 +1,4 @@
-//! The data as a search goes through them, whatever the number of the joint's DOFs: matrices of the joint have a fixed size
-//! for each number, what asks for sums over them has not and is compiled once.
+//! The data as a search goes through them: few lines or all, the substructures exact or with their errors.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,13 +8,16 @@ use rand_chacha::ChaCha8Rng;
 
 use super::draw::draw;
 use super::group::Group;
-use super::layout::Place;
+use super::layout::{MOST_BOLTS, Place};
 use super::lines::Lines;
-use super::noise::{Levels, Noise, Size};
-use super::objective::{Corrections, Objective, State, Weights};
+use super::noise::{Levels, Noise};
+use super::objective::{Objective, State, Weights};
 use super::residuals::Residuals;
 use super::used::{self, Chosen};
 use super::{parallel, starts};
+
+/// Most DOFs of a joint: those of as many bolts as there can be.
+const MOST_DOFS: usize = 2 * MOST_BOLTS;
 
 /// Lines whose use is judged at a time.
 const LINES_AT_A_TIME: usize = 1024;
@@ -23,39 +25,16 @@ const LINES_AT_A_TIME: usize = 1024;
 /// Lines that are enough to tell which start leads to the best estimate.
 const LINES_FOR_STARTS: usize = 200;
 
-/// The instance of a generic function for a number of joint DOFs; `None` where there is no such joint.
-macro_rules! for_dofs {
-    ($dofs:expr, $function:ident) => {
-        match $dofs {
-            1 => Some($function::<1> as _),
-            2 => Some($function::<2> as _),
-            3 => Some($function::<3> as _),
-            4 => Some($function::<4> as _),
-            5 => Some($function::<5> as _),
-            6 => Some($function::<6> as _),
-            7 => Some($function::<7> as _),
-            8 => Some($function::<8> as _),
-            10 => Some($function::<10> as _),
-            12 => Some($function::<12> as _),
-            14 => Some($function::<14> as _),
-            16 => Some($function::<16> as _),
-            _ => None,
-        }
-    };
-}
-pub(super) use for_dofs;
-
 /// The data in the forms that the search goes through.
 pub(super) struct Data<'a> {
     all: Vec<(&'a Lines, usize)>,
     noise: &'a Noise,
-    form: Form,
     few: Vec<Vec<usize>>,
     every: Vec<Vec<usize>>,
     /// Few lines, substructures taken as exact.
-    pub(super) thinned: Box<dyn Assemblies>,
+    pub(super) thinned: Assemblies,
     /// The same lines with the errors of the substructures; `None` where these are exact.
-    pub(super) thinned_whole: Option<Box<dyn Assemblies>>,
+    pub(super) thinned_whole: Option<Assemblies>,
     /// All lines, where the substructures are exact.
     whole: Option<Arc<Used>>,
 }
@@ -63,21 +42,20 @@ pub(super) struct Data<'a> {
 /// The assemblies with the lines that are used of each.
 pub(super) struct Used {
     pub(super) chosen: Vec<Chosen>,
-    pub(super) assemblies: Box<dyn Assemblies>,
+    pub(super) assemblies: Assemblies,
 }
 
 /// Noise and unknowns at which it is asked which lines can be used.
 type Near<'n> = (Levels, &'n DVector<f64>);
-
-/// Forms assemblies of which these lines are taken.
-type Form = fn(&[(&Lines, usize)], &[Chosen], &Noise) -> Box<dyn Assemblies>;
 
 impl<'a> Data<'a> {
     /// Assemblies, each with the number of its joint; `None` if there are none, or none of a joint with so many DOFs.
     pub(super) fn of(all: Vec<(&'a Lines, usize)>, noise: &'a Noise) -> Option<Self> {
         let mut measured = all.iter().map(|(lines, _)| lines);
         let first = measured.find(|lines| !lines.frequency_hz.is_empty())?;
-        let form: Form = for_dofs!(first.joint_dofs(), formed)?;
+        if !(1..=MOST_DOFS).contains(&first.joint_dofs()) {
+            return None;
+        }
         let counts = || all.iter().map(|(lines, _)| lines.frequency_hz.len());
         let stride = (counts().max().unwrap_or(0) / LINES_FOR_STARTS).max(1);
         let of_stride = |stride: usize| -> Vec<Vec<usize>> {
@@ -86,13 +64,12 @@ impl<'a> Data<'a> {
         };
         let few = of_stride(stride);
         let every = of_stride(1);
-        let mut thinned = form(&all, &Chosen::all_of(&few), noise);
+        let mut thinned = Assemblies::of(&all, &Chosen::all_of(&few), noise);
         let exact = thinned.with_exact_sources();
         let thinned_whole = exact.map(|exact| std::mem::replace(&mut thinned, exact));
         let mut data = Self {
             all,
             noise,
-            form,
             few,
             every: Vec::new(),
             thinned,
@@ -113,7 +90,7 @@ impl<'a> Data<'a> {
 
     /// These lines of each assembly.
     pub(super) fn used(&self, chosen: Vec<Chosen>) -> Arc<Used> {
-        let assemblies = (self.form)(&self.all, &chosen, self.noise);
+        let assemblies = Assemblies::of(&self.all, &chosen, self.noise);
         Arc::new(Used { chosen, assemblies })
     }
 
@@ -144,7 +121,7 @@ impl<'a> Data<'a> {
                 lines[piece.start.min(end)..end].to_vec()
             });
             let own: Vec<Vec<usize>> = own.collect();
-            let assemblies = (self.form)(&self.all, &Chosen::all_of(&own), self.noise);
+            let assemblies = Assemblies::of(&self.all, &Chosen::all_of(&own), self.noise);
             let moved = assemblies.objective(entries).moved(levels, unknowns);
             let members = assemblies.members().into_iter().map(<[usize]>::to_vec);
             members.zip(moved).collect::<Vec<_>>()
@@ -164,207 +141,86 @@ impl<'a> Data<'a> {
     }
 }
 
-fn formed<const N: usize>(
-    all: &[(&Lines, usize)],
-    chosen: &[Chosen],
-    noise: &Noise,
-) -> Box<dyn Assemblies> {
-    let groups: Vec<Group<N>> = Group::all(all, chosen, noise);
-    Box::new(groups)
-}
-
 /// Assemblies whose joints have the same number of DOFs.
-pub(super) trait Assemblies: Send + Sync {
-    /// With what of the joint is sought.
-    fn objective<'a>(&'a self, entries: &'a [Place]) -> Box<dyn Misfit + 'a>;
-    /// See [`starts::Linear`]: what each of `guesses` leads to.
-    fn linear_starts(
-        &self,
-        entries: &[Place],
-        guesses: &[Option<DVector<f64>>],
-    ) -> Vec<DVector<f64>>;
-    /// See [`starts::grid`].
-    fn grid(&self, entries: &[Place]) -> Vec<DVector<f64>>;
-    /// The assemblies of each group by their numbers.
-    fn members(&self) -> Vec<&[usize]>;
-    /// The same assemblies, the substructures taken as measured; `None` where they have no errors.
-    fn with_exact_sources(&self) -> Option<Box<dyn Assemblies>>;
-}
+pub(super) struct Assemblies(Vec<Group>);
 
-impl<const N: usize> Assemblies for Vec<Group<N>> {
-    fn objective<'a>(&'a self, entries: &'a [Place]) -> Box<dyn Misfit + 'a> {
-        let groups = self;
-        Box::new(Objective { groups, entries })
+impl Assemblies {
+    /// These lines of all assemblies, each with the number of its joint.
+    fn of(all: &[(&Lines, usize)], chosen: &[Chosen], noise: &Noise) -> Self {
+        Self(Group::all(all, chosen, noise))
     }
 
-    fn linear_starts(
+    /// With what of the joint is sought.
+    pub(super) fn objective<'a>(&'a self, entries: &'a [Place]) -> Objective<'a> {
+        let groups = &self.0;
+        Objective { groups, entries }
+    }
+
+    /// See [`starts::Linear`]: what each of `guesses` leads to.
+    pub(super) fn linear_starts(
         &self,
         entries: &[Place],
         guesses: &[Option<DVector<f64>>],
     ) -> Vec<DVector<f64>> {
-        let linear = starts::Linear::of(self);
+        let linear = starts::Linear::of(&self.0);
         let from_guess = |guess: &Option<DVector<f64>>| linear.from(entries, guess.as_ref());
         let found = parallel::map(guesses, from_guess);
         found.into_iter().flatten().collect()
     }
 
-    fn grid(&self, entries: &[Place]) -> Vec<DVector<f64>> {
-        starts::grid(self, entries)
+    /// See [`starts::grid`].
+    pub(super) fn grid(&self, entries: &[Place]) -> Vec<DVector<f64>> {
+        starts::grid(&self.0, entries)
     }
 
+    /// The assemblies of each group by their numbers.
     fn members(&self) -> Vec<&[usize]> {
-        let groups = self.iter();
+        let groups = self.0.iter();
         groups.map(|group| group.assemblies.as_slice()).collect()
     }
 
-    fn with_exact_sources(&self) -> Option<Box<dyn Assemblies>> {
-        let has_sources = self.iter().any(|group| !group.sources.is_empty());
-        let exact = || -> Self { self.iter().flat_map(Group::with_exact_sources).collect() };
-        has_sources.then(|| Box::new(exact()) as _)
+    /// The same assemblies, the substructures taken as measured; `None` where they have no errors.
+    fn with_exact_sources(&self) -> Option<Self> {
+        let groups = || self.0.iter();
+        let has_sources = groups().any(|group| !group.sources.is_empty());
+        has_sources.then(|| Self(groups().flat_map(Group::with_exact_sources).collect()))
     }
 }
 
-/// What is asked of data and model at a point; see [`Objective`].
-pub(super) trait Misfit: Sync {
-    fn is_independent(&self) -> bool;
-    fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool;
-    fn no_corrections(&self) -> Corrections;
-    fn unweighted(&self, unknowns: DVector<f64>, corrections: Option<Corrections>) -> State;
-    fn at(
-        &self,
-        weights: &[Weights],
-        unknowns: DVector<f64>,
-        corrections: Option<Corrections>,
-    ) -> Option<State>;
-    fn renewed(
-        &self,
-        levels: Levels,
-        unknowns: DVector<f64>,
-        corrections: Option<Corrections>,
-    ) -> Option<(Vec<Weights>, State)>;
-    fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>>;
-    fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>>;
-    /// By what part errors of the substructures move each line, for each assembly of each group; see [`used`].
-    fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>>;
-    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size>;
-    fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64;
-    fn log_powers(&self) -> f64;
+/// What is asked of data and model as a whole.
+impl Objective<'_> {
     /// Sums over the residuals of consecutive lines, for each group those of its pieces.
-    fn residuals(&self, levels: Levels, state: &State) -> Option<Vec<Vec<Residuals>>>;
-    /// For each group, the derivative of the sum by the unknowns, line by line.
-    fn scores(&self, weights: &[Weights], state: &State) -> Option<Vec<Vec<DVector<f64>>>>;
-    /// Whether no variance depends on a level that is estimated.
-    fn is_known(&self, noise: &Noise) -> bool;
-    /// Complex numbers measured.
-    fn measurements(&self) -> usize;
-    /// Lines of all groups.
-    fn lines(&self) -> usize;
-    /// Dynamic stiffness of the substructures of the first assembly with this joint at the joint's DOFs, and ω in the middle
-    /// of the range; ones if there is no such assembly.
-    fn substructures(&self, joint: usize) -> (&[f64], f64);
-    /// Data drawn from the model at `state`, all noise included.
-    fn drawn(
-        &self,
-        weights: &[Weights],
-        state: &State,
-        generator: &mut ChaCha8Rng,
-    ) -> Option<Box<dyn Assemblies>>;
-}
-
-impl<const N: usize> Misfit for Objective<'_, N> {
-    fn is_independent(&self) -> bool {
-        Objective::is_independent(self)
-    }
-
-    fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool {
-        Objective::is_within_reach(self, unknowns)
-    }
-
-    fn no_corrections(&self) -> Corrections {
-        Objective::no_corrections(self)
-    }
-
-    fn unweighted(&self, unknowns: DVector<f64>, corrections: Option<Corrections>) -> State {
-        Objective::unweighted(self, unknowns, corrections)
-    }
-
-    fn at(
-        &self,
-        weights: &[Weights],
-        unknowns: DVector<f64>,
-        corrections: Option<Corrections>,
-    ) -> Option<State> {
-        Objective::at(self, weights, unknowns, corrections)
-    }
-
-    fn renewed(
-        &self,
-        levels: Levels,
-        unknowns: DVector<f64>,
-        corrections: Option<Corrections>,
-    ) -> Option<(Vec<Weights>, State)> {
-        Objective::renewed(self, levels, unknowns, corrections)
-    }
-
-    fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
-        Objective::weights(self, levels, state)
-    }
-
-    fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
-        Objective::marginal_weights(self, levels, state)
-    }
-
-    fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>> {
-        Objective::moved(self, levels, unknowns)
-    }
-
-    fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size> {
-        Objective::level(self, noise, state, shrinkage)
-    }
-
-    fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64 {
-        Objective::log_variances_of_scatter(self, weights)
-    }
-
-    fn log_powers(&self) -> f64 {
-        Objective::log_powers(self)
-    }
-
-    fn residuals(&self, levels: Levels, state: &State) -> Option<Vec<Vec<Residuals>>> {
+    pub(super) fn residuals(&self, levels: Levels, state: &State) -> Option<Vec<Vec<Residuals>>> {
         self.gather_whitened(levels, state, Residuals::add)
     }
 
-    fn scores(&self, weights: &[Weights], state: &State) -> Option<Vec<Vec<DVector<f64>>>> {
-        Objective::scores(self, weights, state)
-    }
-
-    fn is_known(&self, noise: &Noise) -> bool {
-        Objective::is_known(self, noise)
-    }
-
-    fn measurements(&self) -> usize {
+    /// Complex numbers measured.
+    pub(super) fn measurements(&self) -> usize {
         self.groups.iter().map(Group::measurements).sum()
     }
 
-    fn lines(&self) -> usize {
+    /// Lines of all groups.
+    pub(super) fn lines(&self) -> usize {
         self.groups.iter().map(Group::lines).sum()
     }
 
-    fn substructures(&self, joint: usize) -> (&[f64], f64) {
+    /// Dynamic stiffness of the substructures of the first assembly with this joint at the joint's DOFs, and ω in the middle
+    /// of the range; ones if there is no such assembly.
+    pub(super) fn substructures(&self, joint: usize) -> (&[f64], f64) {
         let mut blocks = self.groups.iter().flat_map(|group| &group.blocks);
         match blocks.find(|block| block.joint == joint) {
             Some(block) => (&block.dynamic_stiffness, block.omega[block.lines() / 2]),
-            None => (&[1.0; N], 1.0),
+            None => (&[1.0; MOST_DOFS], 1.0),
         }
     }
 
-    fn drawn(
+    /// Data drawn from the model at `state`, all noise included.
+    pub(super) fn drawn(
         &self,
         weights: &[Weights],
         state: &State,
         generator: &mut ChaCha8Rng,
-    ) -> Option<Box<dyn Assemblies>> {
-        let drawn = draw(self, weights, state, generator)?;
-        Some(Box::new(drawn))
+    ) -> Option<Assemblies> {
+        Some(Assemblies(draw(self, weights, state, generator)?))
     }
 }

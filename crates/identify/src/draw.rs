@@ -8,15 +8,17 @@ use rand_distr::{Distribution, Exp1, StandardNormal};
 
 use super::group::Group;
 use super::objective::{Objective, State, Weights};
+use super::weights::source_variances;
 
 /// Data as the model makes them at `state`, with errors of these variances.
-pub(super) fn draw<const N: usize>(
-    objective: &Objective<'_, N>,
+pub(super) fn draw(
+    objective: &Objective<'_>,
     weights: &[Weights],
     state: &State,
     generator: &mut ChaCha8Rng,
-) -> Option<Vec<Group<N>>> {
+) -> Option<Vec<Group>> {
     let mut drawn = objective.groups.to_vec();
+    let mut variances = Vec::new();
     objective.visit(None, state, &mut |number, line| {
         let group = &mut drawn[number];
         let weights = &weights[number];
@@ -40,10 +42,11 @@ pub(super) fn draw<const N: usize>(
             }
             at += count;
         }
-        let sources = group.sources.len();
-        for s in 0..sources {
-            let place = line.index * sources + s;
-            let error = circular(weights.sources[place], generator);
+        let own = &objective.groups[number];
+        source_variances(own, weights.levels, line.index, &mut variances);
+        for (s, variance) in variances.iter().enumerate() {
+            let place = line.index * variances.len() + s;
+            let error = circular(*variance, generator);
             shift(
                 group,
                 s,
@@ -56,27 +59,25 @@ pub(super) fn draw<const N: usize>(
 }
 
 /// Adds to a measured receptance of a substructure, and to all that was formed from it.
-fn shift<const N: usize>(group: &mut Group<N>, s: usize, line: usize, by: Complex64) {
+fn shift(group: &mut Group, s: usize, line: usize, by: Complex64) {
     let source = &mut group.sources[s];
-    Arc::make_mut(&mut source.value)[line] += by;
+    let place = source.place(line);
+    Arc::make_mut(&mut source.value)[place] += by;
     for (block, pattern) in group.blocks.iter_mut().zip(&source.patterns) {
         let Some(pattern) = pattern else { continue };
-        for i in 0..N {
-            for j in 0..N {
-                block.free[line][i][j] += by * pattern.free[i][j];
-            }
-        }
-        let columns = &mut block.transfer[line * block.points..(line + 1) * block.points];
-        for (column, shares) in columns.iter_mut().zip(&pattern.transfer) {
-            for (value, share) in column.iter_mut().zip(shares) {
+        let add = |values: &mut [Complex64], size: usize, shares: &[f64]| {
+            let values = values[line * size..(line + 1) * size].iter_mut();
+            for (value, share) in values.zip(shares) {
                 *value += by * share;
             }
-        }
-        let count = block.entries.len();
-        let own = &mut block.own[line * count..(line + 1) * count];
-        for (value, share) in own.iter_mut().zip(&pattern.own) {
-            *value += by * share;
-        }
+        };
+        add(&mut block.free, block.dofs * block.dofs, &pattern.free);
+        add(
+            &mut block.transfer,
+            block.dofs * block.points,
+            &pattern.transfer,
+        );
+        add(&mut block.own, block.entries.len(), &pattern.own);
     }
 }
 

@@ -9,11 +9,10 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::Misfit;
 use super::likelihood::log_variances;
 use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
-use super::objective::{Corrections, State, Weights};
+use super::objective::{Corrections, Objective, State, Weights};
 
 /// How the unknowns follow from the coordinates in which they are sought.
 pub(super) trait Chart {
@@ -120,7 +119,7 @@ const FALL: f64 = 0.1;
 /// With `levels`, as for the trial of a start, the weights follow from them and no level is estimated, and an iteration that
 /// wanders is given up.
 pub(super) fn estimate(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     noise: &Noise,
     levels: Option<Levels>,
     chart: &dyn Chart,
@@ -224,7 +223,7 @@ struct Near {
 /// Full steps from a point near the minimum, each with the weights of the point before it: there the promise falls with each,
 /// whatever the weights do, and no step has to be tried with weights that are held. Far from it the point stays where it is.
 fn follow(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     levels: Levels,
     chart: &dyn Chart,
     mut point: Weighted,
@@ -253,7 +252,7 @@ fn follow(
     }
 }
 
-fn negligible_gain(objective: &dyn Misfit) -> f64 {
+fn negligible_gain(objective: &Objective<'_>) -> f64 {
     if objective.is_independent() {
         NEGLIGIBLE_GAIN
     } else {
@@ -272,7 +271,7 @@ pub(super) fn first_levels(noise: &Noise) -> Levels {
 
 /// Where the cost with these weights is lowest, roughly.
 pub(super) fn minimum(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     weights: &[Weights],
     start: &DVector<f64>,
 ) -> Option<State> {
@@ -293,7 +292,7 @@ struct Rest {
 
 /// The iteration from `start` coordinates, at which `state` is.
 fn levenberg_marquardt(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     weights: &[Weights],
     chart: &dyn Chart,
     start: &DVector<f64>,

@@ -137,11 +137,11 @@ pub(super) fn finalists(
         finals = finals.into_iter().map(Final::without_corrections).collect();
         known = known.into_iter().map(Final::without_corrections).collect();
         let start = &candidate.unknowns;
-        let found = estimate(whole.as_ref(), noise, None, &Free, start, None);
+        let found = estimate(&whole, noise, None, &Free, start, None);
         finals.push(Final {
             candidate: candidate.clone(),
             end: found.and_then(|estimate| {
-                let assessment = assess(whole.as_ref(), &estimate, noise)?;
+                let assessment = assess(&whole, &estimate, noise)?;
                 Some(End {
                     estimate,
                     assessment,

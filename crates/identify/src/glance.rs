@@ -30,7 +30,7 @@ pub(super) fn least_left(
     beginning: Beginning<'_>,
 ) -> Option<f64> {
     let thinned = data.thinned.objective(entries);
-    let thinned = thinned.as_ref();
+    let thinned = &thinned;
     let levels = first_levels(noise);
     let whole = data.thinned_whole.as_ref();
     let whole = whole.map(|whole| whole.objective(entries));
@@ -39,7 +39,7 @@ pub(super) fn least_left(
             let found = estimate(thinned, noise, Some(levels), &Free, start, None)?;
             return Some(found.cost / found.measurements as f64);
         };
-        let robust = robust(thinned, whole.as_ref(), noise, start)?;
+        let robust = robust(thinned, whole, noise, start)?;
         let used = data.few_near(entries, robust.place());
         let few = used.assemblies.objective(entries);
         let (_, state) = few.renewed(levels, robust.unknowns, None)?;

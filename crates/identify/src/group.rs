@@ -28,12 +28,13 @@ impl Side {
 
 /// How a measured receptance enters F = H_jj + H_kk, H_ks and H_ss of one assembly.
 #[derive(Clone, Debug)]
-pub(super) struct Pattern<const N: usize> {
-    pub(super) free: [[f64; N]; N],
+pub(super) struct Pattern {
+    /// Row by row.
+    pub(super) free: Vec<f64>,
     /// What of that is not zero, with row and column.
     pub(super) entries_of_free: Vec<(usize, usize, f64)>,
-    /// For each point; empty if it does not enter.
-    pub(super) transfer: Vec<[f64; N]>,
+    /// A column for each point; empty if it does not enter.
+    pub(super) transfer: Vec<f64>,
     /// DOFs of the joint at which that is not zero.
     pub(super) dofs_of_transfer: Vec<usize>,
     /// For each entry; empty if it does not enter.
@@ -42,33 +43,47 @@ pub(super) struct Pattern<const N: usize> {
 
 /// A measured receptance of a substructure with an error of its own.
 #[derive(Clone, Debug)]
-pub(super) struct Source<const N: usize> {
+pub(super) struct Source {
     pub(super) side: Side,
     /// Independent measurements that its value is the mean of.
     pub(super) count: u32,
     /// Floor of the noise of one measurement.
     pub(super) floor: Floor,
-    /// The value at each line.
+    /// The value at each line that was measured …
     pub(super) value: Arc<Vec<Complex64>>,
+    /// … and which of them are used; `None` if all are.
+    pub(super) used: Option<Arc<Vec<usize>>>,
     /// Variance of one measurement as a fraction of |H|² at each line; empty where it follows from a level.
     pub(super) known: Vec<f64>,
     /// For each block of the group, whether and how it enters.
-    pub(super) patterns: Vec<Option<Pattern<N>>>,
+    pub(super) patterns: Vec<Option<Pattern>>,
+}
+
+impl Source {
+    /// Where the value at a line that is used stands.
+    pub(super) fn place(&self, line: usize) -> usize {
+        self.used.as_ref().map_or(line, |used| used[line])
+    }
+
+    /// The value at a line that is used.
+    pub(super) fn value_at(&self, line: usize) -> Complex64 {
+        self.value[self.place(line)]
+    }
 }
 
 /// Assemblies whose errors are not independent of each other, line by line: they share a measured substructure.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Group<const N: usize> {
+pub(super) struct Group {
     /// Number of each block's assembly among all.
     pub(super) assemblies: Vec<usize>,
-    pub(super) blocks: Vec<Block<N>>,
-    pub(super) sources: Vec<Source<N>>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) sources: Vec<Source>,
 }
 
 /// Assemblies of a group with the lines that are taken of them.
 type Members<'l> = Vec<(&'l Lines, &'l Chosen)>;
 
-impl<const N: usize> Group<N> {
+impl Group {
     /// Groups of the assemblies `all`, each with the number of its joint, of which the `chosen` lines are taken; the measured
     /// receptances of substructures that have noise become sources. Assemblies of one group have the same lines chosen.
     pub(super) fn all(all: &[(&Lines, usize)], chosen: &[Chosen], noise: &Noise) -> Vec<Self> {
@@ -146,6 +161,7 @@ impl<const N: usize> Group<N> {
         users: &[bool],
         chosen: &[usize],
     ) {
+        let used = (chosen.len() < measured.lines()).then(|| Arc::new(chosen.to_vec()));
         let labels = measured.transformation().ncols();
         for column in 0..labels {
             for row in 0..=column {
@@ -179,11 +195,8 @@ impl<const N: usize> Group<N> {
                         [row, column].map(|label| measured.is_rotation(label)),
                         || measured.floor(row, column) * (indices.len() as f64).sqrt(),
                     ),
-                    value: if chosen.len() == value.len() {
-                        Arc::clone(value)
-                    } else {
-                        Arc::new(chosen.iter().map(|&line| value[line]).collect())
-                    },
+                    value: Arc::clone(value),
+                    used: used.clone(),
                     known: known.unwrap_or_default(),
                     patterns,
                 });
@@ -203,6 +216,11 @@ impl<const N: usize> Group<N> {
         joints
     }
 
+    /// DOFs of its joints.
+    pub(super) fn dofs(&self) -> usize {
+        self.blocks.first().map_or(0, |block| block.dofs)
+    }
+
     /// Complex entries of all blocks at one line.
     pub(super) fn entries(&self) -> usize {
         self.blocks.iter().map(|block| block.entries.len()).sum()
@@ -210,7 +228,7 @@ impl<const N: usize> Group<N> {
 
     /// Measured complex numbers of the assemblies.
     pub(super) fn measurements(&self) -> usize {
-        let of_block = |block: &Block<N>| {
+        let of_block = |block: &Block| {
             let counts = block.entries.iter().map(|entry| entry.count as usize);
             block.used_lines() * counts.sum::<usize>()
         };
@@ -227,12 +245,12 @@ fn share(one: &Lines, other: &Lines, noisy: &impl Fn(Side) -> bool) -> bool {
 }
 
 /// dH = W dU Wᵀ for a symmetric entry of U, split into the joint's and the points' part.
-fn pattern<const N: usize>(
+fn pattern(
     side: Side,
     measured: &MeasuredSubstructure,
     (p, q): (usize, usize),
-    block: &Block<N>,
-) -> Pattern<N> {
+    block: &Block,
+) -> Pattern {
     let w = measured.transformation();
     let change = |i: usize, j: usize| {
         let once = w[(i, p)] * w[(j, q)];
@@ -242,36 +260,37 @@ fn pattern<const N: usize>(
             once + w[(i, q)] * w[(j, p)]
         }
     };
+    let dofs = block.dofs;
     let mut transfer = Vec::new();
     let mut own = Vec::new();
     if side == Side::B {
-        transfer = (0..block.points)
-            .map(|point| std::array::from_fn(|i| change(i, N + point)))
+        let points = dofs..dofs + block.points;
+        transfer = points
+            .flat_map(|point| (0..dofs).map(move |i| (i, point)))
+            .map(|(i, point)| change(i, point))
             .collect();
         own = block
             .entries
             .iter()
-            .map(|entry| change(N + entry.row, N + entry.column))
+            .map(|entry| change(dofs + entry.row, dofs + entry.column))
             .collect();
-        if transfer.iter().flatten().all(|&share: &f64| share == 0.0) {
-            transfer.clear();
-        }
-        if own.iter().all(|&share| share == 0.0) {
-            own.clear();
+        for shares in [&mut transfer, &mut own] {
+            if shares.iter().all(|&share| share == 0.0) {
+                shares.clear();
+            }
         }
     }
-    let free: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| change(i, j)));
-    let every = (0..N).flat_map(|i| (0..N).map(move |j| (i, j)));
-    let shares = every.map(|(i, j)| (i, j, free[i][j]));
+    let every = (0..dofs).flat_map(|i| (0..dofs).map(move |j| (i, j)));
+    let free: Vec<f64> = every.clone().map(|(i, j)| change(i, j)).collect();
+    let shares = every.zip(&free).map(|((i, j), share)| (i, j, *share));
     let moves = |dof: &usize| {
-        transfer
-            .iter()
-            .any(|of_point: &[f64; N]| of_point[*dof] != 0.0)
+        let mut of_points = transfer.iter().skip(*dof).step_by(dofs);
+        of_points.any(|share| *share != 0.0)
     };
     Pattern {
         entries_of_free: shares.filter(|(_, _, share)| *share != 0.0).collect(),
+        dofs_of_transfer: (0..dofs).filter(moves).collect(),
         free,
-        dofs_of_transfer: (0..N).filter(moves).collect(),
         transfer,
         own,
     }

@@ -7,14 +7,16 @@ use num_complex::Complex64;
 
 use super::block::Block;
 use super::group::Group;
+use super::kernel::for_dofs;
 use super::lanes::{LANES, Reals};
 use super::layout::Place;
-use super::noise::Size;
+use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::objective::Weights;
 use super::parallel;
 use super::strip::{
     ENTRIES_OF_FOUR, ENTRIES_OF_ONE, InCommon, MOST_ENTRIES, Strip, Sums, Vector, are_of_one,
+    for_strips,
 };
 use super::weights::of_one;
 
@@ -23,24 +25,21 @@ use super::weights::of_one;
 pub(super) const PIECE: usize = 1024;
 
 /// Adds all lines of `group` to the normal equations, with variances that are held.
-pub(super) fn accumulate<const N: usize>(
-    group: &Group<N>,
+pub(super) fn accumulate(
+    group: &Group,
     entries: &[Place],
     unknowns: &[f64],
     weights: &Weights,
     normal: &mut Normal,
 ) -> Option<()> {
-    if are_of_one::<N>(entries) {
-        accumulate_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, weights, normal)
-    } else if entries.len() <= ENTRIES_OF_FOUR {
-        accumulate_rows::<N, ENTRIES_OF_FOUR>(group, entries, unknowns, weights, normal)
-    } else {
-        accumulate_rows::<N, MOST_ENTRIES>(group, entries, unknowns, weights, normal)
-    }
+    let accumulate: Option<Accumulate> = for_strips!(group.dofs(), entries, accumulate_rows);
+    accumulate?(group, entries, unknowns, weights, normal)
 }
 
+type Accumulate = fn(&Group, &[Place], &[f64], &Weights, &mut Normal) -> Option<()>;
+
 fn accumulate_rows<const N: usize, const E: usize>(
-    group: &Group<N>,
+    group: &Group,
     entries: &[Place],
     unknowns: &[f64],
     weights: &Weights,
@@ -54,7 +53,7 @@ fn accumulate_rows<const N: usize, const E: usize>(
         let pieces: Vec<usize> = (0..block.lines()).step_by(PIECE).collect();
         let sums = parallel::map(&pieces, |&first| {
             let mut sums = Sums::<E>::new();
-            let mut strip = Strip::new(block);
+            let mut strip = Strip::<N>::new(block);
             let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let end = block.lines().min(first + PIECE);
             for line in (first..end).step_by(LANES) {
@@ -76,33 +75,30 @@ fn accumulate_rows<const N: usize, const E: usize>(
 }
 
 /// The same with variances from the computed receptances, which it returns; `None` also where one is not a number above zero.
-pub(super) fn renew<const N: usize>(
-    group: &Group<N>,
+pub(super) fn renew(
+    group: &Group,
     entries: &[Place],
     unknowns: &[f64],
-    level: Size,
+    levels: Levels,
     normal: &mut Normal,
 ) -> Option<Weights> {
-    if are_of_one::<N>(entries) {
-        renew_rows::<N, ENTRIES_OF_ONE>(group, entries, unknowns, level, normal)
-    } else if entries.len() <= ENTRIES_OF_FOUR {
-        renew_rows::<N, ENTRIES_OF_FOUR>(group, entries, unknowns, level, normal)
-    } else {
-        renew_rows::<N, MOST_ENTRIES>(group, entries, unknowns, level, normal)
-    }
+    let renew: Option<Renew> = for_strips!(group.dofs(), entries, renew_rows);
+    renew?(group, entries, unknowns, levels, normal)
 }
 
+type Renew = fn(&Group, &[Place], &[f64], Levels, &mut Normal) -> Option<Weights>;
+
 fn renew_rows<const N: usize, const E: usize>(
-    group: &Group<N>,
+    group: &Group,
     entries: &[Place],
     unknowns: &[f64],
-    level: Size,
+    levels: Levels,
     normal: &mut Normal,
 ) -> Option<Weights> {
     let size = group.entries();
     let mut weights = Weights {
         entries: vec![0.0; size * group.lines()],
-        sources: Vec::new(),
+        levels,
         scatter: 0.0,
     };
     let mut at = 0;
@@ -122,7 +118,7 @@ fn renew_rows<const N: usize, const E: usize>(
             .collect();
         let sums = parallel::map_each(pieces, |(first, variances)| {
             let mut sums = Sums::<E>::new();
-            let mut strip = Strip::new(block);
+            let mut strip = Strip::<N>::new(block);
             let mut rows = vec![(Vector::NONE, InCommon::NONE); block.points];
             let mut scatter = Reals::ZERO;
             let mut sum = Reals::ZERO;
@@ -130,7 +126,7 @@ fn renew_rows<const N: usize, const E: usize>(
                 strip.solve(first + number * LANES, entries, unknowns)?;
                 let strip = &strip;
                 sums.add_strip(strip, entries, &mut rows, |e, power| {
-                    let variance = variance(strip, e, level, power);
+                    let variance = variance(strip, e, levels.assembly, power);
                     sum += variance;
                     let one = variance.reciprocal();
                     if counts[e] > 1.0 {
@@ -158,8 +154,20 @@ fn renew_rows<const N: usize, const E: usize>(
 }
 
 /// H^C of one assembly at some of its lines, line by line and entry by entry.
-pub(super) fn computed<const N: usize>(
-    block: &Block<N>,
+pub(super) fn computed(
+    block: &Block,
+    entries: &[Place],
+    unknowns: &[f64],
+    lines: Range<usize>,
+) -> Option<Vec<Complex64>> {
+    let compute: Option<Compute> = for_dofs!(block.dofs, compute);
+    compute?(block, entries, unknowns, lines)
+}
+
+type Compute = fn(&Block, &[Place], &[f64], Range<usize>) -> Option<Vec<Complex64>>;
+
+fn compute<const N: usize>(
+    block: &Block,
     entries: &[Place],
     unknowns: &[f64],
     lines: Range<usize>,
@@ -167,7 +175,7 @@ pub(super) fn computed<const N: usize>(
     let count = block.entries.len();
     let unknowns = unknowns.get(block.unknowns(entries))?;
     let mut computed = vec![Complex64::ZERO; count * lines.len()];
-    let mut strip = Strip::new(block);
+    let mut strip = Strip::<N>::new(block);
     for (number, values) in computed.chunks_mut(count * LANES).enumerate() {
         strip.solve(lines.start + number * LANES, entries, unknowns)?;
         for (e, &entry) in block.entries.iter().enumerate() {

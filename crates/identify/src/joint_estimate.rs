@@ -7,10 +7,10 @@ use super::assessment;
 use super::bands::UsedBands;
 use super::bootstrap::Bootstrap;
 use super::budget::Systematic;
-use super::data::Misfit;
 use super::layout::Layout;
 use super::model::{JointMatrices, JointModel, is_positive_semidefinite};
 use super::noise::Noise;
+use super::objective::Objective;
 use super::passive;
 use super::search::Found;
 use super::uncertainty::{self, Covariance};
@@ -183,7 +183,7 @@ pub(super) struct CovarianceOfAll {
 }
 
 impl CovarianceOfAll {
-    pub(super) fn of(objective: &dyn Misfit, noise: &Noise, found: &Found) -> Self {
+    pub(super) fn of(objective: &Objective<'_>, noise: &Noise, found: &Found) -> Self {
         let estimate = &found.estimate;
         let unit = uncertainty::unit_covariance(&estimate.information);
         let reduced = estimate.reduced_chi_squared();
@@ -224,7 +224,7 @@ impl CovarianceOfAll {
     /// The part of torque number `joint`; `bolts` are the names of those that have joints of their own.
     pub(super) fn of_torque(
         &self,
-        objective: &dyn Misfit,
+        objective: &Objective<'_>,
         layout: &Layout,
         bolts: &[String],
         found: &Found,

@@ -5,114 +5,190 @@
 
 use num_complex::Complex64;
 
-use super::block::{Entry, Small};
+use super::block::Entry;
 use super::group::Pattern;
 use super::lanes::Number;
 use super::layout::Place;
 
-/// Q and X of one line, a column for each point.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Kernel<const N: usize, T = Complex64> {
-    transfer: Vec<[T; N]>,
-    /// Q = (I + F K*)⁻¹ H_ks
-    q: Vec<[T; N]>,
-    /// X = K* Q
-    x: Vec<[T; N]>,
+/// Room for a matrix of the joint's DOFs at one line, or at several side by side. What a joint with fewer DOFs leaves of it
+/// is zero.
+pub(super) type Small<const N: usize, T = Complex64> = [[T; N]; N];
+
+/// The instance of a generic function with room for so many joint DOFs; `None` where there is no such joint.
+macro_rules! for_dofs {
+    ($dofs:expr, $function:ident) => {
+        match $dofs {
+            1 => Some($function::<1> as _),
+            2 => Some($function::<2> as _),
+            3..=4 => Some($function::<4> as _),
+            5..=8 => Some($function::<8> as _),
+            9..=16 => Some($function::<16> as _),
+            _ => None,
+        }
+    };
+}
+pub(super) use for_dofs;
+
+/// How many of N rows a joint with so many DOFs fills. Of one and two DOFs, which have instances of their own, the compiler
+/// knows it.
+#[inline(always)]
+pub(super) const fn filled<const N: usize>(dofs: usize) -> usize {
+    if N <= 2 || dofs > N { N } else { dofs }
 }
 
-impl<const N: usize, T: Number> Kernel<N, T> {
-    pub(super) fn new() -> Self {
+/// A vector with these first entries, the others zero.
+#[inline(always)]
+pub(super) fn vector<const N: usize, T: Number>(dofs: usize, value: impl Fn(usize) -> T) -> [T; N] {
+    let mut vector = [T::ZERO; N];
+    for (i, entry) in vector[..filled::<N>(dofs)].iter_mut().enumerate() {
+        *entry = value(i);
+    }
+    vector
+}
+
+/// A matrix with these first rows and columns, the others zero.
+#[inline(always)]
+pub(super) fn matrix<const N: usize, T: Number>(
+    dofs: usize,
+    value: impl Fn(usize, usize) -> T,
+) -> Small<N, T> {
+    let mut matrix = [[T::ZERO; N]; N];
+    for (i, row) in matrix[..filled::<N>(dofs)].iter_mut().enumerate() {
+        *row = vector(dofs, |j| value(i, j));
+    }
+    matrix
+}
+
+/// Q and X of one line, a column for each point.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel {
+    dofs: usize,
+    solve: Option<Solve>,
+    transfer: Vec<Complex64>,
+    /// Q = (I + F K*)⁻¹ H_ks
+    q: Vec<Complex64>,
+    /// X = K* Q
+    x: Vec<Complex64>,
+}
+
+/// A joint at one line: the places of its K*, its unknowns, and ω.
+type Joint<'u> = (&'u [Place], &'u [f64], f64);
+type Solve = fn(&mut Kernel, &[Complex64], &[Complex64], Joint<'_>) -> Option<()>;
+
+impl Kernel {
+    /// For a joint with so many DOFs.
+    pub(super) fn new(dofs: usize) -> Self {
         Self {
+            dofs,
+            solve: for_dofs!(dofs, solve),
             transfer: Vec::new(),
             q: Vec::new(),
             x: Vec::new(),
         }
     }
 
-    /// Solves one line, whose H_ks has these columns; `None` where I + F K* is singular.
-    #[inline(always)]
+    /// Solves one line with F, by rows, and the columns of H_ks; `None` where I + F K* is singular.
     pub(super) fn solve(
         &mut self,
-        free: &Small<N, T>,
-        transfer: impl ExactSizeIterator<Item = [T; N]>,
-        stiffness: &Small<N, T>,
+        free: &[Complex64],
+        transfer: &[Complex64],
+        joint: Joint<'_>,
     ) -> Option<()> {
-        let mut loop_gain = product(free, stiffness);
-        for (i, row) in loop_gain.iter_mut().enumerate() {
-            row[i] += T::ONE;
-        }
-        let inverse = inverse(loop_gain)?;
-        let zero = [T::ZERO; N];
-        for columns in [&mut self.transfer, &mut self.q, &mut self.x] {
-            columns.resize(transfer.len(), zero);
-        }
-        let own = self.transfer.iter_mut().zip(&mut self.q).zip(&mut self.x);
-        for (column, ((own, q), x)) in transfer.zip(own) {
-            *own = column;
-            *q = times(&inverse, &column);
-            *x = times(stiffness, q);
-        }
-        Some(())
+        self.solve?(self, free, transfer, joint)
     }
 
-    /// Q of one point.
-    #[inline(always)]
-    pub(super) fn q(&self, point: usize) -> &[T; N] {
-        &self.q[point]
+    /// The column of one point.
+    fn column<'c>(&self, columns: &'c [Complex64], point: usize) -> &'c [Complex64] {
+        &columns[point * self.dofs..(point + 1) * self.dofs]
     }
 
     /// H^C at an entry from H_ss there.
-    #[inline(always)]
-    pub(super) fn receptance(&self, own: T, entry: Entry) -> T {
-        own - dot(&self.transfer[entry.row], &self.x[entry.column])
+    pub(super) fn receptance(&self, own: Complex64, entry: Entry) -> Complex64 {
+        let transfer = self.column(&self.transfer, entry.row);
+        own - dot(transfer, self.column(&self.x, entry.column))
     }
 
-    /// Qᵀ E Q at `entry`, E having ones at (i, j) and (j, i).
-    #[inline(always)]
-    pub(super) fn through(&self, entry: Entry, (i, j): (usize, usize)) -> T {
-        let (p, q) = (&self.q[entry.row], &self.q[entry.column]);
-        if i == j {
-            p[i] * q[i]
-        } else {
-            p[i] * q[j] + p[j] * q[i]
-        }
-    }
-}
-
-impl<const N: usize> Kernel<N> {
     /// Derivative of H^C at `entry` by an unknown entry of K*, in every block that has it.
-    #[inline]
     pub(super) fn by_stiffness(&self, entry: Entry, place: Place) -> Complex64 {
-        -place
-            .all()
-            .map(|at| self.through(entry, at))
-            .sum::<Complex64>()
+        let p = self.column(&self.q, entry.row);
+        let q = self.column(&self.q, entry.column);
+        -place.all().map(|at| through(p, q, at)).sum::<Complex64>()
     }
 
     /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss as the pattern says.
-    pub(super) fn by_source(&self, entry: Entry, pattern: &Pattern<N>, own: f64) -> Complex64 {
-        let (x, y) = (&self.x[entry.row], &self.x[entry.column]);
+    pub(super) fn by_source(&self, entry: Entry, pattern: &Pattern, own: f64) -> Complex64 {
+        let x = self.column(&self.x, entry.row);
+        let y = self.column(&self.x, entry.column);
         let mut derivative = Complex64::from(own);
         for &(i, j, share) in &pattern.entries_of_free {
             derivative += x[i] * y[j] * share;
         }
         for &i in &pattern.dofs_of_transfer {
-            let share = |point: usize| pattern.transfer[point][i];
+            let share = |point: usize| pattern.transfer[point * self.dofs + i];
             derivative -= share(entry.row) * y[i] + share(entry.column) * x[i];
         }
         derivative
     }
 }
 
+fn solve<const N: usize>(
+    kernel: &mut Kernel,
+    free: &[Complex64],
+    transfer: &[Complex64],
+    (entries, unknowns, omega): Joint<'_>,
+) -> Option<()> {
+    let dofs = filled::<N>(kernel.dofs);
+    let stiffness = complex_stiffness::<N>(entries, unknowns, omega);
+    let free = matrix(dofs, |i, j| free[i * dofs + j]);
+    let inverse = coupled(dofs, &free, &stiffness)?;
+    kernel.transfer.clear();
+    kernel.transfer.extend_from_slice(transfer);
+    kernel.q.clear();
+    kernel.x.clear();
+    for column in transfer.chunks_exact(dofs) {
+        let q = times(dofs, &inverse, &vector(dofs, |i| column[i]));
+        let x = times(dofs, &stiffness, &q);
+        kernel.q.extend_from_slice(&q[..dofs]);
+        kernel.x.extend_from_slice(&x[..dofs]);
+    }
+    Some(())
+}
+
+/// (I + F K*)⁻¹; `None` where it is singular.
+#[inline(always)]
+pub(super) fn coupled<const N: usize, T: Number>(
+    dofs: usize,
+    free: &Small<N, T>,
+    stiffness: &Small<N, T>,
+) -> Option<Small<N, T>> {
+    let mut loop_gain = product(dofs, free, stiffness);
+    for (i, row) in loop_gain.iter_mut().enumerate() {
+        row[i] += T::ONE;
+    }
+    inverse(dofs, loop_gain)
+}
+
+/// pᵀ E q, E having ones at (i, j) and (j, i).
+#[inline(always)]
+pub(super) fn through<T: Number>(p: &[T], q: &[T], (i, j): (usize, usize)) -> T {
+    if i == j {
+        p[i] * q[i]
+    } else {
+        p[i] * q[j] + p[j] * q[i]
+    }
+}
+
 #[inline(always)]
 pub(super) fn product<const N: usize, T: Number>(
+    dofs: usize,
     left: &Small<N, T>,
     right: &Small<N, T>,
 ) -> Small<N, T> {
+    let dofs = filled::<N>(dofs);
     let mut product = [[T::ZERO; N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            for k in 0..N {
+    for i in 0..dofs {
+        for j in 0..dofs {
+            for k in 0..dofs {
                 product[i][j] += left[i][k] * right[k][j];
             }
         }
@@ -121,13 +197,18 @@ pub(super) fn product<const N: usize, T: Number>(
 }
 
 #[inline(always)]
-fn times<const N: usize, T: Number>(matrix: &Small<N, T>, vector: &[T; N]) -> [T; N] {
-    std::array::from_fn(|i| dot(&matrix[i], vector))
+pub(super) fn times<const N: usize, T: Number>(
+    dofs: usize,
+    matrix: &Small<N, T>,
+    column: &[T; N],
+) -> [T; N] {
+    let dofs = filled::<N>(dofs);
+    vector(dofs, |i| dot(&matrix[i][..dofs], &column[..dofs]))
 }
 
 /// Σ left·right, without conjugation.
 #[inline(always)]
-pub(super) fn dot<const N: usize, T: Number>(left: &[T; N], right: &[T; N]) -> T {
+pub(super) fn dot<T: Number>(left: &[T], right: &[T]) -> T {
     let mut sum = T::ZERO;
     for (l, r) in left.iter().zip(right) {
         sum += *l * *r;
@@ -137,9 +218,12 @@ pub(super) fn dot<const N: usize, T: Number>(left: &[T; N], right: &[T; N]) -> T
 
 /// Inverse of a small matrix; `None` if it is singular, at any of several lines.
 #[inline(always)]
-pub(super) fn inverse<const N: usize, T: Number>(matrix: Small<N, T>) -> Option<Small<N, T>> {
+pub(super) fn inverse<const N: usize, T: Number>(
+    dofs: usize,
+    matrix: Small<N, T>,
+) -> Option<Small<N, T>> {
     if N != 2 {
-        return eliminated(matrix);
+        return eliminated(dofs, matrix);
     }
     // [a b; c d]⁻¹ = [d −b; −c a]/(ad − bc)
     let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
@@ -153,12 +237,18 @@ pub(super) fn inverse<const N: usize, T: Number>(matrix: Small<N, T>) -> Option<
 }
 
 /// Inverse by Gauss–Jordan elimination with row exchanges.
-fn eliminated<const N: usize, T: Number>(mut matrix: Small<N, T>) -> Option<Small<N, T>> {
-    let mut inverse: Small<N, T> =
-        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { T::ONE } else { T::ZERO }));
-    for column in 0..N {
+fn eliminated<const N: usize, T: Number>(
+    dofs: usize,
+    mut matrix: Small<N, T>,
+) -> Option<Small<N, T>> {
+    let dofs = filled::<N>(dofs);
+    let mut inverse = [[T::ZERO; N]; N];
+    for (i, row) in inverse.iter_mut().enumerate() {
+        row[i] = T::ONE;
+    }
+    for column in 0..dofs {
         let mut pivot = column;
-        for row in column + 1..N {
+        for row in column + 1..dofs {
             if matrix[row][column].outweighs(matrix[pivot][column]) {
                 pivot = row;
             }
@@ -166,14 +256,14 @@ fn eliminated<const N: usize, T: Number>(mut matrix: Small<N, T>) -> Option<Smal
         let reciprocal = matrix[pivot][column].reciprocal()?;
         matrix.swap(column, pivot);
         inverse.swap(column, pivot);
-        for j in 0..N {
+        for j in 0..dofs {
             matrix[column][j] = matrix[column][j] * reciprocal;
             inverse[column][j] = inverse[column][j] * reciprocal;
         }
-        for row in 0..N {
+        for row in 0..dofs {
             if row != column {
                 let factor = matrix[row][column];
-                for j in 0..N {
+                for j in 0..dofs {
                     let (m, i) = (matrix[column][j], inverse[column][j]);
                     matrix[row][j] -= factor * m;
                     inverse[row][j] -= factor * i;
@@ -209,8 +299,8 @@ mod tests {
     fn both_inverses_agree_with_the_definition() {
         let c = Complex64::new;
         let matrix = [[c(1.0, 2.0), c(-3.0, 0.5)], [c(0.25, -1.0), c(2.0, 0.0)]];
-        for inverse in [inverse(matrix).unwrap(), eliminated(matrix).unwrap()] {
-            let unit = product(&matrix, &inverse);
+        for inverse in [inverse(2, matrix).unwrap(), eliminated(2, matrix).unwrap()] {
+            let unit = product(2, &matrix, &inverse);
             for i in 0..2 {
                 for j in 0..2 {
                     let expected = if i == j { 1.0 } else { 0.0 };
@@ -218,7 +308,29 @@ mod tests {
                 }
             }
         }
-        assert_eq!(inverse([[Complex64::ZERO; 2]; 2]), None);
-        assert_eq!(inverse([[Complex64::ZERO; 1]; 1]), None);
+        assert_eq!(inverse(2, [[Complex64::ZERO; 2]; 2]), None);
+        assert_eq!(inverse(1, [[Complex64::ZERO; 1]; 1]), None);
+    }
+
+    #[test]
+    fn room_that_a_joint_does_not_fill_changes_nothing() {
+        let c = Complex64::new;
+        let own = [
+            [c(1.0, 2.0), c(-3.0, 0.5), c(0.1, 0.0)],
+            [c(0.25, -1.0), c(2.0, 0.0), c(0.0, 4.0)],
+            [c(-0.5, 0.0), c(1.0, 1.0), c(3.0, -2.0)],
+        ];
+        let exact = inverse(3, own).unwrap();
+        let roomy: Small<8> = matrix(3, |i, j| own[i][j]);
+        let found = inverse(3, roomy).unwrap();
+        let unit = product(3, &roomy, &found);
+        for i in 0..3 {
+            assert_eq!(found[i][..3], exact[i]);
+            assert_eq!(found[i][3..], [Complex64::ZERO; 5]);
+            for j in 0..3 {
+                let expected = if i == j { 1.0 } else { 0.0 };
+                assert!((unit[i][j] - expected).norm() < 1e-15);
+            }
+        }
     }
 }

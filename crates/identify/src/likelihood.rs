@@ -6,10 +6,10 @@ use super::block::Block;
 use super::group::Group;
 use super::objective::{Objective, Weights};
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Σ ln σ² over measurements beyond the first of each entry.
     pub(super) fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64 {
-        let of_group = |(group, weights): (&Group<N>, &Weights)| {
+        let of_group = |(group, weights): (&Group, &Weights)| {
             let entries = group.blocks.iter().flat_map(|block| &block.entries);
             let counts: Vec<f64> = entries.map(|entry| f64::from(entry.count)).collect();
             let lines = weights.entries.chunks_exact(counts.len().max(1));
@@ -32,7 +32,7 @@ impl<const N: usize> Objective<'_, N> {
         if self.is_independent() {
             return 0.0;
         }
-        let of_block = |block: &Block<N>| -> f64 {
+        let of_block = |block: &Block| -> f64 {
             let lines = block.measured.chunks_exact(block.entries.len().max(1));
             let lines = lines.enumerate();
             let lines = lines.filter(|(line, _)| block.takes_part(*line));

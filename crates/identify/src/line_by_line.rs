@@ -2,10 +2,8 @@
 
 use bolted_joint_frf::structure::{ComplexMatrix, Partition};
 
-use super::block::Small;
-use super::data::for_dofs;
 use super::decoupling;
-use super::kernel::{dot, inverse};
+use super::kernel::{Small, dot, filled, for_dofs, inverse, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Layout;
 use super::lines::Lines;
@@ -36,7 +34,8 @@ type OfLines = fn(&Lines, &Layout) -> Vec<Option<ComplexMatrix>>;
 fn with_dofs<const N: usize>(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
     let count = lines.frequency_hz.len();
     let used = layout.used_dofs();
-    let is_fixed = lines.points.len() > N && used.len() == N;
+    let dofs = filled::<N>(lines.joint_dofs());
+    let is_fixed = lines.points.len() > dofs && used.len() == dofs;
     let mut least_squares = LeastSquares::<N>::default();
     let mut decoupled = Vec::with_capacity(count);
     for first in (0..count).step_by(LANES) {
@@ -48,7 +47,7 @@ fn with_dofs<const N: usize>(lines: &Lines, layout: &Layout) -> Vec<Option<Compl
             let Some(found) = found else {
                 return alone(lines, &used, line);
             };
-            let stiffness = ComplexMatrix::from_fn(N, N, |i, j| found[i][j].lane(lane));
+            let stiffness = ComplexMatrix::from_fn(dofs, dofs, |i, j| found[i][j].lane(lane));
             is_finite(&stiffness).then_some(stiffness)
         }));
     }
@@ -89,38 +88,38 @@ impl<const N: usize> LeastSquares<N> {
         let b = index.map(|line| lines.b.at(line));
         let (a, b) = (a.each_ref().map(|a| &**a), b.each_ref().map(|b| &**b));
         let assembly = index.map(|line| &lines.assembly[line]);
-        let points = lines.points.len();
+        let (dofs, points) = (filled::<N>(lines.joint_dofs()), lines.points.len());
         let of = |matrix: [&ComplexMatrix; LANES], i, j| Complexes::of(|lane| matrix[lane][(i, j)]);
-        self.left.of(points, |p, i| of(b, N + p, i))?;
-        self.right.of(points, |p, i| of(b, i, N + p))?;
+        self.left.of((points, dofs), |p, i| of(b, dofs + p, i))?;
+        self.right.of((points, dofs), |p, i| of(b, i, dofs + p))?;
         // Z⁻¹ = H_sk⁺ (H_ss − H^C_ss) H_ks⁺
         let mut z_inverse = [[Complexes::ZERO; N]; N];
         for (q, right) in self.right.columns.iter().enumerate() {
             let mut product = [Complexes::ZERO; N];
             for (p, left) in self.left.columns.iter().enumerate() {
-                let difference = of(b, N + p, N + q) - of(assembly, p, q);
-                for i in 0..N {
+                let difference = of(b, dofs + p, dofs + q) - of(assembly, p, q);
+                for i in 0..dofs {
                     product[i] += left[i] * difference;
                 }
             }
-            for i in 0..N {
-                for j in 0..N {
+            for i in 0..dofs {
+                for j in 0..dofs {
                     z_inverse[i][j] += product[i] * right[j];
                 }
             }
         }
         // K* = (Z − H_jj − H_kk)⁻¹
-        let mut z = inverse(z_inverse)?;
-        for i in 0..N {
-            for j in 0..N {
+        let mut z = inverse(dofs, z_inverse)?;
+        for i in 0..dofs {
+            for j in 0..dofs {
                 z[i][j] -= of(a, i, j) + of(b, i, j);
             }
         }
-        inverse(z)
+        inverse(dofs, z)
     }
 }
 
-/// M⁺ of a matrix with N columns, as many rows as there are points.
+/// M⁺ of a matrix with at most N columns, as many rows as there are points.
 #[derive(Default)]
 struct PseudoInverse<const N: usize> {
     /// M by rows, then its orthonormal basis.
@@ -131,18 +130,22 @@ struct PseudoInverse<const N: usize> {
 
 impl<const N: usize> PseudoInverse<N> {
     /// M = Q R by Gram and Schmidt, twice over, from columns of unit length; M⁺ = R⁻¹ Qᴴ.
-    fn of(&mut self, points: usize, entry: impl Fn(usize, usize) -> Complexes) -> Option<()> {
+    fn of(
+        &mut self,
+        (points, dofs): (usize, usize),
+        entry: impl Fn(usize, usize) -> Complexes,
+    ) -> Option<()> {
         self.rows.clear();
-        let row = |point| std::array::from_fn(|i| entry(point, i));
+        let row = |point| vector(dofs, |i| entry(point, i));
         self.rows.extend((0..points).map(row));
         // Q = M A: A takes the part of every operation that R⁻¹ is made of.
         let mut factor = [[Complexes::ZERO; N]; N];
-        for i in 0..N {
+        for i in 0..dofs {
             let scale = self.length(i).reciprocal();
             self.scale(i, scale);
             factor[i][i].re = scale;
         }
-        for i in 0..N {
+        for i in 0..dofs {
             for _ in 0..2 {
                 for before in 0..i {
                     let mut part = Complexes::ZERO;
@@ -170,7 +173,7 @@ impl<const N: usize> PseudoInverse<N> {
         self.columns.clear();
         self.columns.extend(self.rows.iter().map(|row| {
             let conjugate = row.map(Complexes::conj);
-            std::array::from_fn(|i| dot(&factor[i], &conjugate))
+            vector(dofs, |i| dot(&factor[i][..dofs], &conjugate[..dofs]))
         }));
         Some(())
     }
@@ -207,7 +210,7 @@ mod tests {
             Complexes::of(|lane| matrix[point][i] + matrix[(point + lane) % 3][i])
         };
         let mut inverse = PseudoInverse::<2>::default();
-        inverse.of(3, of).unwrap();
+        inverse.of((3, 2), of).unwrap();
         for i in 0..2 {
             for j in 0..2 {
                 for lane in 0..LANES {
@@ -224,7 +227,7 @@ mod tests {
     #[test]
     fn columns_that_depend_on_each_other_are_refused() {
         let mut inverse = PseudoInverse::<2>::default();
-        let of = inverse.of(3, |point, i| {
+        let of = inverse.of((3, 2), |point, i| {
             Complexes::of(|_| Complex64::from((point * 7 + 1) as f64 * [1.0, 3.0][i]))
         });
         assert_eq!(of, None);

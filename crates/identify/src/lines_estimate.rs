@@ -310,18 +310,11 @@ pub fn identify_lines(
     let objective = found.used.assemblies.objective(&places);
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
-    let covariance = CovarianceOfAll::of(objective.as_ref(), noise, &found);
-    let passive = passive::passive(objective.as_ref(), &layout, noise, estimate);
+    let covariance = CovarianceOfAll::of(&objective, noise, &found);
+    let passive = passive::passive(&objective, &layout, noise, estimate);
     let draws = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
-        let draws = bootstrap::draws(
-            objective.as_ref(),
-            &places,
-            noise,
-            estimate,
-            bootstrap,
-            progress,
-        )?;
+        let draws = bootstrap::draws(&objective, &places, noise, estimate, bootstrap, progress)?;
         Some((bootstrap, draws))
     });
     let size = layout.unknowns();
@@ -343,7 +336,7 @@ pub fn identify_lines(
                 band_averages(&data, &layout, &bands)
             },
             bands,
-            covariance: covariance.of_torque(objective.as_ref(), &layout, names, &found, joint),
+            covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
             bootstrap: draws
                 .as_ref()
                 .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
@@ -355,7 +348,6 @@ pub fn identify_lines(
     };
     let joints: Vec<JointEstimate> = (0..count).map(of_torque).collect();
     drop(passive);
-    drop(objective);
     let noise_level = (noise.is_stated() || estimate.degrees_of_freedom > 0)
         .then(|| NoiseLevel {
             relative: estimate.levels.assembly.relative,

@@ -21,7 +21,7 @@ use super::line::{Line, Variances};
 use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::parallel;
-use super::weights::line_variances;
+use super::weights::{line_variances, source_variances};
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
@@ -35,10 +35,27 @@ const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 pub(super) struct Weights {
     /// σ_C² of the mean of each entry of all blocks, line by line.
     pub(super) entries: Vec<f64>,
-    /// σ_H² of each source, line by line.
-    pub(super) sources: Vec<f64>,
+    /// What the variances of the sources follow from, which no unknown changes.
+    pub(super) levels: Levels,
     /// Σ|y − mean|²/σ² over repeated measurements: part of the cost that no joint changes.
     pub(super) scatter: f64,
+}
+
+impl Weights {
+    /// σ_C² of one line.
+    fn of_entries(&self, group: &Group, line: usize) -> &[f64] {
+        let size = group.entries();
+        &self.entries[line * size..(line + 1) * size]
+    }
+
+    /// All variances of one line; those of the sources are put into `sources`.
+    fn at<'w>(&'w self, group: &Group, line: usize, sources: &'w mut Vec<f64>) -> Variances<'w> {
+        source_variances(group, self.levels, line, sources);
+        Variances {
+            entries: self.of_entries(group, line),
+            sources,
+        }
+    }
 }
 
 /// For each group, δ of each source, line by line. They take as much memory as the substructures' data.
@@ -63,13 +80,13 @@ enum Whitening<'w> {
 
 /// The model with data and weights.
 #[derive(Clone, Copy)]
-pub(super) struct Objective<'a, const N: usize> {
-    pub(super) groups: &'a [Group<N>],
+pub(super) struct Objective<'a> {
+    pub(super) groups: &'a [Group],
     /// Unknown entries of the K* of each torque.
     pub(super) entries: &'a [Place],
 }
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Whether no unknown is so large that the joint would be rigid whatever its value: there a search must not run away to.
     pub(super) fn is_within_reach(&self, unknowns: &DVector<f64>) -> bool {
         let Some(block) = self.groups.first().and_then(|group| group.blocks.first()) else {
@@ -125,7 +142,7 @@ impl<const N: usize> Objective<'_, N> {
 
     /// Corrections of zero.
     pub(super) fn no_corrections(&self) -> Corrections {
-        let zero = |group: &Group<N>| vec![ZERO; group.sources.len() * group.lines()];
+        let zero = |group: &Group| vec![ZERO; group.sources.len() * group.lines()];
         Arc::new(self.groups.iter().map(zero).collect())
     }
 
@@ -137,7 +154,7 @@ impl<const N: usize> Objective<'_, N> {
     /// Adds a group whose lines have corrections, which follow the unknowns, to the normal equations.
     fn settle(
         &self,
-        group: &Group<N>,
+        group: &Group,
         weights: &Weights,
         unknowns: &DVector<f64>,
         corrections: &mut [Complex64],
@@ -148,8 +165,9 @@ impl<const N: usize> Objective<'_, N> {
         let sums = parallel::map_each(pieces, |(piece, corrections)| {
             let mut line = Line::new(group, self.entries);
             let mut normal = Normal::zero(unknowns.len());
+            let mut sources = Vec::new();
             for (index, delta) in (piece * PIECE..).zip(corrections.chunks_mut(count)) {
-                let variances = line.weights(weights, index);
+                let variances = weights.at(group, index, &mut sources);
                 line.settle(index, variances, unknowns, delta)?;
                 line.add_to(&mut normal);
             }
@@ -164,7 +182,7 @@ impl<const N: usize> Objective<'_, N> {
     /// The same with the variances that `levels` give at `unknowns`, which it returns.
     fn settle_renewed(
         &self,
-        group: &Group<N>,
+        group: &Group,
         levels: Levels,
         unknowns: &DVector<f64>,
         corrections: &mut [Complex64],
@@ -172,25 +190,25 @@ impl<const N: usize> Objective<'_, N> {
     ) -> Option<Weights> {
         let (count, size) = (group.sources.len(), group.entries());
         let mut entries = vec![0.0; size * group.lines()];
-        let mut sources = vec![0.0; count * group.lines()];
         let pieces: Vec<_> = corrections
             .chunks_mut(count * PIECE)
             .zip(entries.chunks_mut(size * PIECE))
-            .zip(sources.chunks_mut(count * PIECE))
             .enumerate()
             .collect();
-        let sums = parallel::map_each(pieces, |(piece, ((corrections, entries), sources))| {
+        let sums = parallel::map_each(pieces, |(piece, (corrections, entries))| {
             let mut line = Line::new(group, self.entries);
             let mut normal = Normal::zero(unknowns.len());
             let mut scatter = 0.0;
-            let own = corrections
-                .chunks_mut(count)
-                .zip(entries.chunks_mut(size))
-                .zip(sources.chunks_mut(count));
-            for (index, ((delta, entries), sources)) in (piece * PIECE..).zip(own) {
+            let mut sources = Vec::new();
+            let own = corrections.chunks_mut(count).zip(entries.chunks_mut(size));
+            for (index, (delta, entries)) in (piece * PIECE..).zip(own) {
                 line.linearise(index, unknowns.as_slice(), delta)?;
-                scatter += line_variances(group, &line, levels, entries, sources)?;
-                let variances = Variances { entries, sources };
+                scatter += line_variances(group, &line, levels, entries)?;
+                source_variances(group, levels, index, &mut sources);
+                let variances = Variances {
+                    entries,
+                    sources: &sources,
+                };
                 line.settle_linearised(variances, unknowns, delta)?;
                 line.add_to(&mut normal);
             }
@@ -204,7 +222,7 @@ impl<const N: usize> Objective<'_, N> {
         }
         Some(Weights {
             entries,
-            sources,
+            levels,
             scatter: all,
         })
     }
@@ -226,8 +244,8 @@ impl<const N: usize> Objective<'_, N> {
         let mut all = Vec::with_capacity(self.groups.len());
         for (group, corrections) in self.groups.iter().zip(&mut corrections) {
             let weights = if group.sources.is_empty() {
-                let (unknowns, level) = (unknowns.as_slice(), levels.assembly);
-                independent::renew(group, self.entries, unknowns, level, &mut normal)?
+                let unknowns = unknowns.as_slice();
+                independent::renew(group, self.entries, unknowns, levels, &mut normal)?
             } else {
                 self.settle_renewed(group, levels, &unknowns, corrections, &mut normal)?
             };
@@ -243,7 +261,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: Option<&[Weights]>,
         state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_>),
     ) -> Option<()> {
         for (number, group) in self.groups.iter().enumerate() {
             let weights = weights.map(|weights| &weights[number]);
@@ -264,7 +282,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         levels: Levels,
         state: &State,
-        visit: impl Fn(&mut T, &Line<'_, N>) + Sync,
+        visit: impl Fn(&mut T, &Line<'_>) + Sync,
     ) -> Option<Vec<Vec<T>>> {
         if !self.is_independent() {
             let weights = self.weights(levels, state)?;
@@ -276,7 +294,7 @@ impl<const N: usize> Objective<'_, N> {
             return Some(gathered);
         }
         let own = Whitening::Renewed(levels.assembly);
-        let of_group = |group: &Group<N>| {
+        let of_group = |group: &Group| {
             let pieces = parallel::pieces(group.lines(), independent::PIECE);
             let of_piece = |lines: &Range<usize>| {
                 let mut gathered = T::default();
@@ -295,7 +313,7 @@ impl<const N: usize> Objective<'_, N> {
         &self,
         weights: &[Weights],
         state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_, N>),
+        visit: &mut dyn FnMut(usize, &Line<'_>),
     ) -> Option<()> {
         for (number, weights) in weights.iter().enumerate() {
             self.visit_linearised(number, Some(weights), state, &mut |line| {
@@ -307,11 +325,11 @@ impl<const N: usize> Objective<'_, N> {
 
     fn visit_independent(
         &self,
-        group: &Group<N>,
+        group: &Group,
         whitening: Whitening<'_>,
         state: &State,
         lines: Range<usize>,
-        visit: &mut dyn FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_>),
     ) -> Option<()> {
         let unknowns = state.unknowns.as_slice();
         let blocks = group.blocks.iter();
@@ -326,8 +344,7 @@ impl<const N: usize> Objective<'_, N> {
             match whitening {
                 Whitening::None => {}
                 Whitening::Held(weights) => {
-                    let variances = line.weights(weights, index);
-                    line.whiten_independent(variances.entries);
+                    line.whiten_independent(weights.of_entries(group, index));
                 }
                 Whitening::Renewed(level) => line.whiten_by(level),
             }
@@ -341,16 +358,17 @@ impl<const N: usize> Objective<'_, N> {
         number: usize,
         weights: Option<&Weights>,
         state: &State,
-        visit: &mut dyn FnMut(&Line<'_, N>),
+        visit: &mut dyn FnMut(&Line<'_>),
     ) -> Option<()> {
         let group = &self.groups[number];
         let mut line = Line::new(group, self.entries);
-        let sources = group.sources.len();
+        let count = group.sources.len();
+        let mut sources = Vec::new();
         for index in 0..group.lines() {
-            let delta = &state.corrections[number][index * sources..(index + 1) * sources];
+            let delta = &state.corrections[number][index * count..(index + 1) * count];
             line.linearise(index, state.unknowns.as_slice(), delta)?;
             if let Some(weights) = weights {
-                let variances = line.weights(weights, index);
+                let variances = weights.at(group, index, &mut sources);
                 line.whiten(variances, delta)?;
             } else {
                 line.add_corrections(delta);

@@ -8,12 +8,12 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::Misfit;
 use super::estimator::{Chart, Estimate, estimate};
 use super::layout::Layout;
 use super::model::JointModel;
 use super::noise::Noise;
 use super::normal::scaled_by;
+use super::objective::Objective;
 
 /// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
 const MOST_COMBINATIONS: usize = 256;
@@ -176,7 +176,7 @@ pub(super) const CHANCE: f64 = 25.0;
 /// Joints of different torques that measured substructures couple tell of each other's errors: if one of them is active by
 /// chance, the others move with it. If noise does not explain that it is active, they are held where they are.
 pub(super) fn passive(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     layout: &Layout,
     noise: &Noise,
     free: &Estimate,
@@ -264,7 +264,7 @@ enum Others {
 
 /// One active torque after the other gets its faces, those before it keeping theirs.
 fn constrained(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     layout: &Layout,
     noise: &Noise,
     free: &Estimate,
@@ -295,7 +295,7 @@ fn constrained(
 
 /// The lowest minimum that has the joints of torque number `active` on faces of the cone.
 fn on_a_face(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     layout: &Layout,
     noise: &Noise,
     from: &Estimate,
@@ -324,7 +324,7 @@ fn on_a_face(
 /// The lowest minimum that is passive at torque number `active`, over all combinations of the faces that each of its matrices
 /// may lie on.
 fn lowest(
-    objective: &dyn Misfit,
+    objective: &Objective<'_>,
     layout: &Layout,
     noise: &Noise,
     from: &Estimate,

@@ -174,10 +174,14 @@ impl MeasuredSubstructure {
         self.rotations.get(label) == Some(&true)
     }
 
+    /// Lines that were measured.
+    pub(super) fn lines(&self) -> usize {
+        self.functions.first().map_or(0, |function| function.len())
+    }
+
     /// Noise of each of `functions`, as it shows by itself.
     fn roughness(&self) -> Vec<Roughness> {
-        let lines = self.functions.first().map_or(0, |function| function.len());
-        let even: Vec<f64> = (0..lines).map(|line| line as f64).collect();
+        let even: Vec<f64> = (0..self.lines()).map(|line| line as f64).collect();
         let axis = match self.frequency_hz.is_empty() {
             true => &even,
             false => &self.frequency_hz,

@@ -24,7 +24,7 @@ pub(super) struct Residuals {
 }
 
 impl Residuals {
-    pub(super) fn add<const N: usize>(&mut self, line: &Line<'_, N>) {
+    pub(super) fn add(&mut self, line: &Line<'_>) {
         self.relative_power += line.relative_power;
         self.count += line.measurements();
         self.power += line.residual.iter().map(|z| z.norm_sqr()).sum::<f64>();
@@ -70,7 +70,7 @@ fn product(one: &[Complex64], other: &[Complex64]) -> f64 {
     both.map(|(a, b)| (a.conj() * b).re).sum()
 }
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// For each group, the derivative of the sum by the unknowns, line by line.
     pub(super) fn scores(
         &self,
@@ -86,7 +86,7 @@ impl<const N: usize> Objective<'_, N> {
 
     /// Whether no variance depends on a level that is estimated.
     pub(super) fn is_known(&self, noise: &Noise) -> bool {
-        let of_source = |source: &Source<N>| {
+        let of_source = |source: &Source| {
             !source.known.is_empty()
                 || match source.side {
                     Side::A => noise.a.is_stated(),

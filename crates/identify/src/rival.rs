@@ -49,9 +49,9 @@ impl Problem<'_> {
         let entries = other.places();
         let exact = self.data.thinned.objective(&entries);
         let whole = whole.objective(&entries);
-        let robust = robust(exact.as_ref(), whole.as_ref(), self.noise, start);
+        let robust = robust(&exact, &whole, self.noise, start);
         let robust = robust.map_or_else(|| start.clone(), |robust| robust.unknowns);
-        let other_unknowns = minimum(exact.as_ref(), &weights, &robust)?.unknowns;
+        let other_unknowns = minimum(&exact, &weights, &robust)?.unknowns;
         let excess = 2.0
             * (cost(other, &weights, other_unknowns)?
                 - cost(own, &weights, found.unknowns.clone())?);

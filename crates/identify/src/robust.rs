@@ -3,12 +3,11 @@
 
 use nalgebra::DVector;
 
-use super::data::Misfit;
 use super::estimator::{Estimate, first_levels, minimum, misfit};
 use super::likelihood::log_variances;
 use super::noise::Noise;
 use super::normal::relative_change;
-use super::objective::Corrections;
+use super::objective::{Corrections, Objective};
 
 /// Times that the variances are renewed, at most.
 const ROUNDS: usize = 8;
@@ -19,8 +18,8 @@ const SETTLED: f64 = 1e-5;
 /// The estimate from `start`: `exact` and `whole` are the same lines without the errors of the substructures and with them. Where
 /// the noise is not stated, its level follows from what is left.
 pub(super) fn robust(
-    exact: &dyn Misfit,
-    whole: &dyn Misfit,
+    exact: &Objective<'_>,
+    whole: &Objective<'_>,
     noise: &Noise,
     start: &DVector<f64>,
 ) -> Option<Estimate> {

@@ -6,11 +6,12 @@ use bolted_joint_systematic::FAR;
 use nalgebra::DVector;
 
 use super::assessment::Assessment;
-use super::data::{Data, Misfit, Used};
+use super::data::{Data, Used};
 use super::estimator::{Estimate, Free, estimate};
 use super::finals::{End, Finals, finalists, finalists_of_own_lines};
 use super::layout::Place;
 use super::noise::Noise;
+use super::objective::Objective;
 use super::strip::ENTRIES_OF_ONE;
 use super::trials::{SAME_MISFIT, best_trials, rank, try_starts};
 
@@ -92,7 +93,7 @@ pub(super) fn best(
     }
     let finals = finals.ok_or(tried)?;
     let whole = finals.used.assemblies.objective(entries);
-    let best = softest_of_the_best(&finals, whole.as_ref(), entries).ok_or(tried)?;
+    let best = softest_of_the_best(&finals, &whole, entries).ok_or(tried)?;
     let agreeing = agreeing(&trials, &finals, &best.estimate);
     let estimate = if best.has_corrections {
         best.estimate.clone()
@@ -103,7 +104,7 @@ pub(super) fn best(
         }
     } else {
         let start = &best.estimate.unknowns;
-        estimate(whole.as_ref(), noise, None, &Free, start, None).ok_or(tried)?
+        estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?
     };
     Ok(Found {
         estimate,
@@ -118,7 +119,7 @@ pub(super) fn best(
 /// one that is softest beside the substructures.
 fn softest_of_the_best<'f>(
     finals: &'f Finals,
-    whole: &dyn Misfit,
+    whole: &Objective<'_>,
     entries: &[Place],
 ) -> Option<&'f End> {
     let lowest = finals.best_first.first()?.rank();

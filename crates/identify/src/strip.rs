@@ -3,10 +3,27 @@
 use num_complex::Complex64;
 
 use super::block::{Block, Entry};
-use super::kernel::Kernel;
+use super::kernel::{coupled, dot, filled, matrix, through, times, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
 use super::normal::Normal;
+
+/// The instance of a generic function with room for so many joint DOFs and for these unknown entries; `None` where there is no
+/// such joint.
+macro_rules! for_strips {
+    ($dofs:expr, $entries:expr, $function:ident) => {
+        match $dofs {
+            1 => Some($function::<1, ENTRIES_OF_ONE> as _),
+            2 if are_of_one::<2>($entries) => Some($function::<2, ENTRIES_OF_ONE> as _),
+            2 => Some($function::<2, ENTRIES_OF_FOUR> as _),
+            3..=4 => Some($function::<4, ENTRIES_OF_FOUR> as _),
+            5..=8 => Some($function::<8, ENTRIES_OF_FOUR> as _),
+            9..=16 => Some($function::<16, MOST_ENTRIES> as _),
+            _ => None,
+        }
+    };
+}
+pub(super) use for_strips;
 
 /// Most unknown entries of K*: those of eight bolts with a joint of their own …
 pub(super) const MOST_ENTRIES: usize = 24;
@@ -17,8 +34,12 @@ pub(super) const ENTRIES_OF_ONE: usize = 3;
 
 /// A few lines of one assembly, computed with one joint.
 pub(super) struct Strip<'b, const N: usize> {
-    pub(super) block: &'b Block<N>,
-    pub(super) kernel: Kernel<N, Complexes>,
+    pub(super) block: &'b Block,
+    transfer: Vec<[Complexes; N]>,
+    /// Q = (I + F K*)⁻¹ H_ks, a column for each point.
+    pub(super) q: Vec<[Complexes; N]>,
+    /// X = K* Q
+    x: Vec<[Complexes; N]>,
     /// The line in each lane; the last one again where there are no more.
     pub(super) index: [usize; LANES],
     /// Lanes that are in use.
@@ -29,10 +50,13 @@ pub(super) struct Strip<'b, const N: usize> {
 }
 
 impl<'b, const N: usize> Strip<'b, N> {
-    pub(super) fn new(block: &'b Block<N>) -> Self {
+    pub(super) fn new(block: &'b Block) -> Self {
+        let columns = || vec![[Complexes::ZERO; N]; block.points];
         Self {
             block,
-            kernel: Kernel::new(),
+            transfer: columns(),
+            q: columns(),
+            x: columns(),
             index: [0; LANES],
             count: 0,
             used: Reals::ZERO,
@@ -67,14 +91,20 @@ impl<'b, const N: usize> Strip<'b, N> {
                 stiffness[j][i] = value;
             }
         }
-        let free = std::array::from_fn(|i| {
-            std::array::from_fn(|j| Complexes::of(|lane| block.free[index[lane]][i][j]))
-        });
-        let transfer = (0..block.points).map(|point| {
-            let column = index.map(|line| &block.transfer[line * block.points + point]);
-            std::array::from_fn(|i| Complexes::of(|lane| column[lane][i]))
-        });
-        self.kernel.solve(&free, transfer, &stiffness)
+        let dofs = filled::<N>(block.dofs);
+        let free = index.map(|line| block.free_at(line));
+        let free = matrix(dofs, |i, j| Complexes::of(|lane| free[lane][i * dofs + j]));
+        let inverse = coupled(dofs, &free, &stiffness)?;
+        let transfer = index.map(|line| block.transfer_at(line));
+        let own = self.transfer.iter_mut().zip(&mut self.q).zip(&mut self.x);
+        for (point, ((own, q), x)) in own.enumerate() {
+            *own = vector(dofs, |i| {
+                Complexes::of(|lane| transfer[lane][point * dofs + i])
+            });
+            *q = times(dofs, &inverse, own);
+            *x = times(dofs, &stiffness, q);
+        }
+        Some(())
     }
 
     /// A number of each line that is stored line by line and entry by entry.
@@ -93,7 +123,9 @@ impl<'b, const N: usize> Strip<'b, N> {
     #[inline(always)]
     pub(super) fn computed(&self, e: usize, entry: Entry) -> Complexes {
         let own = self.complex(&self.block.own, e);
-        self.kernel.receptance(own, entry)
+        let dofs = filled::<N>(self.block.dofs);
+        let (transfer, x) = (&self.transfer[entry.row], &self.x[entry.column]);
+        own - dot(&transfer[..dofs], &x[..dofs])
     }
 }
 
@@ -276,7 +308,7 @@ impl<const E: usize> Sums<E> {
         let mut products = Products::<E>::NONE;
         if E == ENTRIES_OF_ONE {
             for (point, (vector, row)) in rows.iter_mut().enumerate() {
-                *vector = Vector::new(strip.kernel.q(point));
+                *vector = Vector::new(&strip.q[point]);
                 *row = InCommon::NONE;
             }
         }
@@ -292,7 +324,8 @@ impl<const E: usize> Sums<E> {
                 let (v, weighted) = (rows[entry.column].0, residual.scaled(weight));
                 rows[entry.row].1.add(weight, &v, weighted);
             } else {
-                let row = |i, j| strip.kernel.through(entry, (i, j));
+                let (p, q) = (&strip.q[entry.row], &strip.q[entry.column]);
+                let row = |i, j| through(p, q, (i, j));
                 products.add(entries, weight, row, residual);
             }
         }

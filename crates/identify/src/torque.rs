@@ -261,9 +261,8 @@ impl<'a> Problem<'a> {
         let on = |used: Arc<Used>, near: &Estimate| {
             let objective = used.assemblies.objective(entries);
             let start = &near.unknowns;
-            let estimate = estimate(objective.as_ref(), noise, None, &Free, start, None)?;
-            let assessment = assess(objective.as_ref(), &estimate, noise)?;
-            drop(objective);
+            let estimate = estimate(&objective, noise, None, &Free, start, None)?;
+            let assessment = assess(&objective, &estimate, noise)?;
             Some(Found {
                 estimate,
                 assessment,

@@ -40,9 +40,9 @@ pub(super) fn rough(
     start: &DVector<f64>,
 ) -> Option<Estimate> {
     let thinned = data.thinned.objective(entries);
-    let thinned = thinned.as_ref();
+    let thinned = &thinned;
     match &data.thinned_whole {
-        Some(whole) => robust(thinned, whole.objective(entries).as_ref(), noise, start),
+        Some(whole) => robust(thinned, &whole.objective(entries), noise, start),
         None => {
             // Proportional errors while the joint is sought: a level that is estimated far from it would mean nothing.
             let levels = Some(first_levels(noise));
@@ -75,7 +75,7 @@ pub(super) fn try_starts(
         let used = data.few_near(entries, robust.place());
         let few = used.assemblies.objective(entries);
         let (levels, start) = (Some(robust.levels), &robust.unknowns);
-        let end = estimate(few.as_ref(), noise, levels, &Free, start, None)?;
+        let end = estimate(&few, noise, levels, &Free, start, None)?;
         Some(end.without_corrections())
     });
     let led = new.into_iter().zip(ends);

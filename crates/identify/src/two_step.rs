@@ -5,8 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use bolted_joint_frf::structure::SingularAssembly;
 
 use super::block::Block;
-use super::data::for_dofs;
-use super::kernel::{Kernel, complex_stiffness};
+use super::kernel::Kernel;
 use super::layout::{Layout, Place};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
@@ -54,21 +53,7 @@ pub fn update_in_two_steps(
     start: &JointMatrices,
     amplitudes: Amplitudes,
 ) -> Result<TwoStep, SingularAssembly> {
-    let update: Option<Updated> = for_dofs!(start.stiffness.nrows(), updated);
-    let update = update.ok_or(SingularAssembly)?;
-    update(lines, model, start, amplitudes)
-}
-
-type Updated =
-    fn(&Lines, JointModel, &JointMatrices, Amplitudes) -> Result<TwoStep, SingularAssembly>;
-
-fn updated<const N: usize>(
-    lines: &Lines,
-    model: JointModel,
-    start: &JointMatrices,
-    amplitudes: Amplitudes,
-) -> Result<TwoStep, SingularAssembly> {
-    let problem = Problem::<N>::new(lines, model, amplitudes);
+    let problem = Problem::new(lines, model, amplitudes);
     let count = problem.entries.len();
     let stiffness: Vec<f64> = problem
         .entries
@@ -92,8 +77,8 @@ fn updated<const N: usize>(
     })
 }
 
-struct Problem<const N: usize> {
-    block: Block<N>,
+struct Problem {
+    block: Block,
     /// Unknown entries of the whole joint.
     entries: Vec<Place>,
     amplitudes: Amplitudes,
@@ -114,7 +99,7 @@ struct Minimum {
     converged: bool,
 }
 
-impl<const N: usize> Problem<N> {
+impl Problem {
     fn new(lines: &Lines, model: JointModel, amplitudes: Amplitudes) -> Self {
         let block = Block::new(
             lines,
@@ -122,7 +107,7 @@ impl<const N: usize> Problem<N> {
             &Chosen::every(lines.frequency_hz.len()),
             &Noise::none(),
         );
-        let entries = Layout::of_different(model, N / model.dofs()).places();
+        let entries = Layout::of_different(model, block.dofs / model.dofs()).places();
         let scale = match amplitudes {
             Amplitudes::Squared => block.measured.iter().map(|h| h.norm_sqr().powi(2)).sum(),
             Amplitudes::Logarithmic => block.measured.len() as f64,
@@ -137,7 +122,7 @@ impl<const N: usize> Problem<N> {
 
     fn joint(&self, unknowns: &[f64]) -> JointMatrices {
         let entries: Vec<_> = self.entries.iter().map(|place| place.first()).collect();
-        JointMatrices::of_entries(N, &entries, unknowns)
+        JointMatrices::of_entries(self.block.dofs, &entries, unknowns)
     }
 
     /// Minimises over some of the unknowns, the others held.
@@ -207,13 +192,12 @@ impl<const N: usize> Problem<N> {
             curvature: DMatrix::zeros(count, count),
         };
         let mut slopes = vec![0.0; count];
-        let mut kernel = Kernel::<N>::new();
+        let mut kernel = Kernel::new(self.block.dofs);
         let block = &self.block;
         for (line, &omega) in block.omega.iter().enumerate() {
-            let stiffness = complex_stiffness::<N>(&self.entries, unknowns, omega);
-            let transfer = &block.transfer[line * block.points..(line + 1) * block.points];
+            let joint = (&self.entries[..], unknowns, omega);
             kernel
-                .solve(&block.free[line], transfer.iter().copied(), &stiffness)
+                .solve(block.free_at(line), block.transfer_at(line), joint)
                 .ok_or(SingularAssembly)?;
             for (index, &entry) in block.entries.iter().enumerate() {
                 let place = line * block.entries.len() + index;

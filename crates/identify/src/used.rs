@@ -8,8 +8,9 @@ use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::block::Block;
-use super::group::Group;
-use super::kernel::{complex_stiffness, inverse, product};
+use super::group::{Group, Source};
+use super::kernel::{Small, complex_stiffness, coupled, filled, for_dofs, matrix, product};
+use super::layout::Place;
 use super::noise::Levels;
 use super::objective::Objective;
 use super::weights::source_variance;
@@ -92,56 +93,70 @@ fn steady(moved: &[f64]) -> Vec<bool> {
     moved.iter().map(|moved| *moved <= most).collect()
 }
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Expected size of A at each line of each assembly: for each group.
     pub(super) fn moved(&self, levels: Levels, unknowns: &DVector<f64>) -> Vec<Vec<Vec<f64>>> {
-        let of_group = |group: &Group<N>| {
+        let of_group = |group: &Group| {
             let blocks = group.blocks.iter().enumerate();
-            blocks
-                .map(|(number, block)| {
-                    let own = &unknowns.as_slice()[block.unknowns(self.entries)];
-                    let of_line = |line: usize| {
-                        let stiffness = complex_stiffness(self.entries, own, block.omega[line]);
-                        let sources = group.sources.iter().filter_map(|source| {
-                            let pattern = source.patterns[number].as_ref()?;
-                            let variance = source_variance(source, levels, line);
-                            (!pattern.entries_of_free.is_empty())
-                                .then_some((&pattern.free, variance))
-                        });
-                        motion(block, line, &stiffness, sources)
-                    };
-                    (0..block.lines()).map(of_line).collect()
+            let of_block = |(number, block): (usize, &Block)| {
+                let own = &unknowns.as_slice()[block.unknowns(self.entries)];
+                let of: Option<OfBlock> = for_dofs!(block.dofs, motion);
+                of.map_or_else(Vec::new, |of| {
+                    of(group, number, levels, (self.entries, own))
                 })
-                .collect()
+            };
+            blocks.map(of_block).collect()
         };
         self.groups.iter().map(of_group).collect()
     }
 }
 
-/// √E‖A‖², displacements in proportion to what a unit load on each DOF of the substructures does; infinite at a singular line.
-fn motion<'s, const N: usize>(
-    block: &Block<N>,
-    line: usize,
-    stiffness: &[[Complex64; N]; N],
-    sources: impl Iterator<Item = (&'s [[f64; N]; N], f64)>,
-) -> f64 {
-    let mut loop_gain = product(&block.free[line], stiffness);
-    for (i, row) in loop_gain.iter_mut().enumerate() {
-        row[i] += 1.0;
-    }
-    let Some(inverse) = inverse(loop_gain) else {
-        return f64::INFINITY;
+type OfBlock = fn(&Group, usize, Levels, (&[Place], &[f64])) -> Vec<f64>;
+
+/// √E‖A‖² of each line of one block, displacements in proportion to what a unit load on each DOF of the substructures does;
+/// infinite at a singular line.
+fn motion<const N: usize>(
+    group: &Group,
+    number: usize,
+    levels: Levels,
+    (entries, unknowns): (&[Place], &[f64]),
+) -> Vec<f64> {
+    let block = &group.blocks[number];
+    let dofs = filled::<N>(block.dofs);
+    let sources = || {
+        group.sources.iter().filter_map(|source| {
+            let pattern = source.patterns[number].as_ref()?;
+            (!pattern.entries_of_free.is_empty()).then_some((source, pattern))
+        })
     };
-    let scale = block.dynamic_stiffness.map(f64::sqrt);
-    let mut power = 0.0;
-    for (free, variance) in sources {
-        let free: [[Complex64; N]; N] = free.map(|row| row.map(Complex64::from));
-        let a = product(&product(&inverse, &free), stiffness);
-        for i in 0..N {
-            for j in 0..N {
-                power += variance * (scale[i] / scale[j]).powi(2) * a[i][j].norm_sqr();
+    let real = |value: f64| Complex64::from(value);
+    let patterns: Vec<(&Source, Small<N>)> = sources()
+        .map(|(source, pattern)| {
+            (
+                source,
+                matrix(dofs, |i, j| real(pattern.free[i * dofs + j])),
+            )
+        })
+        .collect();
+    let scale = &block.dynamic_stiffness;
+    let of_line = |line: usize| {
+        let stiffness = complex_stiffness::<N>(entries, unknowns, block.omega[line]);
+        let free = block.free_at(line);
+        let free = matrix(dofs, |i, j| free[i * dofs + j]);
+        let Some(inverse) = coupled(dofs, &free, &stiffness) else {
+            return f64::INFINITY;
+        };
+        let mut power = 0.0;
+        for (source, free) in &patterns {
+            let variance = source_variance(source, levels, line);
+            let a = product(dofs, &product(dofs, &inverse, free), &stiffness);
+            for i in 0..dofs {
+                for j in 0..dofs {
+                    power += variance * scale[i] / scale[j] * a[i][j].norm_sqr();
+                }
             }
         }
-    }
-    power.sqrt()
+        power.sqrt()
+    };
+    (0..block.lines()).map(of_line).collect()
 }

@@ -12,7 +12,7 @@ use super::objective::{Objective, State, Weights};
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
 const LEAST_RELATIVE: f64 = 1e-14;
 
-impl<const N: usize> Objective<'_, N> {
+impl Objective<'_> {
     /// Variances at `state`; `None` where one is not a number above zero.
     pub(super) fn weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
         let mut all: Vec<Weights> = self
@@ -20,7 +20,7 @@ impl<const N: usize> Objective<'_, N> {
             .iter()
             .map(|group| Weights {
                 entries: vec![0.0; group.lines() * group.entries()],
-                sources: vec![0.0; group.lines() * group.sources.len()],
+                levels,
                 scatter: 0.0,
             })
             .collect();
@@ -28,13 +28,12 @@ impl<const N: usize> Objective<'_, N> {
         self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &mut all[number];
-            let (size, sources) = (group.entries(), group.sources.len());
+            let size = group.entries();
             let scatter = line_variances(
                 group,
                 line,
                 levels,
                 &mut weights.entries[line.index * size..(line.index + 1) * size],
-                &mut weights.sources[line.index * sources..(line.index + 1) * sources],
             );
             usable &= scatter.is_some();
             weights.scatter += scatter.unwrap_or(0.0);
@@ -51,20 +50,21 @@ impl<const N: usize> Objective<'_, N> {
             first_of_group.push(all.len());
             all.extend(group.blocks.iter().map(|_| Weights {
                 entries: Vec::new(),
-                sources: Vec::new(),
+                levels,
                 scatter: 0.0,
             }));
         }
+        let mut sources = Vec::new();
         self.visit(None, state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &weights[number];
+            source_variances(group, levels, line.index, &mut sources);
             let size = line.computed.len();
             let mut at = 0;
             for (b, block) in group.blocks.iter().enumerate() {
                 for e in at..at + block.entries.len() {
                     let mut variance = weights.entries[line.index * size + e];
-                    for s in 0..group.sources.len() {
-                        let of_source = weights.sources[line.index * group.sources.len() + s];
+                    for (s, of_source) in sources.iter().enumerate() {
                         variance += line.by_source[s * size + e].norm_sqr() * of_source;
                     }
                     all[first_of_group[number] + b].entries.push(variance);
@@ -117,7 +117,7 @@ impl<const N: usize> Objective<'_, N> {
                 for (s, source) in group.sources.iter().enumerate() {
                     let gain =
                         line.by_source[s * size + entry.index].norm_sqr() / f64::from(source.count);
-                    let power = source.value[line.index].norm_sqr();
+                    let power = source.value_at(line.index).norm_sqr();
                     add_source(&mut sample, source, noise, gain, power, line.index);
                 }
                 samples.push(sample);
@@ -138,9 +138,9 @@ pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) 
     if variance < least { least } else { variance }
 }
 
-fn add_source<const N: usize>(
+fn add_source(
     sample: &mut Sample,
-    source: &Source<N>,
+    source: &Source,
     noise: &Noise,
     gain: f64,
     power: f64,
@@ -165,12 +165,11 @@ fn add_source<const N: usize>(
 
 /// Variances of one computed line: of the mean of each entry, from the computed receptances, infinite where it is left out, and of
 /// each source, from the measured ones. Returns Σ|y − mean|²/σ² over repeated measurements; `None` where a variance is not a number above zero.
-pub(super) fn line_variances<const N: usize>(
-    group: &Group<N>,
-    line: &Line<'_, N>,
+pub(super) fn line_variances(
+    group: &Group,
+    line: &Line<'_>,
     levels: Levels,
     entries: &mut [f64],
-    sources: &mut [f64],
 ) -> Option<f64> {
     let mut usable = true;
     let mut scatter = 0.0;
@@ -189,19 +188,24 @@ pub(super) fn line_variances<const N: usize>(
         entries[entry.index] = variance / f64::from(entry.count);
         scatter += entry.scatter / variance;
     });
-    for (source, place) in group.sources.iter().zip(sources) {
-        *place = source_variance(source, levels, line.index);
-    }
     usable.then_some(scatter)
 }
 
-/// Variance of a source at a line, from its measured value.
-pub(super) fn source_variance<const N: usize>(
-    source: &Source<N>,
+/// Variances of all sources at a line.
+pub(super) fn source_variances(
+    group: &Group,
     levels: Levels,
     line: usize,
-) -> f64 {
-    let power = source.value[line].norm_sqr();
+    variances: &mut Vec<f64>,
+) {
+    variances.clear();
+    let sources = group.sources.iter();
+    variances.extend(sources.map(|source| source_variance(source, levels, line)));
+}
+
+/// Variance of a source at a line, from its measured value.
+pub(super) fn source_variance(source: &Source, levels: Levels, line: usize) -> f64 {
+    let power = source.value_at(line).norm_sqr();
     let variance = match source.known.get(line) {
         Some(known) => known * power,
         None => levels
@@ -241,11 +245,7 @@ impl EntryView {
     }
 }
 
-fn for_each_entry<const N: usize>(
-    group: &Group<N>,
-    line: &Line<'_, N>,
-    mut visit: impl FnMut(EntryView),
-) {
+fn for_each_entry(group: &Group, line: &Line<'_>, mut visit: impl FnMut(EntryView)) {
     let mut index = 0;
     for block in &group.blocks {
         let count = block.entries.len();

@@ -13,7 +13,7 @@ const SMALL_GAIN: f64 = 1e-3;
 /// the pole.
 const QUARTERINGS: usize = 8;
 
-impl<const N: usize> Line<'_, N> {
+impl Line<'_> {
     /// Lets the corrections follow the unknowns by Gauss–Newton steps, most often one, and linearises and whitens the line there:
     /// repeated with each step of the unknowns that leads both to the minimum.
     pub(in super::super) fn settle(

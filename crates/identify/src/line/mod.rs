@@ -6,11 +6,10 @@ mod row_products;
 use num_complex::Complex64;
 
 use super::group::Group;
-use super::kernel::{Kernel, complex_stiffness};
+use super::kernel::Kernel;
 use super::layout::Place;
 use super::noise::Size;
 use super::normal::Normal;
-use super::objective::Weights;
 use super::strip::{ENTRIES_OF_ONE, MOST_ENTRIES};
 use super::weights::of_one;
 use row_products::{RowProducts, add_coupling};
@@ -18,11 +17,12 @@ use row_products::{RowProducts, add_coupling};
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// One line of a group, linearised: everything that the normal equations need of it. Reused from line to line.
-pub(super) struct Line<'g, const N: usize> {
-    group: &'g Group<N>,
+pub(super) struct Line<'g> {
+    group: &'g Group,
     joint_entries: &'g [Place],
-    kernel: Kernel<N>,
-    transfer: Vec<[Complex64; N]>,
+    kernel: Kernel,
+    free: Vec<Complex64>,
+    transfer: Vec<Complex64>,
     pub(super) index: usize,
     pub(super) omega: f64,
     /// H^C at each entry of all blocks.
@@ -54,14 +54,15 @@ pub(super) struct Variances<'w> {
     pub(super) sources: &'w [f64],
 }
 
-impl<'g, const N: usize> Line<'g, N> {
-    pub(super) fn new(group: &'g Group<N>, joint_entries: &'g [Place]) -> Self {
+impl<'g> Line<'g> {
+    pub(super) fn new(group: &'g Group, joint_entries: &'g [Place]) -> Self {
         let size = group.entries();
         let joints = group.joints();
         Self {
             group,
             joint_entries,
-            kernel: Kernel::new(),
+            kernel: Kernel::new(group.dofs()),
+            free: Vec::new(),
             transfer: Vec::new(),
             index: 0,
             omega: 0.0,
@@ -82,14 +83,6 @@ impl<'g, const N: usize> Line<'g, N> {
             relative_power: 0.0,
             signal: 0.0,
             trial: Vec::new(),
-        }
-    }
-
-    pub(super) fn weights<'w>(&self, weights: &'w Weights, index: usize) -> Variances<'w> {
-        let (size, sources) = (self.computed.len(), self.group.sources.len());
-        Variances {
-            entries: &weights.entries[index * size..(index + 1) * size],
-            sources: &weights.sources[index * sources..(index + 1) * sources],
         }
     }
 
@@ -144,29 +137,30 @@ impl<'g, const N: usize> Line<'g, N> {
         let mut at = 0;
         for (number, block) in self.group.blocks.iter().enumerate() {
             let own_joint = unknowns.get(block.unknowns(self.joint_entries))?;
-            let stiffness = complex_stiffness::<N>(self.joint_entries, own_joint, self.omega);
             let slot = size * self.slot(block.joint);
-            let columns = index * block.points..(index + 1) * block.points;
             let count = block.entries.len();
             let own = &block.own[index * count..(index + 1) * count];
             let measured = &block.measured[index * count..(index + 1) * count];
-            let mut free = block.free[index];
+            self.free.clear();
+            self.free.extend_from_slice(block.free_at(index));
             self.transfer.clear();
-            self.transfer.extend_from_slice(&block.transfer[columns]);
+            self.transfer.extend_from_slice(block.transfer_at(index));
             for (source, &delta) in self.group.sources.iter().zip(delta) {
                 if let Some(pattern) = &source.patterns[number] {
                     for &(i, j, share) in &pattern.entries_of_free {
-                        free[i][j] += delta * share;
+                        self.free[i * block.dofs + j] += delta * share;
                     }
-                    for (column, change) in self.transfer.iter_mut().zip(&pattern.transfer) {
-                        for &i in &pattern.dofs_of_transfer {
-                            column[i] += delta * change[i];
+                    for &i in &pattern.dofs_of_transfer {
+                        let own = self.transfer.iter_mut().skip(i).step_by(block.dofs);
+                        let shares = pattern.transfer.iter().skip(i).step_by(block.dofs);
+                        for (value, share) in own.zip(shares) {
+                            *value += delta * share;
                         }
                     }
                 }
             }
-            let transfer = self.transfer.iter().copied();
-            self.kernel.solve(&free, transfer, &stiffness)?;
+            let joint = (self.joint_entries, own_joint, self.omega);
+            self.kernel.solve(&self.free, &self.transfer, joint)?;
             for (e, &entry) in block.entries.iter().enumerate() {
                 let mut own = own[e];
                 for (source, &delta) in self.group.sources.iter().zip(delta) {

@@ -210,6 +210,7 @@ fn qr_step(h: &mut [[Complex; MAX_ORDER]; MAX_ORDER], start: usize, last: usize,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
     use nalgebra::DMatrix;
 
     fn compare(matrix: &Square, order: usize, tolerance: f64) {
@@ -230,13 +231,8 @@ mod tests {
 
     #[test]
     fn random_matrices_agree_with_nalgebra() {
-        let mut seed = 1_u64;
-        let mut uniform = || {
-            seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut random = Random(1);
+        let mut uniform = || random.unit() - 0.5;
         for order in [1, 2, 3, 4, 8] {
             for _ in 0..200 {
                 let matrix = std::array::from_fn(|_| std::array::from_fn(|_| uniform()));

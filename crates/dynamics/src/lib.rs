@@ -39,3 +39,8 @@ pub use propagator::LapPropagator;
 pub use rk4::{PHASE_ERROR_PER_PERIOD, STABILITY_LIMIT_IMAGINARY, STABILITY_LIMIT_REAL, substeps};
 pub use spectrum::{Eigenvalue, Spectrum};
 pub use stepper::{LapMoment, LapStepper};
+
+#[cfg(test)]
+mod alike;
+#[cfg(test)]
+mod random;

@@ -225,23 +225,13 @@ fn of_two<const D: usize>(columns: [&[LapState<D>; D]; 2], numbers: [&[f64; D]; 
 mod tests {
     use super::*;
     use crate::{
+        alike::alike,
         lap::{Body, Lap},
         law::{Linear, Polynomial},
+        random::Random,
     };
 
-    /// Numbers from a linear congruential generator (Knuth's MMIX constants).
-    struct Random(u64);
-
     impl Random {
-        /// In 0..1.
-        fn unit(&mut self) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        }
-
         fn between(&mut self, low: f64, high: f64) -> f64 {
             low + (high - low) * self.unit()
         }
@@ -363,20 +353,8 @@ mod tests {
     fn an_undamped_oscillator_is_multiplied_by_the_power_of_runge_kutta_s_polynomial() {
         // in phase, the joint carries nothing: x = Re (1 + z + z²/2 + z³/6 + z⁴/24)ⁿ, z = jωh
         let (omega, step_s, count): (f64, f64, u32) = (50.0, 2e-3, 77);
-        let body = Body {
-            inertia: [2.0],
-            stiffness: [2.0 * omega * omega],
-            damping: [0.0],
-        };
-        let lap = Lap {
-            joint: Linear {
-                stiffness: [[1e4]],
-                damping: [[1.0]],
-            }
-            .beside([0.0].map(Polynomial::cubic)),
-            a: body,
-            b: body,
-        };
+        let bodies = [[2.0], [2.0 * omega * omega], [0.0]];
+        let lap = alike(bodies, [[[1e4]], [[1.0]]], [0.0]);
         let z = omega * step_s;
         let (re, im) = (1.0 - z * z / 2.0 + z.powi(4) / 24.0, z - z.powi(3) / 6.0);
         let phase = f64::from(count) * im.atan2(re);

@@ -139,24 +139,10 @@ impl<const D: usize> Lap<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lap::Body;
-    use crate::law::{Linear, Polynomial};
+    use crate::alike::alike;
 
     fn pirdayr(k: f64, c: f64, m: f64, k12: f64, c12: f64) -> Lap<1> {
-        let body = Body {
-            inertia: [m],
-            stiffness: [k],
-            damping: [c],
-        };
-        Lap {
-            joint: Linear {
-                stiffness: [[k12]],
-                damping: [[c12]],
-            }
-            .beside([0.0].map(Polynomial::cubic)),
-            a: body,
-            b: body,
-        }
+        alike([[m], [k], [c]], [[[k12]], [[c12]]], [0.0])
     }
 
     #[test]

@@ -84,6 +84,14 @@ pub fn read_frfs_watched(
     reading(path.as_ref(), options, watch)
 }
 
+/// A file that is to be read.
+pub(crate) fn opened(path: &Path) -> Result<File, FrfError> {
+    File::open(path).map_err(|source| FrfError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
 /// Not generic, so that callers do not compile the readers anew.
 fn reading(
     path: &Path,
@@ -94,7 +102,7 @@ fn reading(
         path: path.to_owned(),
         source,
     };
-    let file = File::open(path).map_err(failed)?;
+    let file = opened(path)?;
     let metadata = file.metadata().ok().filter(Metadata::is_file);
     let length = metadata.map(|metadata| metadata.len());
     let of = length.unwrap_or(0);

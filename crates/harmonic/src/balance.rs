@@ -128,6 +128,11 @@ impl<const D: usize> HarmonicBalance<D> {
         constant.into_iter().chain(self.harmonics.places())
     }
 
+    /// Order and place of the harmonic of this order, if it is among those of the balance.
+    pub(super) fn place_of(&self, order: usize) -> Option<(usize, usize)> {
+        self.all_places().find(|place| place.0 == order)
+    }
+
     /// Complex amplitude of one harmonic of a list of coefficients.
     pub(super) fn amplitude(
         &self,

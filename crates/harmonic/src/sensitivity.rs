@@ -98,8 +98,7 @@ impl<const D: usize> HarmonicBalance<D> {
         order: usize,
     ) -> Complex64 {
         let dof = observed.dof();
-        let place = self.all_places().find(|place| place.0 == order);
-        let Some(place) = place.filter(|_| dof < D) else {
+        let Some(place) = self.place_of(order).filter(|_| dof < D) else {
             return Complex64::ZERO;
         };
         let dr = self.amplitude(&sensitivity.coefficients, dof, place);
@@ -134,8 +133,7 @@ impl<const D: usize> HarmonicBalance<D> {
         at: Circumstances,
     ) -> Complex64 {
         let dof = observed.dof();
-        let place = self.all_places().find(|place| place.0 == order);
-        let (Observed::Body(..), Some(place)) = (observed, place) else {
+        let (Observed::Body(..), Some(place)) = (observed, self.place_of(order)) else {
             return Complex64::ZERO;
         };
         let r = self.amplitude(coefficients, dof, place);

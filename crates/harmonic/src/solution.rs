@@ -195,8 +195,7 @@ impl<const D: usize> HarmonicBalance<D> {
         order: usize,
     ) -> Complex64 {
         let dof = observed.dof();
-        let place = self.all_places().find(|place| place.0 == order);
-        let Some(place) = place.filter(|_| dof < D) else {
+        let Some(place) = self.place_of(order).filter(|_| dof < D) else {
             return Complex64::ZERO;
         };
         let r = self.amplitude(&solution.coefficients, dof, place);

@@ -118,6 +118,11 @@ fn measured<const D: usize>(
     row
 }
 
+/// Amplitude of the load, of that of the curve's loads.
+fn load_factor<const D: usize>(point: &CurvePoint<D>) -> [f64; 1] {
+    [point.solution.load_factor().abs()]
+}
+
 fn flag(is_so: bool) -> f64 {
     if is_so { 1.0 } else { 0.0 }
 }
@@ -187,13 +192,10 @@ impl Curve<'_> {
             ..CurveOptions::default()
         };
         let curve = balance.forced_curve(span.ends_hz.map(|hz| TAU * hz), &loads, &options)?;
-        let row = |point: &CurvePoint<D>| {
-            let mut row = measured(&balance, point, self.motions, self.quantity);
+        Ok(self.rows(&balance, &curve, |point| {
             let stable = point.stability.as_ref().map(|s| flag(s.is_stable()));
-            row.extend([stable.unwrap_or(f64::NAN), flag(point.is_fold)]);
-            row
-        };
-        Ok(curve.iter().map(row).collect())
+            [stable.unwrap_or(f64::NAN), flag(point.is_fold)]
+        }))
     }
 
     /// Measured columns and the amplitude of the load.
@@ -208,7 +210,7 @@ impl Curve<'_> {
         let ends = span.ends_hz.map(|hz| TAU * hz);
         let options = CurveOptions::default();
         let curve = balance.controlled_curve(ends, &unit_load(place), target, &options)?;
-        Ok(self.with_load(&balance, &curve))
+        Ok(self.rows(&balance, &curve, load_factor))
     }
 
     /// Measured columns and the amplitude of the load.
@@ -222,20 +224,7 @@ impl Curve<'_> {
         let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
         let options = CurveOptions::default();
         let curve = balance.resonance_curve(amplitudes, &unit_load(place), target, &options)?;
-        Ok(self.with_load(&balance, &curve))
-    }
-
-    fn with_load<const D: usize>(
-        &self,
-        balance: &HarmonicBalance<D>,
-        curve: &[CurvePoint<D>],
-    ) -> Vec<Vec<f64>> {
-        let row = |point: &CurvePoint<D>| {
-            let mut row = measured(balance, point, self.motions, self.quantity);
-            row.push(point.solution.load_factor().abs());
-            row
-        };
-        curve.iter().map(row).collect()
+        Ok(self.rows(&balance, &curve, load_factor))
     }
 
     /// Measured columns and the damping ratio.
@@ -249,12 +238,22 @@ impl Curve<'_> {
         let lap = if is_undamped { undamped(lap) } else { *lap };
         let balance = HarmonicBalance::new(&lap, self.harmonics.clone())?;
         let curve = balance.backbone(amplitudes, target, &CurveOptions::default())?;
+        Ok(self.rows(&balance, &curve, |point| [point.solution.damping_ratio()]))
+    }
+
+    /// Measured columns of each point, and what else is told of it.
+    fn rows<const D: usize, const MORE: usize>(
+        &self,
+        balance: &HarmonicBalance<D>,
+        curve: &[CurvePoint<D>],
+        more: impl Fn(&CurvePoint<D>) -> [f64; MORE],
+    ) -> Vec<Vec<f64>> {
         let row = |point: &CurvePoint<D>| {
-            let mut row = measured(&balance, point, self.motions, self.quantity);
-            row.push(point.solution.damping_ratio());
+            let mut row = measured(balance, point, self.motions, self.quantity);
+            row.extend(more(point));
             row
         };
-        Ok(curve.iter().map(row).collect())
+        curve.iter().map(row).collect()
     }
 }
 

@@ -1,25 +1,13 @@
 //! The amplitude against closed forms, and against a walk along the balance.
 
+use crate::alike::alike;
 use crate::lap::{Body, Lap};
 use crate::law::{JointLaw, Linear, Polynomial};
 
 #[test]
 fn the_symmetric_lap_escapes_where_the_theory_says() {
     let (k, k12, cubic): (f64, f64, f64) = (10.56e5, 4.56e6, -3e12);
-    let body = Body {
-        inertia: [2.35],
-        stiffness: [k],
-        damping: [1.39],
-    };
-    let lap = Lap {
-        joint: Linear {
-            stiffness: [[k12]],
-            damping: [[0.54]],
-        }
-        .beside([cubic].map(Polynomial::cubic)),
-        a: body,
-        b: body,
-    };
+    let lap = alike([[2.35], [k], [1.39]], [[[k12]], [[0.54]]], [cubic]);
     let expected = ((k + 2.0 * k12) / (-2.0 * cubic)).sqrt();
     let [escape] = lap.escape_amplitude();
     assert!((escape.unwrap() / expected - 1.0).abs() < 1e-14);
@@ -27,41 +15,15 @@ fn the_symmetric_lap_escapes_where_the_theory_says() {
 
 #[test]
 fn a_hardening_joint_never_escapes() {
-    let body = Body {
-        inertia: [1.0],
-        stiffness: [0.0],
-        damping: [0.0],
-    };
-    let joint = Linear {
-        stiffness: [[1e6]],
-        damping: [[0.0]],
-    }
-    .beside([1e9].map(Polynomial::cubic));
-    let lap = Lap {
-        joint,
-        a: body,
-        b: body,
-    };
+    let lap = alike([[1.0], [0.0], [0.0]], [[[1e6]], [[0.0]]], [1e9]);
     assert_eq!(lap.escape_amplitude(), [None]);
 }
 
 /// Tol Table 5.3's joint without supports, softening on each DOF as told.
 fn with_rotation(cubic: [f64; 2]) -> Lap<2> {
-    let body = Body {
-        inertia: [1.0, 1e-3],
-        stiffness: [0.0; 2],
-        damping: [0.0; 2],
-    };
-    let joint = Linear {
-        stiffness: [[5.73e5, 5.82e3], [5.82e3, 1.29e3]],
-        damping: [[0.0; 2]; 2],
-    }
-    .beside(cubic.map(Polynomial::cubic));
-    Lap {
-        joint,
-        a: body,
-        b: body,
-    }
+    let stiffness = [[5.73e5, 5.82e3], [5.82e3, 1.29e3]];
+    let bodies = [[1.0, 1e-3], [0.0; 2], [0.0; 2]];
+    alike(bodies, [stiffness, [[0.0; 2]; 2]], cubic)
 }
 
 /// The largest held displacement of DOF `i` and how finely it is known, by walking along the other DOF's balance.

@@ -1,24 +1,23 @@
 //! The integrator against closed forms and the textbook.
 
 use super::*;
+use crate::alike::alike;
 use crate::law::{JointMemory, Linear, Polynomial};
 
 fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
-    let body = Body {
-        inertia: [2.0],
-        stiffness: [support_stiffness],
-        damping: [support_damping],
-    };
-    let joint = Linear {
-        stiffness: [[0.0]],
-        damping: [[0.0]],
+    let bodies = [[2.0], [support_stiffness], [support_damping]];
+    alike(bodies, [[[0.0]], [[0.0]]], [0.0])
+}
+
+/// Two such bodies with a joint of these terms of higher order between them.
+fn coupled(support_damping: f64, terms: Polynomial) -> Lap<1> {
+    let mut lap = decoupled(2e4, support_damping);
+    lap.joint = Linear {
+        stiffness: [[7e3]],
+        damping: [[0.3]],
     }
-    .beside([0.0].map(Polynomial::cubic));
-    Lap {
-        joint,
-        a: body,
-        b: body,
-    }
+    .beside([terms]);
+    lap
 }
 
 #[test]
@@ -117,12 +116,7 @@ fn the_response_to_a_harmonic_load_converges_with_fourth_order() {
 
 #[test]
 fn equal_loads_at_all_stages_are_held_loads() {
-    let mut lap = decoupled(2e4, 3.0);
-    lap.joint = Linear {
-        stiffness: [[7e3]],
-        damping: [[0.3]],
-    }
-    .beside([1e9].map(Polynomial::cubic));
+    let lap = coupled(3.0, Polynomial::cubic(1e9));
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
         a: [12.0],
@@ -249,12 +243,7 @@ fn many_steps_at_once_are_as_many_single_steps() {
 }
 
 fn agree_with_single_steps(terms: Polynomial) {
-    let mut lap = decoupled(2e4, 3.0);
-    lap.joint = Linear {
-        stiffness: [[7e3]],
-        damping: [[0.3]],
-    }
-    .beside([terms]);
+    let lap = coupled(3.0, terms);
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads {
         a: [12.0],
@@ -277,12 +266,7 @@ fn agree_with_single_steps(terms: Polynomial) {
 /// ẍ = −ω² x with damping that depends on the amplitude: the energy that is lost is the power dissipated.
 #[test]
 fn what_the_dampers_take_is_missing_from_the_energy() {
-    let mut lap = decoupled(2e4, 0.0);
-    lap.joint = Linear {
-        stiffness: [[7e3]],
-        damping: [[0.3]],
-    }
-    .beside([Polynomial::with(&[-1e8, 4e12, 2e17], &[2e5, 1e10])]);
+    let lap = coupled(0.0, Polynomial::with(&[-1e8, 4e12, 2e17], &[2e5, 1e10]));
     let integrator = LapIntegrator::new(&lap);
     let loads = LapLoads { a: [0.0], b: [0.0] };
     let mut state = LapState::REST;

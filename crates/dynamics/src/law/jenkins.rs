@@ -177,6 +177,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
     use std::f64::consts::{PI, TAU};
 
     /// Loads of a steady cycle u = U cos θ, by equal steps of θ, and the heat of it.
@@ -258,12 +259,9 @@ mod tests {
         };
         let mut memory = [0.0];
         let (mut work, mut heat, mut r) = (0.0, 0.0, 0.0);
-        let mut seed = 1_u64;
+        let mut random = Random(1);
         for _ in 0..2000 {
-            seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            let target = 1e-3 * ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
+            let target = 1e-3 * (random.unit() - 0.5);
             // the load is piecewise linear: the trapezoidal rule is exact on either side of where it begins to slip
             let slips_from = memory[0] + (target - memory[0]).signum() * 300.0 / 2e6;
             let between = (slips_from - r) * (target - slips_from) > 0.0;

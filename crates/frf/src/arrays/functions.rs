@@ -6,7 +6,7 @@ use super::axes::{Counts, named, order};
 use super::matrix::{Functions, Place};
 use super::members::{Members, by_name, quantity};
 use super::{Array, ArrayFile};
-use crate::{FrfReading, ReadOptions, TableProblem};
+use crate::{FrfError, FrfReading, ReadOptions, TableProblem};
 
 const FREQUENCY: &[&str] = &["frequency", "frequency_hz", "freq", "freqs", "f"];
 const MATRIX: &[&str] = &[
@@ -24,8 +24,21 @@ const REFERENCE: &[&str] = &["reference", "references"];
 /// More functions than any test has: a thousand responses to a thousand references.
 const MOST_FUNCTIONS: usize = 1 << 20;
 
-/// Reads the functions of a file of arrays.
+/// Reads the functions of a file of arrays, if it could be opened.
 pub(crate) fn functions<F: ArrayFile>(
+    opened: Result<F, TableProblem>,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<FrfReading, FrfError> {
+    opened
+        .and_then(|mut file| functions_of(&mut file, path, options))
+        .map_err(|problem| FrfError::Arrays {
+            path: path.to_owned(),
+            problem: Box::new(problem),
+        })
+}
+
+fn functions_of<F: ArrayFile>(
     file: &mut F,
     path: &Path,
     options: &ReadOptions,

@@ -1,7 +1,6 @@
 //! A table from its first line to its last, one line at a time.
 
 use std::collections::BTreeSet;
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
@@ -11,6 +10,7 @@ use num_complex::Complex64;
 use super::header::{Columns, Form, Header, Keys};
 use super::number::Decimal;
 use crate::gathered::Gathered;
+use crate::read::opened;
 use crate::statement::{Stated, Statement};
 use crate::summary::Statements;
 use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
@@ -29,10 +29,7 @@ const LONGEST_LINE: usize = 1 << 20;
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Csv`] with line and cause if it cannot be used.
 pub fn read_csv(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(|source| FrfError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
+    let file = opened(path)?;
     read_csv_from(BufReader::new(file), path, options)
 }
 

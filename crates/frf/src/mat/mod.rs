@@ -4,7 +4,6 @@
 
 mod element;
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -12,6 +11,7 @@ use flate2::bufread::ZlibDecoder;
 use num_complex::Complex64;
 
 use crate::arrays::{Array, ArrayFile, Element, Kind, functions};
+use crate::read::opened;
 use crate::{FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
 
 use element::{COMPRESSED, Elements, MATRIX, UTF8, invalid};
@@ -33,11 +33,7 @@ const SAVE: &str = "save('file.mat', 'frequency', 'frf', 'response', 'reference'
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Arrays`] with the cause if it cannot be used.
 pub fn read_mat(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(|source| FrfError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    read_mat_from(BufReader::new(file), path, options)
+    read_mat_from(BufReader::new(opened(path)?), path, options)
 }
 
 /// As [`read_mat`], from any reader; `name` stands for the path in messages.
@@ -49,13 +45,7 @@ pub fn read_mat_from(
     name: impl AsRef<Path>,
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
-    let path = name.as_ref();
-    MatFile::open(reader)
-        .and_then(|mut file| functions(&mut file, path, options))
-        .map_err(|problem| FrfError::Arrays {
-            path: path.to_owned(),
-            problem: Box::new(problem),
-        })
+    functions(MatFile::open(reader), name.as_ref(), options)
 }
 
 /// The arrays of a file, by name.

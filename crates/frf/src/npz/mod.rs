@@ -3,11 +3,11 @@
 mod archive;
 mod array;
 
-use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
 use crate::arrays::functions;
+use crate::read::opened;
 use crate::{FrfError, FrfReading, ReadOptions};
 
 use archive::Archive;
@@ -23,11 +23,7 @@ use archive::Archive;
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Arrays`] with the cause if it cannot be used.
 pub fn read_npz(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(|source| FrfError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    read_npz_from(BufReader::new(file), path, options)
+    read_npz_from(BufReader::new(opened(path)?), path, options)
 }
 
 /// As [`read_npz`], from any reader; `name` stands for the path in messages.
@@ -39,11 +35,5 @@ pub fn read_npz_from(
     name: impl AsRef<Path>,
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
-    let path = name.as_ref();
-    Archive::open(reader)
-        .and_then(|mut archive| functions(&mut archive, path, options))
-        .map_err(|problem| FrfError::Arrays {
-            path: path.to_owned(),
-            problem: Box::new(problem),
-        })
+    functions(Archive::open(reader), name.as_ref(), options)
 }

@@ -1,7 +1,6 @@
 //! The data sets of a universal file from first to last.
 
 use std::collections::BTreeSet;
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
@@ -12,6 +11,7 @@ use super::lines::Lines;
 use super::meaning::{check_abscissa, decide};
 use super::{UffProblem, UnitSystem, binary, values};
 use crate::gathered::Gathered;
+use crate::read::opened;
 use crate::shown;
 use crate::summary::Statements;
 use crate::{
@@ -30,10 +30,7 @@ use crate::{
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Uff`] with line and cause if it cannot be used.
 pub fn read_uff58(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrfReading, FrfError> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(|source| FrfError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
+    let file = opened(path)?;
     let length = file
         .metadata()
         .ok()

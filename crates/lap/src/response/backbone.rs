@@ -146,12 +146,7 @@ pub(super) fn start(model: &Model, lines: &[BackboneLine], known: &Values) -> Op
 }
 
 /// Reads a backbone; `share` is that of the relative motion in what was measured.
-pub(super) fn read_backbone(
-    path: &Path,
-    name: String,
-    used_for: Use,
-    share: f64,
-) -> Result<BackboneRun, LapError> {
+pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>, LapError> {
     let table = NumberTable::read(path)?;
     let (frequency, by) = table.required(&["frequency_hz", "omega_rad_per_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;
@@ -184,22 +179,12 @@ pub(super) fn read_backbone(
     if lines.is_empty() {
         return Err(table.problem(1, "no rows".to_owned(), "at least one"));
     }
-    Ok(BackboneRun {
-        name,
-        path: path.to_owned(),
-        used_for,
-        lines,
-    })
+    Ok(lines)
 }
 
 /// Reads a free decay of one mode and turns it into a backbone: frequencies from the zero crossings of ten half-periods, damping
 /// from the peaks between them.
-pub(super) fn read_decay(
-    path: &Path,
-    name: String,
-    used_for: Use,
-    share: f64,
-) -> Result<BackboneRun, LapError> {
+pub(super) fn read_decay(path: &Path, share: f64) -> Result<Vec<BackboneLine>, LapError> {
     let table = NumberTable::read(path)?;
     let (time, _) = table.required(&["time_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;
@@ -218,12 +203,7 @@ pub(super) fn read_decay(
         let expected = "at least two: a longer record of one mode decaying freely";
         return Err(table.problem(1, found, expected));
     }
-    Ok(BackboneRun {
-        name,
-        path: path.to_owned(),
-        used_for,
-        lines,
-    })
+    Ok(lines)
 }
 
 /// One point for each stretch of half-periods.

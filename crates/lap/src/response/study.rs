@@ -271,8 +271,13 @@ impl LapResponseStudy {
             } else {
                 read_decay
             };
-            let name = name_of(table.name, &table.file);
-            read(&study.resolved(&table.file), name, table.used_for, share)
+            let path = study.resolved(&table.file);
+            Ok(BackboneRun {
+                name: name_of(table.name, &table.file),
+                lines: read(&path, share)?,
+                path,
+                used_for: table.used_for,
+            })
         });
         let backbones: Vec<BackboneRun> = backbones.collect::<Result<_, LapError>>()?;
         let fitted = sines.iter().any(|run| run.used_for == Use::Fit)

@@ -29,20 +29,6 @@ impl PressureField {
         };
         Self::new(outline.cells(cells).map(element).collect())
     }
-
-    /// The same elements with the same pressure in each, which together carry `force_n` (N).
-    ///
-    /// # Errors
-    /// [`PressureError::Number`] for a force that is negative or not finite.
-    pub fn evened(&self, force_n: f64) -> Result<Self, PressureError> {
-        check_force(force_n)?;
-        let pressure_pa = force_n / self.area_m2();
-        let even = |element: &Element| Element {
-            pressure_pa,
-            ..*element
-        };
-        Self::new(self.elements().iter().map(even).collect())
-    }
 }
 
 pub(super) fn check_force(force_n: f64) -> Result<(), PressureError> {

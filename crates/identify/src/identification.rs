@@ -6,7 +6,7 @@ use bolted_joint_joint::Provenance;
 
 use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
-use super::budget::Systematic;
+use super::budget::{Systematic, are_together};
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::layout::Bolts;
@@ -182,6 +182,7 @@ pub fn identify_and_draw(
         Some(_) => Vec::new(),
         None => slips,
     };
+    let apart = are_together(study, &all).err();
     let estimate = match &systematic {
         Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),
         None => estimate,
@@ -216,13 +217,16 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips));
-    let has_budget = study.has_causes() && study.further.is_empty();
+    let has_budget = study.has_causes() && apart.is_none();
     if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }
     warnings.extend(study.rotations_not_corrected());
     if systematic.is_none() && slips.is_empty() && study.has_causes() {
-        warnings.push(Systematic::NOT_APPLIED.to_owned());
+        warnings.push(Systematic::not_applied(apart));
+    }
+    if systematic.is_some() && bootstrap.is_some() {
+        warnings.push(Systematic::BESIDE_A_BOOTSTRAP.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());

@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::budget::Systematic;
 use super::layout::Layout;
 use super::normal::scaled_by;
 use super::unknown::Unknown;
@@ -47,9 +46,9 @@ impl Covariance {
         self.matrix.diagonal().iter().map(|v| v.sqrt()).collect()
     }
 
-    /// The same of an estimate in which the set-up's errors take part.
-    pub(super) fn with_systematic_errors(self, layout: &Layout, found: &Systematic) -> Self {
-        let deviation = found.covariance.diagonal().map(f64::sqrt);
+    /// The same of an estimate in which the set-up's errors take part, with its values and their covariance.
+    pub(super) fn with_systematic_errors(self, values: &[f64], matrix: DMatrix<f64>) -> Self {
+        let deviation = matrix.diagonal().map(f64::sqrt);
         let pairs = deviation.iter().zip(&self.sizes);
         let identified: Vec<bool> = pairs.map(|(deviation, size)| deviation <= size).collect();
         let names: Vec<String> = self
@@ -57,17 +56,12 @@ impl Covariance {
             .iter()
             .map(|unknown| unknown.label(&[]))
             .collect();
-        debug_assert_eq!(layout.unknowns(), found.unknowns.len());
+        debug_assert_eq!(self.unknowns.len(), values.len());
         Self {
-            values: found.unknowns.clone(),
-            determined_together: determined_together(
-                &names,
-                &identified,
-                &self.sizes,
-                &found.covariance,
-            ),
-            matrix: found.covariance.clone(),
-            inflation: vec![1.0; found.unknowns.len()],
+            values: values.to_vec(),
+            determined_together: determined_together(&names, &identified, &self.sizes, &matrix),
+            inflation: vec![1.0; values.len()],
+            matrix,
             identified,
             ..self
         }

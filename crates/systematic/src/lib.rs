@@ -31,7 +31,7 @@ pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
 pub use estimate::{CONTRADICTED, CauseEstimate, Estimate, Settings, Start, estimate, evaluated};
 pub use experiment::{
-    Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
+    Assembly, Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
     MeasuredFunctions, Structure,
 };
 pub use refine::refine;

@@ -1,6 +1,7 @@
 //! The estimate with the error budget: what the set-up of the test leaves unknown takes part in it.
 
 mod experiment;
+mod together;
 
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
@@ -17,6 +18,8 @@ use super::lines::Lines;
 use super::lines_estimate::LinesEstimate;
 use super::noise::Levels;
 use super::study::Study;
+use together::together;
+pub(super) use together::{Apart, are_together};
 
 /// Bands that are asked whether they agree on the joint.
 const BANDS: [usize; 2] = [2, 8];
@@ -68,25 +71,41 @@ pub struct Systematic {
 }
 
 impl Systematic {
-    /// What is said where no error of the set-up takes part although the study has a budget.
-    pub(super) const NOT_APPLIED: &'static str = "errors of the set-up take no part in this estimate: they do with one assembly only, \
-        and where the estimate with them is found; its deviations are those of noise alone";
+    /// What is said beside a bootstrap.
+    pub(super) const BESIDE_A_BOOTSTRAP: &'static str = "the bootstrap draws noise alone, about the estimate without errors of the \
+        set-up: it checks the deviations by noise alone; the intervals with the error budget are those of the estimate itself";
 
-    /// Estimates joint and causes from the `start` that an estimate without causes gives. `None` where the budget is none, where
-    /// there are several assemblies, or where no estimate is found.
+    /// What is said where no error of the set-up takes part although the study has a budget.
+    pub(super) fn not_applied(apart: Option<Apart>) -> String {
+        let why = match apart {
+            None => "no estimate with them is found".to_owned(),
+            Some(apart) => apart.to_string(),
+        };
+        format!(
+            "errors of the set-up take no part in this estimate: {why}; its deviations are those of noise alone"
+        )
+    }
+
+    /// Estimates joint and causes from the start that an estimate without causes gives. `None` where the budget is none, where
+    /// several assemblies do not have structures, points and lines in common, or where no estimate is found.
     pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
-        let [lines] = all else { return None };
         if !study.has_causes() {
             return None;
         }
-        let start = estimate.covariance().values.clone();
+        let all = &together(study, all).ok()?;
+        let start: Vec<f64> = estimate
+            .joints
+            .iter()
+            .flat_map(|joint| joint.covariance.values.iter().copied())
+            .collect();
+        let joints = estimate.joint_numbers();
         let layout = study.layout();
         let mut levels = estimate.levels;
         let mut found = None;
         // Noise that a residual full of other errors shows can be so large that no line is linear in it.
         for part in PARTS_OF_NOISE {
             levels = study.noise.levels(estimate.levels.assembly.scaled(part));
-            found = Self::at_levels(study, lines, &layout, levels, &start);
+            found = Self::at_levels(study, all, joints, &layout, levels, &start);
             if found.is_some() || study.noise.is_stated() {
                 break;
             }
@@ -101,7 +120,7 @@ impl Systematic {
                 break;
             };
             levels = study.noise.levels(levels.assembly.scaled(reduced.sqrt()));
-            let Some(next) = Self::at_levels(study, lines, &layout, levels, &start) else {
+            let Some(next) = Self::at_levels(study, all, joints, &layout, levels, &start) else {
                 break;
             };
             found = next;
@@ -111,13 +130,19 @@ impl Systematic {
 
     fn at_levels(
         study: &Study,
-        lines: &Lines,
+        all: &[Lines],
+        joints: &[usize],
         layout: &Layout,
         levels: Levels,
         start: &[f64],
     ) -> Option<Self> {
-        let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
-        let experiment = experiment::of(study, &few, layout, levels)?;
+        let at_most = |most: usize| -> Vec<Lines> {
+            let fewer = all.iter().map(|lines| lines.at_most(most));
+            fewer.collect()
+        };
+        let lines = all.first()?;
+        let few = at_most(MOST_LINES_OF_A_SEARCH);
+        let experiment = experiment::of(study, &few, joints, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
         let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
@@ -144,9 +169,10 @@ impl Systematic {
         } = diagnosis.with_contradicted(&experiment, &plain, &found, &settings);
         let mut noise_alone = plain.covariance.clone();
         let mut noise_reduced = plain.reduced_chi_squared;
-        if few.frequency_hz.len() < lines.frequency_hz.len() {
-            let many = lines.at_most(MOST_LINES);
-            let experiment = experiment::of(study, &many, layout, levels)?;
+        let searched = few.first().map_or(0, |few| few.frequency_hz.len());
+        if searched < lines.frequency_hz.len() {
+            let many = at_most(MOST_LINES);
+            let experiment = experiment::of(study, &many, joints, layout, levels)?;
             if let Some(refined) = refine(&experiment, &found, &settings) {
                 found = refined;
             }
@@ -186,6 +212,14 @@ impl Systematic {
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
         })
+    }
+
+    /// The unknowns of joint number `joint` of several, with their covariance; each has `size` of them.
+    pub(super) fn of_joint(&self, joint: usize, size: usize) -> (&[f64], DMatrix<f64>) {
+        let first = joint * size;
+        let values = self.unknowns.get(first..first + size).unwrap_or_default();
+        let own = self.covariance.view((first, first), (size, size));
+        (values, own.into_owned())
     }
 
     /// Parts of each unknown's standard deviation: groups by the part of the variance that they have in the worst unknown.
@@ -339,7 +373,7 @@ pub(super) fn shown(cause: Cause, values: [f64; 2]) -> ([f64; 2], &'static str) 
 fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
     let label = |set: MeasuredSet, row: usize| -> String {
         let point = match set {
-            MeasuredSet::Assembly => lines.points.get(row).map(Dof::to_string),
+            MeasuredSet::Assembly(_) => lines.points.get(row).map(Dof::to_string),
             MeasuredSet::Of(side) => experiment::labels(study, side, lines)
                 .get(row)
                 .map(Dof::to_string),
@@ -359,7 +393,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::Accelerometer(set) => format!("mass of the accelerometer on {set}"),
         Cause::Position(point) => format!(
             "position of {} on the assembly",
-            label(MeasuredSet::Assembly, point)
+            label(MeasuredSet::Assembly(0), point)
         ),
         Cause::JointPosition(side, of) => format!("position of the joint on {side}{}", bolt(of)),
         Cause::Frequency(side) => format!("frequencies of {side} in the assembly"),

@@ -95,7 +95,7 @@ pub struct FurtherAssembly {
 }
 
 /// One substructure: where its receptances come from, and where its joint is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Substructure {
     /// Measured at labelled points.
     Measured {
@@ -182,7 +182,7 @@ impl MeasuredJoint {
 }
 
 /// Where a measured substructure's receptances come from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// FRFs, and a file with modes that supplies those that were not measured.
     Frf {
@@ -196,7 +196,7 @@ pub enum Source {
 }
 
 /// A file of functions, and what the study says about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FrfFile {
     /// The file.
     pub path: PathBuf,
@@ -392,7 +392,7 @@ impl Study {
             true => ("b.joint", &file.b.joint),
             false => ("a.joint", &file.a.joint),
         };
-        let bolts = check::bolts(study, (key, places), file.joint.bolts)?;
+        let bolts = check::bolts(study, key, places.as_deref(), file.joint.bolts)?;
         let a = check::substructure(study, "a", file.a, model, &bolts)?;
         let b = check::substructure(study, "b", file.b, model, &bolts)?;
         study.check_name("name", &file.name)?;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use bolted_joint::identify::{Identification, Systematic};
+use bolted_joint::identify::{Identification, Systematic, Unknown};
 use serde_json::{Value, json};
 
 use super::super::table::{Table, number};
@@ -18,7 +18,6 @@ pub(super) fn budget(found: &Identification) -> String {
         return String::new();
     };
     let bolts = found.bolts.with_own_joint();
-    let covariance = found.estimate.covariance();
     let groups: Vec<_> = systematic
         .shares
         .groups
@@ -30,10 +29,10 @@ pub(super) fn budget(found: &Identification) -> String {
     header.push("unit");
     let mut table = Table::new(&header);
     let percent = |part: f64| format!("{:.0} %", 100.0 * part);
-    for (index, unknown) in covariance.unknowns.iter().enumerate() {
+    for (index, (at, unknown)) in unknowns(found).enumerate() {
         let deviation = |matrix: &nalgebra::DMatrix<f64>| number(matrix[(index, index)].sqrt(), 2);
         let mut cells = vec![
-            unknown.label(bolts),
+            unknown.label(bolts) + &at,
             deviation(&systematic.noise_covariance),
             deviation(&systematic.covariance),
         ];
@@ -57,6 +56,16 @@ pub(super) fn budget(found: &Identification) -> String {
         );
     }
     text + &suspects(systematic)
+}
+
+/// The unknowns of every torque's joint, each with what tells it from those of the others.
+fn unknowns(found: &Identification) -> impl Iterator<Item = (String, &Unknown)> {
+    let joints = found.estimate.joints.iter();
+    joints.flat_map(|joint| {
+        let at = joint.torque_n_m.map(|torque| format!("@{torque}"));
+        let own = joint.covariance.unknowns.iter();
+        own.map(move |unknown| (at.clone().unwrap_or_default(), unknown))
+    })
 }
 
 /// What speaks against the data if the set-up is taken as exact.
@@ -104,10 +113,10 @@ pub(super) fn json(found: &Identification) -> Value {
     let deviations = |matrix: &nalgebra::DMatrix<f64>| -> Vec<f64> {
         matrix.diagonal().iter().map(|v| v.sqrt()).collect()
     };
-    let unknowns = &found.estimate.covariance().unknowns;
     let bolts = found.bolts.with_own_joint();
+    let names = unknowns(found).map(|(at, unknown)| unknown.label(bolts) + &at);
     json!({
-        "unknowns": unknowns.iter().map(|unknown| unknown.label(bolts)).collect::<Vec<_>>(),
+        "unknowns": names.collect::<Vec<_>>(),
         "standard_deviation": deviations(&systematic.covariance),
         "standard_deviation_of_noise": deviations(&systematic.noise_covariance),
         "shares": {

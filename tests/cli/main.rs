@@ -28,6 +28,7 @@ mod reproduce;
 mod respond;
 mod rig;
 mod study;
+mod table_file;
 mod torque;
 mod universal_file;
 mod usage;

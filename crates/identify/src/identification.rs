@@ -6,7 +6,7 @@ use bolted_joint_joint::Provenance;
 
 use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
-use super::budget::Systematic;
+use super::budget::{Systematic, are_together};
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::layout::Bolts;
@@ -131,6 +131,8 @@ pub fn identify_and_draw(
         assemble::measured_labels(&study.a, dofs, &[]),
         assemble::measured_labels(&study.b, dofs, of_b),
     ];
+    let apart = are_together(study, &all).err();
+    let has_budget = study.has_causes() && apart.is_none();
     let mut options = Options {
         bolts: study.bolts.clone(),
         noise: study.noise,
@@ -139,7 +141,7 @@ pub fn identify_and_draw(
         compare_models: study.compares_rivals,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
-        has_budget: study.has_budget(),
+        has_budget,
         bootstrap,
         progress: Some(&|| watch.drawn()),
     };
@@ -220,12 +222,15 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips));
-    if study.has_budget() && systematic.is_none() && slips.is_empty() {
+    if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }
     warnings.extend(study.rotations_not_corrected());
     if systematic.is_none() && slips.is_empty() && study.has_causes() {
-        warnings.push(Systematic::NOT_APPLIED.to_owned());
+        warnings.push(Systematic::not_applied(apart));
+    }
+    if systematic.is_some() && bootstrap.is_some() {
+        warnings.push(Systematic::BESIDE_A_BOOTSTRAP.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());

@@ -83,13 +83,22 @@ impl JointEstimate {
         JointMatrices::from_unknowns(model, &self.layout.of_joint(&deviation, 0))
     }
 
-    /// The same with the joint and the deviations of an estimate in which the set-up's errors take part.
-    pub(super) fn with_systematic_errors(self, found: &Systematic, bolts: &[String]) -> Self {
+    /// The same with the joint, the one with this number, and the deviations of an estimate in which the set-up's errors take
+    /// part.
+    pub(super) fn with_systematic_errors(
+        self,
+        found: &Systematic,
+        number: usize,
+        bolts: &[String],
+    ) -> Self {
         let layout = &self.layout;
-        let free = layout.matrices(&found.unknowns);
-        let passive = passive::nearest(layout, &found.unknowns, &found.covariance);
+        let (unknowns, own) = found.of_joint(number, layout.unknowns());
+        let free = layout.matrices(unknowns);
+        let passive = passive::nearest(layout, unknowns, &own);
         let passive = passive.map(|unknowns| layout.matrices(&unknowns));
-        let covariance = self.covariance.with_systematic_errors(layout, found, bolts);
+        let covariance = self
+            .covariance
+            .with_systematic_errors(layout, unknowns, own, bolts);
         Self {
             whole: layout.whole(passive.as_ref().unwrap_or(&free)),
             free,

@@ -113,13 +113,13 @@ impl LinesEstimate {
         self.layout.bolts_with(bolt).map(at).collect()
     }
 
-    /// The same with joint, deviations and warnings of an estimate in which the set-up's errors take part; one torque has one
-    /// joint.
+    /// The same with joints, deviations and warnings of an estimate in which the set-up's errors take part.
     #[must_use]
     pub(super) fn with_systematic_errors(self, found: &Systematic, bolts: &[String]) -> Self {
         let plain = self.joints.into_iter();
         let joints: Vec<JointEstimate> = plain
-            .map(|joint| joint.with_systematic_errors(found, bolts))
+            .enumerate()
+            .map(|(number, joint)| joint.with_systematic_errors(found, number, bolts))
             .collect();
         let mut warnings = self.warnings;
         warnings.retain(|warning| !self.joint_warnings.contains(warning));
@@ -137,6 +137,11 @@ impl LinesEstimate {
             unrest: if found.converged { 0.0 } else { f64::INFINITY },
             ..self
         }
+    }
+
+    /// The number of the joint that each assembly has.
+    pub(super) fn joint_numbers(&self) -> &[usize] {
+        &self.joint_of_assembly
     }
 
     /// The joint in one of the assemblies; the first one's if there are not so many.

@@ -155,7 +155,7 @@ fn possible(lines: &Lines, layout: &Layout) -> Vec<Slip> {
     let measured = sides.into_iter().filter(|(_, of)| of.measured().is_some());
     let measured: Vec<Side> = measured.map(|(side, _)| side).collect();
     let sets = measured.iter().map(|&side| MeasuredSet::Of(side));
-    let sets: Vec<MeasuredSet> = sets.chain([MeasuredSet::Assembly]).collect();
+    let sets: Vec<MeasuredSet> = sets.chain([MeasuredSet::Assembly(0)]).collect();
     let mut all = Vec::new();
     for &set in &sets {
         let factors = [-1.0, GRAVITY, GRAVITY.recip(), 1e3, 1e-3];
@@ -234,7 +234,7 @@ fn multiply(lines: &mut Lines, set: MeasuredSet, factor: &dyn Fn(f64) -> Complex
     let factors = lines.frequency_hz.iter().map(|hz| factor(TAU * hz));
     let factors: Vec<Complex64> = factors.collect();
     match set {
-        MeasuredSet::Assembly => {
+        MeasuredSet::Assembly(_) => {
             for (matrix, factor) in lines.assembly.iter_mut().zip(&factors) {
                 *matrix *= *factor;
             }

@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::budget::Systematic;
 use super::layout::Layout;
 use super::normal::scaled_by;
 use super::unknown::Unknown;
@@ -47,24 +46,25 @@ impl Covariance {
         self.matrix.diagonal().iter().map(|v| v.sqrt()).collect()
     }
 
-    /// The same of an estimate in which the set-up's errors take part.
+    /// The same of an estimate in which the set-up's errors take part, with its values and their covariance.
     pub(super) fn with_systematic_errors(
         self,
         layout: &Layout,
-        found: &Systematic,
+        values: &[f64],
+        matrix: DMatrix<f64>,
         bolts: &[String],
     ) -> Self {
-        let deviation = found.covariance.diagonal().map(f64::sqrt);
-        let sizes = sizes(layout, &found.unknowns, &self.negligible);
+        let deviation = matrix.diagonal().map(f64::sqrt);
+        let sizes = sizes(layout, values, &self.negligible);
         let identified = identified(deviation.as_slice(), &sizes);
         let unknowns = self.unknowns.iter();
         let names: Vec<String> = unknowns.map(|unknown| unknown.label(bolts)).collect();
-        let together = determined_together(&names, &identified, &sizes, &found.covariance);
+        let together = determined_together(&names, &identified, &sizes, &matrix);
         Self {
-            values: found.unknowns.clone(),
+            values: values.to_vec(),
             determined_together: together,
-            matrix: found.covariance.clone(),
-            inflation: vec![1.0; found.unknowns.len()],
+            inflation: vec![1.0; values.len()],
+            matrix,
             identified,
             ..self
         }

@@ -135,7 +135,9 @@ pub fn priors(experiment: &Experiment<'_>, deviation: impl Fn(Cause) -> f64) -> 
 /// Every cause that can act on an experiment.
 pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
     let mut causes = vec![Cause::CommonGain, Cause::LossFactor];
-    let mut measured = vec![(MeasuredSet::Assembly, &experiment.assembly)];
+    let assemblies = experiment.assemblies.iter().enumerate();
+    let assemblies = assemblies.map(|(number, of)| (MeasuredSet::Assembly(number), &of.functions));
+    let mut measured: Vec<_> = assemblies.collect();
     for side in [Side::A, Side::B] {
         let bolts = 0..experiment.joint.bolts();
         match experiment.side(side) {
@@ -174,7 +176,7 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
         causes.extend(rows.map(|row| Cause::ChannelGain(set, row)));
     }
     if experiment.knows_slopes() {
-        let points = 0..experiment.assembly.labels();
+        let points = 0..experiment.points();
         causes.extend(points.map(Cause::Position));
     }
     causes

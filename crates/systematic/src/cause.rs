@@ -16,8 +16,8 @@ pub enum Side {
 pub enum MeasuredSet {
     /// Those of a substructure.
     Of(Side),
-    /// Those of the assembly.
-    Assembly,
+    /// Those of an assembly; there may be several.
+    Assembly(usize),
 }
 
 impl fmt::Display for Side {
@@ -33,7 +33,8 @@ impl fmt::Display for MeasuredSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Of(side) => side.fmt(f),
-            Self::Assembly => f.write_str("the assembly"),
+            Self::Assembly(0) => f.write_str("the assembly"),
+            Self::Assembly(number) => write!(f, "assembly {}", number + 1),
         }
     }
 }
@@ -53,7 +54,7 @@ pub enum Cause {
     Phase(MeasuredSet),
     /// Mass of an accelerometer that moves from point to point, beyond what the data are corrected for, kg.
     Accelerometer(MeasuredSet),
-    /// Position of a point of the assembly, m.
+    /// Position of a point of the assemblies, m.
     Position(usize),
     /// Position of the joint at a bolt of a structure, m.
     JointPosition(Side, usize),

@@ -20,6 +20,10 @@ pub(crate) struct At<'f> {
 }
 
 impl At<'_> {
+    fn is_of_assembly(&self) -> bool {
+        matches!(self.set, MeasuredSet::Assembly(_))
+    }
+
     /// φ of an entry with these values of the causes.
     pub(crate) fn factor(&self, entry: &Entry, priors: &[Prior], values: &[f64]) -> Complex64 {
         let mut gain = 1.0;
@@ -52,7 +56,7 @@ impl At<'_> {
                         *sum += self.loaded(entry, value);
                     }
                 }
-                Cause::Position(point) if self.set == MeasuredSet::Assembly => {
+                Cause::Position(point) if self.is_of_assembly() => {
                     for (sum, entry) in beside.iter_mut().zip(&self.functions.entries) {
                         *sum += self.shifted(entry, point) * value;
                     }
@@ -81,9 +85,7 @@ impl At<'_> {
             Cause::Accelerometer(set) if set == self.set => {
                 Box::new(move |entry| self.by_mass(entry, value))
             }
-            Cause::Position(point)
-                if self.set == MeasuredSet::Assembly && self.slopes.is_some() =>
-            {
+            Cause::Position(point) if self.is_of_assembly() && self.slopes.is_some() => {
                 Box::new(move |entry| self.shifted(entry, point))
             }
             _ => return None,
@@ -328,7 +330,10 @@ mod tests {
                 );
             }
         }
-        assert_eq!(at.by_cause(Cause::Gain(MeasuredSet::Assembly), 0.0), None);
+        assert_eq!(
+            at.by_cause(Cause::Gain(MeasuredSet::Assembly(0)), 0.0),
+            None
+        );
     }
 
     #[test]

@@ -40,7 +40,7 @@ impl Default for Settings {
 /// Where a search begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Stiffness of each unknown entry, then its damping.
+    /// Stiffness of each unknown entry, then its damping; joint after joint.
     pub unknowns: Vec<f64>,
     /// A cause that is not zero, with its value in its unit.
     pub cause: Option<(Cause, f64)>,
@@ -110,7 +110,7 @@ pub struct CauseEstimate {
 
 /// The estimate with systematic errors.
 pub struct Estimate {
-    /// Stiffness of each unknown entry, then its damping.
+    /// Stiffness of each unknown entry, then its damping; joint after joint.
     pub unknowns: Vec<f64>,
     /// Covariance of the unknowns, systematic errors included.
     pub covariance: DMatrix<f64>,
@@ -305,7 +305,7 @@ fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
 
 /// Degrees of freedom: as many causes as priors, so that the joint's unknowns alone cost some.
 fn freedom(task: &Task<'_>, found: &Found) -> Option<f64> {
-    let numbers = 2 * found.lines.len() * task.experiment.assembly.entries.len();
+    let numbers = 2 * found.lines.len() * task.experiment.assembled().count();
     let freedom = numbers.checked_sub(task.unknowns());
     freedom
         .filter(|&freedom| freedom > 0)

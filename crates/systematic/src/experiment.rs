@@ -22,12 +22,20 @@ pub struct Experiment<'a> {
     pub a: Structure<'a>,
     /// Structure B at the joint's DOFs, then the points.
     pub b: Structure<'a>,
-    /// The assembly at the points.
-    pub assembly: MeasuredFunctions,
+    /// The assemblies, one or more, each at the same points.
+    pub assemblies: Vec<Assembly>,
     /// Masses that only the assembly has, as far as they are known: at DOFs of the joint on A and then on B, kg or kg·m².
     pub known_masses: Vec<(usize, f64)>,
     /// Smooth fits of A and B where they are measured, made when they are first asked for.
     fits: OnceLock<[Option<ModalFit>; 2]>,
+}
+
+/// What was measured of the two structures together.
+pub struct Assembly {
+    /// The functions between the points.
+    pub functions: MeasuredFunctions,
+    /// Number of its joint, from 0: assemblies may share one, or differ in it as at several torques.
+    pub joint: usize,
 }
 
 /// The unknown entries of the joint's matrices.
@@ -139,20 +147,20 @@ pub struct Computed<'a> {
 }
 
 impl<'a> Experiment<'a> {
-    /// Functions at the lines of `omega`, rad/s: of the structures that the joint connects and of the assembly at B's points.
+    /// Functions at the lines of `omega`, rad/s: of the structures that the joint connects and of the assemblies at B's points.
     #[must_use]
     pub fn new(
         omega: Vec<f64>,
         joint: JointShape,
         [a, b]: [Structure<'a>; 2],
-        assembly: MeasuredFunctions,
+        assemblies: Vec<Assembly>,
     ) -> Self {
         Self {
             omega,
             joint,
             a,
             b,
-            assembly,
+            assemblies,
             known_masses: Vec::new(),
             fits: OnceLock::new(),
         }
@@ -178,7 +186,36 @@ impl<'a> Experiment<'a> {
 
     /// Whether it can be told what a shift of an assembly's point does.
     pub(crate) fn knows_slopes(&self) -> bool {
-        self.assembly.positions_m.is_some() || matches!(self.b, Structure::Computed(_))
+        let first = self.assemblies.first();
+        let are_known = first.is_some_and(|first| first.functions.positions_m.is_some());
+        are_known || matches!(self.b, Structure::Computed(_))
+    }
+
+    /// Labelled functions of a structure that is measured.
+    pub(crate) fn labelled(&self, side: Side) -> usize {
+        match self.side(side) {
+            Structure::Measured(measured) => measured.functions.entries.len(),
+            Structure::Computed(_) | Structure::Exact(_) => 0,
+        }
+    }
+
+    /// Joints of the assemblies.
+    #[must_use]
+    pub fn joints(&self) -> usize {
+        let numbers = self.assemblies.iter().map(|assembly| assembly.joint + 1);
+        numbers.max().unwrap_or(1)
+    }
+
+    /// Points of the assemblies.
+    pub(crate) fn points(&self) -> usize {
+        let first = self.assemblies.first();
+        first.map_or(0, |first| first.functions.labels())
+    }
+
+    /// Functions of the assemblies, one after the other.
+    pub(crate) fn assembled(&self) -> impl Iterator<Item = &Entry> {
+        let functions = self.assemblies.iter();
+        functions.flat_map(|assembly| &assembly.functions.entries)
     }
 }
 

@@ -34,7 +34,7 @@ pub use estimate::{
     CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, evaluated,
 };
 pub use experiment::{
-    Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
+    Assembly, Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
     MeasuredFunctions, Structure,
 };
 pub use refine::refine;

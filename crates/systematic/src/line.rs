@@ -1,5 +1,7 @@
 //! One line: what is left of the measurement, and how joint and causes move what is predicted.
 
+mod block;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -7,7 +9,7 @@ use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
 use super::effect::{At, slopes};
-use super::experiment::{ComplexMatrix, Entry, Experiment, Structure};
+use super::experiment::{Assembly, ComplexMatrix, Entry, Experiment, Structure};
 use super::structures::Recomputations;
 
 /// What does not change during a search.
@@ -20,7 +22,7 @@ pub(crate) struct Task<'t> {
 /// Joint and causes at one moment of the search.
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
-    /// Stiffness of each unknown entry, then its damping.
+    /// Stiffness of each unknown entry, then its damping; joint after joint.
     pub(crate) unknowns: Vec<f64>,
     /// Values of the causes.
     pub(crate) causes: Vec<f64>,
@@ -56,7 +58,8 @@ pub(crate) struct Terms {
 
 impl<'t> Task<'t> {
     pub(crate) fn new(experiment: &'t Experiment<'t>, priors: &'t [Prior]) -> Self {
-        let positions_m = experiment.assembly.positions_m.as_ref();
+        let first = experiment.assemblies.first();
+        let positions_m = first.and_then(|first| first.functions.positions_m.as_ref());
         let is_computed = matches!(experiment.b, Structure::Computed(_));
         Self {
             experiment,
@@ -77,7 +80,7 @@ impl<'t> Task<'t> {
     }
 
     pub(crate) fn unknowns(&self) -> usize {
-        2 * self.experiment.joint.entries.len()
+        2 * self.experiment.joint.entries.len() * self.experiment.joints()
     }
 
     pub(crate) fn lines(&self) -> usize {
@@ -114,37 +117,50 @@ impl<'t> Task<'t> {
         })
     }
 
-    fn coupled(
+    /// Receptances of both structures at a line.
+    fn structures(
         &self,
         line: usize,
         point: &Point,
         labelled: &Labelled,
         recomputed: &Recomputations,
-    ) -> Option<(ComplexMatrix, ComplexMatrix, Coupled)> {
+    ) -> Option<[ComplexMatrix; 2]> {
+        let formed = |side| self.formed(side, line, point, labelled, recomputed);
+        Some([formed(Side::A)?, formed(Side::B)?])
+    }
+
+    /// The structures with the joint of an assembly between them.
+    fn coupled(
+        &self,
+        assembly: &Assembly,
+        line: usize,
+        point: &Point,
+        [a, b]: &[ComplexMatrix; 2],
+    ) -> Option<Coupled> {
         let experiment = self.experiment;
         let omega = experiment.omega[line];
         let mut masses = experiment.known_masses.clone();
-        let mut loss_factor = 0.0;
         for (prior, &value) in self.priors.iter().zip(&point.causes) {
             match prior.cause {
                 Cause::JointMass(side, bolt) => masses.push((self.mass_dof(side, bolt), value)),
                 Cause::JointInertia(side, bolt) => {
                     masses.push((self.mass_dof(side, bolt) + 1, value));
                 }
-                Cause::LossFactor => loss_factor = value,
                 _ => {}
             }
         }
+        let first = self.first_unknown(assembly);
         let joint = JointValues {
-            unknowns: &point.unknowns,
-            loss_factor,
+            unknowns: &point.unknowns[first..first + 2 * experiment.joint.entries.len()],
+            loss_factor: self.loss_factor(point),
             masses: &masses,
         };
-        let stiffness = DynamicStiffness::of(&experiment.joint, &joint, omega);
-        let a = self.formed(Side::A, line, point, labelled, recomputed)?;
-        let b = self.formed(Side::B, line, point, labelled, recomputed)?;
-        let coupled = Coupled::of(&a, &b, stiffness)?;
-        Some((a, b, coupled))
+        Coupled::of(a, b, DynamicStiffness::of(&experiment.joint, &joint, omega))
+    }
+
+    /// Where the unknowns of an assembly's joint begin.
+    fn first_unknown(&self, assembly: &Assembly) -> usize {
+        2 * self.experiment.joint.entries.len() * assembly.joint
     }
 
     fn mass_dof(&self, side: Side, bolt: usize) -> usize {
@@ -152,152 +168,19 @@ impl<'t> Task<'t> {
         joint.translation(bolt) + if side == Side::B { joint.dofs } else { 0 }
     }
 
-    /// Linearises a line; `None` where the assembly is singular.
-    pub(crate) fn terms(
-        &self,
-        line: usize,
-        point: &Point,
-        labelled: &Labelled,
-        recomputed: &Recomputations,
-    ) -> Option<Terms> {
-        let experiment = self.experiment;
-        let omega = experiment.omega[line];
-        let own = self.coupled(line, point, labelled, recomputed)?;
-        let coupled = &own.2;
-        let entries = &experiment.assembly.entries;
-        let measured = [Side::A, Side::B]
-            .map(|side| self.without_causes(side, line, point, &labelled[side as usize]));
-        // Derivatives by the causes come from smooth receptances: from noisy ones the noise would be read as information.
-        let smooth = self.smooth(line, point, labelled);
-        let of_smooth = match self.priors {
-            [] => None,
-            _ => Some(self.coupled(line, point, &smooth, recomputed)?),
-        };
-        let (smooth_a, smooth_b, smooth_coupled) = of_smooth.as_ref().unwrap_or(&own);
-        let smooth_at = self.at_assembly(&smooth_coupled.receptance, omega);
-        let chain = smooth_at.by_truth(self.priors, &point.causes);
-        let mut places: Vec<(usize, usize)> = entries.iter().map(|entry| entry.place).collect();
-        if chain.is_some() {
-            places.extend((0..experiment.assembly.labels()).map(|label| (label, label)));
-        }
-        let chained = |changes: DMatrix<Complex64>| match &chain {
-            Some(chain) => chain * changes,
-            None => changes,
-        };
-        let smooth_by_labelled = chained(self.by_labelled(smooth_coupled, &places));
-        let measured_by_cause = [Side::A, Side::B]
-            .map(|side| self.by_causes(side, line, point, &smooth[side as usize]));
-        let by_labelled = chained(self.by_labelled(coupled, &places));
-        let at = self.at_assembly(&coupled.receptance, omega);
-        let beside = at.beside(self.priors, &point.causes);
-        let shift: Vec<Complex64> = (0..2)
-            .flat_map(|side| {
-                measured[side]
-                    .iter()
-                    .zip(&labelled[side])
-                    .map(|(clean, now)| clean - now)
-            })
-            .collect();
-        let moved = &by_labelled * DVector::from_vec(shift);
-        let residual = DVector::from_fn(entries.len(), |e, _| {
-            let entry = &entries[e];
-            let clean =
-                entry.values[line] / at.factor(entry, self.priors, &point.causes) - beside[e];
-            clean - coupled.receptance[entry.place] - moved[e]
-        });
-        let count = experiment.joint.entries.len();
-        let mut rows = DMatrix::zeros(places.len(), 2 * count + self.priors.len());
-        for (t, of) in experiment.joint.entries.iter().enumerate() {
-            for (e, place) in places.iter().enumerate() {
-                let by = coupled.by_stiffness(of, *place);
-                // K* = K (1 + jη) + jωC
-                rows[(e, t)] = by * Complex64::new(1.0, self.loss_factor(point));
-                rows[(e, count + t)] = by * Complex64::new(0.0, omega);
-            }
-        }
-        for (number, prior) in self.priors.iter().enumerate() {
-            let column = 2 * count + number;
-            let mut add = |change: &ComplexMatrix| {
-                for (e, place) in places.iter().enumerate() {
-                    rows[(e, column)] += change[*place];
-                }
-            };
-            match prior.cause {
-                Cause::LossFactor => add(&smooth_coupled.by_loss_factor()),
-                Cause::JointMass(side, bolt) => {
-                    add(&smooth_coupled.by_mass(self.mass_dof(side, bolt), omega))
-                }
-                Cause::JointInertia(side, bolt) => {
-                    add(&smooth_coupled.by_mass(self.mass_dof(side, bolt) + 1, omega))
-                }
-                _ => {}
-            }
-            for side in [Side::A, Side::B] {
-                let formed = if side == Side::A { smooth_a } else { smooth_b };
-                let direct = match experiment.side(side) {
-                    Structure::Measured(measured) => measured.formed_by_cause(
-                        experiment.joint.dofs_of_a_bolt,
-                        side,
-                        formed,
-                        prior.cause,
-                    ),
-                    Structure::Computed(_) => {
-                        let all = recomputed
-                            .side(side)
-                            .map(|side| side.by_cause.as_slice())
-                            .unwrap_or_default();
-                        all.iter()
-                            .find(|(of, _)| *of == number)
-                            .map(|(_, slope)| slope[line].clone())
-                    }
-                    Structure::Exact(_) => None,
-                };
-                if let Some(direct) = direct {
-                    add(&smooth_coupled.by_structure(side == Side::A, &direct));
-                }
-            }
-        }
-        let mut rows = chained(rows);
-        for (number, prior) in self.priors.iter().enumerate() {
-            let column = 2 * count + number;
-            if let Some(by) = smooth_at.by_cause(prior.cause, point.causes[number]) {
-                for (e, by) in by.into_iter().enumerate() {
-                    rows[(e, column)] += by;
-                }
-            }
-            let mut first = 0;
-            for side in 0..2 {
-                if let Some(by) = &measured_by_cause[side][number] {
-                    for (s, by) in by.iter().enumerate() {
-                        for e in 0..entries.len() {
-                            rows[(e, column)] += smooth_by_labelled[(e, first + s)] * by;
-                        }
-                    }
-                }
-                first += labelled[side].len();
-            }
-        }
-        Some(Terms {
-            residual,
-            rows,
-            by_labelled,
-            labelled_variance: self.labelled_variance(line, point, &smooth),
-            measured,
-            measured_by_cause,
-            magnitude: std::iter::zip(entries, beside)
-                .map(|(entry, beside)| (coupled.receptance[entry.place] + beside).norm())
-                .collect(),
-        })
-    }
-
     fn loss_factor(&self, point: &Point) -> f64 {
         super::structures::value_of(Cause::LossFactor, self.priors, &point.causes)
     }
 
-    fn at_assembly<'r>(&'r self, receptance: &'r ComplexMatrix, omega: f64) -> At<'r> {
+    fn at_assembly<'r>(
+        &'r self,
+        number: usize,
+        receptance: &'r ComplexMatrix,
+        omega: f64,
+    ) -> At<'r> {
         At {
-            set: MeasuredSet::Assembly,
-            functions: &self.experiment.assembly,
+            set: MeasuredSet::Assembly(number),
+            functions: &self.experiment.assemblies[number].functions,
             truth: receptance,
             omega,
             slopes: self.slopes.as_ref(),
@@ -342,13 +225,17 @@ impl<'t> Task<'t> {
         recomputed: &Recomputations,
     ) -> Option<f64> {
         let experiment = self.experiment;
-        let (_, _, coupled) = self.coupled(line, point, labelled, recomputed)?;
-        let at = self.at_assembly(&coupled.receptance, experiment.omega[line]);
-        let beside = at.beside(self.priors, &point.causes);
+        let structures = self.structures(line, point, labelled, recomputed)?;
         let mut cost = 0.0;
-        for (entry, beside) in experiment.assembly.entries.iter().zip(beside) {
-            let clean = entry.values[line] / at.factor(entry, self.priors, &point.causes) - beside;
-            cost += (clean - coupled.receptance[entry.place]).norm_sqr() / variance(entry, line);
+        for (number, assembly) in experiment.assemblies.iter().enumerate() {
+            let coupled = self.coupled(assembly, line, point, &structures)?;
+            let at = self.at_assembly(number, &coupled.receptance, experiment.omega[line]);
+            let beside = at.beside(self.priors, &point.causes);
+            for (entry, beside) in assembly.functions.entries.iter().zip(beside) {
+                let factor = at.factor(entry, self.priors, &point.causes);
+                let left = entry.values[line] / factor - beside - coupled.receptance[entry.place];
+                cost += left.norm_sqr() / variance(entry, line);
+            }
         }
         let variances = self.labelled_variance(line, point, labelled);
         let mut variances = variances.iter();

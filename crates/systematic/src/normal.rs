@@ -35,7 +35,7 @@ impl<'l> Whitened<'l> {
             column *= Complex64::from(*variance);
         }
         let mut covariance = scaled * terms.by_labelled.adjoint();
-        for (e, entry) in task.experiment.assembly.entries.iter().enumerate() {
+        for (e, entry) in task.experiment.assembled().enumerate() {
             covariance[(e, e)] += inflation * variance(entry, line);
         }
         Some(Self {

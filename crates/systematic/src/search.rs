@@ -258,10 +258,10 @@ fn allowed(
     deviation: &DVector<f64>,
     iteration: usize,
 ) -> f64 {
-    let count = task.unknowns() / 2;
+    let count = task.experiment.joint.entries.len();
     let entries = &task.experiment.joint.entries;
     let mut part: f64 = 1.0;
-    for index in 0..2 * count {
+    for index in 0..task.unknowns() {
         let matrix = index / count * count;
         let of = |i: usize, j: usize| {
             let place = entries.iter().position(|places| places.contains(&(i, j)));
@@ -276,7 +276,7 @@ fn allowed(
         part = part.min(most / step[index].abs());
     }
     for (number, prior) in task.priors.iter().enumerate() {
-        let moved = step[2 * count + number].abs() / prior.standard_deviation;
+        let moved = step[task.unknowns() + number].abs() / prior.standard_deviation;
         part = part.min(LARGEST_STEP / moved);
     }
     part

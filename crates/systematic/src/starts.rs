@@ -46,7 +46,7 @@ pub(crate) fn grid(experiment: &Experiment<'_>) -> Vec<Vec<f64>> {
             start[index] = multiple * typical[i];
             start[count + index] = LOSS * start[index] / omega;
         }
-        start
+        start.repeat(experiment.joints())
     };
     let has_rotation = joint
         .entries

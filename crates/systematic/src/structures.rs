@@ -102,7 +102,7 @@ fn acts_on(cause: Cause, side: Side) -> bool {
 fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f64]) -> Change {
     let points = match side {
         Side::A => 0,
-        Side::B => experiment.assembly.labels(),
+        Side::B => experiment.points(),
     };
     let mut change = Change {
         joint_m: vec![0.0; experiment.joint.bolts()],

@@ -18,7 +18,23 @@ fn deviations_stand_beside_values() {
     for (from, to) in edits {
         bench.edit("study.toml", from, to);
     }
-    bench.unusable(IDENTIFY, &[OF_OTHER_BODIES]);
+    let budget = &bench.unusable(&format!("{IDENTIFY} --json"), &[]).json()["budget"];
+    let causes = budget["causes"].as_array().unwrap();
+    #[rustfmt::skip]
+    let stated = [
+        ("Young's modulus of B", 0.01), ("density of B", 0.005), ("position of the joint on B", 2e-4),
+        ("mass at the joint on B", 1e-4), ("moment of inertia at the joint on B", 5e-8),
+        ("position of 21:+Y on the assembly", 5e-4), ("mass of the accelerometer on the assembly", 1e-4),
+    ];
+    // under budget = "none" nothing else takes part
+    assert_eq!(causes.len(), stated.len(), "{causes:?}");
+    for (cause, prior) in stated {
+        let found = causes.iter().find(|found| found["cause"] == cause).unwrap();
+        assert!(
+            (found["prior"].as_f64().unwrap() / prior - 1.0).abs() < 1e-12,
+            "{found}"
+        );
+    }
 }
 
 #[test]
@@ -90,7 +106,7 @@ fn an_accelerometer_is_taken_out_only_where_its_drive_point_was_measured() {
     bench.edit("study.toml", "points = [\"21:+Y\", \"22:+Y\"]", one);
     bench.unusable(IDENTIFY, &[OF_OTHER_BODIES]);
     // the second block of the file is that of 22 at 21, or 21 at 22: without the drive points nothing can be taken out
-    let table = "frequency_hz,21:+Y/22:+Y re,21:+Y/22:+Y im\n";
+    let table = "frequency [Hz],21:+Y/22:+Y real,21:+Y/22:+Y imaginary\n";
     let lines = (5..40).map(|hz| format!("{hz},1e-6,-1e-7\n"));
     bench.write("c.csv", table.to_owned() + &lines.collect::<String>());
     bench.edit(

@@ -3,8 +3,9 @@
 use super::UffProblem;
 use super::data_type::{Kind, data_type_name, inverse_name, kind};
 use super::header::{Axis, Header, InRecord};
-use super::scale::{UnitLabels, decide_scale};
+use super::scale::{NO_UNIT, UnitLabels, decide_scale};
 use super::units::UnitSystem;
+use crate::unit_label::Unit;
 use crate::{Quantity, ReadOptions, StatedBy, UnitStatement};
 
 /// The quantity of a function, and what its values are multiplied by to be SI.
@@ -106,7 +107,7 @@ fn decide_quantity(
         return Ok((quantity, StatedBy::Caller));
     }
     let mut statements = [by_type, by_unit, by_label].into_iter().flatten();
-    let first = statements.next().ok_or((9, UffProblem::UnknownQuantity))?;
+    let first = statements.next().ok_or_else(|| (9, unknown(header)))?;
     match statements.find(|statement| statement.quantity != first.quantity) {
         None => Ok((first.quantity, StatedBy::File)),
         Some(second) => Err((
@@ -118,6 +119,22 @@ fn decide_quantity(
                 second: second.quantity,
             },
         )),
+    }
+}
+
+/// Nothing tells the quantity: what the ordinate is labelled with is quoted.
+fn unknown(header: &Header) -> UffProblem {
+    let axis = &header.numerator;
+    let labels = [axis.units_label.trim(), axis.label.trim()];
+    let says_something = |label: &&str| {
+        let is_none = NO_UNIT.contains(&label.to_lowercase().as_str());
+        !is_none && Unit::from_label(label).is_none()
+    };
+    match labels.into_iter().find(says_something) {
+        None => UffProblem::UnknownQuantity,
+        Some(label) => UffProblem::UnreadQuantity {
+            found: format!("\"{}\"", crate::shown(label)),
+        },
     }
 }
 
@@ -253,17 +270,24 @@ mod tests {
             let meaning = decided(axis(0, label, unit), axis(0, "", ""), None).unwrap();
             assert_eq!(meaning.quantity.0, quantity, "{label} {unit}");
         }
-        for (label, unit) in [
-            ("", ""),
-            ("FRF", "V/V"),
-            ("velocity/displacement", ""),
-            ("", "1"),
+        for (label, unit, quoted) in [
+            ("", "", None),
+            ("", "1", None),
+            ("FRF", "V/V", Some("\"V/V\"")),
+            (
+                "velocity/displacement",
+                "",
+                Some("\"velocity/displacement\""),
+            ),
+            ("", "furlong/pond", Some("\"furlong/pond\"")),
         ] {
             let problem = decided(axis(0, label, unit), force(), None).unwrap_err();
-            assert!(
-                matches!(problem, UffProblem::UnknownQuantity),
-                "{label} {unit}"
-            );
+            let found = match problem {
+                UffProblem::UnknownQuantity => None,
+                UffProblem::UnreadQuantity { found } => Some(found),
+                other => panic!("{label} {unit}: {other}"),
+            };
+            assert_eq!(found.as_deref(), quoted, "{label} {unit}");
         }
     }
 

@@ -182,6 +182,16 @@ pub enum UffProblem {
          state it in the study, such as quantity = \"accelerance\" beside frf"
     )]
     UnknownQuantity,
+    /// The ordinate has a label, which does not say what was measured.
+    #[error(
+        "found no data type, and the label {found} of the ordinate, which cannot be read as receptance, mobility or accelerance; \
+         state in the study what it is, such as quantity = \"accelerance\" and units = {{ length = \"m\", force = \"N\" }} \
+         beside frf"
+    )]
+    UnreadQuantity {
+        /// The label.
+        found: String,
+    },
     /// Two statements about what was measured.
     #[error(
         "found {first_statement}, which means {first}, and {second_statement}, which means {second}; expected one quantity. \

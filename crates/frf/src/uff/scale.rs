@@ -40,7 +40,7 @@ impl UnitLabels {
 }
 
 /// What analysers write where they know no unit, in lower case.
-const NO_UNIT: &[&str] = &["", "-", "none", "no units", "unitless", "unknown", "n/a"];
+pub(super) const NO_UNIT: &[&str] = &["", "-", "none", "no units", "unitless", "unknown", "n/a"];
 
 /// Length and force exponents of one axis: from its direction, or from its record where there is no direction.
 fn exponents(

@@ -1,8 +1,8 @@
 //! A study and its lines as an experiment with systematic errors.
 
 use bolted_joint_systematic::{
-    Change, Compute, Computed, Entry, Experiment, JointShape, Measured, MeasuredFunctions, Side,
-    Structure,
+    Assembly, Change, Compute, Computed, Entry, Experiment, JointShape, Measured,
+    MeasuredFunctions, Side, Structure,
 };
 use num_complex::Complex64;
 
@@ -17,13 +17,16 @@ use super::super::noise::{Floor, Levels, Of, Size};
 use super::super::receptances::{MeasuredSubstructure, Receptances};
 use super::super::study::{Study, Substructure};
 
-/// `None` where a structure's labels are not known.
+/// The assemblies of `all`, which have both structures and the lines in common, with the number of each one's joint. `None` where
+/// a structure's labels are not known.
 pub(super) fn of<'a>(
     study: &'a Study,
-    lines: &'a Lines,
+    all: &'a [Lines],
+    joints: &[usize],
     layout: &Layout,
     levels: Levels,
 ) -> Option<Experiment<'a>> {
+    let lines = all.first()?;
     let entries = layout
         .places()
         .iter()
@@ -47,8 +50,12 @@ pub(super) fn of<'a>(
     let of_b = known_masses(study, Side::B, lines).into_iter();
     let of_b = of_b.map(|(dof, mass)| (dofs + dof, mass));
     let known_masses = of_a.chain(of_b).collect();
-    let assembly = assembly(study, lines, levels.assembly);
-    let mut experiment = Experiment::new(omega.collect(), joint, structures, assembly);
+    let assemblies = all.iter().zip(joints);
+    let assemblies = assemblies.map(|(lines, &joint)| Assembly {
+        functions: assembly(study, lines, levels.assembly),
+        joint,
+    });
+    let mut experiment = Experiment::new(omega.collect(), joint, structures, assemblies.collect());
     experiment.known_masses = known_masses;
     Some(experiment)
 }

@@ -1,6 +1,7 @@
 //! The estimate with the error budget: what the set-up of the test leaves unknown takes part in it.
 
 mod experiment;
+mod together;
 
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
@@ -19,6 +20,8 @@ use super::lines_estimate::LinesEstimate;
 use super::model::JointMatrices;
 use super::noise::Levels;
 use super::study::Study;
+use together::together;
+pub(super) use together::{Apart, are_together};
 
 /// Bands that are asked whether they agree on the joint.
 const BANDS: [usize; 2] = [2, 8];
@@ -70,25 +73,41 @@ pub struct Systematic {
 }
 
 impl Systematic {
-    /// What is said where no error of the set-up takes part although the study has a budget.
-    pub(super) const NOT_APPLIED: &'static str = "errors of the set-up take no part in this estimate: they do with one assembly only, \
-        and where the estimate with them is found; its deviations are those of noise alone";
+    /// What is said beside a bootstrap.
+    pub(super) const BESIDE_A_BOOTSTRAP: &'static str = "the bootstrap draws noise alone, about the estimate without errors of the \
+        set-up: it checks the deviations by noise alone; the intervals with the error budget are those of the estimate itself";
 
-    /// Estimates joint and causes from the `start` that an estimate without causes gives. `None` where the budget is none, where
-    /// there are several assemblies, or where no estimate is found.
+    /// What is said where no error of the set-up takes part although the study has a budget.
+    pub(super) fn not_applied(apart: Option<Apart>) -> String {
+        let why = match apart {
+            None => "no estimate with them is found".to_owned(),
+            Some(apart) => apart.to_string(),
+        };
+        format!(
+            "errors of the set-up take no part in this estimate: {why}; its deviations are those of noise alone"
+        )
+    }
+
+    /// Estimates joint and causes from the start that an estimate without causes gives. `None` where the budget is none, where
+    /// several assemblies do not have structures, points and lines in common, or where no estimate is found.
     pub(super) fn of(study: &Study, all: &[Lines], estimate: &LinesEstimate) -> Option<Self> {
-        let [lines] = all else { return None };
         if !study.has_causes() {
             return None;
         }
-        let start = estimate.covariance().values.clone();
+        let all = &together(study, all).ok()?;
+        let start: Vec<f64> = estimate
+            .joints
+            .iter()
+            .flat_map(|joint| joint.covariance.values.iter().copied())
+            .collect();
+        let data = (all.as_slice(), estimate.joint_numbers());
         let layout = study.layout();
         let mut levels = estimate.levels;
         let mut found = None;
         // Noise that a residual full of other errors shows can be so large that no line is linear in it.
         for part in PARTS_OF_NOISE {
             levels = study.noise.levels(estimate.levels.assembly.scaled(part));
-            found = Self::at_levels(study, lines, (&layout, levels), &start, &diagnosed);
+            found = Self::at_levels(study, data, (&layout, levels), &start, &diagnosed);
             if found.is_some() || study.noise.is_stated() {
                 break;
             }
@@ -103,7 +122,7 @@ impl Systematic {
                 break;
             };
             levels = study.noise.levels(levels.assembly.scaled(reduced.sqrt()));
-            let next = Self::at_levels(study, lines, (&layout, levels), &start, &diagnosed);
+            let next = Self::at_levels(study, data, (&layout, levels), &start, &diagnosed);
             let Some(next) = next else {
                 break;
             };
@@ -119,28 +138,34 @@ impl Systematic {
         all: &[Lines],
         estimate: &LinesEstimate,
     ) -> Option<Self> {
-        let [lines] = all else { return None };
         let reduced = estimate.assessment.reduced_chi_squared;
         let is_far = reduced.is_none_or(|reduced| reduced > FAR);
-        if !study.has_budget() || !study.noise.is_stated() || !is_far {
+        if !study.has_causes() || !study.noise.is_stated() || !is_far {
             return None;
         }
+        let all = &together(study, all).ok()?;
+        let data = (all.as_slice(), estimate.joint_numbers());
         let start = &estimate.covariance().values;
         let layout = study.layout();
         let place = (&layout, estimate.levels);
-        Self::at_levels(study, lines, place, start, &explained)
+        Self::at_levels(study, data, place, start, &explained)
     }
 
     /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
     pub(super) fn start(study: &Study, all: &[Lines]) -> Option<JointMatrices> {
-        let [lines] = all else { return None };
-        if !study.has_budget() || !study.noise.is_stated() {
+        if !study.has_causes() || !study.noise.is_stated() {
             return None;
         }
+        let all = together(study, all).ok()?;
+        let few: Vec<Lines> = all
+            .iter()
+            .map(|lines| lines.at_most(MOST_LINES_OF_A_SEARCH))
+            .collect();
         let layout = study.layout();
-        let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
-        let experiment = experiment::of(study, &few, &layout, first_levels(&study.noise))?;
-        let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
+        let levels = first_levels(&study.noise);
+        let experiment = experiment::of(study, &few, &vec![0; few.len()], &layout, levels)?;
+        let points = &few.first()?.points;
+        let priors = priors(&experiment, |cause| study.deviation(cause, points));
         let settings = Settings::default();
         let found = estimate(
             &experiment,
@@ -153,13 +178,18 @@ impl Systematic {
 
     fn at_levels(
         study: &Study,
-        lines: &Lines,
+        (all, joints): (&[Lines], &[usize]),
         (layout, levels): (&Layout, Levels),
         start: &[f64],
         find: &Find,
     ) -> Option<Self> {
-        let few = lines.at_most(MOST_LINES_OF_A_SEARCH);
-        let experiment = experiment::of(study, &few, layout, levels)?;
+        let at_most = |most: usize| -> Vec<Lines> {
+            let fewer = all.iter().map(|lines| lines.at_most(most));
+            fewer.collect()
+        };
+        let lines = all.first()?;
+        let few = at_most(MOST_LINES_OF_A_SEARCH);
+        let experiment = experiment::of(study, &few, joints, layout, levels)?;
         let settings = Settings::default();
         let start = Start::without_causes(start);
         let priors = priors(&experiment, |cause| study.deviation(cause, &lines.points));
@@ -168,9 +198,10 @@ impl Systematic {
             suspects, scores, ..
         } = diagnosis;
         let mut noise_alone = plain.covariance.clone();
-        if few.frequency_hz.len() < lines.frequency_hz.len() {
-            let many = lines.at_most(MOST_LINES);
-            let experiment = experiment::of(study, &many, layout, levels)?;
+        let searched = few.first().map_or(0, |few| few.frequency_hz.len());
+        if searched < lines.frequency_hz.len() {
+            let many = at_most(MOST_LINES);
+            let experiment = experiment::of(study, &many, joints, layout, levels)?;
             if let Some(refined) = refine(&experiment, &found, &settings) {
                 found = refined;
             }
@@ -209,6 +240,14 @@ impl Systematic {
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
         })
+    }
+
+    /// The unknowns of joint number `joint` of several, with their covariance; each has `size` of them.
+    pub(super) fn of_joint(&self, joint: usize, size: usize) -> (&[f64], DMatrix<f64>) {
+        let first = joint * size;
+        let values = self.unknowns.get(first..first + size).unwrap_or_default();
+        let own = self.covariance.view((first, first), (size, size));
+        (values, own.into_owned())
     }
 
     /// Parts of each unknown's standard deviation: groups by the part of the variance that they have in the worst unknown.
@@ -423,7 +462,7 @@ pub(super) fn shown(cause: Cause, values: [f64; 2]) -> ([f64; 2], &'static str) 
 fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
     let label = |set: MeasuredSet, row: usize| -> String {
         let point = match set {
-            MeasuredSet::Assembly => lines.points.get(row).map(Dof::to_string),
+            MeasuredSet::Assembly(_) => lines.points.get(row).map(Dof::to_string),
             MeasuredSet::Of(side) => experiment::labels(study, side, lines)
                 .get(row)
                 .map(Dof::to_string),
@@ -443,7 +482,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::Accelerometer(set) => format!("mass of the accelerometer on {set}"),
         Cause::Position(point) => format!(
             "position of {} on the assembly",
-            label(MeasuredSet::Assembly, point)
+            label(MeasuredSet::Assembly(0), point)
         ),
         Cause::JointPosition(side, of) => format!("position of the joint on {side}{}", bolt(of)),
         Cause::JointBending(side, of) => format!("bending beside the joint on {side}{}", bolt(of)),

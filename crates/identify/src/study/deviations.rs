@@ -45,13 +45,22 @@ impl Study {
             let own = substructure.deviations().is_some_and(Deviations::is_any);
             own || of_file(substructure.file()).is_some_and(|deviation| deviation > 0.0)
         };
-        of(&self.a) || of(&self.b) || of_file(Some(&self.assembly)).is_some_and(|kg| kg > 0.0)
+        let files = (0..=self.further.len()).filter_map(|number| self.assembly_file(number));
+        let mut masses_kg = files.filter_map(|file| of_file(Some(file)));
+        of(&self.a) || of(&self.b) || masses_kg.any(|mass_kg| mass_kg > 0.0)
     }
 
     /// Standard deviation of a cause before the measurement: that beside the value itself, or the general one.
     pub(in super::super) fn deviation(&self, cause: Cause, points: &[Dof]) -> f64 {
         let own = self.own_deviation(cause, points);
         own.unwrap_or_else(|| self.budget.standard_deviation(cause))
+    }
+
+    fn assembly_file(&self, number: usize) -> Option<&FrfFile> {
+        match number.checked_sub(1) {
+            None => Some(&self.assembly),
+            Some(further) => Some(&self.further.get(further)?.file),
+        }
     }
 
     fn side(&self, side: Side) -> &Substructure {
@@ -80,7 +89,9 @@ impl Study {
             Cause::JointMass(side, bolt) => at(&of(side)?.masses_kg, bolt),
             Cause::JointInertia(side, bolt) => at(&of(side)?.inertias_kg_m2, bolt),
             Cause::Position(point) => of(Side::B)?.points_m.get(points.get(point)?).copied(),
-            Cause::Accelerometer(MeasuredSet::Assembly) => of_file(Some(&self.assembly)),
+            Cause::Accelerometer(MeasuredSet::Assembly(number)) => {
+                of_file(self.assembly_file(number))
+            }
             Cause::Accelerometer(MeasuredSet::Of(side)) => of_file(self.side(side).file()),
             Cause::Gain(_)
             | Cause::CommonGain

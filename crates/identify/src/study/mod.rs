@@ -95,7 +95,7 @@ pub struct FurtherAssembly {
 }
 
 /// One substructure: where its receptances come from, and where its joint is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Substructure {
     /// Measured at labelled points.
     Measured {
@@ -190,7 +190,7 @@ impl MeasuredJoint {
 }
 
 /// Where a measured substructure's receptances come from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// FRFs, and a file with modes that supplies those that were not measured.
     Frf {
@@ -204,7 +204,7 @@ pub enum Source {
 }
 
 /// A file of functions, and what the study says about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FrfFile {
     /// The file.
     pub path: PathBuf,
@@ -257,11 +257,6 @@ impl Substructure {
 }
 
 impl Study {
-    /// Whether errors of the set-up take part: they do with one assembly.
-    pub(super) fn has_budget(&self) -> bool {
-        self.has_causes() && self.further.is_empty()
-    }
-
     /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
     /// can neither be identified nor compared.
     #[must_use]
@@ -405,7 +400,7 @@ impl Study {
             true => ("b.joint", &file.b.joint),
             false => ("a.joint", &file.a.joint),
         };
-        let bolts = check::bolts(study, (key, places), file.joint.bolts)?;
+        let bolts = check::bolts(study, key, places.as_deref(), file.joint.bolts)?;
         let a = check::substructure(study, "a", file.a, model, &bolts)?;
         let b = check::substructure(study, "b", file.b, model, &bolts)?;
         study.check_name("name", &file.name)?;

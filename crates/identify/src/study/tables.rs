@@ -56,7 +56,7 @@ pub(super) struct SubstructureTable {
     pub(super) ground: bool,
     pub(super) section: Option<SectionTable>,
     #[serde(default, deserialize_with = "places")]
-    pub(super) joint: Vec<JointPlaceTable>,
+    pub(super) joint: Option<Vec<JointPlaceTable>>,
     #[serde(default)]
     pub(super) points: BTreeMap<Dof, Stated>,
 }
@@ -105,9 +105,11 @@ pub(super) enum TheoryName {
 }
 
 /// One place of a bolt, or several.
-fn places<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointPlaceTable>, D::Error> {
+fn places<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<JointPlaceTable>>, D::Error> {
     let expecting = "the joint's place as a table, or a list of such tables for several bolts";
-    one_or_more_tables(deserializer, expecting)
+    one_or_more_tables(deserializer, expecting).map(Some)
 }
 
 #[derive(Deserialize)]

@@ -26,7 +26,14 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
 }
 
 fn deviations(report: &IdentificationReport<'_>, found: &Systematic) -> String {
-    let unknowns = &report.found.estimate.covariance().unknowns;
+    let joints = report.found.estimate.joints.iter();
+    let unknowns = joints.flat_map(|joint| {
+        let at = joint
+            .torque_n_m
+            .map(|torque| format!(" at {} N·m", shown(torque, 6)));
+        let own = joint.covariance.unknowns.iter();
+        own.map(move |unknown| (at.clone().unwrap_or_default(), unknown))
+    });
     let groups: Vec<_> = found
         .shares
         .groups
@@ -37,15 +44,14 @@ fn deviations(report: &IdentificationReport<'_>, found: &Systematic) -> String {
     heading.extend(groups.iter().map(|(group, _)| group.name()));
     heading.push("Unit");
     let rows: Vec<String> = unknowns
-        .iter()
         .enumerate()
-        .map(|(index, unknown)| {
+        .map(|(index, (at, unknown))| {
             let parts: String = groups
                 .iter()
                 .map(|(_, parts)| number_cell(&percent(parts[index])))
                 .collect();
             format!(
-                "<th scope=\"row\">{}</th>{}{}{parts}{}",
+                "<th scope=\"row\">{}{at}</th>{}{}{parts}{}",
                 report.symbol(unknown),
                 number_cell(&spread(found.noise_covariance[(index, index)].sqrt())),
                 number_cell(&spread(found.covariance[(index, index)].sqrt())),

@@ -14,10 +14,15 @@ fn is_part_of_a_file_name(character: char) -> bool {
 /// The bolts that the places on A name, or on B where A is the ground.
 pub(crate) fn bolts(
     study: &StudyText,
-    (place, places): (&str, &[JointPlaceTable]),
+    place: &str,
+    places: Option<&[JointPlaceTable]>,
     key: Option<BoltsKey>,
 ) -> Result<Bolts, StudyError> {
-    let names = names(study, place, places)?;
+    let names = match places {
+        Some(places) => names(study, place, places)?,
+        // which is said where its substructure is checked
+        None => Vec::new(),
+    };
     match (names.is_empty(), key) {
         (true, None) => Ok(Bolts::One),
         (true, Some(_)) => study.refuse(

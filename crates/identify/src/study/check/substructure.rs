@@ -50,10 +50,9 @@ pub(crate) fn substructure(
     if table.ground {
         return ground(study, key, &table, bolts);
     }
-    study.ensure(
-        !table.joint.is_empty(),
+    let places = study.needed(
         format_args!("{key}.joint"),
-        "nothing",
+        table.joint,
         "the joint's place on this structure, such as { y = \"2:+Y\", theta = \"2:+RZ\" }",
     )?;
     let source = match (table.frf, table.modal, table.beam) {
@@ -86,7 +85,7 @@ pub(crate) fn substructure(
             set_up.deviations.density = beam.density.relative_deviation();
             let beam = computed(study, key, beam)?;
             let mut joints_m = Vec::new();
-            for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
+            for (key, place) in places_of_bolts(study, key, places, bolts)? {
                 let x = position(study, &key, &place)?;
                 on_the_beam(study, &format!("{key}.x"), x.value, beam.length_m)?;
                 joints_m.push(x.value);
@@ -137,7 +136,7 @@ pub(crate) fn substructure(
     let mut set_up = SetUp::default();
     let positions_m = positions(&table.points, &mut set_up.deviations);
     let mut joints = Vec::new();
-    for (key, place) in places_of_bolts(study, key, table.joint, bolts)? {
+    for (key, place) in places_of_bolts(study, key, places, bolts)? {
         add_mass(study, &key, &place, model, &mut set_up)?;
         let (None, Some(y)) = (place.x, place.y) else {
             return study.refuse(
@@ -196,7 +195,7 @@ fn ground(
         ("modal", table.modal.is_some()),
         ("beam", table.beam.is_some()),
         ("section", table.section.is_some()),
-        ("joint", !table.joint.is_empty()),
+        ("joint", table.joint.is_some()),
         ("points", !table.points.is_empty()),
     ];
     let is_alone = others.iter().all(|(_, there)| !there);

@@ -209,12 +209,15 @@ def draw(program, seed, bolts=2, folder=None):
     return bool(is_there), f"{words} error {wrong:8.2e} excess {excess:8.1f} {seconds:6.2f} s"
 
 
-def a_little_wrong(program, folder, draw, budget, kind):
-    """Everything a little wrong with two bolts: errors of the unknowns in standard deviations, one bolt after the other if they
-    differ; None where the program refuses the joint."""
+def a_little_wrong(program, folder, draw, budget, kind, is_placed=False):
+    """Everything a little wrong with two bolts, but for the places of the sensors if these are right: errors of the unknowns in
+    standard deviations, one bolt after the other if they differ; None where the program refuses the joint."""
     test = Rig(2, points=BETWEEN_AND_BEYOND, spacing=APART)
     rows = {"A": 4, "B": 4 + len(test.points), "C": len(test.points)}
     wrong = mistakes.drawn(np.random.default_rng(100 + draw), rows, [(side, bolt) for side in "AB" for bolt in (0, 1)])
+    if is_placed:
+        wrong.joint_sensor.clear()
+        wrong.point.clear()
     joints = [(part * rig.STIFFNESS, part * rig.DAMPING) for part in (1.0, SOFTER if kind == "different" else 1.0)]
     sets = test.test_data(wrong, joints, 0.01, draw)
     study = test.write(folder, sets, "relative = 0.01\nfloor = 0", kind, budget)

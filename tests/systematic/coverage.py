@@ -1,6 +1,7 @@
-"""Coverage of intervals over draws of all mistakes at once: `python tests/systematic/coverage.py [DRAWS] [computed | two | alike]`.
+"""Coverage of intervals over draws of all mistakes at once: `python tests/systematic/coverage.py [DRAWS] [computed | two | alike] [placed]`.
 
-With `computed` B is computed and its material wrong; `two` has two bolts that differ, `alike` two that are the same.
+With `computed` B is computed and its material wrong; `two` has two bolts that differ, `alike` two that are the same. With two bolts
+`placed` puts all sensors where they are said to be.
 """
 
 import os
@@ -29,7 +30,7 @@ def of_one_bolt(program, folder, draw, budget, computed_b):
     return found.z if found.whole["usable"] else None
 
 
-def main(draws, kind):
+def main(draws, kind, is_placed):
     program = pathlib.Path(os.environ.get("BOLTED_JOINT", ROOT / "target/release/bolted-joint"))
     rows, refused = {"careful": [], "none": []}, 0
     for draw in range(draws):
@@ -39,7 +40,7 @@ def main(draws, kind):
             with tempfile.TemporaryDirectory() as folder:
                 folder = pathlib.Path(folder)
                 if kind in ("two", "alike"):
-                    z = bolted.a_little_wrong(program, folder, draw, budget, "different" if kind == "two" else "alike")
+                    z = bolted.a_little_wrong(program, folder, draw, budget, "different" if kind == "two" else "alike", is_placed)
                 else:
                     z = of_one_bolt(program, folder, draw, budget, kind == "computed")
             if z is not None:
@@ -57,4 +58,4 @@ def main(draws, kind):
 
 if __name__ == "__main__":
     words = [word for word in sys.argv[1:] if not word.isdigit()]
-    main(next((int(word) for word in sys.argv[1:] if word.isdigit()), 60), words[0] if words else "")
+    main(next((int(word) for word in sys.argv[1:] if word.isdigit()), 60), words[0] if words else "", "placed" in words)

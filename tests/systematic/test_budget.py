@@ -17,9 +17,9 @@ def test_without_mistakes_the_intervals_are_those_of_noise(identify):
     # the noise of a study without budget is the same noise
     alone = np.array(careful.budget["standard_deviation_of_noise"])
     np.testing.assert_allclose(alone, plain.deviation, rtol=0.25)
-    # what such a laboratory knows of the stiffness is two to eight times less
+    # what such a laboratory knows of the stiffness is two to nine times less: of the rotation also for the beam behind its sensors
     wider = careful.deviation / plain.deviation
-    assert (wider[:3] > 2).all() and (wider[:3] < 8).all(), wider
+    assert (wider[:3] > 2).all() and (wider[:3] < 9).all(), wider
     assert careful.budget["suspects"] == []
     assert not [cause for cause in careful.budget["causes"] if cause["contradicted"]]
 
@@ -72,7 +72,8 @@ def test_the_beam_behind_a_misplaced_sensor_is_in_the_interval(identify, a, b, s
     # 1 mm of a beam with 31.5 N·m² on each side; the drive points tell that to half as much again
     of_bending = np.sqrt(2) * rig.STIFFNESS[1, 1] * 1e-3 / (rig.YOUNG * rig.INERTIA)
     relative = found.deviation[2] / rig.TRUTH[2]
-    assert 0.9 * of_bending / (1 if section else 1.5) < relative < 1.5 * of_bending * (1 if section else 1.5)
+    # data with so much damping tell a part of it
+    assert 0.8 * of_bending / (1 if section else 1.5) < relative < 1.5 * of_bending * (1 if section else 1.5)
     names = [cause["cause"] for cause in found.budget["causes"]]
     assert {"bending beside the joint on A", "bending beside the joint on B"} <= set(names)
     assert not any("bending beside" in suspect for suspect in found.suspects)
@@ -100,9 +101,9 @@ def test_intervals_hold_when_everything_is_a_little_wrong(identify):
     assert abs(z).max() < 5, z
 
 
-@pytest.mark.parametrize(("draw", "kind"), [(1, "alike"), (0, "different")])
-def test_two_bolts_are_found_when_everything_is_a_little_wrong(program, tmp_path, draw, kind):
+@pytest.mark.parametrize(("draw", "kind", "is_placed"), [(1, "alike", False), (0, "different", True)])
+def test_two_bolts_are_found_when_everything_is_a_little_wrong(program, tmp_path, draw, kind, is_placed):
     """Without causes the first of these data lead to no joint at all."""
-    z = bolted.a_little_wrong(program, tmp_path, draw, None, kind)
+    z = bolted.a_little_wrong(program, tmp_path, draw, None, kind, is_placed)
     assert z is not None
     assert abs(z).max() < 5, z

@@ -87,8 +87,8 @@ const UNLIKELY: usize = 2;
 const FEW_ITERATIONS: usize = 25;
 /// … and its lines.
 const FEW_LINES: usize = 120;
-/// A search that has not come to rest counts as if it left so much more.
-const UNREST: f64 = 0.5;
+/// A search that has not come to rest, or came to a joint without stiffness, counts as if it left so much more.
+const HANDICAP: f64 = 0.5;
 /// First inflations of the assembly's standard deviation, one after the other until the data are fitted.
 const INFLATIONS: [f64; 3] = [1.0, 30.0, 100.0];
 
@@ -220,14 +220,24 @@ fn better(task: &Task<'_>, one: Option<Found>, other: Option<Found>) -> Option<F
     both.min_by(|one, other| rank(task, one).total_cmp(&rank(task, other)))
 }
 
-/// χ² per degree of freedom, with a handicap for a search that has not come to rest.
+/// χ² per degree of freedom, with a handicap for a search that has not come to rest and for a joint that is none: beyond a rigid
+/// joint there is one that pushes back.
 pub(crate) fn rank(task: &Task<'_>, found: &Found) -> f64 {
     let reduced = reduced_chi_squared(task, found).unwrap_or(0.0);
-    if found.converged {
+    if found.converged && has_stiffness(task, found) {
         reduced
     } else {
-        UNREST + reduced
+        HANDICAP + reduced
     }
+}
+
+/// Whether every stiffness on the diagonal is above zero.
+fn has_stiffness(task: &Task<'_>, found: &Found) -> bool {
+    let entries = task.experiment.joint.entries.iter();
+    let direct = entries
+        .zip(&found.point.unknowns)
+        .filter(|(places, _)| places[0].0 == places[0].1);
+    direct.into_iter().all(|(_, stiffness)| *stiffness > 0.0)
 }
 
 /// As [`estimate`], with the priors as they are.

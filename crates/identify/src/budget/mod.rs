@@ -57,7 +57,7 @@ pub struct Systematic {
     pub causes: Vec<(String, CauseEstimate)>,
     /// What speaks against the data without systematic errors, with its name, the most telling first.
     pub suspects: Vec<(String, Suspect)>,
-    /// By how much each cause alone would lower χ² in one step from there, with its name, the most first: below about ten that
+    /// By how much each cause alone would lower χ² in one step from there, with its name, the most first: below about sixteen that
     /// is chance.
     pub scores: Vec<(String, Score)>,
     /// Whether bands agree on the joint, with the p-value.

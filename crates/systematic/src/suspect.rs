@@ -8,7 +8,7 @@ use super::far::from_far;
 use super::score::{Score, score_tests};
 
 /// Scores below this are chance, and so is a cause that lowers χ² by less: in a hundred tests without any mistake the most telling
-/// of some thirty causes was beyond it in four or five.
+/// of some thirty causes was beyond it and stayed so in three.
 pub const TELLING: f64 = 16.0;
 /// Causes that are let free at most.
 const MOST: usize = 6;

@@ -30,8 +30,14 @@ fn deviations_stand_beside_values() {
     assert_eq!(causes.len(), stated.len(), "{causes:?}");
     for (cause, prior) in stated {
         let found = causes.iter().find(|found| found["cause"] == cause).unwrap();
+        // these bodies are not those of the assembly: a prior that the data contradict is ten times as wide
+        let wider = if found["contradicted"].is_null() {
+            1.0
+        } else {
+            10.0
+        };
         assert!(
-            (found["prior"].as_f64().unwrap() / prior - 1.0).abs() < 1e-12,
+            (found["prior"].as_f64().unwrap() / (wider * prior) - 1.0).abs() < 1e-12,
             "{found}"
         );
     }

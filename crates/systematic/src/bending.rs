@@ -2,8 +2,8 @@
 //! arm would do.
 //!
 //! Where a beam soon ends on one side of the joint, a moment bends one more piece of it for each step towards that end:
-//! ∂H_θθ/∂x = ±1/EI, and 0 on the whole where it goes on to both sides. Nothing in the data shows it, since it is a compliance in
-//! series with the joint's. Which sign it has depends on where the structure goes on, which a set of functions does not say; so the
+//! ∂H_θθ/∂x = ±1/EI, and 0 on the whole where it goes on to both sides. The data hardly show it, since it is a compliance in series
+//! with the joint's. Which sign it has depends on where the structure goes on, which a set of functions does not say; so the
 //! length that bends is a cause of its own, as likely to either side.
 
 use num_complex::Complex64;
@@ -14,7 +14,7 @@ use super::experiment::{ComplexMatrix, JointShape, MeasuredFunctions};
 ///
 /// Over a range of resonances the geometric mean of a modulus is that of the structure without end (Skudrzyk 1980). At the free
 /// end of a beam that has no other, |H_yy| = √2/EIk³ and |H_θθ| = √2/EIk, so that 1/EI = |H_θθ|^(3/2)/(√2 |H_yy|^(1/2)). In the
-/// middle the same means give a sixteenth of that or less, as there is little to be bent there.
+/// middle both moduli are 1/(2√2) EIk³ and 1/(2√2) EIk, and the same expression gives a quarter of 1/EI.
 pub(crate) fn flexibility_from_drive_points(
     functions: &MeasuredFunctions,
     formed: impl Fn(&[Complex64]) -> ComplexMatrix,

@@ -170,7 +170,8 @@ impl Cause {
         }
     }
 
-    /// Whether it equals a change of the joint, which no data can tell from one: it makes intervals wider, and never stands out.
+    /// Whether it equals a change of the joint, or nearly so, and data hardly tell it from one: it makes intervals wider, and never
+    /// stands out.
     #[must_use]
     pub fn is_hidden(self) -> bool {
         matches!(self, Self::CommonGain | Self::JointBending(..))

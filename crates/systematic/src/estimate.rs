@@ -234,10 +234,10 @@ pub(crate) fn rank(task: &Task<'_>, found: &Found) -> f64 {
 /// Whether every stiffness on the diagonal is above zero.
 fn has_stiffness(task: &Task<'_>, found: &Found) -> bool {
     let entries = task.experiment.joint.entries.iter();
-    let direct = entries
+    entries
         .zip(&found.point.unknowns)
-        .filter(|(places, _)| places[0].0 == places[0].1);
-    direct.into_iter().all(|(_, stiffness)| *stiffness > 0.0)
+        .filter(|(places, _)| places[0].0 == places[0].1)
+        .all(|(_, stiffness)| *stiffness > 0.0)
 }
 
 /// As [`estimate`], with the priors as they are.

@@ -137,13 +137,25 @@ pub struct Change {
     pub points_m: Vec<f64>,
 }
 
-/// Receptances of a changed structure at each line, at the joint's DOFs and then the points.
-pub type Compute<'a> = dyn Fn(&Change) -> Option<Vec<ComplexMatrix>> + Sync + 'a;
+/// Computes a structure anew.
+pub trait Compute: Sync {
+    /// The structure with a change; `None` where that is impossible, such as a point beyond its end.
+    fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>>;
+}
+
+/// A structure that is computed for one change.
+pub trait Computation: Sync {
+    /// Receptances at each line, at the joint's DOFs and then the points.
+    fn receptances(&self) -> Option<Vec<ComplexMatrix>>;
+
+    /// The same for a change near by, of which the difference to one as large in the other direction is to be right.
+    fn nearby(&self, change: &Change) -> Option<Vec<ComplexMatrix>>;
+}
 
 /// A structure computed from dimensions and material.
 pub struct Computed<'a> {
-    /// Computes it anew; `None` where a change is impossible, such as a point beyond its end.
-    pub compute: Box<Compute<'a>>,
+    /// What computes it.
+    pub compute: Box<dyn Compute + 'a>,
 }
 
 impl<'a> Experiment<'a> {

@@ -34,8 +34,8 @@ pub use estimate::{
     CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, evaluated,
 };
 pub use experiment::{
-    Assembly, Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape, Measured,
-    MeasuredFunctions, Structure,
+    Assembly, Change, ComplexMatrix, Computation, Compute, Computed, Entry, Experiment, JointShape,
+    Measured, MeasuredFunctions, Structure,
 };
 pub use refine::refine;
 pub use score::{Score, score_tests};

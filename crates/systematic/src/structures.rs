@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
+use rayon::prelude::*;
 
 use super::budget::Prior;
 use super::cause::{Cause, Side};
@@ -58,32 +59,36 @@ fn recomputed(
     values: &[f64],
 ) -> Option<Recomputed> {
     let change = change(experiment, side, priors, values);
-    let receptances = (computed.compute)(&change)?;
-    let acting = priors
-        .iter()
-        .enumerate()
-        .filter(|(_, prior)| acts_on(prior.cause, side));
-    let mut by_cause = Vec::new();
-    for (number, prior) in acting {
+    let computation = computed.compute.changed(&change)?;
+    let receptances = computation.receptances()?;
+    let derivative = |(number, prior): (usize, &Prior)| {
         let step = STEP * prior.standard_deviation;
-        let at = |offset: f64| {
+        let moved = |offset: f64| {
             let mut moved = values.to_vec();
             moved[number] += offset;
-            (computed.compute)(&self::change(experiment, side, priors, &moved))
+            self::change(experiment, side, priors, &moved)
         };
+        let nearby = |offset: f64| computation.nearby(&moved(offset));
         // one-sided where the other side is beyond the structure's end
-        let (above, below, width) = match (at(step), at(-step)) {
-            (Some(above), Some(below)) => (above, below, 2.0 * step),
-            (Some(above), None) => (above, receptances.clone(), step),
-            (None, Some(below)) => (receptances.clone(), below, step),
-            (None, None) => continue,
+        let anew = |offset: f64| computed.compute.changed(&moved(offset))?.receptances();
+        let slope = |above: &[ComplexMatrix], below: &[ComplexMatrix], width: f64| {
+            let pairs = above.iter().zip(below);
+            let slope = pairs.map(|(above, below)| (above - below) / Complex64::from(width));
+            Some((number, slope.collect::<Vec<_>>()))
         };
-        let slope = above
-            .iter()
-            .zip(&below)
-            .map(|(above, below)| (above - below) / Complex64::from(width));
-        by_cause.push((number, slope.collect()));
-    }
+        match (nearby(step), nearby(-step)) {
+            (Some(above), Some(below)) => slope(&above, &below, 2.0 * step),
+            (Some(_), None) => slope(&anew(step)?, &receptances, step),
+            (None, Some(_)) => slope(&receptances, &anew(-step)?, step),
+            (None, None) => None,
+        }
+    };
+    let acting: Vec<(usize, &Prior)> = priors
+        .iter()
+        .enumerate()
+        .filter(|(_, prior)| acts_on(prior.cause, side))
+        .collect();
+    let by_cause = acting.into_par_iter().filter_map(derivative).collect();
     Some(Recomputed {
         receptances,
         by_cause,

@@ -8,7 +8,7 @@ mod rotation;
 mod section;
 mod spatial;
 
-pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, Motion, Theory};
+pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, ModalBeam, Motion, Theory};
 pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple, transmission};
 pub use error::StructureError;
 pub use modal::ModalModel;

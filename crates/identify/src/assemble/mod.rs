@@ -1,6 +1,7 @@
 //! From a study to lines: reads the files, computes the beams, forms rotations, and puts all on one frequency axis.
 
 mod axis;
+mod beam_anew;
 mod known_mass;
 mod labelled;
 mod prediction;
@@ -20,13 +21,14 @@ use super::receptances::Receptances;
 use super::study::{Study, Substructure};
 use super::watch::Watch;
 use axis::Axis;
+pub(super) use beam_anew::BeamAnew;
 use bolted_joint_frf::FileSummary;
 pub(super) use known_mass::masses_at;
 use labelled::{Completeness, labelled_functions};
 use reader::{Reader, in_file};
 use repeats::repeated;
+pub(super) use substructure::measured_labels;
 use substructure::substructures;
-pub(super) use substructure::{beam_at, measured_labels};
 
 /// What the files of a study hold.
 pub(super) struct Assembled {

@@ -21,7 +21,6 @@ use bolted_joint_frf::structure::{
     Beam, BeamPoint, ComplexMatrix, ModalModel, Motion, StructureError,
 };
 use bolted_joint_study::StudyError;
-use bolted_joint_systematic::Change;
 
 /// Lines without the assembly: what A and B contribute.
 pub(super) fn substructures(
@@ -165,38 +164,6 @@ pub(in super::super) fn measured_labels(
     }
 }
 
-/// Receptances of a changed beam; `None` where it is no beam, or one that cannot be computed.
-pub(in super::super) fn beam_at(
-    substructure: &Substructure,
-    dofs_of_a_bolt: usize,
-    points: &[Dof],
-    change: &Change,
-    frequency_hz: &[f64],
-) -> Option<Vec<ComplexMatrix>> {
-    let Substructure::Beam {
-        beam,
-        joints_m,
-        positions_m,
-        ..
-    } = substructure
-    else {
-        return None;
-    };
-    let beam = Beam {
-        youngs_modulus_pa: beam.youngs_modulus_pa * (1.0 + change.youngs_modulus),
-        density_kg_per_m3: beam.density_kg_per_m3 * (1.0 + change.density),
-        ..beam.clone()
-    };
-    let moved = joints_m.iter().zip(&change.joint_m);
-    let joints_m: Vec<f64> = moved.map(|(position_m, by)| position_m + by).collect();
-    let mut positions_m = positions_m.clone();
-    for (point, by) in points.iter().zip(&change.points_m) {
-        *positions_m.get_mut(point)? += by;
-    }
-    let dofs = beam_dofs(dofs_of_a_bolt, &joints_m, points, &positions_m);
-    beam_receptances(&beam, &dofs, frequency_hz).ok()
-}
-
 /// Motions of the joint's DOFs and of the points as combinations of labelled ones. A label that serves several of them,
 /// whatever its sign, is one measurement.
 struct Motions {
@@ -260,7 +227,7 @@ impl Motions {
 }
 
 /// The joint's DOFs on a beam, bolt by bolt, then its points, each with the sign of its label.
-fn beam_dofs(
+pub(super) fn beam_dofs(
     dofs_of_a_bolt: usize,
     joints_m: &[f64],
     points: &[Dof],
@@ -290,7 +257,14 @@ fn beam_receptances(
     frequency_hz: &[f64],
 ) -> Result<Vec<ComplexMatrix>, StructureError> {
     let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
-    let mut receptances = beam.receptances(&points, frequency_hz)?;
+    Ok(signed(beam.receptances(&points, frequency_hz)?, dofs))
+}
+
+/// Receptances at the DOFs, each with its sign.
+pub(super) fn signed(
+    mut receptances: Vec<ComplexMatrix>,
+    dofs: &[(BeamPoint, f64)],
+) -> Vec<ComplexMatrix> {
     for receptance in &mut receptances {
         for (p, (_, row_sign)) in dofs.iter().enumerate() {
             for (q, (_, column_sign)) in dofs.iter().enumerate() {
@@ -298,7 +272,7 @@ fn beam_receptances(
             }
         }
     }
-    Ok(receptances)
+    receptances
 }
 
 /// Receptances between all `labels` of a measured substructure.

@@ -1,15 +1,14 @@
 //! A study and its lines as an experiment with systematic errors.
 
 use bolted_joint_systematic::{
-    Assembly, Change, Compute, Computed, Entry, Experiment, JointShape, Measured,
-    MeasuredFunctions, Side, Structure,
+    Assembly, Computed, Entry, Experiment, JointShape, Measured, MeasuredFunctions, Side, Structure,
 };
 use num_complex::Complex64;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::Section;
 
-use super::super::assemble::{beam_at, masses_at, measured_labels};
+use super::super::assemble::{BeamAnew, masses_at, measured_labels};
 use super::super::group;
 use super::super::layout::Layout;
 use super::super::lines::Lines;
@@ -166,10 +165,10 @@ fn structure<'a>(
     match (substructure, receptances) {
         (Substructure::Beam { .. }, _) => {
             let dofs = study.dofs_of_a_bolt();
-            let compute: Box<Compute<'a>> = Box::new(move |change: &Change| {
-                beam_at(substructure, dofs, points, change, &lines.frequency_hz)
-            });
-            Some(Structure::Computed(Computed { compute }))
+            let compute = BeamAnew::new(substructure, dofs, points, &lines.frequency_hz)?;
+            Some(Structure::Computed(Computed {
+                compute: Box::new(compute),
+            }))
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
         (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured::new(

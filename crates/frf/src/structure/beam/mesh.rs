@@ -15,6 +15,7 @@ pub(super) const ELEMENTS: f64 = 60.0;
 /// Points closer to a node than this part of the length get no node of their own: an element so short (l⁻⁴ in the
 /// eigenvalues) would drown the low modes in rounding. Within it the motion is the element's own.
 const SHORTEST_ELEMENT: f64 = 1e-4;
+
 impl Beam {
     /// Node positions: both ends, every point that is not too close to another, and equal elements between them, of which
     /// `elements` would fill the length.
@@ -24,17 +25,10 @@ impl Beam {
         elements: f64,
     ) -> Result<Vec<f64>, StructureError> {
         self.check()?;
-        let rounding = 1e-9 * self.length_m;
         let mut marks = vec![0.0, self.length_m];
         for point in points {
-            let position_m = point.position_m;
-            if !(position_m >= -rounding && position_m <= self.length_m + rounding) {
-                return Err(StructureError::OffTheBeam {
-                    position_m,
-                    length_m: self.length_m,
-                });
-            }
-            marks.push(position_m.clamp(0.0, self.length_m));
+            self.check_is_on(point)?;
+            marks.push(point.position_m.clamp(0.0, self.length_m));
         }
         marks.sort_by(f64::total_cmp);
         let shortest = SHORTEST_ELEMENT * self.length_m;
@@ -52,6 +46,18 @@ impl Beam {
             }
         }
         Ok(nodes)
+    }
+
+    pub(super) fn check_is_on(&self, point: &BeamPoint) -> Result<(), StructureError> {
+        let rounding = 1e-9 * self.length_m;
+        let position_m = point.position_m;
+        if position_m >= -rounding && position_m <= self.length_m + rounding {
+            return Ok(());
+        }
+        Err(StructureError::OffTheBeam {
+            position_m,
+            length_m: self.length_m,
+        })
     }
 
     pub(super) fn modes_on(&self, nodes: &[f64]) -> Result<Modes, StructureError> {

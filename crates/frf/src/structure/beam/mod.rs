@@ -8,10 +8,12 @@ use serde::{Deserialize, Serialize};
 
 mod element;
 mod mesh;
+mod modal;
 mod theory;
 
 use super::StructureError;
-use mesh::{ELEMENTS, interpolation};
+use mesh::ELEMENTS;
+pub use modal::ModalBeam;
 pub(in crate::structure) use theory::SHEAR_COEFFICIENT;
 pub use theory::Theory;
 
@@ -126,42 +128,15 @@ impl Beam {
         points: &[BeamPoint],
         frequency_hz: &[f64],
     ) -> Result<Vec<DMatrix<Complex64>>, StructureError> {
-        let modes = self.modes_with(points, ELEMENTS)?;
-        let amplitudes = &modes.amplitudes;
-        let rigid = self.rigid_body_modes();
-        let receptances = frequency_hz.iter().map(|frequency_hz| {
-            let omega = std::f64::consts::TAU * frequency_hz;
-            let mut receptance = DMatrix::zeros(points.len(), points.len());
-            for mode in 0..modes.angular_frequency.len() {
-                let natural = if mode < rigid {
-                    0.0
-                } else {
-                    modes.angular_frequency[mode]
-                };
-                // H_pq = Σ_r φ_pr φ_qr / (ω_r² − ω² + j d_r),  d_r = 2 ζ_r ω_r ω  or  η ω_r²
-                let denominator = Complex64::new(
-                    natural * natural - omega * omega,
-                    match &self.damping {
-                        Damping::Ratios(ratios) => {
-                            let ratio = ratios.get(mode).or(ratios.last()).copied();
-                            2.0 * ratio.unwrap_or(0.0) * natural * omega
-                        }
-                        Damping::LossFactor(eta) => eta * natural * natural,
-                    },
-                );
-                if denominator == Complex64::default() {
-                    return Err(self.resonance(*frequency_hz));
-                }
-                for p in 0..points.len() {
-                    let scaled = amplitudes[(p, mode)] / denominator;
-                    for q in 0..points.len() {
-                        receptance[(p, q)] += scaled * amplitudes[(q, mode)];
-                    }
-                }
-            }
-            Ok(receptance)
-        });
-        receptances.collect()
+        self.modal(points)?.receptances(points, frequency_hz)
+    }
+
+    /// All modes of the finite-element model of which these points are nodes.
+    ///
+    /// # Errors
+    /// [`StructureError`] if the beam is not physical, or a point is not on it.
+    pub fn modal(&self, nodes: &[BeamPoint]) -> Result<ModalBeam, StructureError> {
+        ModalBeam::new(self, nodes, ELEMENTS)
     }
 
     /// Undamped modes of the finite-element model with about `elements` elements over the length, each point a node of the
@@ -174,28 +149,14 @@ impl Beam {
         points: &[BeamPoint],
         elements: NonZeroU16,
     ) -> Result<BeamModes, StructureError> {
-        let mut modes = self.modes_with(points, f64::from(elements.get()))?;
-        let rigid = self.rigid_body_modes();
-        modes.angular_frequency.rows_mut(0, rigid).fill(0.0);
-        Ok(modes)
-    }
-
-    fn modes_with(&self, points: &[BeamPoint], elements: f64) -> Result<BeamModes, StructureError> {
-        let nodes = self.mesh(points, elements)?;
-        let modes = self.modes_on(&nodes)?;
-        let free = self.free_dofs(nodes.len());
-        let mut amplitudes = DMatrix::zeros(points.len(), modes.angular_frequency.len());
-        for (p, point) in points.iter().enumerate() {
-            for (dof, weight) in interpolation(self, &nodes, point) {
-                if let Some(row) = free.iter().position(|&kept| kept == dof) {
-                    let mut amplitude = amplitudes.row_mut(p);
-                    amplitude += modes.shapes.row(row) * weight;
-                }
-            }
-        }
+        let modal = ModalBeam::new(self, points, f64::from(elements.get()))?;
+        let mut angular_frequency = modal.angular_frequency().clone();
+        angular_frequency
+            .rows_mut(0, self.rigid_body_modes())
+            .fill(0.0);
         Ok(BeamModes {
-            angular_frequency: modes.angular_frequency,
-            amplitudes,
+            angular_frequency,
+            amplitudes: modal.amplitudes(points)?,
         })
     }
 
@@ -208,25 +169,6 @@ impl Beam {
         let mut frequencies = self.modes_on(&nodes)?.frequency_hz();
         frequencies[..self.rigid_body_modes()].fill(0.0);
         Ok(frequencies)
-    }
-
-    fn resonance(&self, frequency_hz: f64) -> StructureError {
-        let (reason, advice) = match frequency_hz == 0.0 {
-            true => (
-                "where a beam with free ends is not held",
-                "leave that line out",
-            ),
-            false => (
-                "the frequency of an undamped mode",
-                "leave that line out, or give the beam damping",
-            ),
-        };
-        StructureError::Resonance {
-            what: "the beam has no finite receptance",
-            frequency_hz,
-            reason,
-            advice,
-        }
     }
 
     fn check(&self) -> Result<(), StructureError> {

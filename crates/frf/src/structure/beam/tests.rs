@@ -224,3 +224,39 @@ fn impossible_beams_are_refused() {
         "beam.damping_ratio: found an empty list, expected one number or a number for each mode"
     );
 }
+
+/// What a shift of a point does, by differences on one mesh and by meshes of their own.
+#[test]
+fn a_point_beside_a_node_moves_as_with_a_mesh_of_its_own() {
+    for theory in [Theory::EulerBernoulli, Theory::default()] {
+        let beam = Beam {
+            theory,
+            damping: Damping::LossFactor(2e-3),
+            ..aluminium(Boundary::FreeFree)
+        };
+        let points = |by: f64| {
+            let at = |position_m, motion| BeamPoint { position_m, motion };
+            let joint = 0.080 + by;
+            [
+                at(joint, Motion::Translation),
+                at(joint, Motion::Rotation),
+                at(0.213, Motion::Translation),
+            ]
+        };
+        let frequency_hz = [40.0, 610.0, 1900.0];
+        let modal = beam.modal(&points(0.0)).unwrap();
+        let step = 1e-5;
+        let difference = |of: &dyn Fn(f64) -> Vec<DMatrix<Complex64>>| -> Vec<DMatrix<Complex64>> {
+            let pairs = of(step).into_iter().zip(of(-step));
+            pairs.map(|(above, below)| above - below).collect()
+        };
+        let near = difference(&|by| modal.receptances(&points(by), &frequency_hz).unwrap());
+        let far = difference(&|by| beam.receptances(&points(by), &frequency_hz).unwrap());
+        for (near, far) in near.iter().zip(&far) {
+            for (near, far) in near.iter().zip(far) {
+                let error = (near - far).norm();
+                assert!(error <= 0.005 * far.norm() + 1e-14, "{theory:?}: {near} {far}");
+            }
+        }
+    }
+}

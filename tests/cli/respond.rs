@@ -181,6 +181,11 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
         (study("free-decay", "[time]\nduration = 1\ninterval = 1e-3\n[start]\n\"b.omega\" = 1\n"), ["`start`", "b.omega"]),
         (study("free-decay", "[time]\nduration = 1\n[start]\n\"b.v\" = 1\n"), ["`time.interval`", "found nothing"]),
         (study("dwell", &format!("{band}[load]\namplitude = 1\n[time]\nduration = 1\ninterval = 1\n")), ["`frequency`", "`at` alone"]),
+        (study("hysteresis", ""), ["`response`", "found nothing"]),
+        (study("hysteresis", "[response]\nof = \"a.y\"\namplitude = 1e-4\n"), ["`response.of`", "relative motion"]),
+        (study("hysteresis", "[response]\nfrom = 1e-4\nto = 1e-3\n"), ["`response.from`", "`amplitude` alone"]),
+        (study("hysteresis", &format!("{band}[response]\namplitude = 1e-4\n")), ["`frequency`", "`at` alone"]),
+        (study("hysteresis", "[response]\namplitude = -1e-4\n"), ["`response.amplitude`", "-0.0001"]),
     ];
     for (text, fragments) in cases {
         refused(&bench, &text, &fragments);
@@ -208,5 +213,33 @@ fn what_belongs_to_assemblies_is_refused_beside_laps() {
     for option in ["--joint x.joint.json", "--step 1", "--report x.pdf"] {
         let name = option.split(' ').next().unwrap();
         bench.fails(&format!("{RESPOND} {option}"), &[name]);
+    }
+}
+
+/// A joint without bodies, with a slider: D = 4h(U − h/k), and no heat while it sticks.
+#[test]
+fn a_loop_has_the_heat_of_its_slider() {
+    let bench = Bench::new();
+    let joint = r#"{ "format": "bolted-joint/1", "name": "slider", "joint": {
+        "dofs": ["y"], "stiffness": [[5e6]], "damping": [[0.0]],
+        "friction": [{ "dof": "y", "law": "jenkins", "stiffness": 2e6, "slip_force": 300 }] } }"#;
+    bench.write("slider.joint.json", joint);
+    let levels = [1e-4, 3e-4, 6e-4];
+    let text = study(
+        "hysteresis",
+        &format!("[response]\namplitude = {levels:?}\n"),
+    );
+    bench.write("study.toml", text.replace("ex02", "slider"));
+    bench.done("respond study.toml -o out.csv --report out.svg");
+    assert!(bench.text("out.svg").starts_with("<svg"));
+    let table = table(&bench.text("out.csv"));
+    for level in levels {
+        let of_level = table.iter().filter(|(_, row)| row["level"] == level);
+        let (_, last) = of_level.last().unwrap();
+        let expected = 4.0 * 300.0 * f64::max(level - 300.0 / 2e6, 0.0);
+        assert!(
+            (last["heat"] - expected).abs() <= 1e-12,
+            "{last:?} {expected}"
+        );
     }
 }

@@ -13,6 +13,7 @@ impl RespondStudy {
             self.test,
             Test::Sweep { .. } | Test::Dwell { .. } | Test::FreeDecay { .. }
         );
+        let is_loop = matches!(self.test, Test::Hysteresis { .. });
         let place = |role| table.columns.iter().position(|column| column.role == role);
         let (across, stable) = (place(Role::Across)?, place(Role::Stable));
         let label = |n: usize| {
@@ -46,6 +47,7 @@ impl RespondStudy {
         for up in ups {
             let is_logarithmic = self.is_logarithmic
                 && !is_history
+                && !is_loop
                 && table.columns[up].name != "frequency"
                 && table.columns[up].name != "damping ratio";
             let panel = |title: String, curves| ResponsePanel {

@@ -5,6 +5,7 @@
 mod error;
 mod figure;
 mod histories;
+mod hysteresis;
 mod measured;
 mod periodic;
 mod pollution;

@@ -1,17 +1,20 @@
 //! From a study to its table: every lap at every level.
 
-use bolted_joint_dynamics::{Lap, with_dofs};
+use std::f64::consts::TAU;
+
+use bolted_joint_dynamics::{Body, Lap, with_dofs};
 
 use bolted_joint_harmonic::{Derivative, HarmonicError, Observed, Target};
-use bolted_joint_joint::DofSet;
+use bolted_joint_joint::{DofSet, JointFile, LawError};
 use bolted_joint_study::StudyError;
 
 use super::RespondError;
 use super::histories::{Drive, Ended, MOST_STEPS, SteppedSine, history};
+use super::hysteresis::Loop;
 use super::periodic::{
     Curve, column, curve_columns, frequencies, load_unit, name, receptances, unit,
 };
-use super::study::{RespondStudy, StudyLap, Test, Times};
+use super::study::{LoadPlace, RespondStudy, StudyLap, Test, Times};
 use super::table::{Column, ResponseTable, Role, Series};
 
 /// Rows of one lap at one level.
@@ -60,7 +63,7 @@ impl RespondStudy {
         let all = (self.laps.len() * levels.len()) as f64;
         let mut series = Vec::new();
         for lap in &self.laps {
-            let model = lap.file.lap::<D>();
+            let model = self.model::<D>(&lap.file);
             let model = model.map_err(|source| StudyError::model(&lap.path, None, source))?;
             for &level in &levels {
                 let done = series.len() as f64;
@@ -82,6 +85,23 @@ impl RespondStudy {
         })
     }
 
+    /// The lap of a file; where the joint alone is moved, with bodies that are nothing.
+    fn model<const D: usize>(&self, file: &JointFile) -> Result<Lap<D>, LawError> {
+        if !matches!(self.test, Test::Hysteresis { .. }) {
+            return file.lap();
+        }
+        let nothing = Body {
+            inertia: [0.0; D],
+            stiffness: [0.0; D],
+            damping: [0.0; D],
+        };
+        Ok(Lap {
+            joint: file.joint.law()?,
+            a: nothing,
+            b: nothing,
+        })
+    }
+
     /// The motions that are written; the one whose amplitude is followed first.
     fn seen(&self) -> Vec<Observed> {
         let mut motions = self.motions.clone();
@@ -99,6 +119,7 @@ impl RespondStudy {
             | Test::SteppedSine { levels, .. }
             | Test::Sweep { levels, .. }
             | Test::Dwell { levels, .. } => Some(levels),
+            Test::Hysteresis { amplitudes, .. } => Some(amplitudes),
             Test::Linear { .. }
             | Test::Backbone { .. }
             | Test::PhaseResonance { .. }
@@ -193,6 +214,22 @@ impl RespondStudy {
                 (histories(Some(unit)), unit)
             }
             Test::FreeDecay { .. } => (histories(None), ""),
+            Test::Hysteresis { dof, .. } => {
+                let (observed, load) = (
+                    Observed::Relative(*dof),
+                    LoadPlace {
+                        body: None,
+                        dof: *dof,
+                    },
+                );
+                let displacement = unit(observed, Derivative::Displacement);
+                let columns = vec![
+                    column(name(observed), displacement, Role::Across),
+                    column("load", load_unit(load), Role::Up),
+                    column("heat", "J", Role::Aside),
+                ];
+                (columns, displacement)
+            }
         }
     }
 
@@ -292,6 +329,14 @@ impl RespondStudy {
             Test::FreeDecay { start, times } => {
                 history(lap, start, None, *times, motions, progress)?
             }
+            Test::Hysteresis {
+                dof, frequency_hz, ..
+            } => Loop {
+                dof: *dof,
+                amplitude: level,
+                omega: frequency_hz.map(|hz| TAU * hz),
+            }
+            .rows(&lap.joint),
         })
     }
 

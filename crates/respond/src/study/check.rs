@@ -18,8 +18,8 @@ const HIGHEST: usize = 7;
 /// Every kind needs its tables and has no use for others.
 pub(super) fn tables(study: &StudyText, file: &StudyFile) -> Result<(), StudyError> {
     use Kind::{
-        Backbone, ConstantAmplitude, Dwell, FreeDecay, HarmonicBalance, Linear, PhaseResonance,
-        SteppedSine, Sweep,
+        Backbone, ConstantAmplitude, Dwell, FreeDecay, HarmonicBalance, Hysteresis, Linear,
+        PhaseResonance, SteppedSine, Sweep,
     };
     let kind = file.kind;
     let balanced = [HarmonicBalance, ConstantAmplitude, Backbone, PhaseResonance];
@@ -28,19 +28,19 @@ pub(super) fn tables(study: &StudyText, file: &StudyFile) -> Result<(), StudyErr
         (
             "frequency",
             file.frequency.is_some(),
-            !of(&[Backbone, PhaseResonance, FreeDecay]),
-            false,
+            !of(&[Backbone, PhaseResonance, FreeDecay, Hysteresis]),
+            of(&[Hysteresis]),
         ),
         (
             "load",
             file.load.is_some(),
-            !of(&[Backbone, FreeDecay, Linear]),
+            !of(&[Backbone, FreeDecay, Hysteresis, Linear]),
             of(&[Linear]),
         ),
         (
             "response",
             file.response.is_some(),
-            of(&[ConstantAmplitude, Backbone, PhaseResonance]),
+            of(&[ConstantAmplitude, Backbone, PhaseResonance, Hysteresis]),
             false,
         ),
         ("harmonics", file.harmonics.is_some(), false, of(&balanced)),
@@ -60,14 +60,22 @@ pub(super) fn tables(study: &StudyText, file: &StudyFile) -> Result<(), StudyErr
     Ok(())
 }
 
-pub(super) fn laps(study: &StudyText, tables: &[LapTable]) -> Result<Vec<StudyLap>, RespondError> {
+/// The joints; `have_bodies` where they must have them.
+pub(super) fn laps(
+    study: &StudyText,
+    tables: &[LapTable],
+    have_bodies: bool,
+) -> Result<Vec<StudyLap>, RespondError> {
     let mut laps: Vec<StudyLap> = Vec::new();
     for table in tables {
         let path = study.resolved(&table.joint);
         let file = JointFile::read(&path)?.at_preload(table.preload);
         let file = file.map_err(|source| StudyError::model(&path, None, source))?;
-        let is_lap = with_dofs!(file.joint.dofs.size(), D => file.lap::<D>().map(drop));
-        is_lap.map_err(|source| StudyError::model(&path, None, source))?;
+        let is_there = with_dofs!(file.joint.dofs.size(), D => match have_bodies {
+            true => file.lap::<D>().map(drop),
+            false => file.joint.law::<D>().map(drop),
+        });
+        is_there.map_err(|source| StudyError::model(&path, None, source))?;
         let found = file.joint.dofs;
         let first = laps.first().map_or(found, |first| first.file.joint.dofs);
         let expected = format!("{first}, as in the first lap");
@@ -410,6 +418,7 @@ pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<
                 times: times(study, time)?,
             })
         }
+        Kind::Hysteresis => hysteresis(study, file, dofs),
         Kind::FreeDecay => Ok(Test::FreeDecay {
             start: start(
                 study,
@@ -419,6 +428,33 @@ pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<
             times: times(study, time)?,
         }),
     }
+}
+
+fn hysteresis(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<Test, StudyError> {
+    let response = study.needed("response", file.response.as_ref(), "a table")?;
+    let Observed::Relative(dof) = of(study, response, dofs)? else {
+        let found = response.of.clone().unwrap_or_default();
+        let expected = "a relative motion, such as \"relative.y\"";
+        return study.refuse("response.of", format!("{found:?}"), expected);
+    };
+    let is_range = response.from.or(response.to).is_some();
+    let expected = "`amplitude` alone: a loop has one";
+    study.ensure(!is_range, "response.from", "a number", expected)?;
+    let frequency = file.frequency.as_ref();
+    let is_range = frequency.is_some_and(|table| table.from.or(table.to).is_some());
+    let expected = "`at` alone: a loop has one frequency";
+    study.ensure(!is_range, "frequency", "a range", expected)?;
+    if let Some(table) = frequency {
+        no_lines(study, table)?;
+    }
+    let at =
+        |table: &FrequencyTable| positive(study, "frequency.at", table.at, "a frequency in Hz");
+    let amplitude = response.amplitude.as_ref();
+    Ok(Test::Hysteresis {
+        dof,
+        amplitudes: positives(study, "response.amplitude", amplitude, "the amplitude")?,
+        frequency_hz: frequency.map(at).transpose()?,
+    })
 }
 
 /// The states of a start, for people.

@@ -171,6 +171,15 @@ pub enum Test {
         /// When.
         times: Times,
     },
+    /// Closed loops of load over displacement of the joint alone.
+    Hysteresis {
+        /// The relative DOF that is moved; the others rest.
+        dof: usize,
+        /// Amplitudes of the motion, m or rad.
+        amplitudes: Vec<f64>,
+        /// Hz; `None` for a motion so slow that dampers have no part in it.
+        frequency_hz: Option<f64>,
+    },
 }
 
 /// One number of the state that a free decay begins with; all others are zero.
@@ -204,7 +213,7 @@ impl RespondStudy {
         study.check_method(file.method, &[Method::Respond])?;
         study.check_name("name", &file.name)?;
         check::tables(study, &file)?;
-        let laps = check::laps(study, &file.lap)?;
+        let laps = check::laps(study, &file.lap, file.kind != Kind::Hysteresis)?;
         let dofs = laps[0].file.joint.dofs;
         let motions = match &file.motions {
             Some(motions) => check::motions(study, motions, dofs)?,
@@ -215,7 +224,10 @@ impl RespondStudy {
             QuantityName::Velocity => Derivative::Velocity,
             QuantityName::Acceleration => Derivative::Acceleration,
         };
-        let is_time = matches!(file.kind, Kind::Sweep | Kind::Dwell | Kind::FreeDecay);
+        let is_time = matches!(
+            file.kind,
+            Kind::Sweep | Kind::Dwell | Kind::FreeDecay | Kind::Hysteresis
+        );
         study.ensure(
             !is_time || quantity == Derivative::Displacement,
             "quantity",

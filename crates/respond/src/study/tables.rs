@@ -41,6 +41,7 @@ pub(super) enum Kind {
     Sweep,
     Dwell,
     FreeDecay,
+    Hysteresis,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]

@@ -255,7 +255,10 @@ fn a_point_beside_a_node_moves_as_with_a_mesh_of_its_own() {
         for (near, far) in near.iter().zip(&far) {
             for (near, far) in near.iter().zip(far) {
                 let error = (near - far).norm();
-                assert!(error <= 0.005 * far.norm() + 1e-12, "{theory:?}: {near} {far}");
+                assert!(
+                    error <= 0.005 * far.norm() + 1e-12,
+                    "{theory:?}: {near} {far}"
+                );
             }
         }
     }

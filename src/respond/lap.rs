@@ -9,7 +9,7 @@ use bolted_joint::study::StudyText;
 use bolted_joint_figures::html;
 
 use super::super::error::CliError;
-use super::super::output::{check_output, print, write_file};
+use super::super::output::{check_output, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
 
@@ -75,11 +75,14 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         write_file(path, drawing.as_bytes())?;
     }
     let rows: usize = table.series.iter().map(|series| series.rows.len()).sum();
+    let warnings = study.warnings(&table);
+    warn(&warnings);
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
             "series": summary(&table),
+            "warnings": warnings,
         });
         print(&serde_json::to_string_pretty(&value)?)?;
         return judged(&study);
@@ -105,6 +108,7 @@ fn summary(table: &ResponseTable) -> Vec<serde_json::Value> {
             "lap": series.lap,
             "level": series.level,
             "rows": series.rows.len(),
+            "largest_relative_displacement": series.largest,
         })
     };
     table.series.iter().map(of).collect()

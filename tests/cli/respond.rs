@@ -234,12 +234,46 @@ fn a_loop_has_the_heat_of_its_slider() {
     assert!(bench.text("out.svg").starts_with("<svg"));
     let table = table(&bench.text("out.csv"));
     for level in levels {
-        let of_level = table.iter().filter(|(_, row)| row["level"] == level);
-        let (_, last) = of_level.last().unwrap();
+        let mut of_level = table.iter().filter(|(_, row)| row["level"] == level);
+        let (_, last) = of_level.next_back().unwrap();
         let expected = 4.0 * 300.0 * f64::max(level - 300.0 / 2e6, 0.0);
         assert!(
             (last["heat"] - expected).abs() <= 1e-12,
             "{last:?} {expected}"
         );
+    }
+}
+
+#[test]
+fn it_is_said_where_a_joint_moves_further_than_it_was_observed_at() {
+    let bench = Bench::new();
+    let joint = r#"{ "format": "bolted-joint/1", "name": "lap", "joint": {
+        "dofs": ["y"], "stiffness": [[5e6]], "damping": [[2.0]],
+        "higher": { "damping_quadratic": [1e6], "amplitude": [2e-4] } },
+        "bodies": { "a": { "inertia": [1], "stiffness": [1e5], "damping": [0] },
+                    "b": { "inertia": [1], "stiffness": [1e5], "damping": [0] } } }"#;
+    bench.write("lap.joint.json", joint);
+    let within = "[response]\nfrom = 1e-5\nto = 1.9e-4\n";
+    let beyond = "[response]\nfrom = 1e-5\nto = 3e-4\n";
+    let histories =
+        |y: &str| format!("[time]\nduration = 0.01\ninterval = 1e-3\n[start]\n\"a.y\" = {y}\n");
+    for (kind, rest, is_beyond) in [
+        ("backbone", within.to_owned(), false),
+        ("backbone", beyond.to_owned(), true),
+        ("free-decay", histories("1.9e-4"), false),
+        ("free-decay", histories("2.1e-4"), true),
+        (
+            "hysteresis",
+            "[response]\namplitude = [1e-4, 3e-4]\n".to_owned(),
+            true,
+        ),
+    ] {
+        let text = study(kind, &rest).replace("ex02", "lap");
+        bench.write("study.toml", text);
+        let outcome = bench.done("respond study.toml -o out.csv");
+        let says = outcome
+            .stderr
+            .contains("beyond the 2.000e-4 m that the joint was observed at");
+        assert_eq!(says, is_beyond, "{kind}: {}", outcome.stderr);
     }
 }

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use bolted_joint_harmonic::{Derivative, HarmonicLoads, Observed, Side};
 
+use super::answer::{Answer, larger};
 use super::periodic::{frequencies, unit_load};
 use super::study::{LoadPlace, Span, Start, Times};
 
@@ -86,7 +87,7 @@ pub(super) fn history<const D: usize>(
     times: Times,
     motions: &[Observed],
     progress: &dyn Fn(f64),
-) -> Result<Vec<Vec<f64>>, Ended> {
+) -> Result<Answer<D>, Ended> {
     let stepper = LapStepper::new(lap);
     let mut state = LapState::REST;
     for start in start {
@@ -137,6 +138,8 @@ pub(super) fn history<const D: usize>(
     };
     let mut moment = LapMoment::from(state);
     let mut rows = vec![row(0.0, &moment.state)];
+    let mut largest = [0.0; D];
+    larger(&mut largest, &moment.state);
     for n in 0..count as u64 {
         let begin = n as f64 * times.interval_s;
         let mut last = load_at(begin);
@@ -144,6 +147,7 @@ pub(super) fn history<const D: usize>(
             let at = begin + f64::from(part) * step;
             let loads = [last, load_at(at + 0.5 * step), load_at(at + step)];
             moment = stepper.step(&moment, &loads, step);
+            larger(&mut largest, &moment.state);
             last = loads[2];
         }
         let time = (n + 1) as f64 * times.interval_s;
@@ -153,7 +157,7 @@ pub(super) fn history<const D: usize>(
         rows.push(row(time, &moment.state));
         progress((n + 1) as f64 / count);
     }
-    Ok(rows)
+    Ok(Answer { rows, largest })
 }
 
 /// A stepped sine.
@@ -171,11 +175,11 @@ pub(super) struct SteppedSine<'a> {
 impl SteppedSine<'_> {
     /// Rows of frequency and, of each motion, amplitude and phase of the fundamental of the last period at that frequency. The
     /// motion goes on from one frequency to the next.
-    pub(super) fn rows<const D: usize>(
+    pub(super) fn answer<const D: usize>(
         &self,
         lap: &Lap<D>,
         progress: &dyn Fn(f64),
-    ) -> Result<Vec<Vec<f64>>, Ended> {
+    ) -> Result<Answer<D>, Ended> {
         let stepper = LapStepper::new(lap);
         let loads = unit_load::<D>(self.place).scaled(self.level);
         let slowest_s = match self.settle {
@@ -184,6 +188,7 @@ impl SteppedSine<'_> {
         };
         let mut moment = LapMoment::from(LapState::REST);
         let (mut time, mut rows) = (0.0, Vec::with_capacity(self.lines));
+        let mut largest = [0.0; D];
         for frequency_hz in frequencies(self.span, self.lines) {
             let period = 1.0 / frequency_hz;
             let longest = longest_step(lap, self.steps_per_period, frequency_hz);
@@ -208,6 +213,7 @@ impl SteppedSine<'_> {
                     }
                     let loads = [all[2 * n], all[2 * n + 1], all[2 * n + 2]];
                     moment = stepper.step(&moment, &loads, period / steps as f64);
+                    larger(&mut largest, &moment.state);
                 }
                 time += period;
                 if !is_finite(&moment.state) {
@@ -224,7 +230,7 @@ impl SteppedSine<'_> {
             rows.push(row);
             progress(rows.len() as f64 / self.lines as f64);
         }
-        Ok(rows)
+        Ok(Answer { rows, largest })
     }
 }
 

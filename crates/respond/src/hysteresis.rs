@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::{JointLaw, JointMemory, Motion};
 
+use super::answer::Answer;
+
 /// Points of a loop.
 const POINTS: usize = 512;
 /// Cycles at most until the loop is closed: laws with a continuous state come near it as a geometric series does.
@@ -22,7 +24,7 @@ pub(super) struct Loop {
 
 impl Loop {
     /// Rows of displacement, load on side b, and heat since the loop began, once around from the largest displacement.
-    pub(super) fn rows<const D: usize>(&self, law: &JointLaw<D>) -> Vec<Vec<f64>> {
+    pub(super) fn answer<const D: usize>(&self, law: &JointLaw<D>) -> Answer<D> {
         let mut memory = JointMemory::REST;
         // from rest to the largest displacement
         for point in 0..=POINTS / 4 {
@@ -39,7 +41,9 @@ impl Loop {
                 break;
             }
         }
-        rows
+        let mut largest = [0.0; D];
+        largest[self.dof] = self.amplitude;
+        Answer { rows, largest }
     }
 
     fn once_around<const D: usize>(
@@ -117,7 +121,8 @@ mod tests {
                 amplitude: u,
                 omega,
             }
-            .rows(&law);
+            .answer(&law)
+            .rows;
             let heat = rows[POINTS][2];
             assert!((heat / expected - 1.0).abs() < 1e-12, "{heat} {expected}");
             // closed, and as high as spring and slider together

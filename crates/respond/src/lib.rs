@@ -2,6 +2,7 @@
 //! laps whose joint is not linear, in frequency and in time.
 #![forbid(unsafe_code)]
 
+mod answer;
 mod error;
 mod figure;
 mod histories;

@@ -10,6 +10,7 @@ use bolted_joint_harmonic::{
 };
 use bolted_joint_joint::DofSet;
 
+use super::answer::Answer;
 use super::study::{LoadPlace, Span};
 use super::table::{Column, Role};
 
@@ -184,7 +185,7 @@ impl Curve<'_> {
         span: Span,
         place: LoadPlace,
         level: f64,
-    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+    ) -> Result<Answer<D>, HarmonicError> {
         let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
         let loads = unit_load(place).scaled(level);
         let options = CurveOptions {
@@ -205,7 +206,7 @@ impl Curve<'_> {
         span: Span,
         place: LoadPlace,
         target: Target,
-    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+    ) -> Result<Answer<D>, HarmonicError> {
         let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
         let ends = span.ends_hz.map(|hz| TAU * hz);
         let options = CurveOptions::default();
@@ -220,7 +221,7 @@ impl Curve<'_> {
         amplitudes: [f64; 2],
         place: LoadPlace,
         target: Target,
-    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+    ) -> Result<Answer<D>, HarmonicError> {
         let balance = HarmonicBalance::new(lap, self.harmonics.clone())?;
         let options = CurveOptions::default();
         let curve = balance.resonance_curve(amplitudes, &unit_load(place), target, &options)?;
@@ -234,7 +235,7 @@ impl Curve<'_> {
         amplitudes: [f64; 2],
         target: Target,
         is_undamped: bool,
-    ) -> Result<Vec<Vec<f64>>, HarmonicError> {
+    ) -> Result<Answer<D>, HarmonicError> {
         let lap = if is_undamped { undamped(lap) } else { *lap };
         let balance = HarmonicBalance::new(&lap, self.harmonics.clone())?;
         let curve = balance.backbone(amplitudes, target, &CurveOptions::default())?;
@@ -247,13 +248,22 @@ impl Curve<'_> {
         balance: &HarmonicBalance<D>,
         curve: &[CurvePoint<D>],
         more: impl Fn(&CurvePoint<D>) -> [f64; MORE],
-    ) -> Vec<Vec<f64>> {
+    ) -> Answer<D> {
         let row = |point: &CurvePoint<D>| {
             let mut row = measured(balance, point, self.motions, self.quantity);
             row.extend(more(point));
             row
         };
-        curve.iter().map(row).collect()
+        let largest = |dof: usize| {
+            let peaks = curve.iter();
+            let peaks =
+                peaks.map(|point| balance.peak_of(&point.solution, Observed::Relative(dof)));
+            peaks.fold(0.0, f64::max)
+        };
+        Answer {
+            rows: curve.iter().map(row).collect(),
+            largest: std::array::from_fn(largest),
+        }
     }
 }
 

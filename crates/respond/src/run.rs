@@ -9,6 +9,7 @@ use bolted_joint_joint::{DofSet, JointFile, LawError};
 use bolted_joint_study::StudyError;
 
 use super::RespondError;
+use super::answer::Answer;
 use super::histories::{Drive, Ended, MOST_STEPS, SteppedSine, history};
 use super::hysteresis::Loop;
 use super::periodic::{
@@ -16,9 +17,6 @@ use super::periodic::{
 };
 use super::study::{LoadPlace, RespondStudy, StudyLap, Test, Times};
 use super::table::{Column, ResponseTable, Role, Series};
-
-/// Rows of one lap at one level.
-type Rows = Result<Vec<Vec<f64>>, Failure>;
 
 enum Failure {
     Harmonic(HarmonicError),
@@ -68,13 +66,15 @@ impl RespondStudy {
             for &level in &levels {
                 let done = series.len() as f64;
                 let of_series = |share: f64| progress((done + share) / all);
-                let rows = self.rows(&model, &motions, level.unwrap_or(0.0), &of_series);
+                let answer = self.answer(&model, &motions, level.unwrap_or(0.0), &of_series);
                 of_series(1.0);
-                let refuse = |failure| self.failed(lap, level, level_unit, failure);
+                let answer =
+                    answer.map_err(|failure| self.failed(lap, level, level_unit, failure))?;
                 series.push(Series {
                     lap: lap.name.clone(),
                     level,
-                    rows: rows.map_err(refuse)?,
+                    rows: answer.rows,
+                    largest: answer.largest.to_vec(),
                 });
             }
         }
@@ -233,13 +233,13 @@ impl RespondStudy {
         }
     }
 
-    fn rows<const D: usize>(
+    fn answer<const D: usize>(
         &self,
         lap: &Lap<D>,
         motions: &[Observed],
         level: f64,
         progress: &dyn Fn(f64),
-    ) -> Rows {
+    ) -> Result<Answer<D>, Failure> {
         let target = |of: Observed, amplitude: f64| Target {
             observed: of,
             derivative: self.quantity,
@@ -261,13 +261,13 @@ impl RespondStudy {
             history(lap, &[], Some(drive), times, motions, progress)
         };
         Ok(match &self.test {
-            Test::Linear { span, lines, load } => receptances(
+            Test::Linear { span, lines, load } => Answer::linear(receptances(
                 lap,
                 frequencies(*span, *lines),
                 *load,
                 motions,
                 self.quantity,
-            )?,
+            )?),
             Test::HarmonicBalance {
                 span,
                 load,
@@ -316,7 +316,7 @@ impl RespondStudy {
                 motions,
                 quantity: self.quantity,
             }
-            .rows(lap, progress)?,
+            .answer(lap, progress)?,
             Test::Sweep {
                 span, load, times, ..
             } => driven(*load, span.ends_hz, *times)?,
@@ -336,8 +336,34 @@ impl RespondStudy {
                 amplitude: level,
                 omega: frequency_hz.map(|hz| TAU * hz),
             }
-            .rows(&lap.joint),
+            .answer(&lap.joint),
         })
+    }
+
+    /// Where joints move further than they were observed at, which their files may say: what is told there is extrapolated.
+    #[must_use]
+    pub fn warnings(&self, table: &ResponseTable) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for series in &table.series {
+            let lap = self.laps.iter().find(|lap| lap.name == series.lap);
+            let higher = lap.and_then(|lap| lap.file.joint.higher.as_ref());
+            let observed = higher.map_or(&[][..], |higher| &higher.amplitude);
+            for (dof, (&largest, &observed)) in series.largest.iter().zip(observed).enumerate() {
+                if largest <= observed {
+                    continue;
+                }
+                let row = self.dofs().row(dof);
+                let unit = row.kind.displacement_unit();
+                let level = series.level.map_or_else(String::new, |level| {
+                    format!(" at {level} {}", table.level_unit)
+                });
+                warnings.push(format!(
+                    "{}{level}: relative.{} reaches {largest:.3e} {unit}, beyond the {observed:.3e} {unit} that the joint was observed at",
+                    series.lap, row.name
+                ));
+            }
+        }
+        warnings
     }
 
     fn failed(

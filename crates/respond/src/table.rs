@@ -35,6 +35,8 @@ pub struct Series {
     pub level: Option<f64>,
     /// One number for each column; what does not exist is NaN.
     pub rows: Vec<Vec<f64>>,
+    /// Largest relative displacement of each DOF, m and rad; zero in linear responses, which scale.
+    pub largest: Vec<f64>,
 }
 
 /// A response.
@@ -125,6 +127,7 @@ mod tests {
                 lap: "M8, \"loose\"".to_owned(),
                 level: Some(1.5),
                 rows: vec![vec![2e-7], vec![f64::NAN]],
+                largest: vec![0.0],
             }],
         };
         assert_eq!(

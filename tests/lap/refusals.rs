@@ -1,6 +1,7 @@
 //! Studies and tables that cannot be used: each message names the file, the key or line, and what to do.
 
 use bolted_joint_testing::has;
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::PathBuf;
 
@@ -108,4 +109,37 @@ fn every_method_has_its_reader() {
     let error = method(&other).unwrap_err().to_string();
     has(&error, &["lap-magic", "`lap-response`"]);
     assert!(Study::read(&path).is_err());
+}
+
+/// A raw record of several modes, and bands that do not hold one.
+#[test]
+fn a_decay_of_several_modes_is_refused_and_names_them() {
+    let study = |band: &str| RESPONSE.replace("[[sine]]\n", &format!("[[decay]]\n{band}"));
+    let value = |t: f64| {
+        let mode = |amplitude: f64, hz: f64| amplitude * (-4.0 * t).exp() * (TAU * hz * t).cos();
+        mode(1e-4, 80.0) + mode(3e-5, 130.0)
+    };
+    let mut table = "time_s,displacement_m\n".to_owned();
+    for n in 0..8000 {
+        let t = 2e-4 * f64::from(n);
+        table += &format!("{t},{:e}\n", value(t));
+    }
+    let same = ("name", "name");
+    has(
+        &refusal(&study(""), same, &table),
+        &["run.csv", "80.", "130.", "band = [60, 100]"],
+    );
+    let wide = refusal(&study("band = [60, 200]\n"), same, &table);
+    has(&wide, &["80.", "130."]);
+    let upside_down = refusal(&study("band = [100, 60]\n"), same, &table);
+    has(&upside_down, &["decay.band", "[100, 60]"]);
+    let empty = refusal(&study("band = [900, 1000]\n"), same, &table);
+    has(&empty, &["run.csv", "expected"]);
+    let folder = tempfile::tempdir().unwrap();
+    written("run.csv", &table, &folder);
+    let path = written("study.toml", &study("band = [60, 100]\n"), &folder);
+    let read = LapResponseStudy::read(&path).unwrap();
+    let line = read.backbones[0].lines[3];
+    assert!((line.omega / (TAU * 80.0) - 1.0).abs() < 1e-4);
+    assert!((line.damping_ratio.unwrap() * line.omega / 4.0 - 1.0).abs() < 1e-2);
 }

@@ -1,20 +1,18 @@
 //! Backbone and damping curves, measured or taken from a free decay: frequency, damping ratio and force of phase resonance over
 //! the amplitude.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use bolted_joint_dynamics::law::Term;
 
 use super::data::{RESPONSE, Use};
+use super::decay::{DecayProblem, backbone_of};
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
 use crate::error::LapError;
-
-/// Half-periods that a free decay is read over at a time.
-const HALF_PERIODS: usize = 10;
 
 /// A backbone with its damping curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -182,9 +180,12 @@ pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>
     Ok(lines)
 }
 
-/// Reads a free decay of one mode and turns it into a backbone: frequencies from the zero crossings of ten half-periods, damping
-/// from the peaks between them.
-pub(super) fn read_decay(path: &Path, share: f64) -> Result<Vec<BackboneLine>, LapError> {
+/// Reads a free decay and turns one mode of it into a backbone, that in the band where one is given.
+pub(super) fn read_decay(
+    path: &Path,
+    band_hz: Option<[f64; 2]>,
+    share: f64,
+) -> Result<Vec<BackboneLine>, LapError> {
     let table = NumberTable::read(path)?;
     let (time, _) = table.required(&["time_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;
@@ -192,118 +193,29 @@ pub(super) fn read_decay(path: &Path, share: f64) -> Result<Vec<BackboneLine>, L
     let samples: Vec<(f64, f64)> = rows
         .filter_map(|(_, values)| Some((values[time]?, values[response]?)))
         .collect();
-    if samples.windows(2).any(|pair| pair[1].0 <= pair[0].0) {
-        let found = "times that do not ascend".to_owned();
-        return Err(table.problem(1, found, "ascending times"));
-    }
-    let lines = of_decay(&samples, order as i32, share);
-    if lines.len() < 2 {
-        let count = lines.len();
-        let found = format!("{count} stretch(es) of {HALF_PERIODS} half-periods in the decay");
-        let expected = "at least two: a longer record of one mode decaying freely";
-        return Err(table.problem(1, found, expected));
-    }
-    Ok(lines)
-}
-
-/// One point for each stretch of half-periods.
-fn of_decay(samples: &[(f64, f64)], order: i32, share: f64) -> Vec<BackboneLine> {
-    // Zero crossings by linear interpolation, and between them the peak of a parabola through the highest sample.
-    let mut crossings: Vec<(usize, f64)> = Vec::new();
-    for (i, pair) in samples.windows(2).enumerate() {
-        let [(t0, y0), (t1, y1)] = [pair[0], pair[1]];
-        if y0 != 0.0 && y0 * y1 <= 0.0 {
-            crossings.push((i + 1, t0 + (t1 - t0) * y0 / (y0 - y1)));
-        }
-    }
-    let peaks: Vec<(f64, f64)> = crossings
-        .windows(2)
-        .filter_map(|pair| {
-            let between = pair[0].0..pair[1].0;
-            let highest =
-                between.max_by(|&a, &b| samples[a].1.abs().total_cmp(&samples[b].1.abs()))?;
-            Some(vertex(samples, highest))
-        })
-        .collect();
-    let mut lines = Vec::new();
-    for (stretch, from) in peaks
-        .chunks_exact(HALF_PERIODS + 1)
-        .zip((0..).step_by(HALF_PERIODS + 1))
-    {
-        let crossings = &crossings[from..=from + HALF_PERIODS];
-        let half_period = (crossings[HALF_PERIODS].1 - crossings[0].1) / HALF_PERIODS as f64;
-        let omega = PI / half_period;
-        // ln A falls by ζ ω t: the slope of a line through the logarithms of the peaks.
-        let count = stretch.len() as f64;
-        let mean_time = stretch.iter().map(|(time, _)| time).sum::<f64>() / count;
-        let mean_log = stretch.iter().map(|(_, peak)| peak.ln()).sum::<f64>() / count;
-        let (mut up, mut across) = (0.0, 0.0);
-        for (time, peak) in stretch {
-            up += (time - mean_time) * (peak.ln() - mean_log);
-            across += (time - mean_time).powi(2);
-        }
-        let ratio = -up / across / omega;
-        if ratio > 0.0 && mean_log.is_finite() {
-            lines.push(BackboneLine {
-                amplitude_m: mean_log.exp() / omega.powi(order) / share.abs(),
-                omega,
-                damping_ratio: Some(ratio),
-                force_n: None,
-            });
-        }
-    }
-    lines
-}
-
-/// Time and size of the peak of a parabola through a sample and its neighbours.
-fn vertex(samples: &[(f64, f64)], place: usize) -> (f64, f64) {
-    let (time, value) = samples[place];
-    let (Some(&(before, low)), Some(&(after, high))) = (
-        place.checked_sub(1).and_then(|place| samples.get(place)),
-        samples.get(place + 1),
-    ) else {
-        return (time, value.abs());
-    };
-    let (slope_before, slope_after) = (
-        (value - low) / (time - before),
-        (high - value) / (after - time),
-    );
-    let curvature = (slope_after - slope_before) / (0.5 * (after - before));
-    if curvature == 0.0 {
-        return (time, value.abs());
-    }
-    // The slope at the middles of both intervals is exact for a parabola.
-    let slope = slope_before + curvature * 0.5 * (time - before);
-    let shift = -slope / curvature;
-    (time + shift, (value + 0.5 * slope * shift).abs())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// x = e^(−ζω₀t) cos ω_d t: its backbone is flat and its damping ratio known.
-    #[test]
-    fn a_linear_decay_has_its_frequency_and_damping() {
-        let (ratio, omega_0) = (0.004, 510.0);
-        let omega_d = omega_0 * f64::sqrt(1.0 - ratio * ratio);
-        let samples: Vec<(f64, f64)> = (0..20_000)
-            .map(|n| {
-                let t = f64::from(n) * 1e-4;
-                (t, 2e-4 * (-ratio * omega_0 * t).exp() * (omega_d * t).cos())
-            })
-            .collect();
-        let lines = of_decay(&samples, 0, 1.0);
-        assert!(lines.len() > 20);
-        for line in &lines {
-            assert!((line.omega / omega_d - 1.0).abs() < 1e-4, "{}", line.omega);
-            let found = line.damping_ratio.unwrap();
-            assert!((found / ratio - 1.0).abs() < 5e-3, "{found}");
-        }
-        assert!(
-            lines
-                .windows(2)
-                .all(|pair| pair[1].amplitude_m < pair[0].amplitude_m)
-        );
-    }
+    let found = backbone_of(&samples, band_hz, order as i32, share);
+    found.map_err(|problem| {
+        let (found, expected) = match problem {
+            DecayProblem::Uneven => (
+                "times that do not ascend evenly".to_owned(),
+                "samples at equal distances",
+            ),
+            DecayProblem::NoMode => (
+                "no vibration that stands out of the noise".to_owned(),
+                "a free decay of one mode; `band` in Hz may be beside it",
+            ),
+            DecayProblem::Several(hz) => {
+                let hz: Vec<String> = hz.iter().map(|hz| format!("{hz:.1} Hz")).collect();
+                (
+                    format!("modes at {}", hz.join(", ")),
+                    "one mode alone; name the band that holds it and no other, such as band = [60, 100] in Hz",
+                )
+            }
+            DecayProblem::TooShort(count) => (
+                format!("{count} stretch(es) of ten half-periods in the decay"),
+                "at least two: a longer record, with less noise, or a wider band",
+            ),
+        };
+        table.problem(1, found, expected)
+    })
 }

@@ -8,6 +8,7 @@
 mod backbone;
 mod choice;
 mod data;
+mod decay;
 mod dynamic_stiffness;
 mod file;
 mod fit;

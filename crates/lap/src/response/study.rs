@@ -135,7 +135,7 @@ struct StudyFile {
     #[serde(default)]
     backbone: Vec<FileTable>,
     #[serde(default)]
-    decay: Vec<FileTable>,
+    decay: Vec<DecayTable>,
 }
 
 #[derive(Deserialize)]
@@ -187,6 +187,17 @@ struct FileTable {
     name: Option<String>,
     #[serde(default, rename = "use")]
     used_for: Use,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DecayTable {
+    file: PathBuf,
+    name: Option<String>,
+    #[serde(default, rename = "use")]
+    used_for: Use,
+    /// Hz
+    band: Option<[f64; 2]>,
 }
 
 /// A run's name: the stated one, or the file's.
@@ -263,23 +274,26 @@ impl LapResponseStudy {
             Place::Relative => 1.0,
             Place::A | Place::B => 0.5,
         };
-        let backbones = file.backbone.into_iter().map(|table| (table, true));
-        let decays = file.decay.into_iter().map(|table| (table, false));
-        let backbones = backbones.chain(decays).map(|(table, is_backbone)| {
-            let read = if is_backbone {
-                read_backbone
-            } else {
-                read_decay
-            };
+        let backbones = file.backbone.into_iter().map(|table| {
             let path = study.resolved(&table.file);
-            Ok(BackboneRun {
+            Ok::<_, LapError>(BackboneRun {
                 name: name_of(table.name, &table.file),
-                lines: read(&path, share)?,
+                lines: read_backbone(&path, share)?,
                 path,
                 used_for: table.used_for,
             })
         });
-        let backbones: Vec<BackboneRun> = backbones.collect::<Result<_, LapError>>()?;
+        let decays = file.decay.into_iter().map(|table| {
+            let path = study.resolved(&table.file);
+            let band_hz = table.band.map(|band| band_hz(study, band)).transpose()?;
+            Ok(BackboneRun {
+                name: name_of(table.name, &table.file),
+                lines: read_decay(&path, band_hz, share)?,
+                path,
+                used_for: table.used_for,
+            })
+        });
+        let backbones: Vec<BackboneRun> = backbones.chain(decays).collect::<Result<_, _>>()?;
         let fitted = sines.iter().any(|run| run.used_for == Use::Fit)
             || backbones.iter().any(|run| run.used_for == Use::Fit);
         study.ensure(
@@ -394,6 +408,18 @@ fn known(study: &StudyText, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f6
         known.push((unknown, value));
     }
     Ok(known)
+}
+
+fn band_hz(study: &StudyText, [from, to]: [f64; 2]) -> Result<[f64; 2], StudyError> {
+    let is_band = from >= 0.0 && to > from && to.is_finite();
+    let expected = "[lowest, highest] frequency in Hz, such as [60, 100]";
+    study.ensure(
+        is_band,
+        "decay.band",
+        format_args!("[{from}, {to}]"),
+        expected,
+    )?;
+    Ok([from, to])
 }
 
 fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, StudyError> {

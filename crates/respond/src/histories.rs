@@ -143,7 +143,7 @@ pub(super) fn history<const D: usize>(
         for part in 0..parts.get() {
             let at = begin + f64::from(part) * step;
             let loads = [last, load_at(at + 0.5 * step), load_at(at + step)];
-            moment = stepper.step(&moment, &loads, step);
+            stepper.step(&mut moment, &loads, step);
             last = loads[2];
         }
         let time = (n + 1) as f64 * times.interval_s;
@@ -207,7 +207,7 @@ impl SteppedSine<'_> {
                         }
                     }
                     let loads = [all[2 * n], all[2 * n + 1], all[2 * n + 2]];
-                    moment = stepper.step(&moment, &loads, period / steps as f64);
+                    stepper.step(&mut moment, &loads, period / steps as f64);
                 }
                 time += period;
                 if !is_finite(&moment.state) {

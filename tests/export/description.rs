@@ -1,6 +1,7 @@
 //! What no validator looks at in a model description: bounds, capability flags, and that both versions say the same.
 
 use bolted_joint::export::{FmiVersion, Interface};
+use bolted_joint_dynamics::law::{Range, dof_parameters};
 use bolted_joint_interface::Expanded;
 
 use crate::xml::{Element, elements, named};
@@ -108,8 +109,11 @@ fn start_values_lie_within_their_bounds_and_bounds_around_what_the_library_takes
             // Zero is refused by the library, so it must not lie within the bounds.
             let must_be_positive =
                 name.ends_with(".m") || name.ends_with(".J") || name == "step_size_max";
-            // Without a slider, its parameters are zero.
-            let may_be_zero = name.starts_with("joint.jenkins_");
+            // Without a law of friction, its parameters are zero.
+            let may_be_zero = dof_parameters().any(|(law, parameter)| {
+                let is_it = name.starts_with(&format!("joint.{}_", parameter.symbol));
+                is_it && law.remembers() && parameter.range == Range::NotNegative
+            });
             let least = if must_be_positive {
                 Some(f64::MIN_POSITIVE)
             } else {

@@ -50,10 +50,10 @@ fn a_law_on_a_dof_is_part_of_the_joint() {
 fn laws_that_do_not_fit_are_refused_by_their_key() {
     for (friction, fragments) in [
         (
-            r#"[{ "dof": "y", "law": "iwan", "stiffness": 1e6, "slip_force": 300 }]"#,
+            r#"[{ "dof": "y", "law": "coulomb", "stiffness": 1e6, "slip_force": 300 }]"#,
             [
-                "joint.friction[0].law: found \"iwan\"",
-                "expected one of jenkins",
+                "joint.friction[0].law: found \"coulomb\"",
+                "expected one of jenkins, iwan",
             ],
         ),
         (
@@ -97,6 +97,28 @@ fn laws_that_do_not_fit_are_refused_by_their_key() {
     }
 }
 
+const IWAN: &str = r#""dof": "y", "law": "iwan", "slip_force": 4000, "stiffness": 1.5e7, "exponent": -0.3, "ratio": 0.5"#;
+
+/// Each law in its range, what of it is put in place of what, and what the refusal says.
+#[rustfmt::skip]
+const OUT_OF_RANGE: [(&str, &str, &str, [&str; 2]); 4] = [
+    (IWAN, "4000", "0", ["joint.friction[0].slip_force: found 0.0", "above 0"]),
+    (IWAN, "1.5e7", "0", ["joint.friction[0].stiffness: found 0.0", "above 0"]),
+    (IWAN, "-0.3", "-1", ["joint.friction[0].exponent: found -1.0", "above -1"]),
+    (IWAN, "0.5", "-0.5", ["joint.friction[0].ratio: found -0.5", "zero or more"]),
+];
+
+#[test]
+fn a_law_outside_of_its_range_is_refused_by_key_value_and_bound() {
+    for (law, from, to, fragments) in OUT_OF_RANGE {
+        assert!(with(&format!("[{{ {law} }}]")).is_ok(), "{law}");
+        let message = with(&format!("[{{ {} }}]", law.replace(from, to))).unwrap_err();
+        for fragment in fragments {
+            assert!(message.contains(fragment), "{fragment}: {message}");
+        }
+    }
+}
+
 #[test]
 fn a_law_stands_once_on_a_dof_of_the_joint() {
     let message = with(&format!("[{ON_Y}, {ON_Y}]")).unwrap_err();
@@ -107,6 +129,8 @@ fn a_law_stands_once_on_a_dof_of_the_joint() {
     );
     let on_theta = ON_Y.replace("\"y\"", "\"theta\"");
     assert!(with(&format!("[{ON_Y}, {on_theta}]")).is_ok());
+    // laws of several kinds on one DOF are
+    assert!(with(&format!("[{ON_Y}, {{ {IWAN} }}]")).is_ok());
     let mut alone = with(&format!("[{on_theta}]")).unwrap();
     alone.joint.dofs = bolted_joint::joint::DofSet::TRANSLATION;
     assert!(alone.validate().iter().any(|problem| matches!(

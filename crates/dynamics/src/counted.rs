@@ -5,7 +5,7 @@ use std::array::from_fn;
 
 use crate::{
     lap::{Lap, LapLoads, LapState},
-    law::{JointLaw, JointMemory},
+    law::{DOF_AT_REST, JointLaw, JointMemory},
     motion::Motion,
     vector::dot,
 };
@@ -32,13 +32,11 @@ pub struct LapConditions<const D: usize> {
     pub loads: LapLoads<D>,
 }
 
-/// Motion, what the joint remembers of it, and the energy that has passed.
+/// Motion, and the energy that has passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountedState<const D: usize> {
     /// Motion of both bodies.
     pub state: LapState<D>,
-    /// What the joint remembers; a step begins and ends with it, and the stages between leave it as it is.
-    pub memory: JointMemory<D>,
     /// What was counted so far.
     pub passed: PassedEnergy,
 }
@@ -47,7 +45,6 @@ impl<const D: usize> CountedState<D> {
     /// At rest, before anything has moved.
     pub const REST: Self = Self {
         state: LapState::REST,
-        memory: JointMemory::REST,
         passed: PassedEnergy {
             supplied: 0.0,
             dissipated: 0.0,
@@ -79,19 +76,22 @@ impl<const D: usize> LapConditions<D> {
 
     /// Motion and energies after one step of the classical Runge–Kutta method of `step_s` (s), in which these conditions hold
     /// at its start, middle and end. What the joint remembers moves on once, at the end: with such a joint the order is between
-    /// one and three, because a slider sticks or slips somewhere within a step.
+    /// one and three, because a slider sticks or slips somewhere within a step. A joint that remembers nothing needs no
+    /// `memory`.
     #[must_use]
     pub fn step(
         [start, middle, end]: [&Self; 3],
         counted: &CountedState<D>,
+        memory: Option<&mut JointMemory<D>>,
         step_s: f64,
     ) -> CountedState<D> {
         let half_s = 0.5 * step_s;
-        let mut memory = counted.memory;
-        let k1 = start.rate(&memory, &counted.state);
-        let k2 = middle.rate(&memory, &moved(&counted.state, half_s, &k1.state));
-        let k3 = middle.rate(&memory, &moved(&counted.state, half_s, &k2.state));
-        let k4 = end.rate(&memory, &moved(&counted.state, step_s, &k3.state));
+        let at_rest = &const { [DOF_AT_REST; D] };
+        let before = memory.as_deref().unwrap_or(at_rest);
+        let k1 = start.rate(before, &counted.state);
+        let k2 = middle.rate(before, &moved(&counted.state, half_s, &k1.state));
+        let k3 = middle.rate(before, &moved(&counted.state, half_s, &k2.state));
+        let k4 = end.rate(before, &moved(&counted.state, step_s, &k3.state));
         // z(t+h) = z + h/6 (k₁ + 2k₂ + 2k₃ + k₄)
         let sixth_s = step_s / 6.0;
         let mean = |of: fn(&PassedEnergy) -> f64| {
@@ -107,15 +107,10 @@ impl<const D: usize> LapConditions<D> {
         let outer = moved(&k1.state, 1.0, &k4.state);
         let sum = moved(&outer, 2.0, &inner);
         let state = moved(&counted.state, sixth_s, &sum);
-        if end.lap.joint.has_memory() {
-            let r = state.relative().displacement;
-            passed.dissipated += end.lap.joint.commit(&mut memory, &r);
+        if let Some(memory) = memory {
+            passed.dissipated += end.lap.joint.commit(memory, &state.relative());
         }
-        CountedState {
-            state,
-            memory,
-            passed,
-        }
+        CountedState { state, passed }
     }
 
     fn rate(&self, memory: &JointMemory<D>, state: &LapState<D>) -> Rate<D> {

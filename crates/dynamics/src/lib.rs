@@ -30,8 +30,8 @@ pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
 pub use law::{
-    Beyond, DofLaws, DofMemory, JointLaw, JointMemory, JointOverPreload, Linear, Polynomial,
-    TableDefect,
+    Beyond, DOF_AT_REST, DofLaws, DofMemory, JointLaw, JointMemory, JointOverPreload, Linear,
+    Polynomial, TableDefect,
 };
 pub use motion::Motion;
 pub use number::{Dual, Number};

@@ -3,6 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::elementary;
+
 /// A number that a law can be evaluated with.
 pub trait Number:
     Copy
@@ -24,6 +26,38 @@ pub trait Number:
 
     /// Whether it is a finite number, and its changes are.
     fn is_finite(self) -> bool;
+
+    /// A function of it, by the function's value and slope there.
+    fn chain(self, value: f64, slope: f64) -> Self;
+
+    /// eˣ
+    #[inline]
+    fn exp(self) -> Self {
+        let value = elementary::exp(self.value());
+        self.chain(value, value)
+    }
+
+    /// eˣ − 1, as precise as x where x is small.
+    #[inline]
+    fn exp_m1(self) -> Self {
+        let value = elementary::exp_m1(self.value());
+        self.chain(value, value + 1.0)
+    }
+
+    /// x^y for x ≥ 0, with the limits of its changes at x = 0 where y > 1.
+    #[inline]
+    fn powf(self, exponent: Self) -> Self {
+        let (x, y) = (self.value(), exponent.value());
+        if x == 0.0 {
+            // d(x^y) = y x^(y−1) dx + x^y ln x dy, both of which vanish with x where y > 1
+            return Self::from(if y == 0.0 { 1.0 } else { 0.0 });
+        }
+        let logarithm = elementary::ln(x);
+        let value = elementary::exp(y * logarithm);
+        // the sum of both partial changes; each carries the value, which counts once
+        self.chain(value, y * value / x)
+            + (exponent.chain(value, value * logarithm) - Self::from(value))
+    }
 }
 
 impl Number for f64 {
@@ -42,6 +76,11 @@ impl Number for f64 {
     #[inline]
     fn is_finite(self) -> bool {
         f64::is_finite(self)
+    }
+
+    #[inline]
+    fn chain(self, value: f64, _: f64) -> Self {
+        value
     }
 }
 
@@ -126,6 +165,11 @@ impl<const K: usize> Number for Dual<K> {
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.change.iter().all(|change| change.is_finite())
     }
+
+    #[inline]
+    fn chain(self, value: f64, slope: f64) -> Self {
+        Self::changed(value, |k| slope * self.change[k])
+    }
 }
 
 impl<const K: usize> Add for Dual<K> {
@@ -197,6 +241,23 @@ mod tests {
         assert!((found.change[0] - by_x).abs() < 1e-14);
         assert!((found.change[1] - by_y).abs() < 1e-14);
         assert_eq!((-found).change[0], -found.change[0]);
+    }
+
+    #[test]
+    fn elementary_functions_change_as_their_differences() {
+        let [x, y] = [Dual::<2>::along(0.7, 0), Dual::along(1.6, 1)];
+        let found = x.powf(y) + (x * y).exp_m1() - (y - x).exp();
+        let at = |x: f64, y: f64| x.powf(y) + (x * y).exp_m1() - (y - x).exp();
+        let h = 1e-6;
+        let expected = [
+            (at(0.7 + h, 1.6) - at(0.7 - h, 1.6)) / (2.0 * h),
+            (at(0.7, 1.6 + h) - at(0.7, 1.6 - h)) / (2.0 * h),
+        ];
+        assert!((found.value - at(0.7, 1.6)).abs() < 1e-14);
+        for (found, expected) in found.change.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+        }
+        assert_eq!(Dual::<1>::along(0.0, 0).powf(1.3.into()), Dual::ZERO);
     }
 
     #[test]

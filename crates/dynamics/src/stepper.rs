@@ -4,7 +4,7 @@ use crate::{
     counted::{CountedState, LapConditions, PassedEnergy},
     integrator::LapIntegrator,
     lap::{Lap, LapLoads, LapState},
-    law::{JointLaw, JointMemory},
+    law::{DOF_AT_REST, JointLaw, JointMemory},
 };
 
 /// Motion of both bodies, and what the joint remembers of it.
@@ -21,7 +21,7 @@ impl<const D: usize> From<LapState<D>> for LapMoment<D> {
     fn from(state: LapState<D>) -> Self {
         Self {
             state,
-            memory: JointMemory::REST,
+            memory: [DOF_AT_REST; D],
         }
     }
 }
@@ -40,7 +40,7 @@ impl<const D: usize> From<LapState<D>> for LapMoment<D> {
 /// let stepper = LapStepper::new(&lap);
 /// let (step_s, steps) = (1e-5, 1000);
 /// for _ in 0..steps {
-///     moment = stepper.step(&moment, &[LapLoads { a: [0.0], b: [0.0] }; 3], step_s);
+///     stepper.step(&mut moment, &[LapLoads { a: [0.0], b: [0.0] }; 3], step_s);
 /// }
 /// // ω = √(k/m)
 /// let expected = 1e-3 * (200.0 * step_s * f64::from(steps)).cos();
@@ -63,18 +63,13 @@ impl<const D: usize> LapStepper<D> {
     }
 
     /// One Runge–Kutta step of `step_s` (s), with the loads at its start, middle and end.
-    #[must_use]
-    pub fn step(
-        &self,
-        moment: &LapMoment<D>,
-        loads: &[LapLoads<D>; 3],
-        step_s: f64,
-    ) -> LapMoment<D> {
+    pub fn step(&self, moment: &mut LapMoment<D>, loads: &[LapLoads<D>; 3], step_s: f64) {
         if !self.integrator.has_memory() {
-            let state = self
+            let next = self
                 .integrator
                 .step_with_loads(&moment.state, loads, step_s);
-            return LapMoment { state, ..*moment };
+            moment.state = next;
+            return;
         }
         let conditions = loads.map(|loads| LapConditions {
             lap: self.lap,
@@ -83,11 +78,11 @@ impl<const D: usize> LapStepper<D> {
         });
         let counted = CountedState {
             state: moment.state,
-            memory: moment.memory,
             passed: PassedEnergy::default(),
         };
-        let CountedState { state, memory, .. } =
-            LapConditions::step(conditions.each_ref(), &counted, step_s);
-        LapMoment { state, memory }
+        let memory = Some(&mut moment.memory);
+        let CountedState { state, .. } =
+            LapConditions::step(conditions.each_ref(), &counted, memory, step_s);
+        moment.state = state;
     }
 }

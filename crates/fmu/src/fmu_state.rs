@@ -15,7 +15,8 @@
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
-//! | 4 + 8 n | number of values, and all of [`Values`]: by value reference, then what is remembered beside them |
+//! | 4 + 8 n | number of values, and all of them: by value reference, then what is remembered beside them |
+//! | 4 + 8 l | number of numbers that the joint remembers, and these |
 //! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
@@ -28,11 +29,12 @@ use crate::{
     },
     mode::Mode,
     pace::Pace,
+    values::remembered_count,
     version::Abi,
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// An enumeration of which one byte is written.
 trait Numbered: Copy + 'static {
@@ -214,7 +216,10 @@ impl Snapshot {
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
         bytes.extend(self.pace.to_bytes());
         bytes.extend((self.values.len() as u32).to_le_bytes());
-        bytes.extend(self.values.into_iter().flat_map(f64::to_le_bytes));
+        bytes.extend(self.values.iter().flat_map(|value| value.to_le_bytes()));
+        let remembered = self.values.remembered();
+        bytes.extend((remembered.len() as u32).to_le_bytes());
+        bytes.extend(remembered.iter().flat_map(|number| number.to_le_bytes()));
         bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
@@ -342,7 +347,7 @@ impl<'a> Reader<'a> {
         if found as usize != VALUE_COUNT {
             return Err(StateError::Values { found });
         }
-        let mut values = [0.0; VALUE_COUNT];
+        let mut values = Values::at_rest([0.0; VALUE_COUNT], variables);
         for (place, value) in values.iter_mut().enumerate() {
             *value = self.f64()?;
             if !value.is_finite() {
@@ -352,6 +357,17 @@ impl<'a> Reader<'a> {
                         name: variables.name(place),
                     },
                 });
+            }
+        }
+        let found = self.u32()?;
+        if found as usize != remembered_count(variables) {
+            return Err(StateError::Values { found });
+        }
+        for (place, number) in values.remembered_mut().iter_mut().enumerate() {
+            *number = self.f64()?;
+            if !number.is_finite() {
+                let index = VALUE_COUNT - REFERENCE_COUNT + place;
+                return Err(StateError::Remembered { index });
             }
         }
         Ok(values)

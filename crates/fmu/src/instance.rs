@@ -74,7 +74,7 @@ impl Instance {
             }),
             roles: variables.roles(),
             model: models::model(variables, table),
-            start: values,
+            start: values.clone(),
             values,
             inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
@@ -162,7 +162,7 @@ impl Instance {
 
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
-        self.values = self.start;
+        self.values.clone_from(&self.start);
         self.inputs = InputCourse::HELD;
         self.mode = Mode::Instantiated;
         self.stop_s = None;

@@ -166,10 +166,9 @@ impl Roles {
     }
 }
 
-/// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
-pub(crate) type Values = [f64; VALUE_COUNT];
+pub(crate) use crate::values::Values;
 
-/// Number of values.
+/// Number of values, beside what the joint's laws remember.
 pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 6;
 
 /// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
@@ -353,6 +352,7 @@ impl Variables {
 
     /// Start values of the model description.
     pub(crate) fn start(self) -> Values {
-        std::array::from_fn(|reference| self.get(reference).map_or(0.0, |variable| variable.start))
+        let start = |reference| self.get(reference).map_or(0.0, |variable| variable.start);
+        Values::at_rest(std::array::from_fn(start), self)
     }
 }

@@ -20,4 +20,5 @@ mod preload_table;
 mod refusal;
 mod resources;
 mod start_file;
+mod values;
 mod version;

@@ -158,6 +158,12 @@ pub(crate) enum Refusal {
         unit: &'static str,
         found: f64,
     },
+    /// A parameter is outside of the range of its law.
+    OutsideLaw {
+        name: String,
+        found: f64,
+        expected: String,
+    },
     /// A parameter that the dynamics cannot use.
     NotUsable,
     /// The longest Runge–Kutta step is not positive.

@@ -75,7 +75,7 @@ impl Joints {
     pub fn of_memory_laws(laws: &[Declaration]) -> Vec<(&'static str, Self)> {
         let places = laws.iter().enumerate();
         places
-            .filter(|(_, law)| !law.memory.is_empty())
+            .filter(|(_, law)| law.remembers())
             .map(|(place, law)| (law.name, Self::with_memory_of(place)))
             .collect()
     }
@@ -83,10 +83,10 @@ impl Joints {
     /// The joints that have the parameters of the law at this place: its own where it remembers, else all but those over the
     /// preload.
     pub(crate) fn of_law(law: usize, laws: &[Declaration]) -> Self {
-        if laws[law].memory.is_empty() {
-            Self::CONSTANT.with(Self::MEMORY)
-        } else {
+        if laws[law].remembers() {
             Self::with_memory_of(law)
+        } else {
+            Self::CONSTANT.with(Self::MEMORY)
         }
     }
 

@@ -26,7 +26,7 @@ const SLIDER: Declaration = Declaration {
             symbol: "slip_force",
             key: "slip_force",
             span: Span::Dof,
-            unit: UnitRule {
+            unit: UnitRule::LoadPer {
                 displacement: 0,
                 seconds: 0,
             },
@@ -43,7 +43,7 @@ const SLIDER: Declaration = Declaration {
             symbol: "q",
             key: "quadratic",
             span: Span::Matrix("between {motion} and {other_motion}"),
-            unit: UnitRule {
+            unit: UnitRule::LoadPer {
                 displacement: 2,
                 seconds: 1,
             },
@@ -62,6 +62,7 @@ const SLIDER: Declaration = Declaration {
         quantity: RememberedAs::Displacement,
         description: "Where the slider stands in {motion}",
     }],
+    hidden_memory: 3,
 };
 
 /// The project's DOFs, another translation, and one with the displacement's name of the first but another rate and load.

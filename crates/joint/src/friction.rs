@@ -3,8 +3,10 @@
 use std::fmt;
 
 use bolted_joint_dynamics::{
-    Dof, Polynomial,
-    law::{DECLARATIONS, Declaration, Law, Parameter},
+    Dof, DofLaws, Polynomial,
+    law::{
+        DECLARATIONS, DOF_PARAMETER_COUNT, Declaration, Law, Outside, Parameter, dof_parameters,
+    },
 };
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
@@ -46,6 +48,19 @@ impl Friction {
         self.keyed()
             .find(|(key, _)| *key == parameter.key)
             .map(|(_, value)| value)
+    }
+
+    /// The first parameter that is outside of the range of the law.
+    pub(super) fn outside(&self) -> Option<Outside> {
+        let mut parameters = [0.0; DOF_PARAMETER_COUNT];
+        for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
+            if law.name == self.law.name {
+                *own = self.value(parameter).unwrap_or(0.0);
+            }
+        }
+        DofLaws::new(parameters)
+            .outside()
+            .map(|(_, outside)| outside)
     }
 
     /// Each parameter's key with its value.

@@ -147,7 +147,7 @@ impl Joint {
     #[must_use]
     pub fn laws_with_memory(&self) -> Vec<&'static str> {
         Friction::laws()
-            .filter(|law| !law.memory.is_empty())
+            .filter(|law| law.remembers())
             .filter(|law| self.friction.iter().any(|own| own.law.name == law.name))
             .map(|law| law.name)
             .collect()

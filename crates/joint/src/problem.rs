@@ -78,6 +78,16 @@ pub enum JointProblem {
         /// Name of the DOF.
         dof: &'static str,
     },
+    /// A parameter that is outside of the range of its law, in which alone the law takes energy.
+    #[error("{path}: found {found:?}, expected {expected}")]
+    OutsideLaw {
+        /// Path of the parameter.
+        path: String,
+        /// The parameter.
+        found: f64,
+        /// What the law takes.
+        expected: String,
+    },
     /// An amplitude that is not positive.
     #[error("{path}: found {found:?}, expected an amplitude greater than zero")]
     Amplitude {

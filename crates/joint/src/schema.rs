@@ -6,7 +6,7 @@ use std::{env, fs, path::Path};
 
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, DofKind,
-    law::{Declaration, Parameter, Range, Term},
+    law::{Declaration, Parameter, Range, Term, UnitRule},
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
@@ -140,9 +140,10 @@ fn kinds() -> [DofKind; 2] {
 
 /// Units of a parameter in translation and in rotation.
 fn units(parameter: &Parameter) -> String {
-    kinds()
-        .map(|kind| unit(parameter.unit, kind, kind))
-        .join(" and ")
+    match parameter.unit {
+        UnitRule::One => "no unit".to_owned(),
+        rule => kinds().map(|kind| unit(rule, kind, kind)).join(" and "),
+    }
 }
 
 /// A list with a number for each DOF.

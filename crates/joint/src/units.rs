@@ -5,18 +5,27 @@ use bolted_joint_dynamics::{
     law::{Parameter, UnitRule},
 };
 
-/// The unit of a parameter between the load on a DOF of one kind and the motion of one of the other, such as `N·m·s/rad³`.
+/// The unit of a parameter between the load on a DOF of one kind and the motion of one of the other, such as `N·m·s/rad³`; `1`
+/// for a number without one.
 #[must_use]
 pub fn unit(rule: UnitRule, load: DofKind, motion: DofKind) -> String {
+    let (displacement, seconds) = match rule {
+        UnitRule::LoadPer {
+            displacement,
+            seconds,
+        } => (displacement, seconds),
+        UnitRule::Rate => return format!("{}/s", motion.displacement_unit()),
+        UnitRule::One => return "1".to_owned(),
+    };
     let mut unit = unit_for_people(load.load_unit());
-    if rule.seconds > 0 {
+    if seconds > 0 {
         unit += "·s";
-        unit += &superscript(rule.seconds);
+        unit += &superscript(seconds);
     }
-    if rule.displacement > 0 {
+    if displacement > 0 {
         unit += "/";
         unit += motion.displacement_unit();
-        unit += &superscript(rule.displacement);
+        unit += &superscript(displacement);
     }
     unit
 }
@@ -77,7 +86,7 @@ mod tests {
     #[test]
     fn units_are_written_as_people_do() {
         let of = |displacement, seconds, load, motion| {
-            let rule = UnitRule {
+            let rule = UnitRule::LoadPer {
                 displacement,
                 seconds,
             };
@@ -88,6 +97,8 @@ mod tests {
         assert_eq!(of(5, 1, Rotation, Rotation), "N·m·s/rad⁵");
         assert_eq!(of(11, 0, Translation, Translation), "N/m¹¹");
         assert_eq!(of(0, 0, Translation, Translation), "N");
+        assert_eq!(unit(UnitRule::Rate, Rotation, Rotation), "rad/s");
+        assert_eq!(unit(UnitRule::One, Rotation, Rotation), "1");
         assert_eq!(unit_for_people("kg.m2"), "kg·m²");
         assert_eq!(with_symbols("k_ytheta"), "k_yθ");
     }

@@ -151,6 +151,7 @@ impl Check {
                 self.problems
                     .push(JointProblem::LawTwice { path, law, dof });
             }
+            let before = self.problems.len();
             for (parameter, &found) in own.law.parameters.iter().zip(&own.parameters) {
                 let path = format!("{path}.{}", parameter.key);
                 match parameter.range {
@@ -158,6 +159,16 @@ impl Check {
                     Range::Any => self.problems.push(JointProblem::NotFinite { path, found }),
                     Range::NotNegative => self.magnitude(&path, found, "a number"),
                 }
+            }
+            if self.problems.len() == before
+                && let Some(outside) = own.outside()
+                && let Some(parameter) = own.law.parameters.get(outside.parameter)
+            {
+                self.problems.push(JointProblem::OutsideLaw {
+                    path: format!("{path}.{}", parameter.key),
+                    found: own.value(parameter).unwrap_or(f64::NAN),
+                    expected: outside.expected,
+                });
             }
         }
     }

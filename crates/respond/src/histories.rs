@@ -146,7 +146,7 @@ pub(super) fn history<const D: usize>(
         for part in 0..parts.get() {
             let at = begin + f64::from(part) * step;
             let loads = [last, load_at(at + 0.5 * step), load_at(at + step)];
-            moment = stepper.step(&moment, &loads, step);
+            stepper.step(&mut moment, &loads, step);
             larger(&mut largest, &moment.state);
             last = loads[2];
         }
@@ -212,7 +212,7 @@ impl SteppedSine<'_> {
                         }
                     }
                     let loads = [all[2 * n], all[2 * n + 1], all[2 * n + 2]];
-                    moment = stepper.step(&moment, &loads, period / steps as f64);
+                    stepper.step(&mut moment, &loads, period / steps as f64);
                     larger(&mut largest, &moment.state);
                 }
                 time += period;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::{JointLaw, JointMemory, Motion};
+use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, law::DOF_AT_REST};
 
 use super::answer::Answer;
 
@@ -25,7 +25,7 @@ pub(super) struct Loop {
 impl Loop {
     /// Rows of displacement, load on side b, and heat since the loop began, once around from the largest displacement.
     pub(super) fn answer<const D: usize>(&self, law: &JointLaw<D>) -> Answer<D> {
-        let mut memory = JointMemory::REST;
+        let mut memory: JointMemory<D> = [DOF_AT_REST; D];
         // from rest to the largest displacement
         for point in 0..=POINTS / 4 {
             self.go(law, &mut memory, point as f64 - POINTS as f64 / 4.0);
@@ -83,7 +83,7 @@ impl Loop {
         // r = U cos τ, ṙ = −ωU sin τ
         motion.displacement[self.dof] = self.amplitude * cos;
         motion.velocity[self.dof] = -self.omega.unwrap_or(0.0) * self.amplitude * sin;
-        let slid_j = law.commit(memory, &motion.displacement);
+        let slid_j = law.commit(memory, &motion);
         (motion, slid_j)
     }
 }

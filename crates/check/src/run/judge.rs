@@ -1,6 +1,6 @@
 //! What the values of a run say about the FMU: energy balance, load law, derivatives.
 
-use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, with_dofs};
+use bolted_joint_dynamics::{DOF_AT_REST, JointLaw, JointMemory, Motion, with_dofs};
 
 use super::balance::{BalanceReport, Integral};
 use super::excitation::Excitation;
@@ -103,7 +103,7 @@ fn load_finding_of<const D: usize>(
     samples: &[Sample<'_>],
 ) -> Option<String> {
     let expected = Expected::<D>::of(joint)?;
-    let mut memory = JointMemory::REST;
+    let mut memory = [DOF_AT_REST; D];
     for (index, sample) in samples.iter().enumerate() {
         let all = [
             sample.displacements,
@@ -120,7 +120,7 @@ fn load_finding_of<const D: usize>(
         let relative = relative(sample.displacements, sample.velocities);
         let (loads, sizes) = expected.loads(&memory, &relative);
         // a step ends at each communication point
-        expected.law.commit(&mut memory, &relative.displacement);
+        expected.law.commit(&mut memory, &relative);
         for (i, dof) in joint.dofs.rows().enumerate() {
             let (name, expected) = (dof.load, loads[i]);
             let mut found = vec![("joint", sample.joint[i])];

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::alike::alike;
-use crate::law::{JointMemory, Linear, Polynomial};
+use crate::law::{Linear, Polynomial};
 
 fn decoupled(support_stiffness: f64, support_damping: f64) -> Lap<1> {
     let bodies = [[2.0], [support_stiffness], [support_damping]];
@@ -271,21 +271,21 @@ fn what_the_dampers_take_is_missing_from_the_energy() {
     let loads = LapLoads { a: [0.0], b: [0.0] };
     let mut state = LapState::REST;
     state.a.displacement[0] = 5e-3;
-    let start_j = lap.stored_energy(&JointMemory::REST, &state);
+    let start_j = lap.stored_energy(&[crate::law::DOF_AT_REST; 1], &state);
     let step_s = 1e-5;
     let mut lost_j = 0.0;
     for _ in 0..20_000 {
         // Boole's rule over one step, from five states
         let mut power = [0.0; 5];
-        power[0] = lap.dissipated_power(&JointMemory::REST, &state);
+        power[0] = lap.dissipated_power(&[crate::law::DOF_AT_REST; 1], &state);
         for watt in &mut power[1..] {
             state = integrator.advance(&state, &loads, step_s / 4.0, NonZeroU32::MIN);
-            *watt = lap.dissipated_power(&JointMemory::REST, &state);
+            *watt = lap.dissipated_power(&[crate::law::DOF_AT_REST; 1], &state);
         }
         let weighted = 7.0 * (power[0] + power[4]) + 32.0 * (power[1] + power[3]) + 12.0 * power[2];
         lost_j += step_s * weighted / 90.0;
     }
-    let end_j = lap.stored_energy(&JointMemory::REST, &state);
+    let end_j = lap.stored_energy(&[crate::law::DOF_AT_REST; 1], &state);
     assert!(lost_j > 0.1 * start_j, "{lost_j} of {start_j}");
     let balance = (start_j - end_j - lost_j) / start_j;
     assert!(balance.abs() < 1e-11, "{balance:e}");

@@ -9,8 +9,34 @@ pub struct Declaration {
     pub summary: &'static str,
     /// Its parameters, in the order in which it takes them.
     pub parameters: &'static [Parameter],
-    /// What it remembers of the motion, in the order in which it gives it; nothing for a law without memory.
+    /// What it remembers of the motion that is a variable, in the order in which it gives it; nothing for a law without memory.
     pub memory: &'static [Remembered],
+    /// Number of numbers that it remembers behind those, and that are no variables: part of the state, and nothing that
+    /// people would look at.
+    pub hidden_memory: usize,
+}
+
+impl Declaration {
+    /// Number of numbers that it remembers.
+    #[must_use]
+    pub const fn memory_count(&self) -> usize {
+        self.memory.len() + self.hidden_memory
+    }
+
+    /// Whether it remembers anything.
+    #[must_use]
+    pub const fn remembers(&self) -> bool {
+        self.memory_count() > 0
+    }
+}
+
+/// A parameter that is outside of its law's range.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outside {
+    /// Place of the parameter in the law's declaration.
+    pub parameter: usize,
+    /// What the law takes there, for people.
+    pub expected: String,
 }
 
 /// One parameter of a law, on each DOF or between each two.
@@ -44,13 +70,31 @@ pub enum Span {
     Matrix(&'static str),
 }
 
-/// Unit of a parameter: load · s^`seconds` / displacement^`displacement`.
+/// Unit of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnitRule {
-    /// Power of the displacement by which the load is divided; of a pair, the second DOF's displacement is the divisor.
-    pub displacement: u8,
-    /// Power of the time by which it is multiplied.
-    pub seconds: u8,
+pub enum UnitRule {
+    /// load · s^`seconds` / displacement^`displacement`.
+    LoadPer {
+        /// Power of the displacement by which the load is divided; of a pair, the second DOF's displacement is the divisor.
+        displacement: u8,
+        /// Power of the time by which it is multiplied.
+        seconds: u8,
+    },
+    /// displacement / s.
+    Rate,
+    /// None: a number.
+    One,
+}
+
+impl UnitRule {
+    /// Power of the displacement by which the load is divided; zero where it is no load.
+    #[must_use]
+    pub const fn displacement(self) -> u8 {
+        match self {
+            Self::LoadPer { displacement, .. } => displacement,
+            Self::Rate | Self::One => 0,
+        }
+    }
 }
 
 /// Values that a parameter can have.

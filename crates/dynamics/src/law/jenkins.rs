@@ -12,7 +12,7 @@ const PARAMETER: Parameter = Parameter {
     symbol: "jenkins_k",
     key: "stiffness",
     span: Span::Dof,
-    unit: UnitRule {
+    unit: UnitRule::LoadPer {
         displacement: 1,
         seconds: 0,
     },
@@ -43,9 +43,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// let element = Jenkins { stiffness: 1e6, slip_force: 100.0 };
 /// let mut slider = [0.0];
-/// let mut heat = element.commit(&mut slider, 3e-4);
+/// let mut heat = element.commit(&mut slider, 3e-4, 0.0);
 /// assert!((element.load(&slider, 3e-4, 0.0) - 100.0).abs() < 1e-9);
-/// heat += element.commit(&mut slider, -3e-4) + element.commit(&mut slider, 3e-4);
+/// heat += element.commit(&mut slider, -3e-4, 0.0) + element.commit(&mut slider, 3e-4, 0.0);
 /// // h(X − h/k) on the first way, twice that on each from end to end: h = 100 N, X = 0.3 mm, h/k = 0.1 mm
 /// assert!((heat - 5.0 * 100.0 * 2e-4).abs() < 1e-12);
 /// ```
@@ -89,7 +89,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
             Parameter {
                 symbol: "jenkins_h",
                 key: "slip_force",
-                unit: UnitRule {
+                unit: UnitRule::LoadPer {
                     displacement: 0,
                     seconds: 0,
                 },
@@ -107,6 +107,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
             quantity: RememberedAs::Displacement,
             description: "Relative {motion} at which the joint's elastic slider is without load, as of the last step",
         }],
+        hidden_memory: 0,
     };
 
     #[inline]
@@ -155,7 +156,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64) -> f64 {
+    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
         let (Bearing::Slips(sign), [slider, ..]) = (self.bearing(memory, N::from(r)), &mut *memory)
         else {
             return 0.0;
@@ -189,7 +190,7 @@ mod tests {
         for index in 0..2 * count {
             let r = amplitude * (TAU * index as f64 / count as f64).cos();
             let load = law.load(&memory, r, 0.0);
-            let of_step = law.commit(&mut memory, r);
+            let of_step = law.commit(&mut memory, r, 0.0);
             if index >= count {
                 loads.push(load);
                 heat += of_step;
@@ -272,7 +273,7 @@ mod tests {
             };
             for stop in stops {
                 let before = law.load(&memory, r, 0.0);
-                let of_step = law.commit(&mut memory, stop);
+                let of_step = law.commit(&mut memory, stop, 0.0);
                 assert!(of_step >= 0.0);
                 work += 0.5 * (before + law.load(&memory, stop, 0.0)) * (stop - r);
                 heat += of_step;
@@ -291,11 +292,11 @@ mod tests {
         };
         let mut memory = [0.0];
         for r in [5.0, 3.0] {
-            law.commit(&mut memory, r);
+            law.commit(&mut memory, r, 0.0);
         }
         let before = (law.load(&memory, 3.0, 0.0), memory);
         for r in [4.5, 2.5, 3.0] {
-            law.commit(&mut memory, r);
+            law.commit(&mut memory, r, 0.0);
         }
         assert_eq!((law.load(&memory, 3.0, 0.0), memory), before);
         // the power of slipping is the slip force times the rate, and none while it turns back

@@ -1,6 +1,8 @@
 //! The whole law of the massless joint: the linear one, and on each relative DOF the laws beside it.
 
-use super::{DOF_PARAMETER_COUNT, DofLaws, DofMemory, Linear, Polynomial};
+use super::{
+    DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, Linear, Outside, Polynomial,
+};
 use crate::{
     motion::Motion,
     number::{Dual, Number},
@@ -16,18 +18,7 @@ pub struct JointLaw<const D: usize, N = f64> {
 }
 
 /// What a joint remembers of its motion, on each relative DOF.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointMemory<const D: usize> {
-    /// On each relative DOF.
-    pub on: [DofMemory; D],
-}
-
-impl<const D: usize> JointMemory<D> {
-    /// Nothing has moved yet.
-    pub const REST: Self = Self {
-        on: [DofMemory::REST; D],
-    };
-}
+pub type JointMemory<const D: usize> = [DofMemory; D];
 
 impl<const D: usize> From<Linear<D>> for JointLaw<D> {
     /// The linear law alone.
@@ -62,7 +53,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     #[inline]
     #[must_use]
     pub fn load_on_b(&self, relative: &Motion<D, N>) -> [N; D] {
-        self.load_on_b_after(&JointMemory::REST, relative)
+        self.load_on_b_after(&const { [DOF_AT_REST; D] }, relative)
     }
 
     /// The same of a joint that remembers `memory`.
@@ -76,7 +67,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
                 return linear[i];
             }
             let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
-            linear[i] + self.on[i].load(&memory.on[i], r, velocity)
+            linear[i] + self.on[i].load(&memory[i], r, velocity)
         })
     }
 
@@ -84,7 +75,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     #[inline]
     #[must_use]
     pub fn stored_energy(&self, r: &[N; D]) -> N {
-        self.stored_energy_after(&JointMemory::REST, r)
+        self.stored_energy_after(&const { [DOF_AT_REST; D] }, r)
     }
 
     /// The same of a joint that remembers `memory`.
@@ -95,7 +86,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
             if self.on[i].are_none() {
                 return sum;
             }
-            sum + self.on[i].stored_energy(&memory.on[i], r[i])
+            sum + self.on[i].stored_energy(&memory[i], r[i])
         })
     }
 
@@ -103,7 +94,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     #[inline]
     #[must_use]
     pub fn dissipated_power(&self, relative: &Motion<D, N>) -> N {
-        self.dissipated_power_after(&JointMemory::REST, relative)
+        self.dissipated_power_after(&const { [DOF_AT_REST; D] }, relative)
     }
 
     /// The same of a joint that remembers `memory`.
@@ -116,7 +107,7 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
                 return sum;
             }
             let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
-            sum + self.on[i].dissipated_power(&memory.on[i], r, velocity)
+            sum + self.on[i].dissipated_power(&memory[i], r, velocity)
         })
     }
 
@@ -193,12 +184,26 @@ impl<const D: usize> JointLaw<D> {
         Self::each([self], |[coefficient]| factor * coefficient)
     }
 
-    /// Moves what the joint remembers on to the relative displacement r (m, rad); returns the heat of that way, J, beside
-    /// that of dampers.
-    pub fn commit(&self, memory: &mut JointMemory<D>, r: &[f64; D]) -> f64 {
+    /// Moves what the joint remembers on to the relative motion; returns the heat of that way, J, beside that of dampers.
+    pub fn commit(&self, memory: &mut JointMemory<D>, relative: &Motion<D>) -> f64 {
         (0..D).fold(0.0, |heat, i| {
-            heat + self.on[i].commit(&mut memory.on[i], r[i])
+            let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+            heat + self.on[i].commit(&mut memory[i], r, velocity)
         })
+    }
+
+    /// Copies what the joint's own laws remember, and nothing else.
+    pub fn copy_memory(&self, from: &JointMemory<D>, to: &mut JointMemory<D>) {
+        for i in 0..D {
+            self.on[i].copy_memory(&from[i], &mut to[i]);
+        }
+    }
+
+    /// The first parameter that is outside of the range of its law, with the index of its DOF.
+    #[must_use]
+    pub fn outside(&self) -> Option<(usize, &'static Declaration, Outside)> {
+        let mut on = self.on.iter().enumerate();
+        on.find_map(|(i, laws)| laws.outside().map(|(law, outside)| (i, law, outside)))
     }
 
     /// The polynomial law on each relative DOF.
@@ -219,7 +224,7 @@ impl<const D: usize> JointLaw<D> {
             // ∂f/∂r and ∂f/∂ṙ at rest there
             let laws = DofLaws::new(self.on[i].parameters().map(Dual::<2>::from));
             let (r, velocity) = (Dual::along(displacement[i], 0), Dual::along(0.0, 1));
-            let [stiffness, damping] = laws.load(&DofMemory::REST, r, velocity).change;
+            let [stiffness, damping] = laws.load(&DOF_AT_REST, r, velocity).change;
             linear.stiffness[i][i] += stiffness;
             linear.damping[i][i] += damping;
         }

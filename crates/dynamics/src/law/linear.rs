@@ -18,7 +18,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             span: Span::Matrix(
                 "Stiffness of the joint: {load} per relative {other_motion}, and {other_load} per relative {motion}",
             ),
-            unit: UnitRule {
+            unit: UnitRule::LoadPer {
                 displacement: 1,
                 seconds: 0,
             },
@@ -37,7 +37,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             span: Span::Matrix(
                 "Damping of the joint: {load} per relative {other_rate}, and {other_load} per relative {rate}",
             ),
-            unit: UnitRule {
+            unit: UnitRule::LoadPer {
                 displacement: 1,
                 seconds: 1,
             },
@@ -52,6 +52,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
     ],
     memory: &[],
+    hidden_memory: 0,
 };
 
 /// What it says of the stiffness.

@@ -4,15 +4,20 @@
 //! A new law is a file here and a line in `dof_laws!` below.
 
 mod declaration;
+mod iwan;
 mod jenkins;
 mod joint;
 mod linear;
 mod over_preload;
 mod polynomial;
+#[cfg(test)]
+mod trials;
 
 pub use declaration::{
-    ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
+    ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+    UnitRule,
 };
+pub use iwan::{Iwan, REVERSALS_MAX};
 pub use jenkins::Jenkins;
 pub use joint::{JointLaw, JointMemory};
 pub use linear::{DAMPING, Linear, STIFFNESS};
@@ -23,7 +28,7 @@ use crate::number::Number;
 
 /// A law of the relative motion of one DOF, which acts beside the linear one.
 ///
-/// `memory` is what the law remembers since its last commit, [`Declaration::memory`] numbers, all zero before the first
+/// `memory` is what the law remembers since its last commit, [`Declaration::memory_count`] numbers, all zero before the first
 /// motion. Loads and energies are those of a trial motion from there and leave it as it is; only [`Law::commit`] moves on.
 pub trait Law<N: Number>: Copy {
     /// What the law says of itself.
@@ -44,9 +49,15 @@ pub trait Law<N: Number>: Copy {
     /// Power that it turns into heat, W.
     fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N;
 
-    /// Moves what it remembers on to the relative displacement r; returns the heat of that way (J) beside that of dampers.
-    fn commit(&self, _memory: &mut [f64], _r: f64) -> f64 {
+    /// Moves what it remembers on to the relative displacement r (m, rad) and its rate; returns the heat of that way (J) beside
+    /// that of dampers.
+    fn commit(&self, _memory: &mut [f64], _r: f64, _velocity: f64) -> f64 {
         0.0
+    }
+
+    /// The first of its parameters that is outside of the law's range, such that it is not passive or gives no load.
+    fn outside(&self) -> Option<Outside> {
+        None
     }
 
     /// Relative displacement (m, rad) at which it is no longer small beside the linear stiffness `_k` and damping `_c` of its
@@ -74,7 +85,7 @@ impl Place {
         let ([_, parameters], [_, memory]) = (self.parameters, self.memory);
         Self {
             parameters: [parameters, parameters + declaration.parameters.len()],
-            memory: [memory, memory + declaration.memory.len()],
+            memory: [memory, memory + declaration.memory_count()],
         }
     }
 }
@@ -119,7 +130,7 @@ macro_rules! dof_laws {
             pub fn load(&self, memory: &DofMemory, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().load(memory.of(PLACES.$name), r, velocity);
+                    sum = sum + self.$name().load(part(memory, PLACES.$name), r, velocity);
                 })+
                 sum
             }
@@ -130,7 +141,7 @@ macro_rules! dof_laws {
             pub fn stored_energy(&self, memory: &DofMemory, r: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().stored_energy(memory.of(PLACES.$name), r);
+                    sum = sum + self.$name().stored_energy(part(memory, PLACES.$name), r);
                 })+
                 sum
             }
@@ -141,7 +152,7 @@ macro_rules! dof_laws {
             pub fn dissipated_power(&self, memory: &DofMemory, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().dissipated_power(memory.of(PLACES.$name), r, velocity);
+                    sum = sum + self.$name().dissipated_power(part(memory, PLACES.$name), r, velocity);
                 })+
                 sum
             }
@@ -166,14 +177,36 @@ macro_rules! dof_laws {
         }
 
         impl DofLaws {
-            /// Moves what is remembered on to the relative displacement r (m, rad); returns the heat of that way, J, beside
-            /// that of dampers.
-            pub fn commit(&self, memory: &mut DofMemory, r: f64) -> f64 {
+            /// Moves what is remembered on to the relative displacement r (m, rad) and its rate; returns the heat of that way,
+            /// J, beside that of dampers.
+            pub fn commit(&self, memory: &mut DofMemory, r: f64, velocity: f64) -> f64 {
                 let mut heat = 0.0;
-                $(if self.has(PLACES.$name) {
-                    heat += self.$name().commit(memory.of_mut(PLACES.$name), r);
+                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    heat += self.$name().commit(part_mut(memory, PLACES.$name), r, velocity);
                 })+
                 heat
+            }
+
+            /// Copies what the laws that are there remember, and nothing else.
+            pub fn copy_memory(&self, from: &DofMemory, to: &mut DofMemory) {
+                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    part_mut(to, PLACES.$name).copy_from_slice(part(from, PLACES.$name));
+                })+
+            }
+
+            /// The first parameter that is outside of the range of its law, if one is.
+            #[must_use]
+            pub fn outside(&self) -> Option<(&'static Declaration, Outside)> {
+                let mut laws = DECLARATIONS.iter().skip(1);
+                $(
+                    let declaration = laws.next()?;
+                    if self.has(PLACES.$name)
+                        && let Some(outside) = self.$name().outside()
+                    {
+                        return Some((declaration, outside));
+                    }
+                )+
+                None
             }
 
             /// Relative displacement (m, rad) at which the first of the laws is no longer small beside the linear stiffness `k`
@@ -204,10 +237,26 @@ macro_rules! dof_laws {
 dof_laws! {
     polynomial: Polynomial,
     jenkins: Jenkins,
+    iwan: Iwan,
 }
 
 /// Number of parameters that the laws have on each DOF.
 pub const DOF_PARAMETER_COUNT: usize = PLACES.end.parameters[1];
+
+/// Number of the first of those, of laws that remember nothing: they stand before all others.
+pub const FORGETFUL_PARAMETER_COUNT: usize = {
+    let mut count = 0;
+    let mut law = 1;
+    while law < DECLARATIONS.len() && !DECLARATIONS[law].remembers() {
+        count += DECLARATIONS[law].parameters.len();
+        law += 1;
+    }
+    while law < DECLARATIONS.len() {
+        assert!(DECLARATIONS[law].remembers());
+        law += 1;
+    }
+    count
+};
 
 /// What the laws on each DOF declare of their parameters, each with its law, in the order of [`DofLaws::parameters`].
 pub fn dof_parameters() -> impl Iterator<Item = (&'static Declaration, &'static Parameter)> {
@@ -224,10 +273,35 @@ pub struct DofLaws<N = f64> {
     parameters: [N; DOF_PARAMETER_COUNT],
 }
 
-/// What the laws on one relative DOF remember, in the order of [`DECLARATIONS`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DofMemory {
-    numbers: [f64; DOF_MEMORY_COUNT],
+/// What the laws on one relative DOF remember, in the order of [`DECLARATIONS`]: of each law first what is a variable.
+pub type DofMemory = [f64; DOF_MEMORY_COUNT];
+
+/// Nothing has moved yet.
+pub const DOF_AT_REST: DofMemory = [0.0; DOF_MEMORY_COUNT];
+
+/// Places in [`DofMemory`] of the numbers that are variables, with what is declared of each, in the order of [`DECLARATIONS`].
+pub fn remembered() -> impl Iterator<Item = (usize, &'static Remembered)> {
+    let mut start = 0;
+    DECLARATIONS.iter().flat_map(move |law| {
+        let first = start;
+        start += law.memory_count();
+        law.memory
+            .iter()
+            .enumerate()
+            .map(move |(place, own)| (first + place, own))
+    })
+}
+
+#[inline]
+fn part(memory: &DofMemory, place: Place) -> &[f64] {
+    let [start, end] = place.memory;
+    &memory[start..end]
+}
+
+#[inline]
+fn part_mut(memory: &mut DofMemory, place: Place) -> &mut [f64] {
+    let [start, end] = place.memory;
+    &mut memory[start..end]
 }
 
 impl<N: Number> DofLaws<N> {
@@ -278,38 +352,5 @@ impl<N: Number> DofLaws<N> {
     #[inline]
     fn has(&self, place: Place) -> bool {
         !self.of(place).iter().all(|parameter| parameter.is_zero())
-    }
-}
-
-impl DofMemory {
-    /// Nothing has moved yet.
-    pub const REST: Self = Self {
-        numbers: [0.0; DOF_MEMORY_COUNT],
-    };
-
-    /// What is remembered, as numbers in the order of [`DECLARATIONS`].
-    #[inline]
-    #[must_use]
-    pub const fn new(numbers: [f64; DOF_MEMORY_COUNT]) -> Self {
-        Self { numbers }
-    }
-
-    /// The numbers themselves.
-    #[inline]
-    #[must_use]
-    pub const fn numbers(&self) -> &[f64; DOF_MEMORY_COUNT] {
-        &self.numbers
-    }
-
-    #[inline]
-    fn of(&self, place: Place) -> &[f64] {
-        let [start, end] = place.memory;
-        &self.numbers[start..end]
-    }
-
-    #[inline]
-    fn of_mut(&mut self, place: Place) -> &mut [f64] {
-        let [start, end] = place.memory;
-        &mut self.numbers[start..end]
     }
 }

@@ -21,7 +21,7 @@ const SPRING: Parameter = Parameter {
     symbol: "",
     key: "",
     span: Span::Dof,
-    unit: UnitRule {
+    unit: UnitRule::LoadPer {
         displacement: 0,
         seconds: 0,
     },
@@ -46,7 +46,7 @@ const SPRINGS: [Parameter; 3] = [
     Parameter {
         symbol: "k3",
         key: "cubic",
-        unit: UnitRule {
+        unit: UnitRule::LoadPer {
             displacement: 3,
             seconds: 0,
         },
@@ -61,7 +61,7 @@ const SPRINGS: [Parameter; 3] = [
     Parameter {
         symbol: "k5",
         key: "quintic",
-        unit: UnitRule {
+        unit: UnitRule::LoadPer {
             displacement: 5,
             seconds: 0,
         },
@@ -76,7 +76,7 @@ const SPRINGS: [Parameter; 3] = [
     Parameter {
         symbol: "k7",
         key: "septic",
-        unit: UnitRule {
+        unit: UnitRule::LoadPer {
             displacement: 7,
             seconds: 0,
         },
@@ -95,7 +95,7 @@ const DAMPERS: [Parameter; 2] = [
     Parameter {
         symbol: "c2",
         key: "damping_quadratic",
-        unit: UnitRule {
+        unit: UnitRule::LoadPer {
             displacement: 3,
             seconds: 1,
         },
@@ -110,7 +110,7 @@ const DAMPERS: [Parameter; 2] = [
     Parameter {
         symbol: "c4",
         key: "damping_quartic",
-        unit: UnitRule {
+        unit: UnitRule::LoadPer {
             displacement: 5,
             seconds: 1,
         },
@@ -244,6 +244,7 @@ impl<N: Number> Law<N> for Polynomial<N> {
         summary: "Springs and dampers that are powers of the relative displacement",
         parameters: &PARAMETERS,
         memory: &[],
+        hidden_memory: 0,
     };
 
     #[inline]
@@ -449,7 +450,7 @@ mod tests {
     #[test]
     fn the_powers_of_the_terms_are_those_of_their_units() {
         for (j, spring) in SPRINGS.iter().enumerate() {
-            assert_eq!(usize::from(spring.unit.displacement), 2 * j + 3);
+            assert_eq!(usize::from(spring.unit.displacement()), 2 * j + 3);
             let mut alone = Polynomial::<f64>::NONE;
             alone.springs[j] = 1.0;
             let expected = 1.5_f64.powi(2 * j as i32 + 3);
@@ -457,7 +458,7 @@ mod tests {
         }
         for (j, damper) in DAMPERS.iter().enumerate() {
             // c r^(2j+2) ṙ: one more displacement is in the velocity
-            assert_eq!(usize::from(damper.unit.displacement), 2 * j + 3);
+            assert_eq!(usize::from(damper.unit.displacement()), 2 * j + 3);
             let mut alone = Polynomial::<f64>::NONE;
             alone.dampers[j] = 1.0;
             let expected = 7.0 * 1.5_f64.powi(2 * j as i32 + 2);

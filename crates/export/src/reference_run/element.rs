@@ -1,6 +1,6 @@
 //! The reference run of an element: motions of both sides, held at levels, and the loads in the middle of each level.
 
-use bolted_joint_dynamics::{JointMemory, Motion};
+use bolted_joint_dynamics::{DOF_AT_REST, JointMemory, Motion};
 
 use super::{LOAD, Laws, Names, ReferenceRun, entry, of_motions, remembered, stimulus, table};
 use crate::ExportError;
@@ -96,7 +96,7 @@ fn committed<const D: usize>(
     sides: &[[Motion<D>; 2]],
     step_s: f64,
 ) -> Vec<Committed<D>> {
-    let mut memory = JointMemory::REST;
+    let mut memory = [DOF_AT_REST; D];
     let (mut dissipated_j, mut power_before) = (0.0, None);
     sides
         .iter()
@@ -107,7 +107,7 @@ fn committed<const D: usize>(
             // dampers by the trapezoidal rule from commit to commit
             let mut commit = |memory: &mut JointMemory<D>| {
                 let since_s = power_before.map_or(0.0, |before| 0.5 * step_s * (before + power));
-                dissipated_j += law.commit(memory, &relative.displacement) + since_s;
+                dissipated_j += law.commit(memory, &relative) + since_s;
                 power_before = Some(power);
                 dissipated_j
             };

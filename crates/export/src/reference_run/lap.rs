@@ -3,7 +3,8 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, Lap, LapConditions, LapIntegrator, LapLoads, substeps,
+    CountedState, DOF_AT_REST, JointLaw, JointMemory, Lap, LapConditions, LapIntegrator, LapLoads,
+    substeps,
 };
 
 use bolted_joint_joint::DofSet;
@@ -69,17 +70,17 @@ pub(super) fn run<const D: usize>(
             })
         })
     });
-    let outputs = |states: Vec<CountedState<D>>| {
+    let outputs = |states: Vec<Moment<D>>| {
         let levels = &levels;
         let rows = states
             .into_iter()
             .enumerate()
             .filter(|(step, _)| laws.tells(*step))
-            .map(|(step, counted)| {
+            .map(|(step, moment)| {
                 let level = step.saturating_sub(1) / STEPS_A_LEVEL;
                 let conditions = system.conditions(level, &levels[level]);
                 (time(step), move |name: &str| {
-                    output(&conditions, &counted, dofs, name)
+                    output(&conditions, &moment, dofs, name)
                 })
             });
         table(names.outputs.clone(), rows)
@@ -105,14 +106,17 @@ pub(super) fn run<const D: usize>(
     }))
 }
 
+/// Motion and energies at a time, and what the joint remembers then.
+type Moment<const D: usize> = (CountedState<D>, JointMemory<D>);
+
 /// What goes on in the run.
 struct Course<const D: usize> {
     plan: Plan,
     levels: Vec<LapLoads<D>>,
     /// States at the communication points, by the FMU's steps.
-    of_fmu: Vec<CountedState<D>>,
+    of_fmu: Vec<Moment<D>>,
     /// The same, by far smaller ones.
-    states: Vec<CountedState<D>>,
+    states: Vec<Moment<D>>,
 }
 
 impl<const D: usize> Course<D> {
@@ -158,14 +162,9 @@ impl<const D: usize> System<'_, D> {
     }
 
     /// From communication point to communication point, from rest.
-    fn states(
-        &self,
-        levels: &[LapLoads<D>],
-        step_s: f64,
-        substeps: NonZeroU32,
-    ) -> Vec<CountedState<D>> {
-        let mut counted = CountedState::REST;
-        let mut states = vec![counted];
+    fn states(&self, levels: &[LapLoads<D>], step_s: f64, substeps: NonZeroU32) -> Vec<Moment<D>> {
+        let (mut counted, mut memory) = (CountedState::REST, [DOF_AT_REST; D]);
+        let mut states = vec![(counted, memory)];
         let plain = LapIntegrator::new(self.lap);
         for (level, loads) in levels.iter().enumerate() {
             let conditions = self.conditions(level, loads);
@@ -184,11 +183,16 @@ impl<const D: usize> System<'_, D> {
                     Laws::Constant(_) | Laws::Table { .. } => {
                         let length_s = step_s / f64::from(substeps.get());
                         for _ in 0..substeps.get() {
-                            counted = LapConditions::step([&conditions; 3], &counted, length_s);
+                            counted = LapConditions::step(
+                                [&conditions; 3],
+                                &counted,
+                                Some(&mut memory),
+                                length_s,
+                            );
                         }
                     }
                 }
-                states.push(counted);
+                states.push((counted, memory));
             }
         }
         states
@@ -244,10 +248,10 @@ impl Plan {
         system: &System<'_, D>,
         levels: &[LapLoads<D>],
         refinement: NonZeroU32,
-    ) -> Option<Vec<CountedState<D>>> {
+    ) -> Option<Vec<Moment<D>>> {
         let substeps = self.substeps.checked_mul(refinement)?;
         let states = system.states(levels, self.step_s, substeps);
-        let last = states.last()?.state;
+        let last = states.last()?.0.state;
         let finite = [last.a, last.b].iter().all(|motion| {
             let mut values = motion.displacement.iter().chain(&motion.velocity);
             values.all(|value| value.is_finite())
@@ -277,10 +281,10 @@ fn levels_of<const D: usize>(amplitude: &[f64; D]) -> Vec<LapLoads<D>> {
 }
 
 /// Largest relative motion as a part of what is wanted.
-fn opening<const D: usize>(states: &[CountedState<D>], wanted: &[f64; D]) -> f64 {
+fn opening<const D: usize>(states: &[Moment<D>], wanted: &[f64; D]) -> f64 {
     states
         .iter()
-        .flat_map(|counted| {
+        .flat_map(|(counted, _)| {
             let relative = counted.state.a.relative_to(&counted.state.b);
             std::array::from_fn::<f64, D, _>(|i| relative.displacement[i].abs() / wanted[i])
         })
@@ -295,16 +299,12 @@ fn input<const D: usize>(loads: &LapLoads<D>, dofs: DofSet, name: &str) -> Optio
 
 fn output<const D: usize>(
     conditions: &LapConditions<D>,
-    counted: &CountedState<D>,
+    moment: &Moment<D>,
     dofs: DofSet,
     name: &str,
 ) -> Option<f64> {
     let LapConditions { lap, .. } = conditions;
-    let CountedState {
-        state,
-        memory,
-        passed,
-    } = counted;
+    let (CountedState { state, passed }, memory) = moment;
     let on_b = lap.joint.load_on_b_after(memory, &state.relative());
     match name {
         "energy.stored" => Some(lap.stored_energy(memory, state)),

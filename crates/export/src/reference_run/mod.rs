@@ -9,7 +9,8 @@ mod lap;
 mod stimulus;
 
 use bolted_joint_dynamics::{
-    Beyond, Dof, JointLaw, JointMemory, JointOverPreload, Motion, law::DECLARATIONS, with_dofs,
+    Beyond, Dof, JointLaw, JointMemory, JointOverPreload, Motion,
+    law::remembered as remembered_by_laws, with_dofs,
 };
 use bolted_joint_interface::{Interface as Declared, Role};
 
@@ -187,12 +188,10 @@ const LOAD: NameOf = |dof| dof.load;
 
 /// What the joint remembers under `name`, or `None` if it is nothing of that.
 fn remembered<const D: usize>(name: &str, dofs: DofSet, memory: &JointMemory<D>) -> Option<f64> {
-    let symbols = DECLARATIONS.iter().flat_map(|law| law.memory);
-    dofs.rows().zip(&memory.on).find_map(|(dof, own)| {
-        let place = symbols
-            .clone()
-            .position(|number| name == format!("joint.{}_{}", number.symbol, dof.name))?;
-        own.numbers().get(place).copied()
+    dofs.rows().zip(memory).find_map(|(dof, own)| {
+        let (place, _) = remembered_by_laws()
+            .find(|(_, number)| name == format!("joint.{}_{}", number.symbol, dof.name))?;
+        own.get(place).copied()
     })
 }
 

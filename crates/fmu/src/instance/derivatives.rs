@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
-    interface::{Role, Roles, VALUE_COUNT, Values, memory},
+    interface::{Role, Roles, Values, memory},
     refusal::Refusal,
 };
 
@@ -17,7 +17,7 @@ impl Instance {
         sensitivity: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
         self.check_derivative(unknowns, knowns)?;
-        let mut change = [0.0; VALUE_COUNT];
+        let mut change = Values::zero();
         for (&known, &seed) in knowns.iter().zip(seed) {
             let (index, _) = self.known(known)?;
             self.check_seed(index, seed)?;
@@ -48,7 +48,7 @@ impl Instance {
         for (&known, sensitivity) in knowns.iter().zip(sensitivity) {
             let (known, _) = self.known(known)?;
             // one column of the Jacobian
-            let mut column: Values = [0.0; VALUE_COUNT];
+            let mut column = Values::zero();
             column[known] = 1.0;
             self.differentiate(&values, unknowns, &mut column)?;
             let mut sum = 0.0;
@@ -63,7 +63,7 @@ impl Instance {
 
     /// The present point, with the rate of the preload.
     fn present(&self) -> Values {
-        let mut values = self.values;
+        let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
         values
     }

@@ -128,9 +128,9 @@ impl Instance {
             reached: None,
             turn: self.first_turn(),
             asked_s: 0.0,
-            present: self.values,
-            middle: self.values,
-            values_before: self.values,
+            present: self.values.clone(),
+            middle: self.values.clone(),
+            values_before: self.values.clone(),
             inputs_before: self.inputs,
         })
     }
@@ -195,7 +195,7 @@ impl Instance {
 
     /// Back to the beginning of the step.
     fn abandon(&mut self, step: &IntermediateStep) {
-        self.values = step.values_before;
+        self.values.clone_from(&step.values_before);
         self.inputs = step.inputs_before;
         self.outputs_stale = true;
     }
@@ -214,12 +214,12 @@ impl Instance {
         match step.turn {
             Turn::AskMiddle => {
                 (step.asked_s, _) = step.internal_step(now_s);
-                step.present = self.values;
+                step.present.clone_from(&self.values);
                 step.turn = Turn::AskEnd;
                 Ok(Some(asked(now_s + 0.5 * step.asked_s)))
             }
             Turn::AskEnd => {
-                step.middle = self.values;
+                step.middle.clone_from(&self.values);
                 step.turn = Turn::Take;
                 let (_, reached_s) = step.internal_step(now_s);
                 Ok(Some(asked(reached_s)))
@@ -261,7 +261,7 @@ impl Instance {
 
     /// Lets the inputs take the course that the importer has told for the internal step to come.
     fn fit_inputs(&mut self, step: &IntermediateStep) {
-        let end = self.values;
+        let end = self.values.clone();
         self.set_inputs(&step.present);
         let mut inputs = InputCourse::HELD;
         for (index, variable) in self.identity.variables.iter() {

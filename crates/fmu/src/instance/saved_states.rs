@@ -17,14 +17,14 @@ impl Instance {
     pub(crate) fn snapshot(&self) -> Snapshot {
         // what is calculated is no part of the state: it follows from the rest, and may not even be finite; all that
         // stands beside the variables is remembered
-        let values = std::array::from_fn(|index| {
+        let values = self.values.with(std::array::from_fn(|index| {
             let roles = self.roles.get(index).copied().unwrap_or(Roles::NONE);
             if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) && !is_committed(index) {
                 0.0
             } else {
                 self.values[index]
             }
-        });
+        }));
         Snapshot {
             identity: Arc::clone(&self.identity),
             mode: self.mode,
@@ -41,7 +41,7 @@ impl Instance {
         self.mode = snapshot.mode;
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
-        self.values = snapshot.values;
+        self.values.clone_from(&snapshot.values);
         self.inputs = snapshot.inputs;
         self.parameters_changed = true;
         self.outputs_stale = true;
@@ -84,7 +84,7 @@ mod tests {
         for (index, number) in instance.values[REFERENCE_COUNT..].iter_mut().enumerate() {
             *number = 1.5 + index as f64;
         }
-        let remembered = instance.values;
+        let remembered = instance.values.clone();
         let saved = instance.snapshot();
         assert_eq!(
             saved.values[REFERENCE_COUNT..],

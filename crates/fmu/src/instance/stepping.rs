@@ -85,7 +85,7 @@ impl Instance {
 
     /// The inputs at the end of the step.
     fn inputs_after(&self, step: Step) -> Result<Values, Refusal> {
-        let mut values = self.values;
+        let mut values = self.values.clone();
         for (index, variable) in self.identity.variables.iter() {
             if variable.role == Role::Input {
                 let value = self.inputs.value(index, values[index], step.interval_s);

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use super::Instance;
 use crate::{
     input_course::ORDER_MAX,
-    interface::{InterfaceType, Role, Roles, VALUE_COUNT, Values, memory, reference::PRELOAD},
+    interface::{InterfaceType, Role, Roles, Values, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
 };
@@ -84,13 +84,13 @@ impl Instance {
 
     /// Derivatives of inputs, states and outputs with respect to time.
     fn rates(&self) -> Values {
-        let mut values = self.values;
+        let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
         if self.outputs_stale {
             self.model.calculate_outputs(&mut values);
         }
         // ẏ = ∂y/∂x ẋ + ∂y/∂u u̇
-        let mut rates = [0.0; VALUE_COUNT];
+        let mut rates = Values::zero();
         self.model.rates(&values, &self.inputs, &mut rates);
         rates[PRELOAD] = self.preload_rate();
         rates[memory::PRELOAD_RATE] = self.inputs.acceleration(PRELOAD);

@@ -14,7 +14,7 @@ use crate::{
     },
     models::{
         Model, Outcome, Step,
-        sides::{A, B, is_active, joint_law, joint_memory, set_joint_memory},
+        sides::{A, B, check_laws, forgetful_joint_law, is_active, joint_law},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -61,6 +61,7 @@ impl<const D: usize, const REMEMBERS: bool> Element<D, REMEMBERS> {
 impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
         let law = joint_law::<D>(values);
+        check_laws(&law)?;
         self.watch.set(&law, finite(law.escape_amplitude()));
         self.quiet = Quiet(self.watch.quiet());
         Ok(Active::of(is_active(&law), false))
@@ -78,14 +79,12 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     fn commit(&self, values: &mut Values) {
         if REMEMBERS {
             let (law, relative): (JointLaw<D>, _) = (joint_law(values), relative(values));
-            let mut remembered = joint_memory(values);
-            let slid_j = law.commit(&mut remembered, &relative.displacement);
+            let slid_j = values.change_joint(|memory| law.commit(memory, &relative));
             // the dampers' heat by the trapezoidal rule
             let power = law.viscous_power(&relative);
             let since_s = values[vr::TIME] - values[memory::COMMITTED_TIME];
             let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
-            set_joint_memory(values, &remembered);
-            values[vr::ENERGY_DISSIPATED] += slid_j + damped_j;
+            values[vr::ENERGY_DISSIPATED] += slid_j.unwrap_or(0.0) + damped_j;
             values[memory::COMMITTED_TIME] = values[vr::TIME];
             values[memory::COMMITTED_POWER] = power;
         }
@@ -132,7 +131,11 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
-        let law = joint_law::<D>(values);
+        let law = if REMEMBERS {
+            joint_law::<D>(values)
+        } else {
+            forgetful_joint_law(values)
+        };
         set_outputs(values, &law);
         if REMEMBERS {
             // as of the last step
@@ -172,8 +175,7 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the law and the motions.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
-    let memory = joint_memory(values);
-    outputs(law, &memory, &relative(values), |output| output).write(values);
+    outputs(law, values.joint(), &relative(values), |output| output).write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
@@ -184,10 +186,7 @@ pub(super) fn differentiate<const D: usize>(
 ) {
     let law = law.with_change(law_change);
     let relative = relative(values).with_change(&relative(change));
-    outputs(&law, &joint_memory(values), &relative, |output| {
-        output.change[0]
-    })
-    .write(change);
+    outputs(&law, values.joint(), &relative, |output| output.change[0]).write(change);
 }
 
 /// What is calculated, or what `of` makes of it.

@@ -14,7 +14,7 @@ use crate::{
     interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
     models::{
         Model, Outcome, Step,
-        sides::{A, B, is_active, joint_memory},
+        sides::{A, B, check_laws, is_active},
         watch::{Watch, finite},
     },
     refusal::{Active, Refusal},
@@ -47,6 +47,7 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
     ) -> Result<Option<Active>, Refusal> {
         let lap = lap::<D>(values);
         check_parameters(&lap)?;
+        check_laws(&lap.joint)?;
         let step_size_max_s = values[vr::STEP_SIZE_MAX];
         if interface_type == InterfaceType::CoSimulation {
             check_step(&lap, step_size_max_s)?;
@@ -55,6 +56,10 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         self.watch.set(&lap.joint, finite(escape));
         self.way = Some(W::new(&lap, step_size_max_s, escape, self.watch.quiet()));
         Ok(Active::of(is_active(&lap.joint), lap.has_active_support()))
+    }
+
+    fn begin(&self, values: &mut Values) {
+        W::begin(values);
     }
 
     fn commit(&self, values: &mut Values) {
@@ -145,8 +150,8 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the bodies, the joint and their state.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
-    let memory = joint_memory(values);
-    outputs(lap, &memory, (state, &loads(values)), |output| output).write(values);
+    let loads = loads(values);
+    outputs(lap, values.joint(), (state, &loads), |output| output).write(values);
 }
 
 /// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
@@ -158,7 +163,7 @@ pub(super) fn differentiate<const D: usize>(
     let lap = lap.with_change(lap_change);
     let state = state(values).with_change(&state(change));
     let loads = loads(values).with_change(&loads(change));
-    outputs(&lap, &joint_memory(values), (&state, &loads), |output| {
+    outputs(&lap, values.joint(), (&state, &loads), |output| {
         output.change[0]
     })
     .write(change);

@@ -3,7 +3,9 @@
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{CountedState, JointLaw, Lap, LapConditions, LapState, PassedEnergy};
+use bolted_joint_dynamics::{
+    CountedState, DOF_AT_REST, JointLaw, JointMemory, Lap, LapConditions, LapState, PassedEnergy,
+};
 
 use crate::{
     input_course::InputCourse,
@@ -16,7 +18,6 @@ use crate::{
             prepared::count,
             way::{Way, lap, loads, set_state, state},
         },
-        sides::{joint_memory, set_joint_memory},
         watch::{Watch, finite},
     },
     refusal::{Reached, Refusal},
@@ -28,6 +29,8 @@ pub(in crate::models) struct RememberingLap<const D: usize> {
     lap: Lap<D>,
     step_size_max_s: f64,
     hold: [f64; D],
+    /// Where a communication step moves on what the joint remembers.
+    memory: JointMemory<D>,
 }
 
 impl<const D: usize> Way<D> for RememberingLap<D> {
@@ -36,6 +39,7 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
             lap: *lap,
             step_size_max_s,
             hold: finite(escape),
+            memory: [DOF_AT_REST; D],
         }
     }
 
@@ -51,13 +55,17 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
         count(interval_s, self.step_size_max_s)
     }
 
+    fn begin(values: &mut Values) {
+        // the joint has come straight to where it starts; the heat of that way was before
+        values.change_joint(|memory| *memory = [DOF_AT_REST; D]);
+        Self::commit(values);
+    }
+
     fn commit(values: &mut Values) {
         let relative = state::<D>(values).relative();
-        let mut remembered = joint_memory(values);
-        // its heat is part of the power that the importer integrates
         let law: JointLaw<D> = lap(values).joint;
-        law.commit(&mut remembered, &relative.displacement);
-        set_joint_memory(values, &remembered);
+        // its heat is part of the power that the importer integrates
+        values.change_joint(|memory| law.commit(memory, &relative));
     }
 
     fn advance(
@@ -75,19 +83,22 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
         let length_s = step.interval_s / f64::from(count);
         let mut counted = CountedState {
             state: state::<D>(values),
-            memory: joint_memory(values),
             passed: PassedEnergy {
                 dissipated: values[vr::ENERGY_DISSIPATED],
                 ..PassedEnergy::default()
             },
         };
+        // apart, so that a step that is refused leaves no trace
+        let law = &self.lap.joint;
+        law.copy_memory(values.joint(), &mut self.memory);
         for index in 0..count {
             let conditions = loads.at_stages(index, length_s).map(|loads| LapConditions {
                 lap: self.lap,
                 law_rate: JointLaw::NONE,
                 loads,
             });
-            counted = LapConditions::step(conditions.each_ref(), &counted, length_s);
+            let memory = Some(&mut self.memory);
+            counted = LapConditions::step(conditions.each_ref(), &counted, memory, length_s);
             let end_s = step.time_s + length_s * f64::from(index + 1);
             check_held(&counted.state, &self.hold, end_s)?;
         }
@@ -99,7 +110,8 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
             });
         }
         set_state(values, &counted.state);
-        set_joint_memory(values, &counted.memory);
+        let (law, own) = (&self.lap.joint, &self.memory);
+        values.change_joint(|memory| law.copy_memory(own, memory));
         values[vr::ENERGY_DISSIPATED] = counted.passed.dissipated;
         Ok(self.look(watch, &counted.state, end_s))
     }

@@ -1,12 +1,15 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
 use bolted_joint_dynamics::{
-    Body, DOF_COUNT, DofLaws, DofMemory, JointLaw, JointMemory, Linear, Motion,
-    is_positive_semidefinite,
+    Body, DOF_COUNT, DOFS, DofLaws, JointLaw, Linear, Motion, is_positive_semidefinite,
+    law::{DOF_PARAMETER_COUNT, FORGETFUL_PARAMETER_COUNT, dof_parameters},
 };
 
-use crate::interface::{
-    Dependence, Dofs, Kind, Values, Variable, Variables, gather, reference as vr, scatter,
+use crate::{
+    interface::{
+        Dependence, Dofs, Kind, Values, Variable, Variables, gather, reference as vr, scatter,
+    },
+    refusal::Refusal,
 };
 
 /// Value references of one side, by DOFs.
@@ -105,23 +108,40 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     }
 }
 
-/// What the joint remembers.
+/// The same of a joint that remembers nothing, whose other parameters are not looked at.
 #[inline]
-pub(super) fn joint_memory<const D: usize>(values: &Values) -> JointMemory<D> {
-    JointMemory {
+pub(super) fn forgetful_joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
+    JointLaw {
+        linear: Linear {
+            stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
+            damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
+        },
         on: std::array::from_fn(|dof| {
-            DofMemory::new(vr::LAW_MEMORY[dof].map(|reference| values[reference]))
+            let mut parameters = [0.0; DOF_PARAMETER_COUNT];
+            for place in 0..FORGETFUL_PARAMETER_COUNT {
+                parameters[place] = values[vr::LAW_PARAMETERS[dof][place]];
+            }
+            DofLaws::new(parameters)
         }),
     }
 }
 
-/// Writes what the joint remembers.
-pub(super) fn set_joint_memory<const D: usize>(values: &mut Values, memory: &JointMemory<D>) {
-    for (references, own) in vr::LAW_MEMORY.iter().zip(&memory.on) {
-        for (&reference, &number) in references.iter().zip(own.numbers()) {
-            values[reference] = number;
-        }
-    }
+/// Whether each law's parameters are in its range.
+pub(super) fn check_laws<const D: usize>(law: &JointLaw<D>) -> Result<(), Refusal> {
+    let Some((dof, declaration, outside)) = law.outside() else {
+        return Ok(());
+    };
+    let symbol = declaration
+        .parameters
+        .get(outside.parameter)
+        .map_or("", |parameter| parameter.symbol);
+    let mut all = law.on[dof].parameters().iter().zip(dof_parameters());
+    let found = all.find(|(_, (_, parameter))| parameter.symbol == symbol);
+    Err(Refusal::OutsideLaw {
+        name: format!("joint.{symbol}_{}", DOFS[dof].name),
+        found: found.map_or(f64::NAN, |(&value, _)| value),
+        expected: outside.expected,
+    })
 }
 
 /// Whether the joint's stiffness and damping can feed energy.

@@ -185,6 +185,11 @@ impl fmt::Display for Refusal {
                 f,
                 "parameter {name} is {found} {unit}, expected a number greater than zero"
             ),
+            Self::OutsideLaw {
+                name,
+                found,
+                expected,
+            } => write!(f, "parameter {name} is {found}, expected {expected}"),
             Self::NotUsable => f.write_str(
                 "the parameters give no equations of motion that can be integrated; bring their magnitudes closer together",
             ),

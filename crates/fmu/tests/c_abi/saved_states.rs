@@ -316,13 +316,16 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
         seal(&mut forged);
         forged
     };
-    // mark, layout, length of the token, token, and what makes an FMU; mode, stop time, pace, values, inputs, checksum
+    // mark, layout, length of the token, token, and what makes an FMU; mode, stop time, pace, values, what the
+    // joint remembers, inputs, checksum
     let mode = 8 + 4 + 4 + TOKEN.len() + 5;
     let steps_in_a_row = mode + 1 + 1 + 8 + 8;
     let count = steps_in_a_row + 1;
     let first_value = count + 4;
     let values = u32::from_le_bytes(bytes[count..first_value].try_into().unwrap());
-    let inputs = first_value + 8 * values as usize;
+    let joint = first_value + 8 * values as usize;
+    // this joint remembers nothing
+    let inputs = joint + 4;
     assert_eq!(inputs + 3 + 8 * 3 * 13 + 8, bytes.len());
     let step_size_max = first_value + 8 * vr::STEP_SIZE_MAX as usize;
     let loaded = instance.deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()));
@@ -335,7 +338,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let value = "its value of step_size_max is impossible";
     refused(step_size_max, &nan, value);
     let beside = "of what it remembers beside the variables is impossible";
-    refused(inputs - 8, &f64::INFINITY.to_le_bytes(), beside);
+    refused(joint - 8, &f64::INFINITY.to_le_bytes(), beside);
     refused(mode, &[9], "its mode is impossible");
     refused(mode, &[7], "its mode is impossible");
     let step = "its communication step is impossible";

@@ -2,7 +2,7 @@
 
 use bolted_joint_dynamics::{
     DofKind,
-    law::{Parameter, Range},
+    law::{Parameter, Range, UnitRule},
 };
 
 use super::{laws::Place, line::Line, words};
@@ -37,32 +37,53 @@ pub(super) fn of_parameter(declared: &Parameter, place: Place) -> Type {
         Place::Between => ("Coupling", DofKind::Translation, DofKind::Rotation),
         Place::Rotation => ("Rotational", DofKind::Rotation, DofKind::Rotation),
     };
-    let mut unit = load_unit(load);
-    for _ in 0..rule.seconds {
-        unit.exponents[SECOND] += 1;
-    }
-    if rule.seconds > 0 {
-        unit.name += ".s";
-        unit.name += &power(rule.seconds);
-    }
-    let base = match displacement {
-        DofKind::Translation => 1,
-        DofKind::Rotation => 3,
+    let unit = match rule {
+        UnitRule::LoadPer {
+            displacement: over,
+            seconds,
+        } => load_per(load, displacement, over, seconds),
+        UnitRule::Rate => {
+            let mut unit = displacement_unit(displacement);
+            unit.exponents[SECOND] -= 1;
+            unit.name += "/s";
+            unit
+        }
+        UnitRule::One => Unit {
+            name: "1".to_owned(),
+            exponents: [0; 4],
+        },
     };
-    for _ in 0..rule.displacement {
-        unit.exponents[base] -= 1;
-    }
-    if rule.displacement > 0 {
-        unit.name += "/";
-        unit.name += displacement.displacement_unit();
-        unit.name += &power(rule.displacement);
-    }
     Type {
         name: format!("{prefix}{}", declared.quantity.name),
         unit,
         nominal: declared.quantity.nominal[place as usize],
         not_negative: declared.range == Range::NotNegative,
     }
+}
+
+/// load · s^`seconds` / displacement^`power`
+fn load_per(load: DofKind, displacement: DofKind, over: u8, seconds: u8) -> Unit {
+    let mut unit = load_unit(load);
+    for _ in 0..seconds {
+        unit.exponents[SECOND] += 1;
+    }
+    if seconds > 0 {
+        unit.name += ".s";
+        unit.name += &power(seconds);
+    }
+    let base = match displacement {
+        DofKind::Translation => 1,
+        DofKind::Rotation => 3,
+    };
+    for _ in 0..over {
+        unit.exponents[base] -= 1;
+    }
+    if over > 0 {
+        unit.name += "/";
+        unit.name += displacement.displacement_unit();
+        unit.name += &power(over);
+    }
+    unit
 }
 
 /// Type of what is remembered of this quantity: the DOF's own, which every frame defines.

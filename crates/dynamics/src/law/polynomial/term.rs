@@ -1,11 +1,7 @@
 //! One term of the polynomial law: what is read off its declaration, and what it does to a harmonic motion.
 
 use super::{DAMPER_COUNT, PARAMETERS, Polynomial, SPRING_COUNT};
-use crate::{
-    law::declaration::{Parameter, UnitRule},
-    number::Number,
-    power_series::value,
-};
+use crate::{law::declaration::Parameter, number::Number, power_series::value};
 
 /// Number of terms.
 pub const TERM_COUNT: usize = SPRING_COUNT + DAMPER_COUNT;
@@ -62,8 +58,7 @@ impl Term {
     #[must_use]
     pub fn powers(self) -> [i32; 2] {
         // the load is the coefficient times what its unit divides the load by
-        let UnitRule { displacement, .. } = self.row().unit;
-        let all = i32::from(displacement);
+        let all = i32::from(self.row().unit.displacement());
         if self.is_damper() {
             [all - 1, 1]
         } else {
@@ -74,7 +69,7 @@ impl Term {
     /// Degree in r and ṙ together.
     #[must_use]
     pub fn degree(self) -> usize {
-        usize::from(self.row().unit.displacement)
+        usize::from(self.row().unit.displacement())
     }
 
     /// Power of the amplitude in its equivalent stiffness or damping under a harmonic motion.

@@ -42,6 +42,8 @@ pub(in crate::models) trait Way<const D: usize>: Sized + Send {
         false
     }
 
+    fn begin(_: &mut Values) {}
+
     fn commit(_: &mut Values) {}
 
     /// Adds the rates of what is integrated beside the motion.

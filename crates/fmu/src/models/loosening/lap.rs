@@ -8,8 +8,7 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions, LapLoads, LapState,
-    PassedEnergy,
+    CountedState, JointLaw, JointOverPreload, Lap, LapConditions, LapLoads, LapState, PassedEnergy,
 };
 
 use super::{
@@ -114,11 +113,11 @@ impl<const D: usize> LooseningLap<D> {
             let from_s = f64::from(index) * length_s;
             let to_s = f64::from(index + 1) * length_s;
             counted = if is_held {
-                LapConditions::step([&first; 3], &counted, length_s)
+                LapConditions::step([&first; 3], &counted, None, length_s)
             } else {
                 let middle = conditions_at(from_s + 0.5 * length_s)?;
                 let last = conditions_at(to_s)?;
-                let next = LapConditions::step([&first, &middle, &last], &counted, length_s);
+                let next = LapConditions::step([&first, &middle, &last], &counted, None, length_s);
                 first = last;
                 if (index + 1) % STEPS_BETWEEN_CHECKS == 0 || index + 1 == count {
                     hold = finite(first.lap.escape_amplitude());
@@ -197,7 +196,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         // what the balance E = E₀ + supplied − dissipated + preload starts from
         let stored = self
             .lap(values)
-            .stored_energy(&JointMemory::REST, &state(values));
+            .stored_energy(values.joint(), &state(values));
         values[memory::FIRST_ENERGY] =
             stored - values[vr::ENERGY_SUPPLIED] + values[vr::ENERGY_DISSIPATED];
     }
@@ -242,7 +241,6 @@ impl<const D: usize> Model for LooseningLap<D> {
         let relative = state.relative();
         let start = CountedState {
             state,
-            memory: JointMemory::REST,
             passed: PassedEnergy {
                 supplied: values[vr::ENERGY_SUPPLIED],
                 dissipated: values[vr::ENERGY_DISSIPATED],

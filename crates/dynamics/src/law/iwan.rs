@@ -1,0 +1,241 @@
+//! The Iwan law with four parameters (Segalman, J. Appl. Mech. 72 (2005) 752): a continuum of springs and sliders side by side,
+//! of which the weakest slip first. Small motion loses little energy, as bolted joints do, and large motion slips through.
+//!
+//! It needs no sliders: the joint's motion is what it remembers, as the points at which it turned. Between them the load
+//! follows the curve of the first loading at twice its size (Masing's rule), and a loop that has closed is forgotten.
+
+mod curve;
+mod reversals;
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+        UnitRule,
+    },
+};
+use crate::number::Number;
+use curve::Curve;
+use reversals::{HIDDEN, Reversals};
+
+pub use reversals::REVERSALS_MAX;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "iwan_h",
+    key: "slip_force",
+    span: Span::Dof,
+    unit: UnitRule::LoadPer {
+        displacement: 0,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SlipForce",
+        nominal: [100.0, 10.0, 1.0],
+        start: [0.0; 3],
+    },
+    description: "Load at which the joint's Iwan law slips through in {motion}",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+/// A continuum of sliders on one relative DOF, each a spring that slips at its own load: their density over the
+/// displacement φ at which they slip is R φ^χ up to φ_max, and those of the ratio β slip at φ_max itself.
+///
+/// A cycle in the range of small motion costs the power χ + 3 of its amplitude:
+///
+/// ```
+/// use bolted_joint_dynamics::law::{Iwan, Law};
+///
+/// let law = Iwan { slip_force: 1.0, stiffness: 1.0, exponent: -0.5, ratio: 0.0 };
+/// let mut memory = [0.0; Iwan::<f64>::DECLARATION.memory_count()];
+/// law.commit(&mut memory, 1.5, 0.0);
+/// let heat = law.commit(&mut memory, -1.5, 0.0) + law.commit(&mut memory, 1.5, 0.0);
+/// // φ_max = 3 m, R = 1/√12; D = 4 R U^(χ+3)/((χ+2)(χ+3)) at U = φ_max/2
+/// assert!((heat - 0.84852813742386).abs() < 1e-12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iwan<N = f64> {
+    /// F_S, at which all slips: N, N·m.
+    pub slip_force: N,
+    /// K_T while all sticks: N/m, N·m/rad.
+    pub stiffness: N,
+    /// χ > −1, the power of the density; a cycle of small amplitude costs the power χ + 3 of it.
+    pub exponent: N,
+    /// β ≥ 0, stiffness of the sliders that slip at φ_max to that of all others.
+    pub ratio: N,
+}
+
+impl<N: Number> Iwan<N> {
+    /// Its curve of first loading; `None` where it gives no load.
+    fn curve(&self) -> Option<Curve<N>> {
+        let is_there = self.slip_force.value() > 0.0 && self.stiffness.value() > 0.0;
+        (is_there && self.exponent.value() > -1.0).then(|| Curve::new(self))
+    }
+
+    fn parameters(&self) -> [N; 4] {
+        [self.slip_force, self.stiffness, self.exponent, self.ratio]
+    }
+}
+
+impl<N: Number> Law<N> for Iwan<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "iwan",
+        summary: "Many sliders side by side, the weakest of which slip first, by Segalman's four parameters",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "iwan_k",
+                key: "stiffness",
+                unit: UnitRule::LoadPer {
+                    displacement: 1,
+                    seconds: 0,
+                },
+                quantity: Quantity {
+                    name: "SliderStiffness",
+                    nominal: [1e6, 1e4, 1e3],
+                    start: [0.0; 3],
+                },
+                description: "Stiffness of the joint's Iwan law in {motion} while all of it sticks",
+                ..PARAMETER
+            },
+            Parameter {
+                symbol: "iwan_chi",
+                key: "exponent",
+                unit: UnitRule::One,
+                range: Range::Any,
+                quantity: Quantity {
+                    name: "Exponent",
+                    nominal: [1.0; 3],
+                    start: [0.0; 3],
+                },
+                description: "Exponent of the joint's Iwan law in {motion}: small cycles lose its power plus three of their amplitude",
+                ..PARAMETER
+            },
+            Parameter {
+                symbol: "iwan_beta",
+                key: "ratio",
+                unit: UnitRule::One,
+                quantity: Quantity {
+                    name: "StiffnessRatio",
+                    nominal: [1.0; 3],
+                    start: [0.0; 3],
+                },
+                description: "Stiffness of what slips last in {motion} to that of all that slips before in the joint's Iwan law",
+                ..PARAMETER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "iwan_reversal",
+            quantity: RememberedAs::Displacement,
+            description: "Relative {motion} at which the joint turned last, zero before it has, as of the last step",
+        }],
+        hidden_memory: HIDDEN,
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            slip_force: at(0),
+            stiffness: at(1),
+            exponent: at(2),
+            ratio: at(3),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+        let Some(curve) = self.curve() else {
+            return N::ZERO;
+        };
+        let reversals = Reversals::of(memory);
+        let branch = reversals.branch(r.value());
+        match reversals.tip(&branch, &curve) {
+            // f = F(r), F odd
+            None => curve.along(r),
+            // f = f_r + 2 F((r − u_r)/2)   (Masing)
+            Some(tip) => tip.load + curve.masing(r - tip.place),
+        }
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        let Some(curve) = self.curve() else {
+            return N::ZERO;
+        };
+        let reversals = Reversals::of(memory);
+        let branch = reversals.branch(r.value());
+        let stored = match reversals.tip(&branch, &curve) {
+            None => curve.stored(r),
+            Some(tip) => tip.stored + curve.masing_stored(tip.load, tip.stored, r - tip.place),
+        };
+        stored - N::from(reversals.owed())
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        let (Some(curve), reversals) = (self.curve(), Reversals::of(memory)) else {
+            return N::ZERO;
+        };
+        let branch = reversals.branch(r.value());
+        let rate = velocity.value();
+        if rate == 0.0 || branch.is_forward.is_some_and(|it| it != (rate > 0.0)) {
+            // where it turns nothing slips yet
+            return N::ZERO;
+        }
+        let speed = velocity * N::from(rate.signum());
+        match reversals.place_of(&branch) {
+            None => curve.heat_slope(magnitude(r)) * speed,
+            Some(place) => curve.heat_slope(N::from(0.5) * magnitude(r - N::from(place))) * speed,
+        }
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
+        let values = self.parameters().map(Number::value);
+        match Iwan::<f64>::new(&values).curve() {
+            Some(curve) if r.is_finite() => reversals::commit(memory, &curve, r),
+            _ => 0.0,
+        }
+    }
+
+    fn outside(&self) -> Option<Outside> {
+        let outside = |parameter: usize, expected: &str| {
+            Some(Outside {
+                parameter,
+                expected: expected.to_owned(),
+            })
+        };
+        let [slip_force, stiffness, exponent, ratio] = self.parameters().map(Number::value);
+        let is_positive = |value: f64| value > 0.0 && value.is_finite();
+        match () {
+            () if !is_positive(slip_force) => outside(0, "a number above 0"),
+            () if !is_positive(stiffness) => outside(1, "a number above 0"),
+            () if !(exponent > -1.0 && exponent.is_finite()) => outside(2, "a number above -1"),
+            () if !(ratio >= 0.0 && ratio.is_finite()) => outside(3, "zero or more"),
+            () => None,
+        }
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        // from φ_max on all of it slips
+        self.curve()
+            .map_or(f64::INFINITY, |curve| curve.span.value())
+    }
+}
+
+/// |x|
+#[inline]
+fn magnitude<N: Number>(x: N) -> N {
+    if x.value() < 0.0 { -x } else { x }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,138 @@
+//! The curve of first loading of the Iwan law, with what it stores and what it turns into heat.
+//!
+//! All of it is written by the power v^(χ+2) of v = u/φ_max alone, so that nothing is the difference of almost equal numbers
+//! where the motion is small.
+
+use super::{Iwan, magnitude};
+use crate::number::Number;
+
+/// What the parameters give.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curve<N> {
+    /// The parameters: F_S, K_T, χ, β.
+    pub(super) parameters: [N; 4],
+    slip_force: N,
+    stiffness: N,
+    /// χ + 2
+    power: N,
+    /// φ_max
+    pub(super) span: N,
+    /// 1/((1+β)(χ+2))
+    softening: N,
+}
+
+impl<N: Number> Curve<N> {
+    #[inline]
+    pub(super) fn new(law: &Iwan<N>) -> Self {
+        let one = N::from(1.0);
+        let power = law.exponent + N::from(2.0);
+        // φ_max = F_S (1+β)/(K_T (β + (χ+1)/(χ+2)))   (Segalman 2005, eq. 25 and 26)
+        let below = law.ratio + (law.exponent + one) / power;
+        Self {
+            parameters: law.parameters(),
+            slip_force: law.slip_force,
+            stiffness: law.stiffness,
+            power,
+            span: law.slip_force * (one + law.ratio) / (law.stiffness * below),
+            softening: one / ((one + law.ratio) * power),
+        }
+    }
+
+    /// φ_max v^(χ+2) with v = u/φ_max; `None` where all slips.
+    #[inline]
+    fn bent(&self, u: N) -> Option<N> {
+        (u.value() < self.span.value()).then(|| self.span * (u / self.span).powf(self.power))
+    }
+
+    /// Load at u ≥ 0.
+    #[inline]
+    fn load(&self, u: N) -> N {
+        match self.bent(u) {
+            // F = K_T u − R u^(χ+2)/((χ+1)(χ+2)) = K_T (u − φ_max v^(χ+2)/((1+β)(χ+2)))
+            Some(bent) => self.stiffness * (u - self.softening * bent),
+            None => self.slip_force,
+        }
+    }
+
+    /// Load on the way from the origin to r.
+    #[inline]
+    pub(super) fn along(&self, r: N) -> N {
+        let load = self.load(magnitude(r));
+        if r.value() < 0.0 { -load } else { load }
+    }
+
+    /// Change of the load on a way of this length from a reversal.
+    #[inline]
+    pub(super) fn masing(&self, way: N) -> N {
+        // 2 F(x/2)
+        N::from(2.0) * self.along(N::from(0.5) * way)
+    }
+
+    /// Energy in the springs at u on the way from the origin.
+    #[inline]
+    pub(super) fn stored(&self, u: N) -> N {
+        let u = magnitude(u);
+        match self.bent(u) {
+            Some(bent) => self.stored_at(u, bent),
+            None => self.stored_at(self.span, self.span),
+        }
+    }
+
+    /// W = ½ K_T u² (1 − 2 v^(χ+1)/((1+β)(χ+3)))
+    #[inline]
+    fn stored_at(&self, u: N, bent: N) -> N {
+        let one = N::from(1.0);
+        let part = self.softening * self.power / (self.power + one);
+        self.stiffness * u * (N::from(0.5) * u - part * bent)
+    }
+
+    /// Heat on the way from the origin to u ≥ 0: a quarter of what the cycle of this amplitude costs.
+    #[inline]
+    pub(super) fn heat(&self, u: N) -> N {
+        match self.bent(u) {
+            Some(bent) => self.heat_at(u, bent),
+            // all slips at F_S from φ_max on
+            None => self.heat_at(self.span, self.span) + self.slip_force * (u - self.span),
+        }
+    }
+
+    /// D/4 = R u^(χ+3)/((χ+2)(χ+3)) = K_T u φ_max v^(χ+2) (χ+1)/((1+β)(χ+2)(χ+3))
+    #[inline]
+    fn heat_at(&self, u: N, bent: N) -> N {
+        let one = N::from(1.0);
+        let part = self.softening * (self.power - one) / (self.power + one);
+        self.stiffness * part * u * bent
+    }
+
+    /// How that heat grows with u ≥ 0, N or N·m.
+    #[inline]
+    pub(super) fn heat_slope(&self, u: N) -> N {
+        match self.bent(u) {
+            // d(D/4)/du = K_T (χ+1) φ_max v^(χ+2)/((1+β)(χ+2))
+            Some(bent) => self.stiffness * self.softening * (self.power - N::from(1.0)) * bent,
+            None => self.slip_force,
+        }
+    }
+
+    /// Heat on a way of length x ≥ 0 from a reversal.
+    #[inline]
+    pub(super) fn masing_heat(&self, x: N) -> N {
+        // D(x/2)/2
+        N::from(2.0) * self.heat(N::from(0.5) * x)
+    }
+
+    /// Change of the stored energy on a way from a reversal at which this load acts and this much is stored.
+    #[inline]
+    pub(super) fn masing_stored(&self, load: N, stored: N, way: N) -> N {
+        let half = N::from(0.5) * magnitude(way);
+        let two = N::from(2.0);
+        match self.bent(half) {
+            // work less heat: f_r x + 4 ∫F − D(x/2)/2 with ∫F = W + D/4
+            Some(bent) => {
+                load * way + two * (two * self.stored_at(half, bent) + self.heat_at(half, bent))
+            }
+            // every slider has slipped since: W(φ_max)
+            None => self.stored_at(self.span, self.span) - stored,
+        }
+    }
+}

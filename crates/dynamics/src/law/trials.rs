@@ -1,0 +1,184 @@
+//! Trials that every law with memory stands: its energy along ways that only look random, and its changes against differences.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::Law;
+use crate::{number::Dual, random::Random};
+
+/// A law by its numbers, as real ones and with their changes.
+pub(super) trait Tried: Law<f64> {
+    /// The same with changes.
+    type Changing: Law<Dual<1>>;
+
+    /// Its parameters.
+    fn parameters(&self) -> Vec<f64> {
+        let mut parameters = vec![0.0; Self::DECLARATION.parameters.len()];
+        self.write(&mut parameters);
+        parameters
+    }
+
+    /// Nothing has moved yet.
+    fn at_rest() -> Vec<f64> {
+        vec![0.0; Self::DECLARATION.memory_count()]
+    }
+}
+
+/// ∫ f over an interval by the double exponential rule, which bears singular ends.
+pub(super) fn integral(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (half, middle) = (0.5 * (to - from), 0.5 * (to + from));
+    let h = 1.0 / 24.0;
+    (-88..=88)
+        .map(|k| {
+            let t = h * f64::from(k);
+            let (inner, slope) = (FRAC_PI_2 * t.sinh(), FRAC_PI_2 * t.cosh());
+            let weight = slope / inner.cosh().powi(2);
+            // from the nearer end, so that a point close to it is told from it
+            let from_end = half * (-inner.abs()).exp() / inner.cosh();
+            let x = if t < 0.0 {
+                from + from_end
+            } else {
+                to - from_end
+            };
+            let x = if t == 0.0 { middle } else { x };
+            half * h * weight * f(x)
+        })
+        .sum()
+}
+
+/// A way of so many points, each within `amplitude` of zero.
+pub(super) fn way(random: &mut Random, count: usize, amplitude: f64) -> Vec<f64> {
+    let size = |random: &mut Random| amplitude * random.unit().powi(2);
+    (0..count)
+        .map(|_| {
+            let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+            sign * size(random)
+        })
+        .collect()
+}
+
+/// Work along the way is what is stored and the heat, and no part of the way gives heat back. `bends` are the places at which
+/// the load of a straight way from where the memory is may not be smooth; on a way the velocity is `speed` towards its end.
+pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
+    law: &L,
+    way: &[f64],
+    speed: f64,
+    bends: impl Fn(&[f64], f64) -> Vec<f64>,
+) {
+    let mut memory = L::at_rest();
+    let (mut work, mut heat, mut turned) = (0.0, 0.0, 0.0);
+    let mut r = 0.0;
+    for &target in way {
+        if target == r {
+            continue;
+        }
+        let velocity = speed * (target - r).signum();
+        // the way begins at this velocity
+        turned += law.commit(&mut memory, r, velocity).abs();
+        let mut stops = bends(&memory, r);
+        stops.retain(|stop| (stop - r) * (target - stop) > 0.0);
+        stops.extend([r, target]);
+        stops.sort_by(f64::total_cmp);
+        let of_way: f64 = stops
+            .windows(2)
+            .map(|ends| integral(ends[0], ends[1], |at| law.load(&memory, at, velocity)))
+            .sum();
+        work += of_way * (target - r).signum();
+        let of_step = law.commit(&mut memory, target, velocity);
+        assert!(of_step >= 0.0, "{law:?}: heat {of_step:e}");
+        heat += of_step;
+        r = target;
+        let stored = law.stored_energy(&memory, r);
+        let missing = work - heat - stored;
+        assert!(
+            missing.abs() <= 1e-12 * (heat + stored.abs()),
+            "{law:?}: {missing:e} of heat {heat:e} and {stored:e} at {r:e}"
+        );
+        assert!(stored >= 0.0);
+    }
+    assert_eq!(turned, 0.0);
+}
+
+/// In every state the power of the load is what is stored and the heat per second, and loads and energies change as their
+/// differences, with the motion and with every parameter.
+pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
+    law: &L,
+    way: &[f64],
+    amplitude: f64,
+    speed: f64,
+) {
+    let mut memory = L::at_rest();
+    let parameters = law.parameters();
+    for (index, &r) in way.iter().enumerate() {
+        let trial = r + 0.1 * amplitude * if index % 2 == 0 { 1.0 } else { -0.3 };
+        let velocity = speed * (trial - r).signum();
+        law.commit(&mut memory, r, velocity);
+        let plain = |numbers: &[f64], at: f64, rate: f64| {
+            let law = L::new(numbers);
+            [law.load(&memory, at, rate), law.stored_energy(&memory, at)]
+        };
+        let changed = |numbers: &[Dual<1>], at: Dual<1>, rate: Dual<1>| {
+            let law = L::Changing::new(numbers);
+            [
+                law.load(&memory, at, rate).change[0],
+                law.stored_energy(&memory, at).change[0],
+            ]
+        };
+        let constant: Vec<Dual<1>> = parameters.iter().map(|&p| Dual::from(p)).collect();
+        let (at, rate) = (Dual::from(trial), Dual::from(velocity));
+        let sizes = {
+            let [load, stored] = plain(&parameters, trial, velocity);
+            [load.abs(), stored.abs()]
+        };
+        let check = |found: [f64; 2], above: [f64; 2], below: [f64; 2], step: f64, size: f64| {
+            for k in 0..2 {
+                let expected = (above[k] - below[k]) / (2.0 * step);
+                let scale = expected.abs() + sizes[k] / size;
+                let error = (found[k] - expected).abs();
+                assert!(
+                    error <= 2e-5 * scale,
+                    "{law:?} at {trial:e}: {found:?} {above:?} {below:?} by {step:e}"
+                );
+            }
+        };
+        // with the displacement
+        let step = 1e-6 * amplitude;
+        let [above, below] = [step, -step].map(|step| plain(&parameters, trial + step, velocity));
+        let found = changed(&constant, Dual::along(trial, 0), rate);
+        check(found, above, below, step, amplitude);
+        // P = f ṙ = dE/dt + heat, in the direction in which it moved, at constant velocity
+        let load = law.load(&memory, trial, velocity);
+        let power = law.dissipated_power(&memory, trial, velocity);
+        assert!(power >= 0.0, "{law:?}: power {power:e}");
+        let left = load * velocity - found[1] * velocity - power;
+        assert!(
+            left.abs() <= 1e-10 * (load * velocity).abs() + 1e-12 * power,
+            "{law:?}: {left:e} of {:e}",
+            load * velocity
+        );
+        // with the velocity
+        let step = 1e-6 * speed;
+        let [above, below] = [step, -step].map(|step| plain(&parameters, trial, velocity + step));
+        let found = changed(&constant, at, Dual::along(velocity, 0));
+        check(found, above, below, step, speed);
+        // with each parameter
+        for k in 0..parameters.len() {
+            let size = parameters[k].abs() + 0.1;
+            let step = 1e-6 * parameters[k].abs().max(1e-3);
+            let with = |step: f64| {
+                let mut numbers = parameters.clone();
+                numbers[k] += step;
+                plain(&numbers, trial, velocity)
+            };
+            let mut numbers = constant.clone();
+            numbers[k] = Dual::along(parameters[k], 0);
+            let found = changed(&numbers, at, rate);
+            check(
+                found,
+                with(step),
+                with(-step),
+                step,
+                size.min(parameters[k].abs().max(1e-3)),
+            );
+        }
+    }
+}

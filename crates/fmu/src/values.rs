@@ -1,0 +1,107 @@
+//! Everything that an instance holds as numbers: its variables, what it remembers beside them, and what its joint remembers.
+
+use std::ops::{Deref, DerefMut};
+
+use bolted_joint_dynamics::{
+    DOF_AT_REST, DofMemory, JointMemory,
+    law::{DOF_MEMORY_COUNT, remembered},
+};
+
+use crate::interface::{Dependence, VALUE_COUNT, Variables, reference::LAW_MEMORY};
+
+/// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
+///
+/// What the laws of the joint remember stands apart, and only in FMUs whose joint remembers anything: it is long.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Values {
+    numbers: [f64; VALUE_COUNT],
+    /// Of each DOF of a joint with memory.
+    joint: Vec<DofMemory>,
+}
+
+impl Deref for Values {
+    type Target = [f64; VALUE_COUNT];
+
+    #[inline]
+    fn deref(&self) -> &Self::Target {
+        &self.numbers
+    }
+}
+
+impl DerefMut for Values {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.numbers
+    }
+}
+
+impl Values {
+    /// All zero, and no joint that remembers: a direction of change.
+    #[inline]
+    pub(crate) fn zero() -> Self {
+        Self {
+            numbers: [0.0; VALUE_COUNT],
+            joint: Vec::new(),
+        }
+    }
+
+    /// These values of an FMU with these variables, whose joint has not moved yet.
+    pub(crate) fn at_rest(numbers: [f64; VALUE_COUNT], variables: Variables) -> Self {
+        Self {
+            numbers,
+            joint: vec![DOF_AT_REST; remembering_dofs(variables)],
+        }
+    }
+
+    /// The same joint with other values of the variables.
+    pub(crate) fn with(&self, numbers: [f64; VALUE_COUNT]) -> Self {
+        Self {
+            numbers,
+            joint: self.joint.clone(),
+        }
+    }
+
+    /// What the joint remembers.
+    #[inline]
+    pub(crate) fn joint<const D: usize>(&self) -> &JointMemory<D> {
+        let at_rest = &const { [DOF_AT_REST; D] };
+        self.joint.first_chunk().unwrap_or(at_rest)
+    }
+
+    /// Lets `change` change what the joint remembers, and shows it in the variables.
+    pub(crate) fn change_joint<const D: usize, T>(
+        &mut self,
+        change: impl FnOnce(&mut JointMemory<D>) -> T,
+    ) -> Option<T> {
+        let joint = self.joint.first_chunk_mut::<D>()?;
+        let result = change(joint);
+        for (references, own) in LAW_MEMORY.iter().zip(joint) {
+            for (&reference, (place, _)) in references.iter().zip(remembered()) {
+                self.numbers[reference] = own[place];
+            }
+        }
+        Some(result)
+    }
+
+    /// What the joint remembers, as numbers.
+    pub(crate) fn remembered(&self) -> &[f64] {
+        self.joint.as_flattened()
+    }
+
+    /// The same, to be written.
+    pub(crate) fn remembered_mut(&mut self) -> &mut [f64] {
+        self.joint.as_flattened_mut()
+    }
+}
+
+/// Number of numbers that the joint of an FMU with these variables remembers.
+pub(crate) fn remembered_count(variables: Variables) -> usize {
+    remembering_dofs(variables) * DOF_MEMORY_COUNT
+}
+
+fn remembering_dofs(variables: Variables) -> usize {
+    match variables.dependence {
+        Dependence::Memory(_) => usize::from(variables.dofs.count()),
+        Dependence::Constant | Dependence::OverPreload => 0,
+    }
+}

@@ -16,7 +16,8 @@ pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     BackboneLine, BackboneRun, Estimate, Fit, LapResponse, LapResponseStudy, Model,
     ModelComparison, Noise, Place, Prediction, Resonance, ResponseUnknown, SineLine, SineRun,
-    TermSet, Use, Values, fit_responses, measured_resonance, predicted_resonance,
+    Slider, SliderParameter, SliderValues, TermSet, Use, Values, fit_responses, measured_resonance,
+    predicted_resonance,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

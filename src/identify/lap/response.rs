@@ -10,7 +10,7 @@ use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
 use super::super::IdentifyArguments;
 use super::report_time;
-use bolted_joint::identify::lap::{LapResponse, LapResponseStudy};
+use bolted_joint::identify::lap::{LapResponse, LapResponseStudy, ModelComparison};
 use bolted_joint::report::{LapResponseReport, level_figure};
 use bolted_joint::study::StudyText;
 
@@ -69,6 +69,18 @@ pub(in super::super) fn run(
     print(&(summary(&found, &study) + &files.written()))
 }
 
+/// What is to be said of a model beside its numbers.
+fn note(model: &ModelComparison) -> String {
+    let held = model.held.iter().map(|unknown| unknown.symbol());
+    let mut notes: Vec<String> = held
+        .map(|symbol| format!("{symbol} held at zero"))
+        .collect();
+    if !model.is_passive {
+        notes.push("active".to_owned());
+    }
+    notes.join(", ")
+}
+
 fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
     let mut text = format!(
         "{}\nterms that depend on amplitude: {}\n\n",
@@ -107,13 +119,14 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
         found.starts.0
     );
     text += "\nmodels by likelihood\n";
-    let mut table = Table::new(&["terms", "unknowns", "χ²/ν", "BIC"]);
+    let mut table = Table::new(&["terms", "unknowns", "χ²/ν", "BIC", ""]);
     for model in &found.comparison {
         table.row(vec![
             model.terms.to_string(),
             model.unknowns.to_string(),
             number(model.reduced_chi_squared, 4),
             format!("{:.1}", model.bic_difference),
+            note(model),
         ]);
     }
     text += &table.render();

@@ -68,6 +68,10 @@ impl BackboneLine {
                 let by = z.by_term[term.index()];
                 [by.re, 0.0, by.im / self.omega]
             }
+            ResponseUnknown::Slider(parameter) => {
+                let by = z.by_slider(parameter);
+                [by.re, 0.0, by.im / self.omega]
+            }
             ResponseUnknown::OtherModesReal | ResponseUnknown::OtherModesImaginary => [0.0; 3],
         };
         let row = |by: [f64; 3], weight: f64| {

@@ -1,11 +1,12 @@
 //! Which terms the data call for, by likelihood.
 
+use bolted_joint_dynamics::Linear;
 use serde::Serialize;
 
 use super::backbone::BackboneLine;
 use super::data::{SineLine, SineRun, Use};
 use super::fit::{Data, Fit, fit};
-use super::model::Model;
+use super::model::{Model, ResponseUnknown};
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
@@ -23,6 +24,10 @@ pub struct ModelComparison {
     pub reduced_chi_squared: f64,
     /// Schwarz's criterion less that of the best.
     pub bic_difference: f64,
+    /// Whether the joint takes energy at every amplitude that was fitted.
+    pub is_passive: bool,
+    /// Unknowns that are held at zero, since they would be negative.
+    pub held: Vec<ResponseUnknown>,
 }
 
 /// A fitted candidate.
@@ -32,10 +37,27 @@ pub(super) struct Candidate {
     pub(super) starts: (usize, usize),
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
+    is_passive: bool,
+    held: Vec<ResponseUnknown>,
     bic: f64,
 }
 
-/// Fits every candidate. The best by Schwarz's criterion comes first in what is returned, the comparison is in the candidates' order.
+impl Candidate {
+    /// The model that was fitted.
+    pub(super) fn model(&self, study: &LapResponseStudy) -> Model {
+        let mut model = study.model(&self.terms);
+        model
+            .unknowns
+            .retain(|unknown| !self.held.contains(unknown));
+        Model {
+            harmonics: self.harmonics,
+            ..model
+        }
+    }
+}
+
+/// Fits every candidate. The best by Schwarz's criterion of those that are passive, if one is, comes first in what is returned, the
+/// comparison is in the candidates' order.
 pub(super) fn choose(
     study: &LapResponseStudy,
 ) -> Result<(Candidate, Vec<ModelComparison>), LapError> {
@@ -68,12 +90,18 @@ pub(super) fn choose(
         reduced_chi_squared: candidate.fit.chi_squared
             / candidate.fit.degrees_of_freedom.max(1) as f64,
         bic_difference: candidate.bic - least,
+        is_passive: candidate.is_passive,
+        held: candidate.held.clone(),
     });
     let comparison: Vec<ModelComparison> = comparison.collect();
-    let chosen = candidates.into_iter().find(|candidate| match &study.terms {
-        Some(own) => candidate.terms == *own,
-        None => candidate.bic == least,
-    });
+    let any_is_passive = candidates.iter().any(|candidate| candidate.is_passive);
+    let chosen = match &study.terms {
+        Some(own) => candidates.into_iter().find(|one| one.terms == *own),
+        None => candidates
+            .into_iter()
+            .filter(|one| one.is_passive || !any_is_passive)
+            .min_by(|one, other| one.bic.total_cmp(&other.bic)),
+    };
     match chosen {
         Some(chosen) => Ok((refined(study, chosen, &runs, &backbone), comparison)),
         None => {
@@ -90,12 +118,15 @@ fn refined(
     runs: &[&SineRun],
     backbone: &[BackboneLine],
 ) -> Candidate {
-    let model = study.model(&candidate.terms);
+    let model = Model {
+        harmonics: study.harmonics,
+        ..candidate.model(study)
+    };
     let lines: Vec<SineLine> = runs
         .iter()
         .flat_map(|run| run.lines.iter().copied())
         .collect();
-    if model.harmonics == 1 || lines.is_empty() {
+    if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() {
         return candidate;
     }
     let data = Data {
@@ -122,6 +153,19 @@ pub(super) fn fitted_backbone(study: &LapResponseStudy) -> Vec<BackboneLine> {
     runs.flat_map(|run| run.lines.iter().copied()).collect()
 }
 
+/// Whether the joint takes energy up to the largest amplitude that was fitted.
+fn is_passive(fit: &Fit, backbone: &[BackboneLine]) -> bool {
+    let values = &fit.values;
+    let law = Linear {
+        stiffness: [[values.joint_stiffness]],
+        damping: [[values.joint_damping]],
+    }
+    .beside([values.terms]);
+    let largest = fit.largest_amplitude_m(backbone);
+    let [active] = law.active_amplitude();
+    values.joint_stiffness >= 0.0 && active.is_none_or(|from| from >= largest)
+}
+
 fn candidate(
     study: &LapResponseStudy,
     runs: &[&SineRun],
@@ -129,12 +173,20 @@ fn candidate(
     terms: TermSet,
 ) -> Result<Candidate, LapError> {
     // All models are compared in the closed form of one harmonic.
-    let model = Model {
+    let mut model = Model {
         harmonics: 1,
         ..study.model(&terms)
     };
-    let (fit, tried, agreeing) =
-        start::best(&model, runs, backbone, &study.noise, &study.known_values())?;
+    let known = study.known_values();
+    let find = |model: &Model| start::best(model, runs, backbone, &study.noise, &known);
+    let (mut fit, mut tried, mut agreeing) = find(&model)?;
+    let mut held = Vec::new();
+    // beside a law that slips no damper is needed; one that pushes is none
+    if terms.slider().is_some() && fit.values.joint_damping < 0.0 {
+        held.push(ResponseUnknown::JointDamping);
+        model.unknowns.retain(|unknown| !held.contains(unknown));
+        (fit, tried, agreeing) = find(&model)?;
+    }
     let unknowns = fit.information.nrows();
     let count = (fit.degrees_of_freedom + unknowns) as f64;
     // −2 ln L = χ², or n ln(χ²/n) where the level of the noise is estimated, too; Schwarz adds p ln n.
@@ -145,6 +197,8 @@ fn candidate(
     };
     Ok(Candidate {
         harmonics: 1,
+        is_passive: is_passive(&fit, backbone),
+        held,
         terms,
         bic: deviance + unknowns as f64 * count.ln(),
         fit,

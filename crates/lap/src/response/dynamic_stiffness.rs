@@ -8,6 +8,7 @@ use bolted_joint_dynamics::{
 use num_complex::Complex64;
 
 use super::model::Values;
+use super::slider::{MOST, SliderParameter, SliderValues};
 use bolted_joint_harmonic::{
     HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side, Target,
 };
@@ -27,6 +28,19 @@ pub(super) struct DynamicStiffness {
     pub(super) by_damping: Complex64,
     /// Derivatives by the terms, in the order of [`Term::ALL`].
     pub(super) by_term: [Complex64; TERM_COUNT],
+    /// Law that slips, and derivatives by its unknowns.
+    slider: Option<(SliderValues, [Complex64; MOST])>,
+}
+
+impl DynamicStiffness {
+    /// Derivative by the unknown of a parameter of the law that slips.
+    pub(super) fn by_slider(&self, parameter: SliderParameter) -> Complex64 {
+        let found = self.slider.as_ref().and_then(|(values, by)| {
+            let index = values.index(parameter)?;
+            by.get(index).copied()
+        });
+        found.unwrap_or(Complex64::ZERO)
+    }
 }
 
 /// The relative motion of a lap with given numbers.
@@ -45,9 +59,10 @@ impl<'a> RelativeMotion<'a> {
         }
     }
 
-    /// Of odd harmonics up to the `highest`. Numbers that are no lap's leave the closed form, which the search leaves again.
+    /// Of odd harmonics up to the `highest`, of one beside a law that slips. Numbers that are no lap's leave the closed form, which
+    /// the search leaves again.
     pub(super) fn new(values: &'a Values, highest: usize) -> Self {
-        let balance = (highest > 1)
+        let balance = (highest > 1 && values.slider.is_none())
             .then(|| HarmonicBalance::new(&lap(values), Harmonics::odd(highest).ok()?).ok())
             .flatten();
         Self { values, balance }
@@ -84,9 +99,21 @@ impl<'a> RelativeMotion<'a> {
         for (term, by) in Term::ALL.into_iter().zip(by_term) {
             value += by * values.term(term);
         }
+        let mut by_log_amplitude = self.by_log_amplitude(&by_term);
+        let slider = values.slider.map(|slider| {
+            let slipping = slider.slipping(amplitude_m);
+            value += slipping.value;
+            by_log_amplitude += slipping.by_log_amplitude;
+            // what is left beside a law stiffer than the joint would push
+            if slider.stiffness() > values.joint_stiffness {
+                value = f64::NAN.into();
+            }
+            (slider, slipping.by_unknown)
+        });
         DynamicStiffness {
             value,
-            by_log_amplitude: self.by_log_amplitude(&by_term),
+            by_log_amplitude,
+            slider,
             by_mass: (-0.5 * omega * omega).into(),
             by_stiffness: Complex64::ONE,
             by_damping: Complex64::new(0.0, omega),
@@ -131,6 +158,7 @@ impl<'a> RelativeMotion<'a> {
             by_stiffness: by(2),
             by_damping: by(3),
             by_term,
+            slider: None,
         })
     }
 

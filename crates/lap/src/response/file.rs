@@ -9,8 +9,8 @@ use super::model::ResponseUnknown;
 use super::result::LapResponse;
 use super::study::LapResponseStudy;
 use bolted_joint_joint::{
-    Bodies, Body, Correlation, DofSet, Format, FunctionResidual, HigherTerms, Intervals, Joint,
-    JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
+    Bodies, Body, Correlation, DofSet, Format, Friction, FunctionResidual, HigherTerms, Intervals,
+    Joint, JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
 };
 
 impl LapResponse {
@@ -20,12 +20,23 @@ impl LapResponse {
         let values = &self.fit.values;
         let higher = HigherTerms::of(&[values.terms], vec![self.amplitude_m]);
         let mut terms = self.model.terms.terms().iter();
-        let has_higher = terms.any(|term| *term != Term::CUBIC);
+        let has_higher = terms.any(|term| *term != Term::CUBIC) || values.slider.is_some();
+        let of_slider = values.slider.map_or(0.0, |slider| slider.stiffness());
         let linear = Joint::linear(
             DofSet::TRANSLATION,
-            vec![vec![values.joint_stiffness]],
+            vec![vec![values.joint_stiffness - of_slider]],
             vec![vec![values.joint_damping]],
         );
+        let friction = values.slider.and_then(|slider| {
+            let (name, parameters) = slider.in_file();
+            let law = Friction::laws().find(|law| law.name == name)?;
+            let dof = DofSet::TRANSLATION.row(0);
+            Some(Friction {
+                dof,
+                law,
+                parameters,
+            })
+        });
         let body = Body {
             inertia: vec![values.mass],
             stiffness: vec![values.support_stiffness.max(0.0)],
@@ -38,6 +49,7 @@ impl LapResponse {
             joint: Joint {
                 cubic: vec![values.term(Term::CUBIC)],
                 higher: has_higher.then_some(higher),
+                friction: friction.into_iter().collect(),
                 ..linear
             },
             bodies: Some(Bodies {
@@ -70,6 +82,18 @@ impl LapResponse {
                 found.map_or([known, known], |estimate| estimate.interval_95),
             ]]
         };
+        // of the file's stiffness, which is less by that of a law that slips, as well known as that of small motion
+        let of_slider = self
+            .fit
+            .values
+            .slider
+            .map_or(0.0, |slider| slider.stiffness());
+        let stiffness = interval(ResponseUnknown::JointStiffness);
+        let stiffness = stiffness.into_iter().map(|row| {
+            let rows = row.into_iter();
+            rows.map(|interval| interval.map(|end| end - of_slider))
+                .collect()
+        });
         let size = self.estimates.len();
         let deviation: Vec<f64> = self
             .estimates
@@ -113,7 +137,7 @@ impl LapResponse {
                     .collect(),
             }),
             interval_95: Some(Intervals {
-                stiffness: interval(ResponseUnknown::JointStiffness),
+                stiffness: stiffness.collect(),
                 damping: interval(ResponseUnknown::JointDamping),
             }),
             inflation: (study.noise.is_stated && self.inflation > 1.0).then_some(self.inflation),

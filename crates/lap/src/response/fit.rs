@@ -37,6 +37,15 @@ pub struct Fit {
     pub information: DMatrix<f64>,
 }
 
+impl Fit {
+    /// Largest amplitude of the relative motion that was fitted, beside that of a backbone, m.
+    pub(super) fn largest_amplitude_m(&self, backbone: &[BackboneLine]) -> f64 {
+        let of_backbone = backbone.iter().map(|line| line.amplitude_m);
+        let all = self.amplitudes_m.iter().copied().chain(of_backbone);
+        all.fold(0.0, f64::max)
+    }
+}
+
 /// What a model is fitted to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Data<'a> {
@@ -246,7 +255,9 @@ fn moved(
 ) -> State {
     let mut values = state.values;
     for (unknown, change) in model.unknowns.iter().zip(step.iter()) {
-        *values.place(*unknown) += change;
+        if let Some(place) = values.place(*unknown) {
+            *place += change;
+        }
     }
     let lines = state.lines.iter().zip(&state.log_amplitudes);
     let log_amplitudes = lines.map(|(line, log_amplitude)| {

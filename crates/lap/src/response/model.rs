@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::data::{SineLine, wrapped};
 use super::dynamic_stiffness::RelativeMotion;
+use super::slider::{SliderParameter, SliderValues};
 use super::study::{Noise, Place};
 use super::terms::{self, TermSet};
 
@@ -26,6 +27,8 @@ pub enum ResponseUnknown {
     JointDamping,
     /// A term of the joint that depends on amplitude.
     Term(#[serde(serialize_with = "terms::by_symbol")] Term),
+    /// A parameter of a law that slips.
+    Slider(SliderParameter),
     /// Real part of what other modes add to the receptance, m/N.
     OtherModesReal,
     /// Imaginary part of that, m/N.
@@ -43,6 +46,7 @@ impl ResponseUnknown {
             Self::JointStiffness => "k12",
             Self::JointDamping => "c12",
             Self::Term(term) => term.row().symbol,
+            Self::Slider(parameter) => parameter.symbol(),
             Self::OtherModesReal => "Re ρ",
             Self::OtherModesImaginary => "Im ρ",
         }
@@ -56,6 +60,7 @@ impl ResponseUnknown {
             Self::SupportStiffness | Self::JointStiffness => "N/m",
             Self::SupportDamping | Self::JointDamping => "N·s/m",
             Self::Term(term) => return terms::unit_of(term).into(),
+            Self::Slider(parameter) => parameter.unit(),
             Self::OtherModesReal | Self::OtherModesImaginary => "m/N",
         };
         unit.into()
@@ -71,13 +76,16 @@ pub struct Values {
     pub support_stiffness: f64,
     /// c of each support, N·s/m.
     pub support_damping: f64,
-    /// k12 of the joint, N/m.
+    /// k12 of the joint, N/m; beside a law that slips that of small motion, the law's own stiffness among it.
     pub joint_stiffness: f64,
     /// c12 of the joint, N·s/m.
     pub joint_damping: f64,
     /// The terms of the joint that depend on amplitude, in their SI units.
     #[serde(serialize_with = "terms::as_list")]
     pub terms: Polynomial,
+    /// The law of the joint that slips.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slider: Option<SliderValues>,
     /// What other modes add to the receptance, real and imaginary part, m/N.
     pub other_modes: [f64; 2],
 }
@@ -92,6 +100,7 @@ impl Default for Values {
             joint_stiffness: 0.0,
             joint_damping: 0.0,
             terms: Polynomial::NONE,
+            slider: None,
             other_modes: [0.0; 2],
         }
     }
@@ -116,15 +125,20 @@ impl Values {
         0.5 * self.support_damping + self.joint_damping
     }
 
-    /// The value of an unknown.
+    /// The value of an unknown, zero of what is not there.
     #[must_use]
     pub fn of(&self, unknown: ResponseUnknown) -> f64 {
+        if let ResponseUnknown::Slider(parameter) = unknown {
+            return self.slider.map_or(0.0, |slider| slider.of(parameter));
+        }
         let mut copy = *self;
-        *copy.place(unknown)
+        copy.place(unknown).map_or(0.0, |place| *place)
     }
 
-    pub(super) fn place(&mut self, unknown: ResponseUnknown) -> &mut f64 {
-        match unknown {
+    /// Where a search finds an unknown; of a law that slips there are logarithms. `None` of what is not there.
+    pub(super) fn place(&mut self, unknown: ResponseUnknown) -> Option<&mut f64> {
+        let place = match unknown {
+            ResponseUnknown::Slider(parameter) => return self.slider.as_mut()?.place(parameter),
             ResponseUnknown::Mass => &mut self.mass,
             ResponseUnknown::SupportStiffness => &mut self.support_stiffness,
             ResponseUnknown::SupportDamping => &mut self.support_damping,
@@ -133,7 +147,8 @@ impl Values {
             ResponseUnknown::Term(term) => self.terms.coefficient_mut(term),
             ResponseUnknown::OtherModesReal => &mut self.other_modes[0],
             ResponseUnknown::OtherModesImaginary => &mut self.other_modes[1],
-        }
+        };
+        Some(place)
     }
 }
 
@@ -310,6 +325,7 @@ impl Model {
                 ResponseUnknown::JointStiffness => (z.by_stiffness, Complex64::ZERO),
                 ResponseUnknown::JointDamping => (z.by_damping, Complex64::ZERO),
                 ResponseUnknown::Term(term) => (z.by_term[term.index()], Complex64::ZERO),
+                ResponseUnknown::Slider(parameter) => (z.by_slider(parameter), Complex64::ZERO),
                 ResponseUnknown::OtherModesReal => {
                     return rows(Complex64::ZERO, Complex64::ONE, 0.0);
                 }

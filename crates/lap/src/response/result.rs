@@ -11,6 +11,7 @@ use super::data::{SineRun, Use};
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::prediction::Prediction;
+use super::slider::SliderParameter;
 use super::study::LapResponseStudy;
 use crate::error::LapError;
 use bolted_joint_identify::Watch;
@@ -72,10 +73,7 @@ impl LapResponse {
     /// [`LapError`] if the data determine no model, or if a file has vanished meanwhile.
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
         let (chosen, comparison) = choice::choose(study)?;
-        let model = Model {
-            harmonics: chosen.harmonics,
-            ..study.model(&chosen.terms)
-        };
+        let model = chosen.model(study);
         let fit = chosen.fit;
         let reduced = fit.chi_squared / fit.degrees_of_freedom.max(1) as f64;
         let factor = if study.noise.is_stated {
@@ -85,14 +83,9 @@ impl LapResponse {
         };
         // The covariance of χ²'s information is its inverse; the function gives half of it.
         let covariance = 2.0 * factor * unit_covariance(&fit.information);
-        let backbone = choice::fitted_backbone(study);
-        let of_backbone = backbone.iter().map(|line| line.amplitude_m);
-        let amplitude_m = fit
-            .amplitudes_m
-            .iter()
-            .copied()
-            .chain(of_backbone)
-            .fold(0.0, f64::max);
+        let by_searched = by_searched(&model, &fit.values);
+        let covariance = &by_searched * covariance * by_searched.transpose();
+        let amplitude_m = fit.largest_amplitude_m(&choice::fitted_backbone(study));
         let quantile = if study.noise.is_stated {
             NORMAL_975
         } else {
@@ -101,11 +94,19 @@ impl LapResponse {
         let estimates = model.unknowns.iter().enumerate().map(|(place, &unknown)| {
             let value = fit.values.of(unknown);
             let deviation = covariance[(place, place)].sqrt();
+            let interval_95 = match unknown {
+                // positive by their nature, and searched as logarithms
+                ResponseUnknown::Slider(parameter) if parameter != SliderParameter::Exponent => {
+                    let factor = (quantile * deviation / value).exp();
+                    [value / factor, value * factor]
+                }
+                _ => [value - quantile * deviation, value + quantile * deviation],
+            };
             Estimate {
                 unknown,
                 value,
                 standard_deviation: deviation,
-                interval_95: [value - quantile * deviation, value + quantile * deviation],
+                interval_95,
                 is_identified: is_identified(unknown, deviation, &fit.values, amplitude_m),
             }
         });
@@ -181,6 +182,31 @@ impl LapResponse {
         let found = estimates.find(|estimate| estimate.unknown == unknown);
         found.map_or(0.0, |estimate| estimate.standard_deviation)
     }
+}
+
+/// Derivatives of the unknowns as they are told (rows) by those that are searched, which are logarithms of a law that slips.
+fn by_searched(model: &Model, values: &Values) -> DMatrix<f64> {
+    let size = model.unknowns.len();
+    let mut by = DMatrix::identity(size, size);
+    let Some(slider) = &values.slider else {
+        return by;
+    };
+    let own = slider.parameters();
+    let index = |unknown: &ResponseUnknown| match unknown {
+        ResponseUnknown::Slider(parameter) => slider.index(*parameter),
+        _ => None,
+    };
+    for (row, unknown) in model.unknowns.iter().enumerate() {
+        let Some(told) = index(unknown) else {
+            continue;
+        };
+        for (column, searched) in model.unknowns.iter().enumerate() {
+            if let Some(searched) = index(searched) {
+                by[(row, column)] = own[told].1[searched];
+            }
+        }
+    }
+    by
 }
 
 /// Known better than its own size, or so well that it has no visible effect if it is zero.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
+use super::slider::Slider;
 use super::terms::{NamedTerm, TermSet};
 use crate::error::LapError;
 use bolted_joint_study::{FrequencyTable, Method, StudyError, StudyText};
@@ -228,17 +229,8 @@ impl LapResponseStudy {
         study.check_method(file.method, &[Method::LapResponse])?;
         study.check_name("name", &file.name)?;
         let noise = noise(study, &file.noise)?;
-        let terms: Option<Vec<Term>> = file
-            .model
-            .terms
-            .as_deref()
-            .map(|terms| terms.iter().map(|named| named.0).collect());
-        let named = terms.as_deref().unwrap_or_default();
-        let mut places = named.iter().enumerate();
-        if let Some((_, twice)) = places.find(|(place, term)| named[..*place].contains(term)) {
-            let found = format!("{} twice", twice.row().symbol);
-            return Ok(study.refuse("model.terms", found, "every term once")?);
-        }
+        let terms = file.model.terms.as_deref();
+        let terms = terms.map(|named| terms_of(study, named)).transpose()?;
         if let Some(torque) = file.torque {
             study.not_negative("torque", torque, "N·m, not negative")?;
         }
@@ -307,7 +299,7 @@ impl LapResponseStudy {
             name: file.name,
             drive: file.model.drive,
             response: file.model.response,
-            terms: terms.as_deref().map(TermSet::of),
+            terms,
             harmonics,
             other_modes: file.model.other_modes,
             known,
@@ -356,12 +348,7 @@ impl LapResponseStudy {
         model.unknowns = linear
             .into_iter()
             .filter(|unknown| !is_known(unknown) && (sees_sum || !of_support(unknown)))
-            .chain(
-                terms
-                    .terms()
-                    .iter()
-                    .map(|term| ResponseUnknown::Term(*term)),
-            )
+            .chain(terms.unknowns())
             .collect();
         if self.other_modes {
             model.unknowns.extend([
@@ -377,10 +364,39 @@ impl LapResponseStudy {
     pub fn known_values(&self) -> Values {
         let mut values = Values::default();
         for (unknown, value) in &self.known {
-            *values.place(*unknown) = *value;
+            if let Some(place) = values.place(*unknown) {
+                *place = *value;
+            }
         }
         values
     }
+}
+
+/// The terms that a study names.
+fn terms_of(study: &StudyText, named: &[NamedTerm]) -> Result<TermSet, StudyError> {
+    let mut terms: Vec<Term> = Vec::new();
+    let mut sliders: Vec<Slider> = Vec::new();
+    for name in named {
+        match *name {
+            NamedTerm::Term(term) => {
+                let found = format!("{} twice", term.row().symbol);
+                let is_new = !terms.contains(&term);
+                study.ensure(is_new, "model.terms", found, "every term once")?;
+                terms.push(term);
+            }
+            NamedTerm::Slider(slider) => sliders.push(slider),
+        }
+    }
+    let names: Vec<&str> = sliders.iter().map(|slider| slider.name()).collect();
+    let expected = "one law that slips at most";
+    study.ensure(
+        sliders.len() < 2,
+        "model.terms",
+        names.join(" and "),
+        expected,
+    )?;
+    let set = TermSet::of(&terms);
+    Ok(sliders.into_iter().fold(set, TermSet::beside))
 }
 
 fn known(study: &StudyText, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, StudyError> {

@@ -29,7 +29,8 @@ impl LapResponse {
                 "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
             ));
         }
-        if self.model.harmonics < study.harmonics && !study.sines.is_empty() {
+        let is_of_one = self.fit.values.slider.is_none();
+        if is_of_one && self.model.harmonics < study.harmonics && !study.sines.is_empty() {
             warnings.push(format!(
                 "the estimate is that of one harmonic: with {} harmonics it did not converge",
                 study.harmonics
@@ -56,8 +57,14 @@ impl LapResponse {
         if let (Some(own), Some(best)) = (own, best)
             && own.bic_difference > STRONG
         {
+            let why_not = match best.is_passive {
+                true => "",
+                false => {
+                    ", but that joint would feed energy within the amplitudes that were fitted"
+                }
+            };
             warnings.push(format!(
-                "the terms \"{}\" explain the data better than \"{}\": BIC {:.1} lower",
+                "the terms \"{}\" explain the data better than \"{}\": BIC {:.1} lower{why_not}",
                 best.terms, own.terms, own.bic_difference
             ));
         }

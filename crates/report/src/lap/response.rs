@@ -189,10 +189,10 @@ impl LapResponseReport<'_> {
                 number_cell(&model.unknowns.to_string()),
                 number_cell(&shown(model.reduced_chi_squared, 4)),
                 number_cell(&format!("{:.1}", model.bic_difference)),
-                cell(if model.terms == self.found.model.terms {
-                    "used"
-                } else {
-                    ""
+                cell(match model.is_passive {
+                    _ if model.terms == self.found.model.terms => "used",
+                    true => "",
+                    false => "active",
                 }),
             ]
             .concat()

@@ -1,0 +1,365 @@
+//! Laws that slip, as unknowns of a lap: by logarithms, so that no step of a search leaves their range, and about the stiffness of
+//! small motion, which responses tell best.
+
+use bolted_joint_dynamics::{
+    Dual, Number,
+    law::{DOF_AT_REST, Iwan, Jenkins, Law},
+};
+use bolted_joint_harmonic::masing_fundamental;
+use num_complex::Complex64;
+use serde::{Serialize, Serializer};
+
+/// Unknowns of a law at most.
+pub(super) const MOST: usize = 4;
+/// φ_max of small motion over the largest amplitude observed: responses do not tell it, but that all does not slip before.
+const BEYOND: f64 = 2.0;
+
+/// A law that slips, beside the joint's spring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slider {
+    /// One elastic slider.
+    Jenkins,
+    /// Iwan's law of small motion: R and χ alone, since nothing slips through.
+    MicroSlip,
+    /// Iwan's law with all four parameters.
+    Iwan,
+}
+
+/// A parameter of such a law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SliderParameter {
+    /// K_T, while all sticks, N/m.
+    Stiffness,
+    /// F_S, at which all slips, N.
+    SlipForce,
+    /// R, density of the sliders over the displacement at which they slip, N/m^(χ+2).
+    Density,
+    /// χ, the power of that density.
+    Exponent,
+    /// β, stiffness of what slips last over that of all else.
+    Ratio,
+}
+
+impl Slider {
+    /// All of them, from the simplest.
+    pub const ALL: [Self; 3] = [Self::Jenkins, Self::MicroSlip, Self::Iwan];
+
+    /// Its name in studies and in comparisons.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Jenkins => "jenkins",
+            Self::MicroSlip => "micro-slip",
+            Self::Iwan => "iwan",
+        }
+    }
+
+    /// Its parameters.
+    #[must_use]
+    pub fn parameters(self) -> &'static [SliderParameter] {
+        use SliderParameter::{Density, Exponent, Ratio, SlipForce, Stiffness};
+        match self {
+            Self::Jenkins => &[Stiffness, SlipForce],
+            Self::MicroSlip => &[Density, Exponent],
+            Self::Iwan => &[SlipForce, Stiffness, Exponent, Ratio],
+        }
+    }
+}
+
+impl SliderParameter {
+    /// Its symbol.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Stiffness => "K_T",
+            Self::SlipForce => "F_S",
+            Self::Density => "R",
+            Self::Exponent => "χ",
+            Self::Ratio => "β",
+        }
+    }
+
+    /// Its SI unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Stiffness => "N/m",
+            Self::SlipForce => "N",
+            Self::Density => "N/m^(χ+2)",
+            Self::Exponent | Self::Ratio => "",
+        }
+    }
+}
+
+/// What a law that slips has for values.
+///
+/// Its unknowns are logarithms: of K_T and F_S for one slider; for Iwan's law of the stiffness that is lost at the `reference_m`,
+/// of χ + 1, of φ_max over the reference, and of β.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderValues {
+    /// The law.
+    pub slider: Slider,
+    /// Largest amplitude of the relative motion that was observed, m.
+    pub reference_m: f64,
+    pub(super) logs: [f64; MOST],
+}
+
+/// A law with values of one kind of number.
+enum Valued<N> {
+    Jenkins(Jenkins<N>),
+    Iwan(Iwan<N>),
+}
+
+/// What a law that slips adds to the dynamic stiffness of the relative motion, beyond its stiffness of small motion.
+pub(super) struct Slipping {
+    pub(super) value: Complex64,
+    /// By the logarithm of the amplitude.
+    pub(super) by_log_amplitude: Complex64,
+    /// By its unknowns.
+    pub(super) by_unknown: [Complex64; MOST],
+}
+
+impl SliderValues {
+    /// One slider with these values, N/m and N.
+    #[must_use]
+    pub fn jenkins(stiffness: f64, slip_force: f64, reference_m: f64) -> Self {
+        Self {
+            slider: Slider::Jenkins,
+            reference_m,
+            logs: [stiffness.ln(), slip_force.ln(), 0.0, 0.0],
+        }
+    }
+
+    /// Iwan's law that loses so much stiffness (N/m) at the reference, of `slider`.
+    pub(super) fn iwan(
+        slider: Slider,
+        lost_n_per_m: f64,
+        exponent: f64,
+        [span, ratio]: [f64; 2],
+        reference_m: f64,
+    ) -> Self {
+        let logs = [
+            lost_n_per_m.ln(),
+            (exponent + 1.0).ln(),
+            span.ln(),
+            ratio.ln(),
+        ];
+        Self {
+            slider,
+            reference_m,
+            logs,
+        }
+    }
+
+    fn law<N: Number>(&self, logs: [N; MOST]) -> Valued<N> {
+        let one = N::from(1.0);
+        let reference = N::from(self.reference_m);
+        let [first, second, third, fourth] = logs;
+        // K_l = R A^(χ+1)/(χ+1), at φ_max K_l (φ_max/A)^(χ+1); S = β of that
+        let (span, ratio) = match self.slider {
+            Slider::Jenkins => {
+                return Valued::Jenkins(Jenkins {
+                    stiffness: first.exp(),
+                    slip_force: second.exp(),
+                });
+            }
+            Slider::MicroSlip => (N::from(BEYOND), N::ZERO),
+            Slider::Iwan => (third.exp(), fourth.exp()),
+        };
+        let above = second.exp();
+        let lost = first.exp() * span.powf(above);
+        // K_T = R φ_max^(χ+1)/(χ+1) + S,  F_S = R φ_max^(χ+2)/(χ+2) + S φ_max
+        Valued::Iwan(Iwan {
+            slip_force: lost * span * reference * (above / (above + one) + ratio),
+            stiffness: lost * (one + ratio),
+            exponent: above - one,
+            ratio,
+        })
+    }
+
+    /// K_T, stiffness while all sticks, N/m.
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness_of(self.logs)
+    }
+
+    fn stiffness_of<N: Number>(&self, logs: [N; MOST]) -> N {
+        match self.law(logs) {
+            Valued::Jenkins(law) => law.stiffness,
+            Valued::Iwan(law) => law.stiffness,
+        }
+    }
+
+    /// Its parameters in the order of [`Slider::parameters`], each with its derivatives by the unknowns.
+    pub(super) fn parameters(&self) -> Vec<(f64, [f64; MOST])> {
+        let logs = std::array::from_fn(|i| Dual::<MOST>::along(self.logs[i], i));
+        let one = Dual::from(1.0);
+        let all = match (self.slider, self.law(logs)) {
+            (_, Valued::Jenkins(law)) => vec![law.stiffness, law.slip_force],
+            (Slider::MicroSlip, Valued::Iwan(law)) => {
+                // R = K_l (χ+1)/A^(χ+1)
+                let above = law.exponent + one;
+                let lost = logs[0].exp();
+                let density = lost * above / Dual::from(self.reference_m).powf(above);
+                vec![density, law.exponent]
+            }
+            (_, Valued::Iwan(law)) => {
+                vec![law.slip_force, law.stiffness, law.exponent, law.ratio]
+            }
+        };
+        all.into_iter().map(|n| (n.value, n.change)).collect()
+    }
+
+    /// The law of a joint file: its name there and its parameters, in the order of its declaration.
+    pub(super) fn in_file(&self) -> (&'static str, Vec<f64>) {
+        match self.law(self.logs) {
+            Valued::Jenkins(law) => (
+                <Jenkins as Law<f64>>::DECLARATION.name,
+                vec![law.stiffness, law.slip_force],
+            ),
+            Valued::Iwan(law) => (
+                <Iwan as Law<f64>>::DECLARATION.name,
+                vec![law.slip_force, law.stiffness, law.exponent, law.ratio],
+            ),
+        }
+    }
+
+    /// Place of a parameter's unknown.
+    pub(super) fn index(&self, parameter: SliderParameter) -> Option<usize> {
+        let mut all = self.slider.parameters().iter();
+        all.position(|own| *own == parameter)
+    }
+
+    /// Value of a parameter, zero of what is not there.
+    pub(super) fn of(&self, parameter: SliderParameter) -> f64 {
+        let index = self.index(parameter);
+        index.map_or(0.0, |index| self.parameters()[index].0)
+    }
+
+    /// Where a search finds the unknown of a parameter.
+    pub(super) fn place(&mut self, parameter: SliderParameter) -> Option<&mut f64> {
+        let index = self.index(parameter)?;
+        self.logs.get_mut(index)
+    }
+
+    /// What it adds at an amplitude of the relative motion, m.
+    pub(super) fn slipping(&self, amplitude_m: f64) -> Slipping {
+        const ALL: usize = MOST + 1;
+        if amplitude_m.is_nan() || amplitude_m <= 0.0 {
+            let none = Complex64::ZERO;
+            return Slipping {
+                value: none,
+                by_log_amplitude: none,
+                by_unknown: [none; MOST],
+            };
+        }
+        let logs = std::array::from_fn(|i| Dual::<ALL>::along(self.logs[i], i));
+        let amplitude = Dual::along(amplitude_m, MOST);
+        let law = self.law(logs);
+        let first_loading = |u| match &law {
+            Valued::Jenkins(law) => law.load(&DOF_AT_REST[..1], u, Dual::ZERO),
+            Valued::Iwan(law) => law.load(&[], u, Dual::ZERO),
+        };
+        let knee = match &law {
+            Valued::Jenkins(law) => law.slip_force.value / law.stiffness.value,
+            Valued::Iwan(law) => law.nonlinear_amplitude(0.0, 0.0),
+        };
+        let found = masing_fundamental(first_loading, knee, amplitude);
+        // f = a₁ cos θ + b₁ sin θ of u = U cos θ: z = (a₁ − j b₁)/U − K_T
+        let real = found.in_phase / amplitude - self.stiffness_of(logs);
+        let imaginary = -found.quadrature / amplitude;
+        let change = |i: usize| Complex64::new(real.change[i], imaginary.change[i]);
+        Slipping {
+            value: Complex64::new(real.value, imaginary.value),
+            by_log_amplitude: amplitude_m * change(MOST),
+            by_unknown: std::array::from_fn(change),
+        }
+    }
+}
+
+impl Serialize for Slider {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl Serialize for SliderValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let names = self.slider.parameters().iter().map(|of| of.symbol());
+        let values = self.parameters().into_iter().map(|(value, _)| value);
+        serializer.collect_map(names.zip(values))
+    }
+}
+
+impl Serialize for SliderParameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.symbol())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> [SliderValues; 3] {
+        let a = 3e-4;
+        [
+            SliderValues::jenkins(2e5, 20.0, a),
+            SliderValues::iwan(Slider::MicroSlip, 3e4, -0.4, [1.0, 1.0], a),
+            SliderValues::iwan(Slider::Iwan, 3e4, -0.4, [0.7, 0.3], a),
+        ]
+    }
+
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        for values in all() {
+            let amplitude = 2.6e-4;
+            let found = values.slipping(amplitude);
+            let step = 1e-6;
+            let size = found.value.norm();
+            let by_log = (values.slipping(amplitude * f64::exp(step)).value
+                - values.slipping(amplitude * f64::exp(-step)).value)
+                / (2.0 * step);
+            assert!(
+                (by_log - found.by_log_amplitude).norm() < 1e-6 * size,
+                "{values:?}"
+            );
+            for i in 0..values.slider.parameters().len() {
+                let moved = |by: f64| {
+                    let mut moved = values;
+                    moved.logs[i] += by;
+                    moved
+                };
+                let (above, below) = (moved(step), moved(-step));
+                let by = (above.slipping(amplitude).value - below.slipping(amplitude).value)
+                    / (2.0 * step);
+                assert!(
+                    (by - found.by_unknown[i]).norm() < 1e-6 * size,
+                    "{values:?} {i}"
+                );
+                for (n, (value, change)) in values.parameters().into_iter().enumerate() {
+                    let [above, below] = [above, below].map(|of| of.parameters()[n].0);
+                    let by = (above - below) / (2.0 * step);
+                    assert!(
+                        (by - change[i]).abs() < 1e-6 * value.abs(),
+                        "{values:?} {n} {i}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// D = 4 R U^(χ+3)/((χ+2)(χ+3)) (Segalman), which is π U² Im z.
+    #[test]
+    fn small_motion_has_its_power_of_heat() {
+        let values = all()[1];
+        let parameters = values.parameters();
+        let (density, exponent) = (parameters[0].0, parameters[1].0);
+        for amplitude in [1e-6_f64, 1e-5, 1e-4, 3e-4] {
+            let heat =
+                std::f64::consts::PI * amplitude.powi(2) * values.slipping(amplitude).value.im;
+            let expected = 4.0 * density * amplitude.powf(exponent + 3.0)
+                / ((exponent + 2.0) * (exponent + 3.0));
+            assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
+        }
+    }
+}

@@ -11,6 +11,19 @@ K, C, H = 2e6, 20.0, 1e-4
 IWAN = {"law": "iwan", "slip_force": 4000.0, "stiffness": 1.5e7, "exponent": -0.3, "ratio": 0.5}
 ON_THETA = {"law": "iwan", "slip_force": 0.9, "stiffness": 800.0, "exponent": 0.2, "ratio": 0.1}
 
+VALANIS = {"law": "valanis", "stiffness": 1.5e7, "slip_stiffness": 1e6, "slip_force": 3000.0, "kappa": 0.7}
+DAHL = {"law": "dahl", "stiffness": 1e7, "slip_force": 2000.0}
+LUGRE = {
+    "law": "lugre",
+    "stiffness": 1e7,
+    "bristle_damping": 100.0,
+    "damping": 60.0,
+    "slip_force": 2000.0,
+    "static_force": 3000.0,
+    "stribeck_velocity": 0.05,
+}
+BOUC_WEN = {"law": "bouc-wen", "stiffness": 1e7, "slip_force": 2000.0, "exponent": 1.5, "beta": 0.8, "gamma": -0.3}
+
 # A random walk, and after each step of it: load, heat since the start, and the latest reversal that is remembered. Made with 30
 # digits (mpmath) by a stack of reversal points over Segalman's virgin curve, which agrees with 40,000 sliders to 1e-9.
 WALK = [
@@ -121,7 +134,103 @@ def test_the_tangent_of_iwan_s_law_is_that_of_the_trial(slave):
 
 ALL = [
     pytest.param([IWAN], id="iwan"),
+    pytest.param([VALANIS], id="valanis"),
+    pytest.param([DAHL], id="dahl"),
+    pytest.param([LUGRE], id="lugre"),
+    pytest.param([BOUC_WEN], id="bouc-wen"),
+    pytest.param([IWAN, VALANIS, DAHL, LUGRE, BOUC_WEN], id="all"),
 ]
+
+
+def alone(law):
+    """The law with no joint beside it."""
+    return changed(with_friction(law), stiffness=[[0.0]], damping=[[0.0]])
+
+
+def move(instance, path, velocity=None):
+    """Goes from point to point, the way to each at this speed where one is given; returns the heat after each."""
+    heat, at, time = [], 0.0, 0.0
+    for y in path:
+        if velocity is not None:
+            instance.set({"a.y": at, "a.v": np.sign(y - at) * velocity})
+            instance.step(time, H)
+            time += H
+            instance.set({"a.v": np.sign(y - at) * velocity})
+        instance.set({"a.y": y})
+        instance.step(time, H)
+        heat.append(instance.get("energy.dissipated")[0])
+        at, time = y, time + H
+    return np.array(heat)
+
+
+@both_versions
+@pytest.mark.parametrize(
+    "kappa, tip, cycle, after",
+    [
+        # with 30 digits from the equation of the steady loop, and by steps with Lambert's W
+        (0.0, 4.3514457315547, 0.032971085368906, -3.4657448972292),
+        (0.5, 4.6483770884788, 0.027032458230425, -3.896051151761),
+        (0.9, 5.07125928497, 0.018574814300601, -4.4697512831095),
+        (0.99, 5.1, 0.018, -4.5),
+    ],
+)
+def test_valanis_loops_are_those_of_the_closed_form(slave, kappa, tip, cycle, after):
+    law = {"law": "valanis", "stiffness": 1000.0, "slip_stiffness": 100.0, "slip_force": 5.0, "kappa": kappa}
+    instance = slave(alone(law), "element")
+    instance.initialise()
+    move(instance, [4e-3, 6e-3, -2e-3, 3e-3, -6e-3])
+    assert instance.get("joint.valanis_p_y")[0] == pytest.approx(after, rel=1e-12)
+    instance.fmu.reset()
+    instance.initialise()
+    heat = move(instance, [6e-3, -6e-3] * 60 + [6e-3])
+    assert instance.get("b.F")[0] == pytest.approx(tip, rel=1e-12)
+    assert heat[-1] - heat[-3] == pytest.approx(cycle, rel=1e-11)
+
+
+@both_versions
+def test_dahl_loops_are_those_of_the_closed_form(slave):
+    instance = slave(alone({"law": "dahl", "stiffness": 1e5, "slip_force": 2.0}), "element")
+    instance.initialise()
+    heat = move(instance, [5e-5, -5e-5] * 40 + [5e-5])
+    # F_m = F_c tanh(σ₀X/F_c), D = 4 F_c (X − F_m/σ₀)
+    load = 2.0 * np.tanh(2.5)
+    assert instance.get("b.F")[0] == pytest.approx(load, rel=1e-12)
+    assert heat[-1] - heat[-3] == pytest.approx(8.0 * (5e-5 - load / 1e5), rel=1e-11)
+
+
+@both_versions
+def test_lugre_slides_and_gets_there_as_the_closed_forms_say(slave):
+    law = {"stiffness": 1e5, "bristle_damping": 316.22776601683796, "slip_force": 1.0, "static_force": 1.5}
+    law = {"law": "lugre", **law, "damping": 160.0, "stribeck_velocity": 1e-3}
+    instance = slave(alone(law), "element")
+    for velocity, deflection in [(1e-4, 2.97010049456189e-7), (1e-3, 2.65008182456761e-6), (1e-2, 9.50212931632136e-6)]:
+        instance.initialise()
+        move(instance, np.linspace(0, 3e-3 * velocity, 8)[1:], velocity)
+        assert instance.get("joint.lugre_z_y")[0] == pytest.approx(deflection, rel=1e-12)
+        instance.set({"a.y": 1.0})
+        slip = 1 + 0.5 * np.exp(-((velocity / 1e-3) ** 2))
+        assert instance.get("b.F")[0] == pytest.approx(slip + 160.0 * velocity, rel=1e-12)
+        instance.fmu.reset()
+
+
+@both_versions
+@pytest.mark.parametrize(
+    "exponent, beta, gamma, tip, cycle",
+    [
+        # with 14 digits from hypergeometric functions (mpmath)
+        (1.0, 0.6, 0.4, 0.73202144188549, 0.68095622771471),
+        (2.0, 0.5, 0.5, 0.82565886174634, 0.46308783649238),
+        (1.5, 0.8, -0.3, 0.987082735703, 0.77576353358281),
+        (3.0, 0.9, 0.1, 0.89563583370348, 0.60466440873172),
+    ],
+)
+def test_bouc_wen_loops_are_those_of_the_closed_form(slave, exponent, beta, gamma, tip, cycle):
+    law = {"stiffness": 1.0, "slip_force": 1.0, "exponent": exponent, "beta": beta, "gamma": gamma}
+    instance = slave(alone({"law": "bouc-wen", **law}), "element")
+    instance.initialise()
+    heat = move(instance, [1.0, -1.0] * 80 + [1.0])
+    assert instance.get("b.F")[0] == pytest.approx(tip, rel=1e-11)
+    assert heat[-1] - heat[-3] == pytest.approx(cycle, rel=1e-10)
 
 
 @both_versions
@@ -218,6 +327,10 @@ def test_model_exchange_commits_completed_steps_alone(slave, model, laws):
         ({**IWAN, "exponent": -1.0}, ["friction[0].exponent: found -1.0", "above -1"]),
         ({**IWAN, "ratio": -0.1}, ["friction[0].ratio: found -0.1", "zero or more"]),
         ({**IWAN, "slip_force": 0.0}, ["friction[0].slip_force: found 0.0", "above 0"]),
+        ({**VALANIS, "kappa": 1.2}, ["friction[0].kappa: found 1.2", "0 to 1"]),
+        ({**DAHL, "slip_force": 0.0}, ["friction[0].slip_force: found 0.0", "above 0"]),
+        ({**LUGRE, "damping": 49.0}, ["friction[0].damping: found 49.0", "50.0 or more", "gives energy"]),
+        ({**BOUC_WEN, "gamma": 0.81}, ["friction[0].gamma: found 0.81", "-0.8 to 0.8", "gives energy"]),
     ],
 )
 def test_parameters_outside_of_a_law_are_refused_by_key_value_and_bound(run, tmp_path, law, fragments):

@@ -99,13 +99,30 @@ fn laws_that_do_not_fit_are_refused_by_their_key() {
 
 const IWAN: &str = r#""dof": "y", "law": "iwan", "slip_force": 4000, "stiffness": 1.5e7, "exponent": -0.3, "ratio": 0.5"#;
 
+const VALANIS: &str = r#""dof": "y", "law": "valanis", "stiffness": 1000, "slip_stiffness": 100, "slip_force": 5, "kappa": 0.5"#;
+const DAHL: &str = r#""dof": "y", "law": "dahl", "stiffness": 1e5, "slip_force": 2"#;
+const LUGRE: &str = r#""dof": "y", "law": "lugre", "stiffness": 1e5, "bristle_damping": 300, "damping": 150,
+    "slip_force": 10, "static_force": 15, "stribeck_velocity": 1e-3"#;
+const BOUC_WEN: &str = r#""dof": "y", "law": "bouc-wen", "stiffness": 1e5, "slip_force": 2, "exponent": 1.5, "beta": 0.8,
+    "gamma": -0.3"#;
+
 /// Each law in its range, what of it is put in place of what, and what the refusal says.
 #[rustfmt::skip]
-const OUT_OF_RANGE: [(&str, &str, &str, [&str; 2]); 4] = [
+const OUT_OF_RANGE: [(&str, &str, &str, [&str; 2]); 14] = [
     (IWAN, "4000", "0", ["joint.friction[0].slip_force: found 0.0", "above 0"]),
     (IWAN, "1.5e7", "0", ["joint.friction[0].stiffness: found 0.0", "above 0"]),
     (IWAN, "-0.3", "-1", ["joint.friction[0].exponent: found -1.0", "above -1"]),
     (IWAN, "0.5", "-0.5", ["joint.friction[0].ratio: found -0.5", "zero or more"]),
+    (VALANIS, "0.5", "1.5", ["joint.friction[0].kappa: found 1.5", "0 to 1"]),
+    (VALANIS, "100,", "1001,", ["joint.friction[0].slip_stiffness: found 1001.0", "0 to 1000.0, the stiffness"]),
+    (VALANIS, "5,", "0,", ["joint.friction[0].slip_force: found 0.0", "above 0"]),
+    (DAHL, "1e5", "0", ["joint.friction[0].stiffness: found 0.0", "above 0"]),
+    (LUGRE, "150", "149", ["joint.friction[0].damping: found 149.0", "expected 150.0 or more"]),
+    (LUGRE, "15,", "9,", ["joint.friction[0].static_force: found 9.0", "10.0, the slip force, or more"]),
+    (LUGRE, "1e-3", "0", ["joint.friction[0].stribeck_velocity: found 0.0", "above 0"]),
+    (BOUC_WEN, "-0.3", "-0.9", ["joint.friction[0].gamma: found -0.9", "-0.8 to 0.8, beta"]),
+    (BOUC_WEN, "-0.3", "0.9", ["joint.friction[0].gamma: found 0.9", "-0.8 to 0.8, beta"]),
+    (BOUC_WEN, "1.5", "0.5", ["joint.friction[0].exponent: found 0.5", "1.0 to 100.0"]),
 ];
 
 #[test]
@@ -130,7 +147,11 @@ fn a_law_stands_once_on_a_dof_of_the_joint() {
     let on_theta = ON_Y.replace("\"y\"", "\"theta\"");
     assert!(with(&format!("[{ON_Y}, {on_theta}]")).is_ok());
     // laws of several kinds on one DOF are
-    assert!(with(&format!("[{ON_Y}, {{ {IWAN} }}]")).is_ok());
+    let all = [IWAN, VALANIS, DAHL, LUGRE, BOUC_WEN].map(|law| format!("{{ {law} }}"));
+    let several = with(&format!("[{ON_Y}, {}]", all.join(", "))).unwrap();
+    assert_eq!(several.joint.friction.len(), 6);
+    let written = several.to_json().unwrap();
+    assert_eq!(JointFile::from_json(&written, "").unwrap(), several);
     let mut alone = with(&format!("[{on_theta}]")).unwrap();
     alone.joint.dofs = bolted_joint::joint::DofSet::TRANSLATION;
     assert!(alone.validate().iter().any(|problem| matches!(

@@ -1,10 +1,11 @@
-//! Everything that an instance holds as numbers: its variables, what it remembers beside them, and what its joint remembers.
+//! Everything that an instance holds as numbers: its variables, what it remembers beside them, and what its joint
+//! remembers.
 
 use std::ops::{Deref, DerefMut};
 
 use bolted_joint_dynamics::{
     DOF_AT_REST, DofMemory, JointMemory,
-    law::{DOF_MEMORY_COUNT, remembered},
+    law::{DOF_MEMORY_COUNT, REMEMBERED_PLACES},
 };
 
 use crate::interface::{Dependence, VALUE_COUNT, Variables, reference::LAW_MEMORY};
@@ -76,7 +77,7 @@ impl Values {
         let joint = self.joint.first_chunk_mut::<D>()?;
         let result = change(joint);
         for (references, own) in LAW_MEMORY.iter().zip(joint) {
-            for (&reference, (place, _)) in references.iter().zip(remembered()) {
+            for (&reference, place) in references.iter().zip(REMEMBERED_PLACES) {
                 self.numbers[reference] = own[place];
             }
         }

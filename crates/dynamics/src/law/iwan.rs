@@ -1,8 +1,10 @@
-//! The Iwan law with four parameters (Segalman, J. Appl. Mech. 72 (2005) 752): a continuum of springs and sliders side by side,
-//! of which the weakest slip first. Small motion loses little energy, as bolted joints do, and large motion slips through.
+//! The Iwan law with four parameters (Segalman, J. Appl. Mech. 72 (2005) 752): a continuum of springs and sliders side
+//! by side, of which the weakest slip first. Small motion loses little energy, as bolted joints do, and large motion
+//! slips through.
 //!
-//! It needs no sliders: the joint's motion is what it remembers, as the points at which it turned. Between them the load
-//! follows the curve of the first loading at twice its size (Masing's rule), and a loop that has closed is forgotten.
+//! It needs no sliders: the joint's motion is what it remembers, as the points at which it turned. Between them the
+//! load follows the curve of the first loading at twice its size (Masing's rule), and a loop that has closed is
+//! forgotten.
 
 mod curve;
 mod reversals;

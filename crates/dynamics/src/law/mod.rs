@@ -3,16 +3,23 @@
 //!
 //! A new law is a file here and a line in `dof_laws!` below.
 
+mod bouc_wen;
+mod dahl;
 mod declaration;
+mod flow;
 mod iwan;
 mod jenkins;
 mod joint;
 mod linear;
+mod lugre;
 mod over_preload;
 mod polynomial;
 #[cfg(test)]
 mod trials;
+mod valanis;
 
+pub use bouc_wen::BoucWen;
+pub use dahl::Dahl;
 pub use declaration::{
     ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
     UnitRule,
@@ -21,8 +28,10 @@ pub use iwan::{Iwan, REVERSALS_MAX};
 pub use jenkins::Jenkins;
 pub use joint::{JointLaw, JointMemory};
 pub use linear::{DAMPING, Linear, STIFFNESS};
+pub use lugre::LuGre;
 pub use over_preload::{Beyond, JointOverPreload, TableDefect};
 pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT, TERM_COUNT, Tangent, Term};
+pub use valanis::Valanis;
 
 use crate::number::Number;
 
@@ -238,6 +247,10 @@ dof_laws! {
     polynomial: Polynomial,
     jenkins: Jenkins,
     iwan: Iwan,
+    valanis: Valanis,
+    dahl: Dahl,
+    lugre: LuGre,
+    bouc_wen: BoucWen,
 }
 
 /// Number of parameters that the laws have on each DOF.
@@ -279,17 +292,37 @@ pub type DofMemory = [f64; DOF_MEMORY_COUNT];
 /// Nothing has moved yet.
 pub const DOF_AT_REST: DofMemory = [0.0; DOF_MEMORY_COUNT];
 
-/// Places in [`DofMemory`] of the numbers that are variables, with what is declared of each, in the order of [`DECLARATIONS`].
+/// Number of the numbers in [`DofMemory`] that are variables.
+pub const REMEMBERED_COUNT: usize = {
+    let (mut count, mut law) = (0, 0);
+    while law < DECLARATIONS.len() {
+        count += DECLARATIONS[law].memory.len();
+        law += 1;
+    }
+    count
+};
+
+/// Places in [`DofMemory`] of the numbers that are variables, in the order of [`DECLARATIONS`].
+pub const REMEMBERED_PLACES: [usize; REMEMBERED_COUNT] = {
+    let mut places = [0; REMEMBERED_COUNT];
+    let (mut count, mut law, mut start) = (0, 0, 0);
+    while law < DECLARATIONS.len() {
+        let mut own = 0;
+        while own < DECLARATIONS[law].memory.len() {
+            places[count] = start + own;
+            own += 1;
+            count += 1;
+        }
+        start += DECLARATIONS[law].memory_count();
+        law += 1;
+    }
+    places
+};
+
+/// The numbers in [`DofMemory`] that are variables: the place of each, with what is declared of it.
 pub fn remembered() -> impl Iterator<Item = (usize, &'static Remembered)> {
-    let mut start = 0;
-    DECLARATIONS.iter().flat_map(move |law| {
-        let first = start;
-        start += law.memory_count();
-        law.memory
-            .iter()
-            .enumerate()
-            .map(move |(place, own)| (first + place, own))
-    })
+    let declared = DECLARATIONS.iter().flat_map(|law| law.memory);
+    REMEMBERED_PLACES.into_iter().zip(declared)
 }
 
 #[inline]

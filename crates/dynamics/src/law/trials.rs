@@ -1,4 +1,5 @@
-//! Trials that every law with memory stands: its energy along ways that only look random, and its changes against differences.
+//! Trials that every law with memory stands: its energy along ways that only look random, and its changes against
+//! differences.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -56,8 +57,9 @@ pub(super) fn way(random: &mut Random, count: usize, amplitude: f64) -> Vec<f64>
         .collect()
 }
 
-/// Work along the way is what is stored and the heat, and no part of the way gives heat back. `bends` are the places at which
-/// the load of a straight way from where the memory is may not be smooth; on a way the velocity is `speed` towards its end.
+/// Work along the way is what is stored and the heat, and no part of the way gives heat back. `bends` are the places at
+/// which the load of a straight way from where the memory is may not be smooth; on a way the velocity is `speed`
+/// towards its end.
 pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
     law: &L,
     way: &[f64],
@@ -98,8 +100,8 @@ pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
     assert_eq!(turned, 0.0);
 }
 
-/// In every state the power of the load is what is stored and the heat per second, and loads and energies change as their
-/// differences, with the motion and with every parameter.
+/// In every state the power of the load is what is stored and the heat per second, and loads and energies change as
+/// their differences, with the motion and with every parameter.
 pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
     law: &L,
     way: &[f64],

@@ -1,7 +1,7 @@
 //! The curve of first loading of the Iwan law, with what it stores and what it turns into heat.
 //!
-//! All of it is written by the power v^(χ+2) of v = u/φ_max alone, so that nothing is the difference of almost equal numbers
-//! where the motion is small.
+//! All of it is written by the power v^(χ+2) of v = u/φ_max alone, so that nothing is the difference of almost equal
+//! numbers where the motion is small.
 
 use super::{Iwan, magnitude};
 use crate::number::Number;

@@ -1,17 +1,18 @@
-//! What the Iwan law remembers: the points at which the joint turned, and what follows from them, in a fixed number of numbers.
+//! What the Iwan law remembers: the points at which the joint turned, and what follows from them, in a fixed number of
+//! numbers.
 //!
-//! A loop is forgotten as soon as it closes, so that the ways between the points become shorter one by one. Where there are more
-//! than [`REVERSALS_MAX`] of them, as after many cycles of a slowly decaying vibration, two neighbours are forgotten before: those
-//! whose loss changes the load least.
+//! A loop is forgotten as soon as it closes, so that the ways between the points become shorter one by one. Where there
+//! are more than [`REVERSALS_MAX`] of them, as after many cycles of a slowly decaying vibration, two neighbours are
+//! forgotten before: those whose loss changes the load least.
 
 use super::curve::Curve;
 use crate::number::Number;
 
 /// Reversal points that are kept.
 ///
-/// With so many, forgetting two shifts the load by 2 F_S/30 at most, because 30 pairs that share no slider share a load of
-/// 2 F_S, and the next shift goes the other way. In a decaying vibration, whose points lie close to each other, it is a small
-/// part of that.
+/// With so many, forgetting two shifts the load by 2 F_S/30 at most, because 30 pairs that share no slider share a load
+/// of 2 F_S, and the next shift goes the other way. In a decaying vibration, whose points lie close to each other, it
+/// is a small part of that.
 pub const REVERSALS_MAX: usize = 64;
 
 /// Places of what is remembered.
@@ -43,7 +44,8 @@ pub(super) struct Reversals<'m> {
     numbers: &'m [f64],
 }
 
-/// The branch that a motion is on: so many of the remembered reversal points are left, and perhaps the present place is another.
+/// The branch that a motion is on: so many of the remembered reversal points are left, and perhaps the present place is
+/// another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Branch {
     count: usize,
@@ -303,8 +305,9 @@ fn write(memory: &mut [f64], curve: &Curve<f64>, branch: &Branch, tip: Tip<f64>)
     memory[PARAMETERS..SHIFT].copy_from_slice(&curve.parameters);
 }
 
-/// Forgets two neighbouring reversal points: of those whose loss shifts the load back from where earlier losses have shifted it,
-/// those that shift it least. What the springs gain by that is owed; what they lose is taken off it, and heat if it is more.
+/// Forgets two neighbouring reversal points: of those whose loss shifts the load back from where earlier losses have
+/// shifted it, those that shift it least. What the springs gain by that is owed; what they lose is taken off it, and
+/// heat if it is more.
 fn forget(memory: &mut [f64], curve: &Curve<f64>) {
     let place = memory[PLACE];
     let stored_at =
@@ -318,7 +321,8 @@ fn forget(memory: &mut [f64], curve: &Curve<f64>) {
         curve.masing(ways.iter().sum()) - each
     };
     let is_up = memory[SHIFT] < 0.0;
-    // neither the first point, whose mirror image is one as well, nor the last, from which the present way is still short
+    // neither the first point, whose mirror image is one as well, nor the last, from which the present way is still
+    // short
     let candidates = (1..points.len().saturating_sub(2)).filter(|&k| (way(k - 1) > 0.0) == is_up);
     let least = candidates
         .map(|k| (k, shift(k)))

@@ -24,8 +24,8 @@ fn span(law: &Iwan) -> f64 {
     law.curve().unwrap().span
 }
 
-/// By mpmath with 30 digits from Segalman's formulas: parameters, φ_max, amplitude/φ_max, load and stiffness at the tip, heat
-/// of a cycle, energy stored at the tip.
+/// By mpmath with 30 digits from Segalman's formulas: parameters, φ_max, amplitude/φ_max, load and stiffness at the
+/// tip, heat of a cycle, energy stored at the tip.
 #[rustfmt::skip]
 const CLOSED_FORMS: [(Iwan, f64, f64, [f64; 4]); 9] = [
     (law(3.0, 2.0, -0.1, 0.1), 2.87614678899, 0.1, [0.54058003454, 1.7711044706, 0.012371156669, 0.076192981943]),
@@ -104,7 +104,8 @@ fn a_steady_cycle_has_the_closed_form_s_coefficients() {
     }
 }
 
-/// Sliders side by side, as the law is derived: in equal intervals of φ, each with the stiffness ∫ρ and the mean ∫φρ/∫ρ.
+/// Sliders side by side, as the law is derived: in equal intervals of φ, each with the stiffness ∫ρ and the mean
+/// ∫φρ/∫ρ.
 struct Sliders {
     /// Stiffness, displacement at which it slips, and place of each.
     all: Vec<[f64; 3]>,
@@ -284,8 +285,8 @@ fn loads_and_energies_change_as_their_differences() {
     }
 }
 
-/// A vibration that decays slowly turns more often than is remembered. What is forgotten changes the load by little, and the
-/// energies still balance.
+/// A vibration that decays slowly turns more often than is remembered. What is forgotten changes the load by little,
+/// and the energies still balance.
 #[test]
 fn a_slow_decay_forgets_what_matters_least() {
     let law = law(4000.0, 1.5e7, -0.3, 0.5);

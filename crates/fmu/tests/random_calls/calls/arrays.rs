@@ -51,7 +51,8 @@ impl<'c, 'b> Arguments<'c, 'b> {
             match self.choices.below(4) {
                 0 => pointer = ptr::null_mut(),
                 1 if align_of::<T>() > 1 => pointer = pointer.wrapping_byte_add(1),
-                2 if count > 0 => count -= 1,
+                // not to an empty list, which may be accepted in any mode
+                2 if count > 1 => count -= 1,
                 _ => count = self.choices.pick(&HUGE),
             }
         }

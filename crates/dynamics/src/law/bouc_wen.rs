@@ -1,0 +1,271 @@
+//! The Bouc–Wen law (Bouc 1967, Wen 1976), in its passive range (Erlicher and Point 2004).
+//!
+//! Its load is F = F_y w, and w follows dw/dx = 1 − (β s sgn w + γ) |w|ⁿ over x = k u/F_y, with s = sgn u̇: a function
+//! of load and direction alone. So a way of any length is one step, by the integrals of [`integral`].
+
+mod integral;
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+        UnitRule,
+    },
+};
+use crate::number::Number;
+use integral::{Branch, Way};
+
+/// Places of what is remembered: the load, and beside what is a variable the place and the direction of the latest
+/// motion.
+const LOAD: usize = 0;
+const PLACE: usize = 1;
+const DIRECTION: usize = 2;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "bouc_wen_k",
+    key: "stiffness",
+    span: Span::Dof,
+    unit: UnitRule::LoadPer {
+        displacement: 1,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SliderStiffness",
+        nominal: [1e6, 1e4, 1e3],
+        start: [0.0; 3],
+    },
+    description: "Stiffness of the joint's Bouc-Wen law in {motion} at no load",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+const NUMBER: Parameter = Parameter {
+    unit: UnitRule::One,
+    quantity: Quantity {
+        name: "Exponent",
+        nominal: [1.0; 3],
+        start: [0.0; 3],
+    },
+    ..PARAMETER
+};
+
+/// A hysteretic spring on one relative DOF.
+///
+/// ```
+/// use bolted_joint_dynamics::law::{BoucWen, Law};
+///
+/// let law = BoucWen { stiffness: 2.0, slip_force: 3.0, exponent: 1.0, beta: 0.6, gamma: 0.4 };
+/// // with n = 1 the first way is F_y/(β+γ) (1 − e^(−(β+γ) k u/F_y))
+/// let load = law.load(&[0.0; 3], 1.5, 0.0);
+/// assert!((load - 3.0 * (1.0 - (-1.0_f64).exp())).abs() < 1e-14);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoucWen<N = f64> {
+    /// k at no load: N/m, N·m/rad.
+    pub stiffness: N,
+    /// F_y, the load of much motion where β + γ = 1; it is F_y (β+γ)^(−1/n) else: N, N·m.
+    pub slip_force: N,
+    /// n ≥ 1: how sharply it begins to slip.
+    pub exponent: N,
+    /// β > 0.
+    pub beta: N,
+    /// γ from −β to β.
+    pub gamma: N,
+}
+
+impl<N: Number> BoucWen<N> {
+    fn parameters(&self) -> [N; 5] {
+        [
+            self.stiffness,
+            self.slip_force,
+            self.exponent,
+            self.beta,
+            self.gamma,
+        ]
+    }
+
+    fn is_there(&self) -> bool {
+        let [stiffness, slip_force, exponent, beta, gamma] = self.parameters().map(Number::value);
+        stiffness > 0.0 && slip_force > 0.0 && exponent >= 1.0 && beta >= gamma.abs()
+    }
+
+    /// The way from the memory's place to r.
+    fn way(&self, memory: &[f64], r: N) -> (f64, Way<N>) {
+        let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
+        let way = r - N::from(number(PLACE));
+        let sign = match way.value() {
+            way if way > 0.0 => 1.0,
+            way if way < 0.0 => -1.0,
+            _ if number(DIRECTION) < 0.0 => -1.0,
+            _ => 1.0,
+        };
+        let branch = Branch {
+            exponent: self.exponent,
+            loading: self.beta + self.gamma,
+            unloading: self.beta - self.gamma,
+        };
+        let before = N::from(sign * number(LOAD)) / self.slip_force;
+        let length = N::from(sign) * way * self.stiffness / self.slip_force;
+        (sign, branch.way(before, length))
+    }
+}
+
+impl<N: Number> Law<N> for BoucWen<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "bouc-wen",
+        summary: "A hysteretic spring after Bouc and Wen",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "bouc_wen_h",
+                key: "slip_force",
+                unit: UnitRule::LoadPer {
+                    displacement: 0,
+                    seconds: 0,
+                },
+                quantity: Quantity {
+                    name: "SlipForce",
+                    nominal: [100.0, 10.0, 1.0],
+                    start: [0.0; 3],
+                },
+                description: "Load at which the joint's Bouc-Wen law slips in {motion} where beta and gamma have the sum 1",
+                ..PARAMETER
+            },
+            Parameter {
+                symbol: "bouc_wen_n",
+                key: "exponent",
+                description: "Exponent of the joint's Bouc-Wen law in {motion}, 1 or more: how sharply it begins to slip",
+                ..NUMBER
+            },
+            Parameter {
+                symbol: "bouc_wen_beta",
+                key: "beta",
+                quantity: Quantity {
+                    name: "HysteresisShape",
+                    ..NUMBER.quantity
+                },
+                description: "Coefficient beta of the joint's Bouc-Wen law in {motion}, by which it turns motion into heat",
+                ..NUMBER
+            },
+            Parameter {
+                symbol: "bouc_wen_gamma",
+                key: "gamma",
+                range: Range::Any,
+                quantity: Quantity {
+                    name: "HysteresisSkew",
+                    ..NUMBER.quantity
+                },
+                description: "Coefficient gamma of the joint's Bouc-Wen law in {motion}, from -beta to beta",
+                ..NUMBER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "bouc_wen_p",
+            quantity: RememberedAs::Load,
+            description: "{Load} of the joint's Bouc-Wen law in {motion}, as of the last step",
+        }],
+        hidden_memory: 2,
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            stiffness: at(0),
+            slip_force: at(1),
+            exponent: at(2),
+            beta: at(3),
+            gamma: at(4),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        let (sign, way) = self.way(memory, r);
+        N::from(sign) * self.slip_force * way.after
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        // F²/(2k)
+        let load = self.load(memory, r, N::ZERO);
+        N::from(0.5) * load * load / self.stiffness
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        // F_y |w|^(n+1) (β + γ s sgn w) |u̇|
+        let load = self.load(memory, r, N::ZERO);
+        let sign = N::from(velocity.value().signum());
+        let against = sign * load / self.slip_force;
+        let (w, coefficient) = if against.value() < 0.0 {
+            (-against, self.beta - self.gamma)
+        } else {
+            (against, self.beta + self.gamma)
+        };
+        self.slip_force * w.powf(self.exponent + N::from(1.0)) * coefficient * sign * velocity
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
+        let law = BoucWen::<f64>::new(&self.parameters().map(Number::value));
+        if memory.len() <= DIRECTION || !law.is_there() || !r.is_finite() || r == memory[PLACE] {
+            return 0.0;
+        }
+        let (sign, way) = law.way(memory, r);
+        memory[LOAD] = sign * law.slip_force * way.after;
+        memory[PLACE] = r;
+        memory[DIRECTION] = sign;
+        law.slip_force * law.slip_force / law.stiffness * way.heat
+    }
+
+    fn outside(&self) -> Option<Outside> {
+        let outside = |parameter: usize, expected: String| {
+            Some(Outside {
+                parameter,
+                expected,
+            })
+        };
+        let [stiffness, slip_force, exponent, beta, gamma] = self.parameters().map(Number::value);
+        let is_positive = |value: f64| value > 0.0 && value.is_finite();
+        match () {
+            () if !is_positive(stiffness) => outside(0, "a number above 0".to_owned()),
+            () if !is_positive(slip_force) => outside(1, "a number above 0".to_owned()),
+            () if !(1.0..=EXPONENT_MAX).contains(&exponent) => {
+                outside(2, format!("1 to {EXPONENT_MAX:?}"))
+            }
+            () if !is_positive(beta) => outside(3, "a number above 0".to_owned()),
+            () if !(-beta..=beta).contains(&gamma) => outside(
+                4,
+                format!("-{beta:?} to {beta:?}, beta: beyond that the law gives energy"),
+            ),
+            () => None,
+        }
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        self.slip_force.value() / self.stiffness.value()
+    }
+}
+
+/// Largest exponent: beyond it the law is a spring and a slider, of which the Jenkins element is the better form.
+const EXPONENT_MAX: f64 = 100.0;
+
+#[cfg(test)]
+mod tests;

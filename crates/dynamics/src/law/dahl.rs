@@ -1,0 +1,149 @@
+//! Dahl's law (1968): a slider whose stiffness falls evenly with its load, from all of it to none at the slip force.
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+        UnitRule,
+    },
+    flow::{Flow, HIDDEN},
+};
+use crate::number::Number;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "dahl_k",
+    key: "stiffness",
+    span: Span::Dof,
+    unit: UnitRule::LoadPer {
+        displacement: 1,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SliderStiffness",
+        nominal: [1e6, 1e4, 1e3],
+        start: [0.0; 3],
+    },
+    description: "Stiffness of the joint's Dahl law in {motion} at no load",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+/// A slider on one relative DOF that flows from the first load on: dF/dx = σ₀ (1 − F sgn ẋ/F_c).
+///
+/// ```
+/// use bolted_joint_dynamics::law::{Dahl, Law};
+///
+/// let law = Dahl { stiffness: 1e5, slip_force: 2.0 };
+/// // F = F_c (1 − e^(−σ₀ x/F_c)) on the first way
+/// let load = law.load(&[0.0; 3], 2e-5, 0.0);
+/// assert!((load - 2.0 * (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dahl<N = f64> {
+    /// σ₀: N/m, N·m/rad.
+    pub stiffness: N,
+    /// F_c: N, N·m.
+    pub slip_force: N,
+}
+
+impl<N: Number> Dahl<N> {
+    /// Its slider; `None` where it gives no load.
+    fn flow(&self) -> Option<Flow<N>> {
+        let is_there = self.stiffness.value() > 0.0 && self.slip_force.value() > 0.0;
+        is_there.then_some(Flow {
+            stiffness: self.stiffness,
+            limit: self.slip_force,
+            sharpness: N::ZERO,
+        })
+    }
+}
+
+impl<N: Number> Law<N> for Dahl<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "dahl",
+        summary: "A slider whose stiffness falls with its load, after Dahl",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "dahl_h",
+                key: "slip_force",
+                unit: UnitRule::LoadPer {
+                    displacement: 0,
+                    seconds: 0,
+                },
+                quantity: Quantity {
+                    name: "SlipForce",
+                    nominal: [100.0, 10.0, 1.0],
+                    start: [0.0; 3],
+                },
+                description: "Load at which the joint's Dahl law slips in {motion}",
+                ..PARAMETER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "dahl_p",
+            quantity: RememberedAs::Load,
+            description: "{Load} of the joint's Dahl law in {motion}, as of the last step",
+        }],
+        hidden_memory: HIDDEN,
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            stiffness: at(0),
+            slip_force: at(1),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip([self.stiffness, self.slip_force]) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+        self.flow().map_or(N::ZERO, |flow| flow.load(memory, r))
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        self.flow()
+            .map_or(N::ZERO, |flow| flow.stored_energy(memory, r))
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        self.flow()
+            .map_or(N::ZERO, |flow| flow.dissipated_power(memory, r, velocity))
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
+        let values = [self.stiffness, self.slip_force].map(Number::value);
+        match Dahl::<f64>::new(&values).flow() {
+            Some(flow) if r.is_finite() => flow.commit(memory, r),
+            _ => 0.0,
+        }
+    }
+
+    fn outside(&self) -> Option<Outside> {
+        let values = [self.stiffness, self.slip_force].map(Number::value);
+        let mut numbers = values.iter();
+        let parameter = numbers.position(|&value| !(value > 0.0 && value.is_finite()))?;
+        Some(Outside {
+            parameter,
+            expected: "a number above 0".to_owned(),
+        })
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        self.slip_force.value() / self.stiffness.value()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,185 @@
+//! A slider that does not slip at once but flows the more, the nearer its load is to the limit: what the laws of
+//! Valanis and Dahl have in common.
+//!
+//! Its load p follows dp/dx = E₁ (1 − s w)/(1 − c s w) with w = p/p_m and s = sgn ẋ. At c = 0 it is Dahl's, and towards
+//! c = 1 a spring in series with a slider. The step over a way of any length is exact.
+
+use crate::{elementary, number::Number};
+
+/// Places of what is remembered: the load, and beside what is a variable the place and the direction of the latest
+/// motion.
+const LOAD: usize = 0;
+const PLACE: usize = 1;
+const DIRECTION: usize = 2;
+
+/// Numbers that are no variables.
+pub(super) const HIDDEN: usize = 2;
+
+/// What the parameters of a law give.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flow<N> {
+    /// E₁ > 0 at no load: N/m, N·m/rad.
+    pub(super) stiffness: N,
+    /// p_m > 0, which the load approaches: N, N·m.
+    pub(super) limit: N,
+    /// c from 0 to 1.
+    pub(super) sharpness: N,
+}
+
+/// A way of the slider. All is told in its direction: w is positive where the load resists the motion.
+#[derive(Clone, Copy, Debug)]
+struct Way<N> {
+    sign: f64,
+    /// s w where it begins.
+    before: N,
+    /// By how much s w grows.
+    growth: N,
+    /// ln of what is left to the limit at its end over what was left before.
+    logarithm: f64,
+    /// E₁ |Δx|/p_m
+    length: f64,
+}
+
+impl<N: Number> Flow<N> {
+    /// The way from the memory's place to r.
+    fn way(&self, memory: &[f64], r: N) -> Way<N> {
+        let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
+        let one = N::from(1.0);
+        let way = r - N::from(number(PLACE));
+        let sign = match way.value() {
+            way if way > 0.0 => 1.0,
+            way if way < 0.0 => -1.0,
+            _ if number(DIRECTION) < 0.0 => -1.0,
+            _ => 1.0,
+        };
+        let before = N::from(sign * number(LOAD)) / self.limit;
+        // a limit that was lowered meanwhile holds at once
+        let before = match before.value() {
+            w if w > 1.0 => one,
+            w if w < -1.0 => -one,
+            _ => before,
+        };
+        let length = N::from(sign) * way * self.stiffness / self.limit;
+        let (growth, logarithm) = self.growth(one - before, length);
+        Way {
+            sign,
+            before,
+            growth,
+            logarithm,
+            length: length.value(),
+        }
+    }
+
+    /// By how much s w grows where `left` is left to the limit, over a way of this length in p_m/E₁; and the logarithm
+    /// of the part that is left of it.
+    fn growth(&self, left: N, length: N) -> (N, f64) {
+        let one = N::from(1.0);
+        let c = self.sharpness;
+        if c.value() >= 1.0 {
+            // a spring until the limit is reached
+            let growth = if length.value() < left.value() {
+                length
+            } else {
+                left
+            };
+            return (growth, f64::NEG_INFINITY);
+        }
+        // c y (1 − e^ℓ) − (1−c) ℓ = ξ for ℓ = ln(y'/y): the Lambert W step in logarithms, so that nothing overflows
+        let at = logarithm(c.value(), left.value(), length.value());
+        let missing = c * left * N::from(elementary::exp_m1(at)) + (one - c) * N::from(at) + length;
+        let slope = c.value() * left.value() * elementary::exp(at) + 1.0 - c.value();
+        // a step of Newton's method from the root has the root's changes
+        let logarithm = N::from(at) - missing / N::from(slope);
+        (-(left * logarithm.exp_m1()), at)
+    }
+
+    /// Load on side b at r.
+    pub(super) fn load(&self, memory: &[f64], r: N) -> N {
+        let Way {
+            sign,
+            before,
+            growth,
+            ..
+        } = self.way(memory, r);
+        N::from(sign) * self.limit * (before + growth)
+    }
+
+    /// Energy in its spring at r.
+    pub(super) fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        // p²/(2 E₁)
+        let load = self.load(memory, r);
+        N::from(0.5) * load * load / self.stiffness
+    }
+
+    /// Power that it turns into heat at r.
+    pub(super) fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        let one = N::from(1.0);
+        let w = self.load(memory, r) / self.limit;
+        let against = N::from(velocity.value().signum()) * w;
+        let speed = N::from(velocity.value().signum()) * velocity;
+        if against.value() >= 1.0 - 1e-12 {
+            return self.limit * speed;
+        }
+        // p_m (1 − c) w²/(1 − c s w) |ẋ|
+        self.limit * (one - self.sharpness) * w * w / (one - self.sharpness * against) * speed
+    }
+}
+
+impl Flow<f64> {
+    /// Moves the memory on to r, and returns the heat of the way, J.
+    pub(super) fn commit(&self, memory: &mut [f64], r: f64) -> f64 {
+        if memory.len() <= HIDDEN || r == memory[PLACE] {
+            return 0.0;
+        }
+        let way = self.way(memory, r);
+        let heat = self.limit * self.limit / self.stiffness * self.heat(&way);
+        memory[LOAD] = way.sign * self.limit * (way.before + way.growth);
+        memory[PLACE] = r;
+        memory[DIRECTION] = way.sign;
+        // rounding apart, no way gives heat back
+        heat.max(0.0)
+    }
+
+    /// Heat of a way in p_m²/E₁.
+    fn heat(&self, way: &Way<f64>) -> f64 {
+        let (before, after) = (way.before, way.before + way.growth);
+        if self.sharpness >= 1.0 {
+            return way.length - way.growth;
+        }
+        // (1−c) ∫ w²/(1−w) dw
+        let integral = if before.abs().max(after.abs()) < SERIES_BELOW {
+            series(after) - series(before)
+        } else {
+            -way.logarithm - way.growth * (1.0 + 0.5 * (before + after))
+        };
+        (1.0 - self.sharpness) * integral
+    }
+}
+
+/// ℓ < 0 with c y (1 − e^ℓ) − (1−c) ℓ = ξ.
+fn logarithm(c: f64, left: f64, length: f64) -> f64 {
+    // Newton's method for a concave function, from the side on which it does not overshoot
+    let mut at = -(length - c * left).max(0.0) / (1.0 - c);
+    for _ in 0..100 {
+        let missing = c * left * elementary::exp_m1(at) + (1.0 - c) * at + length;
+        let slope = c * left * elementary::exp(at) + 1.0 - c;
+        let next = at - missing / slope;
+        let step = (next - at).abs();
+        at = next;
+        if step.is_nan() || step <= 1e-15 * at.abs() {
+            break;
+        }
+    }
+    at
+}
+
+/// Up to which |w| the series below is taken.
+const SERIES_BELOW: f64 = 0.25;
+
+/// −ln(1−w) − w − ½w² = Σ wᵏ/k from k = 3, without the cancellation.
+fn series(w: f64) -> f64 {
+    let sum = (3..30)
+        .rev()
+        .fold(0.0, |sum, k| sum * w + 1.0 / f64::from(k));
+    w * w * w * sum
+}

@@ -1,0 +1,329 @@
+//! The LuGre law (Canudas de Wit, Olsson, Åström, Lischinsky 1995): bristles that bend and slip, with a slip force that
+//! falls with the velocity from that of rest to that of sliding (Stribeck).
+//!
+//! ż = v − σ₀ |v| z/g(v), F = σ₀ z + σ₁ ż + σ₂ v, g = F_c + (F_s − F_c) e^(−(v/v_s)²). Over a way at constant velocity
+//! the deflection z relaxes exponentially, which is taken at the mean of the velocities at its ends: however stiff the
+//! bristles are, no step is too long for them.
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+        UnitRule,
+    },
+};
+use crate::number::Number;
+
+/// Places of what is remembered: the deflection, and beside what is a variable the place and the velocity.
+const DEFLECTION: usize = 0;
+const PLACE: usize = 1;
+const VELOCITY: usize = 2;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "lugre_s0",
+    key: "stiffness",
+    span: Span::Dof,
+    unit: UnitRule::LoadPer {
+        displacement: 1,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SliderStiffness",
+        nominal: [1e6, 1e4, 1e3],
+        start: [0.0; 3],
+    },
+    description: "Stiffness of the bristles in the joint's LuGre law in {motion}",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+const DAMPER: Parameter = Parameter {
+    unit: UnitRule::LoadPer {
+        displacement: 1,
+        seconds: 1,
+    },
+    quantity: Quantity {
+        name: "SliderDamping",
+        nominal: [10.0, 1.0, 0.1],
+        start: [0.0; 3],
+    },
+    ..PARAMETER
+};
+
+const FORCE: Parameter = Parameter {
+    unit: UnitRule::LoadPer {
+        displacement: 0,
+        seconds: 0,
+    },
+    quantity: Quantity {
+        name: "SlipForce",
+        nominal: [100.0, 10.0, 1.0],
+        start: [0.0; 3],
+    },
+    ..PARAMETER
+};
+
+/// Bristles on one relative DOF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LuGre<N = f64> {
+    /// σ₀ of the bristles: N/m, N·m/rad.
+    pub stiffness: N,
+    /// σ₁ of the bristles: N·s/m, N·m·s/rad.
+    pub bristle_damping: N,
+    /// σ₂ beside the bristles: N·s/m, N·m·s/rad. The law takes energy where it is at least σ₁ (F_s − F_c)/F_c.
+    pub damping: N,
+    /// F_c in fast sliding: N, N·m.
+    pub slip_force: N,
+    /// F_s ≥ F_c in slow sliding: N, N·m.
+    pub static_force: N,
+    /// v_s, at which the slip force has fallen to F_c + (F_s − F_c)/e: m/s, rad/s.
+    pub stribeck_velocity: N,
+}
+
+/// A way of the bristles at constant velocity.
+struct Way<N> {
+    /// Slip force at that velocity.
+    slip_force: N,
+    /// Part of the bend of steady sliding that is missing where it begins and where it ends, in its direction.
+    missing: [N; 2],
+    /// Deflection at its end.
+    deflection: N,
+}
+
+impl<N: Number> LuGre<N> {
+    fn parameters(&self) -> [N; 6] {
+        [
+            self.stiffness,
+            self.bristle_damping,
+            self.damping,
+            self.slip_force,
+            self.static_force,
+            self.stribeck_velocity,
+        ]
+    }
+
+    fn is_there(&self) -> bool {
+        self.stiffness.value() > 0.0
+            && self.slip_force.value() > 0.0
+            && self.stribeck_velocity.value() > 0.0
+    }
+
+    /// g(v) = F_c + (F_s − F_c) e^(−(v/v_s)²)
+    fn slip_force(&self, velocity: N) -> N {
+        let part = velocity / self.stribeck_velocity;
+        self.slip_force + (self.static_force - self.slip_force) * (-(part * part)).exp()
+    }
+
+    /// The way from the memory's place to r, where this velocity is reached.
+    fn way(&self, memory: &[f64], r: N, velocity: N) -> Way<N> {
+        let number = |place: usize| N::from(memory.get(place).copied().unwrap_or(0.0));
+        let way = r - number(PLACE);
+        let sign = N::from(if way.value() < 0.0 { -1.0 } else { 1.0 });
+        let mean = mean_velocity(memory, velocity);
+        let slip_force = self.slip_force(mean);
+        // dz/dx = 1 − s σ₀ z/g: with y = 1 − s σ₀ z/g, y' = y e^(−σ₀|Δx|/g)
+        let steady = slip_force / self.stiffness;
+        let before = N::from(1.0) - sign * number(DEFLECTION) / steady;
+        let gone = -(before * (-(sign * way / steady)).exp_m1());
+        Way {
+            slip_force,
+            missing: [before, before - gone],
+            deflection: number(DEFLECTION) + sign * steady * gone,
+        }
+    }
+
+    /// ż = v − σ₀ |v| z/g(v)
+    fn rate(&self, deflection: N, velocity: N) -> N {
+        let speed = N::from(velocity.value().signum()) * velocity;
+        velocity - self.stiffness * speed * deflection / self.slip_force(velocity)
+    }
+}
+
+impl<N: Number> Law<N> for LuGre<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "lugre",
+        summary: "Bristles that bend and slip, with a slip force that falls with the velocity",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "lugre_s1",
+                key: "bristle_damping",
+                description: "Damping of the bristles in the joint's LuGre law in {motion}",
+                ..DAMPER
+            },
+            Parameter {
+                symbol: "lugre_s2",
+                key: "damping",
+                description: "Damping beside the bristles in the joint's LuGre law in {motion}",
+                ..DAMPER
+            },
+            Parameter {
+                symbol: "lugre_fc",
+                key: "slip_force",
+                description: "Load at which the bristles of the joint's LuGre law slip in fast {motion}",
+                ..FORCE
+            },
+            Parameter {
+                symbol: "lugre_fs",
+                key: "static_force",
+                description: "Load at which the bristles of the joint's LuGre law slip in slow {motion}",
+                ..FORCE
+            },
+            Parameter {
+                symbol: "lugre_vs",
+                key: "stribeck_velocity",
+                unit: UnitRule::Rate,
+                quantity: Quantity {
+                    name: "StribeckVelocity",
+                    nominal: [1e-3, 1e-2, 1e-2],
+                    start: [0.0; 3],
+                },
+                description: "Relative {rate} at which the slip force of the joint's LuGre law falls from its static value",
+                ..PARAMETER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "lugre_z",
+            quantity: RememberedAs::Displacement,
+            description: "Deflection of the bristles in the joint's LuGre law in {motion}, as of the last step",
+        }],
+        hidden_memory: 2,
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            stiffness: at(0),
+            bristle_damping: at(1),
+            damping: at(2),
+            slip_force: at(3),
+            static_force: at(4),
+            stribeck_velocity: at(5),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, velocity: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        // F = σ₀ z + σ₁ ż + σ₂ v
+        let deflection = self.way(memory, r, velocity).deflection;
+        self.stiffness * deflection
+            + self.bristle_damping * self.rate(deflection, velocity)
+            + self.damping * velocity
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        // ½ σ₀ z², at the velocity of the last step: the energy is a function of places alone
+        let velocity = N::from(memory.get(VELOCITY).copied().unwrap_or(0.0));
+        let deflection = self.way(memory, r, velocity).deflection;
+        N::from(0.5) * self.stiffness * deflection * deflection
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        // P = F v − σ₀ z ż = σ₀² z² |v|/g + σ₁ v ż + σ₂ v²
+        let deflection = self.way(memory, r, velocity).deflection;
+        let load = self.stiffness * deflection;
+        let speed = N::from(velocity.value().signum()) * velocity;
+        load * load * speed / self.slip_force(velocity)
+            + self.bristle_damping * velocity * self.rate(deflection, velocity)
+            + self.damping * velocity * velocity
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64, velocity: f64) -> f64 {
+        let law = LuGre::<f64>::new(&self.parameters().map(Number::value));
+        if memory.len() <= VELOCITY || !law.is_there() || !(r + velocity).is_finite() {
+            return 0.0;
+        }
+        let way = law.way(memory, r, velocity);
+        let length = (r - memory[PLACE]).abs();
+        let speed = mean_velocity(memory, velocity).abs();
+        let [before, after] = way.missing;
+        let (steady, gone) = (way.slip_force / law.stiffness, before - after);
+        // ∫ g ζ² dx with ζ = 1 − y
+        let slipped = way.slip_force * (length - steady * gone * (2.0 - 0.5 * (before + after)));
+        // |v| ∫ (σ₁ (1−ζ) + σ₂) dx
+        let damped = speed * (law.bristle_damping * steady * gone + law.damping * length);
+        memory[DEFLECTION] = way.deflection;
+        memory[PLACE] = r;
+        memory[VELOCITY] = velocity;
+        // rounding apart, no way gives heat back
+        (slipped + damped).max(0.0)
+    }
+
+    fn outside(&self) -> Option<Outside> {
+        let outside = |parameter: usize, expected: String| {
+            Some(Outside {
+                parameter,
+                expected,
+            })
+        };
+        let [
+            stiffness,
+            bristle_damping,
+            damping,
+            slip_force,
+            static_force,
+            velocity,
+        ] = self.parameters().map(Number::value);
+        let is_positive = |value: f64| value > 0.0 && value.is_finite();
+        let is_damper = |value: f64| value >= 0.0 && value.is_finite();
+        let positive = || "a number above 0".to_owned();
+        // Barabanov and Ortega, IEEE Trans. Autom. Control 45 (2000) 830
+        let least = bristle_damping * (static_force - slip_force) / slip_force;
+        match () {
+            () if !is_positive(stiffness) => outside(0, positive()),
+            () if !is_damper(bristle_damping) => outside(1, "zero or more".to_owned()),
+            () if !is_damper(damping) => outside(2, "zero or more".to_owned()),
+            () if !is_positive(slip_force) => outside(3, positive()),
+            () if !(static_force >= slip_force && static_force.is_finite()) => {
+                outside(4, format!("{slip_force:?}, the slip force, or more"))
+            }
+            () if !is_positive(velocity) => outside(5, positive()),
+            // written so that rounding does not refuse the bound itself
+            () if damping < least * (1.0 - 4.0 * f64::EPSILON) => outside(
+                2,
+                format!(
+                    "{least:?} or more, the bristles' damping times (static force - slip force)/slip force: below that the \
+                     law gives energy"
+                ),
+            ),
+            () => None,
+        }
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        // the bristles slip from F_c/σ₀ on
+        self.slip_force.value() / self.stiffness.value()
+    }
+}
+
+/// Velocity of the way from the memory's place to where this one is reached. How the joint came to its first place is
+/// not known: slowly.
+fn mean_velocity<N: Number>(memory: &[f64], velocity: N) -> N {
+    if memory.iter().all(|&number| number == 0.0) {
+        return N::ZERO;
+    }
+    N::from(0.5) * (velocity + N::from(memory.get(VELOCITY).copied().unwrap_or(0.0)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,203 @@
+//! The law of Valanis (Tol 2.3; Gaul and Nitsche 2001): a spring beside a slider that begins to flow before it slips,
+//! so that a loop has round corners. κ sets how round: at 1 it is a Jenkins element beside a spring, at 0 Dahl's law
+//! beside one.
+
+use super::{
+    Law,
+    declaration::{
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
+        UnitRule,
+    },
+    flow::{Flow, HIDDEN},
+};
+use crate::number::Number;
+
+const PARAMETER: Parameter = Parameter {
+    symbol: "valanis_e0",
+    key: "stiffness",
+    span: Span::Dof,
+    unit: UnitRule::LoadPer {
+        displacement: 1,
+        seconds: 0,
+    },
+    range: Range::NotNegative,
+    quantity: Quantity {
+        name: "SliderStiffness",
+        nominal: [1e6, 1e4, 1e3],
+        start: [0.0; 3],
+    },
+    description: "Stiffness of the joint's Valanis law in {motion} at small motion",
+    acts_on: ActsOn {
+        load: true,
+        stored_energy: true,
+        dissipated_power: true,
+        escape: false,
+    },
+};
+
+/// A spring beside a slider that flows, on one relative DOF.
+///
+/// ```
+/// use bolted_joint_dynamics::law::{Law, Valanis};
+///
+/// let law = Valanis { stiffness: 1000.0, slip_stiffness: 100.0, slip_force: 5.0, kappa: 1.0 };
+/// let mut memory = [0.0; 3];
+/// // with κ = 1 a spring of 100 N/m beside one of 900 N/m that slips at 4.5 N
+/// assert!((law.load(&memory, 6e-3, 0.0) - 5.1).abs() < 1e-12);
+/// assert!((law.commit(&mut memory, 6e-3, 0.0) - 4.5e-3).abs() < 1e-12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Valanis<N = f64> {
+    /// E₀ at small motion: N/m, N·m/rad.
+    pub stiffness: N,
+    /// E_t after much of it, from 0 to E₀: N/m, N·m/rad.
+    pub slip_stiffness: N,
+    /// σ₀, at which the line of small motion meets that of much: N, N·m.
+    pub slip_force: N,
+    /// κ from 0 to 1: how sharply it begins to slip.
+    pub kappa: N,
+}
+
+impl<N: Number> Valanis<N> {
+    fn parameters(&self) -> [N; 4] {
+        [
+            self.stiffness,
+            self.slip_stiffness,
+            self.slip_force,
+            self.kappa,
+        ]
+    }
+
+    /// Its slider; `None` where it has none.
+    fn flow(&self) -> Option<Flow<N>> {
+        // Ḟ = E₀ ẋ (1 + (λ/E₀) s (E_t x − F))/(1 + κ (λ/E₀) s (E_t x − F)) with λ = E₀/(σ₀ (1 − κ E_t/E₀))   (Tol 2.3):
+        // with p = F − E_t x it is that of the slider with E₁ = E₀ − E_t, p_m = σ₀ E₁/E₀, c = κ E₁/(E₀ − κ E_t)
+        let stiffness = self.stiffness - self.slip_stiffness;
+        let is_there = stiffness.value() > 0.0 && self.slip_force.value() > 0.0;
+        is_there.then(|| Flow {
+            stiffness,
+            limit: self.slip_force * stiffness / self.stiffness,
+            sharpness: self.kappa * stiffness / (self.stiffness - self.kappa * self.slip_stiffness),
+        })
+    }
+}
+
+impl<N: Number> Law<N> for Valanis<N> {
+    const DECLARATION: Declaration = Declaration {
+        name: "valanis",
+        summary: "A spring beside a slider that begins to flow before it slips, after Valanis",
+        parameters: &[
+            PARAMETER,
+            Parameter {
+                symbol: "valanis_et",
+                key: "slip_stiffness",
+                description: "Stiffness of the joint's Valanis law in {motion} while it slips, at most that at small motion",
+                ..PARAMETER
+            },
+            Parameter {
+                symbol: "valanis_s0",
+                key: "slip_force",
+                unit: UnitRule::LoadPer {
+                    displacement: 0,
+                    seconds: 0,
+                },
+                quantity: Quantity {
+                    name: "SlipForce",
+                    nominal: [100.0, 10.0, 1.0],
+                    start: [0.0; 3],
+                },
+                description: "Load at which the joint's Valanis law turns from sticking to slipping in {motion}",
+                ..PARAMETER
+            },
+            Parameter {
+                symbol: "valanis_kappa",
+                key: "kappa",
+                unit: UnitRule::One,
+                quantity: Quantity {
+                    name: "Sharpness",
+                    nominal: [1.0; 3],
+                    start: [0.0; 3],
+                },
+                description: "How sharply the joint's Valanis law begins to slip in {motion}: 0 softly, 1 at once",
+                ..PARAMETER
+            },
+        ],
+        memory: &[Remembered {
+            symbol: "valanis_p",
+            quantity: RememberedAs::Load,
+            description: "{Load} of the slider in the joint's Valanis law in {motion}, as of the last step",
+        }],
+        hidden_memory: HIDDEN,
+    };
+
+    #[inline]
+    fn new(parameters: &[N]) -> Self {
+        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
+        Self {
+            stiffness: at(0),
+            slip_stiffness: at(1),
+            slip_force: at(2),
+            kappa: at(3),
+        }
+    }
+
+    fn write(&self, parameters: &mut [N]) {
+        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
+            *parameter = own;
+        }
+    }
+
+    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+        // F = E_t x + p
+        let slider = self.flow().map_or(N::ZERO, |flow| flow.load(memory, r));
+        self.slip_stiffness * r + slider
+    }
+
+    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+        let slider = self
+            .flow()
+            .map_or(N::ZERO, |flow| flow.stored_energy(memory, r));
+        N::from(0.5) * self.slip_stiffness * r * r + slider
+    }
+
+    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+        self.flow()
+            .map_or(N::ZERO, |flow| flow.dissipated_power(memory, r, velocity))
+    }
+
+    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
+        let values = self.parameters().map(Number::value);
+        match Valanis::<f64>::new(&values).flow() {
+            Some(flow) if r.is_finite() => flow.commit(memory, r),
+            _ => 0.0,
+        }
+    }
+
+    fn outside(&self) -> Option<Outside> {
+        let [stiffness, slip_stiffness, slip_force, kappa] = self.parameters().map(Number::value);
+        let outside = |parameter: usize, expected: String| {
+            Some(Outside {
+                parameter,
+                expected,
+            })
+        };
+        let positive = || "a number above 0".to_owned();
+        match () {
+            () if !(stiffness > 0.0 && stiffness.is_finite()) => outside(0, positive()),
+            () if !(0.0..=stiffness).contains(&slip_stiffness) => {
+                outside(1, format!("0 to {stiffness:?}, the stiffness"))
+            }
+            () if !(slip_force > 0.0 && slip_force.is_finite()) => outside(2, positive()),
+            () if !(0.0..=1.0).contains(&kappa) => outside(3, "0 to 1".to_owned()),
+            () => None,
+        }
+    }
+
+    fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
+        // where the line of small motion meets that of much: σ₀/E₀
+        self.slip_force.value() / self.stiffness.value()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -47,7 +47,7 @@ const PARAMETER: Parameter = Parameter {
 const NUMBER: Parameter = Parameter {
     unit: UnitRule::One,
     quantity: Quantity {
-        name: "Exponent",
+        name: "HysteresisExponent",
         nominal: [1.0; 3],
         start: [0.0; 3],
     },

@@ -122,7 +122,7 @@ const OUT_OF_RANGE: [(&str, &str, &str, [&str; 2]); 14] = [
     (LUGRE, "1e-3", "0", ["joint.friction[0].stribeck_velocity: found 0.0", "above 0"]),
     (BOUC_WEN, "-0.3", "-0.9", ["joint.friction[0].gamma: found -0.9", "-0.8 to 0.8, beta"]),
     (BOUC_WEN, "-0.3", "0.9", ["joint.friction[0].gamma: found 0.9", "-0.8 to 0.8, beta"]),
-    (BOUC_WEN, "1.5", "0.5", ["joint.friction[0].exponent: found 0.5", "1.0 to 100.0"]),
+    (BOUC_WEN, "1.5", "0.5", ["joint.friction[0].exponent: found 0.5", "1 to 100"]),
 ];
 
 #[test]

@@ -47,7 +47,7 @@ const PARAMETER: Parameter = Parameter {
 const NUMBER: Parameter = Parameter {
     unit: UnitRule::One,
     quantity: Quantity {
-        name: "Exponent",
+        name: "HysteresisExponent",
         nominal: [1.0; 3],
         start: [0.0; 3],
     },
@@ -248,7 +248,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
             () if !is_positive(stiffness) => outside(0, "a number above 0".to_owned()),
             () if !is_positive(slip_force) => outside(1, "a number above 0".to_owned()),
             () if !(1.0..=EXPONENT_MAX).contains(&exponent) => {
-                outside(2, format!("1 to {EXPONENT_MAX:?}"))
+                outside(2, format!("1 to {EXPONENT_MAX}"))
             }
             () if !is_positive(beta) => outside(3, "a number above 0".to_owned()),
             () if !(-beta..=beta).contains(&gamma) => outside(

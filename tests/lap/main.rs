@@ -11,4 +11,5 @@ mod free_vibration;
 mod oscillator;
 mod refusals;
 mod responses;
+mod slipping;
 mod updating;

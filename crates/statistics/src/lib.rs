@@ -6,7 +6,7 @@
 #![forbid(unsafe_code)]
 
 use statrs::distribution::{ChiSquared, Continuous as _, ContinuousCDF as _, StudentsT};
-use statrs::function::gamma::digamma;
+use statrs::function::gamma::{digamma, ln_gamma};
 
 /// 97.5 % quantile of the standard normal distribution: half an interval of 95 % in standard deviations.
 pub const NORMAL_975: f64 = 1.959_963_984_540_054;
@@ -55,6 +55,19 @@ pub fn chi_squared_95(degrees_of_freedom: usize) -> f64 {
 #[must_use]
 pub fn chi_squared_tail(value: f64, degrees_of_freedom: usize) -> f64 {
     ChiSquared::new(degrees_of_freedom as f64).map_or(1.0, |distribution| distribution.sf(value))
+}
+
+/// Γ(x)/Γ(y) for x, y > 0, and how it grows where both grow.
+///
+/// ```
+/// // SciPy's gamma and digamma
+/// let [ratio, growth] = bolted_joint_statistics::gamma_ratio(1.9, 3.4);
+/// assert!((ratio - 0.3226096063855614).abs() < 1e-13 && (growth + 0.2301444266591912).abs() < 1e-13);
+/// ```
+#[must_use]
+pub fn gamma_ratio(x: f64, y: f64) -> [f64; 2] {
+    let ratio = (ln_gamma(x) - ln_gamma(y)).exp();
+    [ratio, ratio * (digamma(x) - digamma(y))]
 }
 
 /// ψ(x) − ln x for x > 0: the mean of the logarithm of a gamma variable of shape x and mean 1.

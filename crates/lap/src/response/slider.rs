@@ -1,11 +1,14 @@
 //! Laws that slip, as unknowns of a lap: by logarithms, so that no step of a search leaves their range, and about the stiffness of
 //! small motion, which responses tell best.
 
+use std::f64::consts::PI;
+
 use bolted_joint_dynamics::{
     Dual, Number,
-    law::{DOF_AT_REST, Iwan, Jenkins, Law},
+    law::{Iwan, Jenkins, Law},
 };
 use bolted_joint_harmonic::masing_fundamental;
+use bolted_joint_statistics::gamma_ratio;
 use num_complex::Complex64;
 use serde::{Serialize, Serializer};
 
@@ -223,6 +226,25 @@ impl SliderValues {
         }
     }
 
+    /// Iwan's law where nothing slips through: real and imaginary part of z − K_T.
+    fn of_small_motion<const K: usize>(
+        &self,
+        logs: [Dual<K>; MOST],
+        amplitude: Dual<K>,
+    ) -> [Dual<K>; 2] {
+        let [first, second, ..] = logs;
+        let (one, two) = (Dual::from(1.0), Dual::from(2.0));
+        let above = second.exp();
+        // K_l (U/A)^(χ+1)
+        let lost = first.exp() * (amplitude / Dual::from(self.reference_m)).powf(above);
+        // (4/√π) Γ(χ+5/2)/Γ(χ+4), with its derivative by χ
+        let [ratio, slope] = gamma_ratio(above.value + 1.5, above.value + 3.0);
+        let part = above.chain(4.0 / PI.sqrt() * ratio, 4.0 / PI.sqrt() * slope);
+        // D/(πU²) = (4/π) K_l (U/A)^(χ+1) (χ+1)/((χ+2)(χ+3))
+        let loss = Dual::from(4.0 / PI) * above / ((above + one) * (above + two));
+        [-(lost * part), lost * loss]
+    }
+
     /// Place of a parameter's unknown.
     pub(super) fn index(&self, parameter: SliderParameter) -> Option<usize> {
         let mut all = self.slider.parameters().iter();
@@ -254,19 +276,24 @@ impl SliderValues {
         }
         let logs = std::array::from_fn(|i| Dual::<ALL>::along(self.logs[i], i));
         let amplitude = Dual::along(amplitude_m, MOST);
-        let law = self.law(logs);
-        let first_loading = |u| match &law {
-            Valued::Jenkins(law) => law.load(&DOF_AT_REST[..1], u, Dual::ZERO),
-            Valued::Iwan(law) => law.load(&[], u, Dual::ZERO),
+        let [real, imaginary] = match self.law(logs) {
+            Valued::Jenkins(law) => of_one_slider(&law, amplitude),
+            Valued::Iwan(law) => {
+                let span = law.nonlinear_amplitude(0.0, 0.0);
+                if amplitude_m <= span {
+                    self.of_small_motion(logs, amplitude)
+                } else {
+                    let found =
+                        masing_fundamental(|u| law.load(&[], u, Dual::ZERO), span, amplitude);
+                    // f = a₁ cos θ + b₁ sin θ of u = U cos θ: z = (a₁ − j b₁)/U − K_T
+                    let [in_phase, quadrature] = [found.in_phase, found.quadrature];
+                    [
+                        in_phase / amplitude - law.stiffness,
+                        -quadrature / amplitude,
+                    ]
+                }
+            }
         };
-        let knee = match &law {
-            Valued::Jenkins(law) => law.slip_force.value / law.stiffness.value,
-            Valued::Iwan(law) => law.nonlinear_amplitude(0.0, 0.0),
-        };
-        let found = masing_fundamental(first_loading, knee, amplitude);
-        // f = a₁ cos θ + b₁ sin θ of u = U cos θ: z = (a₁ − j b₁)/U − K_T
-        let real = found.in_phase / amplitude - self.stiffness_of(logs);
-        let imaginary = -found.quadrature / amplitude;
         let change = |i: usize| Complex64::new(real.change[i], imaginary.change[i]);
         Slipping {
             value: Complex64::new(real.value, imaginary.value),
@@ -274,6 +301,22 @@ impl SliderValues {
             by_unknown: std::array::from_fn(change),
         }
     }
+}
+
+/// One slider: real and imaginary part of z − k.
+fn of_one_slider<const K: usize>(law: &Jenkins<Dual<K>>, amplitude: Dual<K>) -> [Dual<K>; 2] {
+    let (one, two) = (Dual::from(1.0), Dual::from(2.0));
+    let part = law.slip_force / (law.stiffness * amplitude);
+    if part.value >= 1.0 {
+        return [Dual::ZERO; 2];
+    }
+    // θ_s = arccos(1 − 2h/(kU)); a₁ = (kU/π)(θ_s − ½ sin 2θ_s); b₁ = −(4h/π)(1 − h/(kU))
+    let cosine = one - two * part;
+    let sine = (one - cosine * cosine).powf(Dual::from(0.5));
+    let angle = cosine.chain(cosine.value.acos(), -sine.value.recip());
+    let stays = (angle - sine * cosine) * Dual::from(PI.recip());
+    let loss = Dual::from(4.0 / PI) * part * (one - part);
+    [law.stiffness * (stays - one), law.stiffness * loss]
 }
 
 impl Serialize for Slider {
@@ -360,6 +403,33 @@ mod tests {
             let expected = 4.0 * density * amplitude.powf(exponent + 3.0)
                 / ((exponent + 2.0) * (exponent + 3.0));
             assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
+        }
+    }
+
+    /// The closed forms beside the quadrature over a loop of the law itself.
+    #[test]
+    fn closed_forms_are_those_of_the_loop() {
+        for values in all() {
+            for amplitude in [3e-5, 9e-5, 1.9e-4, 2.1e-4, 4e-4] {
+                let found = values.slipping(amplitude).value;
+                let of_loop = match values.law(values.logs) {
+                    Valued::Jenkins(law) => {
+                        let knee = law.slip_force / law.stiffness;
+                        masing_fundamental(|u| law.load(&[0.0], u, 0.0), knee, amplitude)
+                    }
+                    Valued::Iwan(law) => {
+                        let span = law.nonlinear_amplitude(0.0, 0.0);
+                        masing_fundamental(|u| law.load(&[], u, 0.0), span, amplitude)
+                    }
+                };
+                let real = of_loop.in_phase / amplitude - values.stiffness();
+                let expected = Complex64::new(real, -of_loop.quadrature / amplitude);
+                let error = (found - expected).norm();
+                assert!(
+                    error < 1e-11 * values.stiffness(),
+                    "{values:?} {amplitude}: {found} {expected}"
+                );
+            }
         }
     }
 }

@@ -1,0 +1,209 @@
+//! Laws that slip from backbones that quadrature of their loops supplies, with noise.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
+use bolted_joint::identify::lap::{
+    LapResponse, LapResponseStudy, ResponseUnknown, SliderParameter,
+};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+const MASS: f64 = 2.0;
+const K0: f64 = 5.0e5;
+const C12: f64 = 2.0;
+const LARGEST_M: f64 = 3.0e-4;
+const FREQUENCY: f64 = 1e-4;
+const DAMPING: f64 = 0.01;
+const DRAWS: u64 = 40;
+
+/// F(u) of a first motion to u ≥ 0.
+type FirstLoading = dyn Fn(f64) -> f64;
+
+/// Segalman's law by its density R φ^χ of sliders up to φ_max and S there.
+fn iwan(density: f64, exponent: f64, span: f64, last: f64) -> impl Fn(f64) -> f64 {
+    move |u: f64| {
+        let v = u.min(span);
+        // ∫ρ min(u, φ) dφ
+        let slipped = density * v.powf(exponent + 2.0) / (exponent + 2.0);
+        let sticks =
+            density * (span.powf(exponent + 1.0) - v.powf(exponent + 1.0)) / (exponent + 1.0);
+        slipped + u * sticks + last * v
+    }
+}
+
+/// Stiffness and loss at an amplitude, (a₁/U, −b₁/U), by the midpoint rule over the way back from the turn.
+fn equivalent(first_loading: &FirstLoading, amplitude: f64) -> [f64; 2] {
+    let count = 50_000;
+    let mut sums = [0.0; 2];
+    for n in 0..count {
+        let theta = PI * (f64::from(n) + 0.5) / f64::from(count);
+        let way = 0.5 * amplitude * (1.0 - theta.cos());
+        let load = first_loading(amplitude) - 2.0 * first_loading(way);
+        sums[0] += load * theta.cos();
+        sums[1] += load * theta.sin();
+    }
+    let part = 2.0 / f64::from(count) / amplitude;
+    [sums[0] * part, -sums[1] * part]
+}
+
+/// Amplitude, frequency (Hz) and damping ratio of each point; `small` is the law's stiffness of small motion.
+fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
+    let point = |n: u32| {
+        let amplitude = LARGEST_M * (f64::from(n) / 40.0).powi(2);
+        let [stiffness, loss] = equivalent(first_loading, amplitude);
+        // the spring beside the law leaves K0 for small motion
+        let omega = ((K0 - small + stiffness) / (0.5 * MASS)).sqrt();
+        [
+            amplitude,
+            omega / TAU,
+            (C12 * omega + loss) / (MASS * omega * omega),
+        ]
+    };
+    (1..=40).map(point).collect()
+}
+
+/// The joint identified from a backbone with noise of its own in frequency and damping ratio.
+fn identified(backbone: &[[f64; 3]], terms: &str, seed: u64) -> LapResponse {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let mut noisy = |value: f64, part: f64| -> f64 {
+        let normal: f64 = StandardNormal.sample(&mut generator);
+        value * (part * normal).exp()
+    };
+    let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
+    for &[amplitude, hz, ratio] in backbone {
+        let (hz, ratio) = (noisy(hz, FREQUENCY), noisy(ratio, DAMPING));
+        writeln!(csv, "{hz:e},{amplitude:e},{ratio:e}").unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("backbone.csv"), csv).unwrap();
+    let study = format!(
+        "method = \"lap-response\"\nname = \"slips\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n{terms}\n[known]\nm = {MASS}\n\
+         [noise]\nfrequency = {FREQUENCY}\ndamping = {DAMPING}\n[[backbone]]\nfile = \"backbone.csv\"\n"
+    );
+    let path = folder.path().join("study.toml");
+    std::fs::write(&path, study).unwrap();
+    let study = LapResponseStudy::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    let found = LapResponse::of(&study, &|| {}).unwrap();
+    let file = found.joint_file(&study);
+    assert!(file.validate().is_empty(), "{:?}", file.validate());
+    found
+}
+
+/// Root of the mean square error in standard deviations, and the part of intervals that hold the truth.
+#[track_caller]
+fn assert_known(
+    first_loading: &FirstLoading,
+    small: f64,
+    name: &str,
+    truth: &[(ResponseUnknown, f64)],
+) {
+    let terms = format!("terms = [\"{name}\"]");
+    let backbone = backbone(first_loading, small);
+    let (mut squares, mut within, mut count) = (0.0, 0, 0);
+    for seed in 0..DRAWS {
+        let found = identified(&backbone, &terms, seed);
+        for (unknown, expected) in truth {
+            let estimates = found.estimates.iter();
+            let own = estimates
+                .clone()
+                .find(|own| own.unknown == *unknown)
+                .unwrap();
+            let z = (own.value - expected) / own.standard_deviation;
+            squares += z * z;
+            within += usize::from((own.interval_95[0]..=own.interval_95[1]).contains(expected));
+            count += 1;
+        }
+    }
+    let rms = (squares / f64::from(count)).sqrt();
+    let held = within as f64 / f64::from(count);
+    println!("{name}: {rms:.3} deviations, intervals hold {held:.3}");
+    assert!(
+        (0.75..1.2).contains(&rms) && held > 0.9,
+        "{name}: {rms} {held}"
+    );
+}
+
+fn slider(parameter: SliderParameter) -> ResponseUnknown {
+    ResponseUnknown::Slider(parameter)
+}
+
+#[test]
+fn one_slider_is_known_as_well_as_it_is_said() {
+    let (k, h) = (6e4, 6.0);
+    assert_known(
+        &move |u| (k * u).min(h),
+        k,
+        "jenkins",
+        &[
+            (ResponseUnknown::JointStiffness, K0),
+            (ResponseUnknown::JointDamping, C12),
+            (slider(SliderParameter::Stiffness), k),
+            (slider(SliderParameter::SlipForce), h),
+        ],
+    );
+}
+
+#[test]
+fn small_motion_of_many_sliders_is_known_by_density_and_exponent() {
+    let (density, exponent, span) = (1e7, -0.4, 2e-3_f64);
+    let small = density * span.powf(exponent + 1.0) / (exponent + 1.0);
+    assert_known(
+        &iwan(density, exponent, span, 0.0),
+        small,
+        "micro-slip",
+        &[
+            (ResponseUnknown::JointStiffness, K0),
+            (ResponseUnknown::JointDamping, C12),
+            (slider(SliderParameter::Density), density),
+            (slider(SliderParameter::Exponent), exponent),
+        ],
+    );
+}
+
+#[test]
+fn many_sliders_that_slip_through_are_known_by_all_four() {
+    let (density, exponent, span, ratio) = (1e7, -0.4, 1.2e-4_f64, 0.5);
+    let before = density * span.powf(exponent + 1.0) / (exponent + 1.0);
+    let last = ratio * before;
+    let small = before + last;
+    let slip_force = density * span.powf(exponent + 2.0) / (exponent + 2.0) + last * span;
+    assert_known(
+        &iwan(density, exponent, span, last),
+        small,
+        "iwan",
+        &[
+            (ResponseUnknown::JointStiffness, K0),
+            (ResponseUnknown::JointDamping, C12),
+            (slider(SliderParameter::SlipForce), slip_force),
+            (slider(SliderParameter::Stiffness), small),
+            (slider(SliderParameter::Exponent), exponent),
+            (slider(SliderParameter::Ratio), ratio),
+        ],
+    );
+}
+
+/// The right law comes out by itself, and it is passive.
+#[test]
+fn the_law_that_made_the_data_is_chosen() {
+    let (k, h) = (6e4, 6.0);
+    let (density, exponent) = (1e7, -0.4);
+    let span = 2e-3_f64;
+    let small = density * span.powf(exponent + 1.0) / (exponent + 1.0);
+    let cases: [(&FirstLoading, f64, &str); 2] = [
+        (&move |u| (k * u).min(h), k, "jenkins"),
+        (&iwan(density, exponent, span, 0.0), small, "micro-slip"),
+    ];
+    for (law, small, name) in cases {
+        let found = identified(&backbone(law, small), "", 1);
+        assert_eq!(found.model.terms.to_string(), name);
+        let reduced = found.fit.chi_squared / found.fit.degrees_of_freedom as f64;
+        assert!((0.6..1.5).contains(&reduced), "{reduced}");
+        let used = found
+            .comparison
+            .iter()
+            .find(|model| model.terms == found.model.terms);
+        assert!(used.unwrap().is_passive);
+    }
+}

@@ -79,12 +79,13 @@ pub(super) fn simplified(line: &[Point], tolerance: f64) -> Vec<Point> {
     while let Some((start, end)) = open.pop() {
         let (from, to) = (line[start], line[end]);
         let (dx, dy) = (to.x - from.x, to.y - from.y);
-        let length = dx.hypot(dy).max(f64::MIN_POSITIVE);
+        let length = dx.hypot(dy);
         let distance = |point: &Point| {
             let (x, y) = (point.x - from.x, point.y - from.y);
             // Beyond an end of the line the end itself is nearest.
             let along = (x * dx + y * dy) / length;
-            if (0.0..=length).contains(&along) {
+            // A closed line begins and ends at one point.
+            if length > 0.0 && (0.0..=length).contains(&along) {
                 (x * dy - y * dx).abs() / length
             } else {
                 x.hypot(y).min((point.x - to.x).hypot(point.y - to.y))
@@ -140,6 +141,18 @@ mod tests {
             assert!(nearest.fold(f64::INFINITY, f64::min) <= 0.2 + 1e-9);
         }
         assert_eq!(simplified(&line, 0.0), line);
+    }
+
+    #[test]
+    fn a_closed_line_stays_closed() {
+        let circle = |k: u32| {
+            let angle = std::f64::consts::TAU * f64::from(k % 360) / 360.0;
+            point(50.0 + 40.0 * angle.cos(), 50.0 + 40.0 * angle.sin())
+        };
+        let line: Vec<Point> = (0..=360).map(circle).collect();
+        let simple = simplified(&line, 0.1);
+        assert!((20..100).contains(&simple.len()), "{}", simple.len());
+        assert_eq!(simple.first(), simple.last());
     }
 
     #[test]

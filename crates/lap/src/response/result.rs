@@ -11,7 +11,7 @@ use super::data::{SineRun, Use};
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::prediction::Prediction;
-use super::slider::SliderParameter;
+use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
 use crate::error::LapError;
 use bolted_joint_identify::Watch;
@@ -172,7 +172,16 @@ impl LapResponse {
             .estimates
             .iter()
             .filter(|estimate| !estimate.is_identified);
-        open.map(|estimate| estimate.unknown.symbol()).collect()
+        // nothing slips through: the file has to have numbers for these
+        let is_small = self.model.terms.slider() == Some(Slider::MicroSlip);
+        let never_told = if is_small {
+            &[SliderParameter::SlipForce, SliderParameter::Ratio][..]
+        } else {
+            &[]
+        };
+        let symbols = open.map(|estimate| estimate.unknown.symbol());
+        let never_told = never_told.iter().map(|parameter| parameter.symbol());
+        symbols.chain(never_told).collect()
     }
 
     /// The standard deviation of an unknown; zero of what is known.

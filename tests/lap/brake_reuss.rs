@@ -173,7 +173,7 @@ fn each_run_is_predicted_from_the_others() {
         let is_lowest = *run == RUNS[0];
         // The turn from softening to stiffening at 50 m/s² is sharp without a run there.
         assert!(
-            hz.abs() < 0.12 && (is_lowest || amplitude.abs() < 0.1),
+            hz.abs() < 0.12 && (is_lowest || amplitude.abs() < 0.13),
             "{run}: {hz} Hz, {amplitude}"
         );
         within += usize::from(hz.abs() < 0.1);

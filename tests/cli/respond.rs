@@ -244,6 +244,27 @@ fn a_loop_has_the_heat_of_its_slider() {
     }
 }
 
+/// At small amplitudes all sticks; where all slips the slider's stiffness is lost and D = 4h(U − h/k) is left.
+#[test]
+fn a_backbone_of_a_joint_that_slips_falls() {
+    let bench = files_of("friction");
+    bench.done("respond backbone.toml -o out.csv --report out.svg");
+    let table = table(&bench.text("out.csv"));
+    let rows: Vec<_> = table.iter().filter(|(lap, _)| lap == "Jenkins").collect();
+    let omega = |row: &BTreeMap<String, f64>| TAU * row["frequency"];
+    // m/2 r̈ + (k/2 + k12) r with m = 1.5 kg, k = 8e5 N/m
+    let (first, last) = (&rows[0].1, &rows[rows.len() - 1].1);
+    close(omega(first), ((4e5 + 2e7) / 0.75_f64).sqrt(), 1e-6);
+    let (u, k, h) = (last["relative.y amplitude"], 1.5e7, 4000.0);
+    close(u, 1e-3, 1e-9);
+    let angle = (1.0_f64 - 2.0 * h / (k * u)).acos();
+    let stiffness = 4e5 + 5e6 + k / std::f64::consts::PI * (angle - 0.5 * (2.0 * angle).sin());
+    close(omega(last), (stiffness / 0.75).sqrt(), 1e-5);
+    let of_slider = 4.0 * h * (u - h / k) / (std::f64::consts::PI * omega(last) * u * u);
+    let expected = (10.0 + 0.5 + of_slider) / (2.0 * 0.75 * omega(last));
+    close(last["damping ratio"], expected, 1e-3);
+}
+
 #[test]
 fn it_is_said_where_a_joint_moves_further_than_it_was_observed_at() {
     let bench = Bench::new();

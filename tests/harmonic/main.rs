@@ -12,3 +12,4 @@ mod derivatives;
 mod duffing;
 mod in_time;
 mod laps;
+mod slipping;

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use super::condensed::{BodyNumber, Circumstances, Condensed};
 use super::sampling::{Sampling, Spectrum};
+use super::slipping::Slipping;
 use super::{HarmonicError, HarmonicLoads, Harmonics, Parameter};
 
 /// A lap model made ready for harmonic balance.
@@ -13,7 +14,9 @@ use super::{HarmonicError, HarmonicLoads, Harmonics, Parameter};
 /// The harmonics of its relative motion are the only unknowns: the bodies are linear and condensed to it.
 #[derive(Clone, Debug)]
 pub struct HarmonicBalance<const D: usize> {
+    /// With the stiffness of laws that slip while they stick.
     pub(super) lap: Lap<D>,
+    pub(super) slipping: Option<Slipping<D>>,
     pub(super) harmonics: Harmonics,
     pub(super) sampling: Sampling,
     pub(super) terms: [Polynomial; D],
@@ -48,13 +51,21 @@ impl<const D: usize> HarmonicBalance<D> {
     ///
     /// # Errors
     /// [`HarmonicError::Model`] if the lap has an inertia that is not positive or anything that is not finite,
-    /// [`HarmonicError::Memory`] if its joint remembers the motion.
+    /// [`HarmonicError::Memory`] if its joint remembers the motion otherwise than by Masing's rule,
+    /// [`HarmonicError::SlippingHarmonics`] if it slips and the motion is to have more than one harmonic.
     pub fn new(lap: &Lap<D>, harmonics: Harmonics) -> Result<Self, HarmonicError> {
         if let Some(defect) = lap.defect() {
             return Err(HarmonicError::Model(defect));
         }
-        if lap.joint.has_memory() {
-            return Err(HarmonicError::Memory);
+        let slipping = Slipping::of(&lap.joint)?;
+        let mut lap = *lap;
+        if let Some(slipping) = &slipping {
+            if harmonics.highest() > 1 || harmonics.has_constant() {
+                return Err(HarmonicError::SlippingHarmonics);
+            }
+            for dof in 0..D {
+                lap.joint.linear.stiffness[dof][dof] += slipping.stuck(dof);
+            }
         }
         let terms = lap.joint.polynomials();
         let degree = terms.iter().map(Polynomial::degree).fold(0, usize::max);
@@ -67,7 +78,8 @@ impl<const D: usize> HarmonicBalance<D> {
         });
         let inertia = in_series(lap.a.inertia[0], lap.b.inertia[0]);
         Ok(Self {
-            lap: *lap,
+            lap,
+            slipping,
             sampling: Sampling::new(&harmonics, degree),
             harmonics,
             terms,
@@ -77,7 +89,7 @@ impl<const D: usize> HarmonicBalance<D> {
         })
     }
 
-    /// The lap model.
+    /// The lap model, with the stiffness of laws that slip while they stick.
     #[must_use]
     pub fn lap(&self) -> &Lap<D> {
         &self.lap
@@ -204,6 +216,37 @@ impl<const D: usize> HarmonicBalance<D> {
         self.add_linear(coefficients, loads, at, result);
         for dof in 0..D {
             self.add_terms(dof, coefficients, at.omega, result);
+            if let Some(slipping) = &self.slipping {
+                self.add_slipping(slipping, dof, coefficients, result);
+            }
+        }
+    }
+
+    fn add_slipping(
+        &self,
+        slipping: &Slipping<D>,
+        dof: usize,
+        coefficients: &[f64],
+        result: &mut Evaluation,
+    ) {
+        let Some(harmonic) = self.place_of(1) else {
+            return;
+        };
+        let motion = self.amplitude(coefficients, dof, harmonic);
+        let amplitude = motion.norm();
+        let [z, by_amplitude] = slipping.stiffness(dof, amplitude);
+        self.add(z * motion, dof, harmonic, &mut result.residual);
+        if amplitude == 0.0 {
+            return;
+        }
+        // d(zX) = z dX + X z′ dU with X = a − jb, dU = (a da + b db)/U
+        let of_turn = motion * by_amplitude / amplitude;
+        let by_cosine = z + of_turn * motion.re;
+        let by_sine = -Complex64::I * z - of_turn * motion.im;
+        let at = dof * self.harmonics.slots() + harmonic.1;
+        for (column, by) in [(at, by_cosine), (at + 1, by_sine)] {
+            result.jacobian[(at, column)] += by.re;
+            result.jacobian[(at + 1, column)] -= by.im;
         }
     }
 

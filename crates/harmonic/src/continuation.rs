@@ -39,6 +39,8 @@ const USUAL_ITERATIONS: f64 = 3.0;
 const MOST_ITERATIONS: usize = 8;
 /// Smallest cosine of the angle between the tangents of neighbouring points.
 const SMALLEST_COSINE: f64 = 0.95;
+/// Steps so short may turn more where a law slips.
+const AT_A_CORNER: f64 = 1e-3;
 /// Relative change of the bodies' common motion in one step, in longest steps.
 const CARRIED: f64 = 2.0;
 /// Common motion below this part of the relative one is of no account.
@@ -239,7 +241,10 @@ impl<const D: usize> System<'_, D> {
         let mut tangent = factors.solve(&last_unit(self.size()))?;
         let norm = tangent.norm();
         tangent /= norm;
-        if !norm.is_finite() || tangent.dot(&place.tangent) < SMALLEST_COSINE {
+        // Where a slider begins to slip the curve has a corner: it turns however short the step is.
+        let may_turn = self.balance.slipping.is_some() && length < AT_A_CORNER;
+        let turns = tangent.dot(&place.tangent) < SMALLEST_COSINE;
+        if !norm.is_finite() || turns && !may_turn {
             return None;
         }
         // the same direction in the sizes of the new point

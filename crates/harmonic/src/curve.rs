@@ -34,7 +34,7 @@ pub struct CurvePoint<const D: usize> {
 pub struct CurveOptions {
     /// How it is followed.
     pub steps: Steps,
-    /// Whether the stability of each motion is computed.
+    /// Whether the stability of each motion is computed; it is not where a law slips.
     pub with_stability: bool,
 }
 
@@ -157,7 +157,7 @@ impl<const D: usize> HarmonicBalance<D> {
         options: &CurveOptions,
     ) -> Result<Vec<CurvePoint<D>>, HarmonicError> {
         let finish = |point: Followed<D>| {
-            let stability = match options.with_stability {
+            let stability = match options.with_stability && self.slipping.is_none() {
                 true => Some(self.stability(&point.solution)?),
                 false => None,
             };

@@ -21,10 +21,20 @@ pub enum HarmonicError {
     Model(Defect),
     /// The joint remembers its motion.
     #[error(
-        "the joint has friction, which remembers the motion: harmonic balance knows springs and dampers alone; compute the \
+        "the joint has friction without Masing's rule (other than jenkins and iwan): harmonic balance does not know it; compute the \
          response in time"
     )]
     Memory,
+    /// Laws that slip are balanced with one harmonic.
+    #[error(
+        "the joint has friction, which is balanced with one harmonic: set `harmonics.highest` = 1, or compute the response in time"
+    )]
+    SlippingHarmonics,
+    /// Stability is that of springs and dampers.
+    #[error(
+        "the joint has friction: the stability of its motions is not computed; follow them in time"
+    )]
+    SlippingStability,
     /// A number of the problem is outside of what it can be.
     #[error("{what}: found {found}, expected {expected}")]
     Value {

@@ -38,6 +38,8 @@
 //! * [`HarmonicBalance::forced_curve`], [`HarmonicBalance::controlled_curve`], [`HarmonicBalance::resonance_curve`],
 //!   [`HarmonicBalance::backbone`]: curves through folds, by continuation.
 //! * [`HarmonicBalance::stability`]: Floquet multipliers.
+//!
+//! Friction with Masing's rule (Jenkins, Iwan) is balanced with one harmonic, by the closed loops of its law.
 #![forbid(unsafe_code)]
 
 mod balance;
@@ -53,6 +55,7 @@ mod observed;
 mod parameter;
 mod sampling;
 mod sensitivity;
+mod slipping;
 mod solution;
 mod stability;
 mod system;

@@ -55,6 +55,9 @@ impl<const D: usize> HarmonicBalance<D> {
     /// # Errors
     /// [`HarmonicError::Multipliers`] if they are not finite.
     pub fn stability(&self, solution: &Solution<D>) -> Result<Stability, HarmonicError> {
+        if self.slipping.is_some() {
+            return Err(HarmonicError::SlippingStability);
+        }
         let refuse = || HarmonicError::Multipliers {
             frequency_hz: solution.frequency_hz(),
         };

@@ -197,8 +197,18 @@ fn no_lines(study: &StudyText, table: &FrequencyTable) -> Result<(), StudyError>
     )
 }
 
-fn harmonics(study: &StudyText, table: Option<&HarmonicsTable>) -> Result<Harmonics, StudyError> {
-    let highest = table.and_then(|table| table.highest).unwrap_or(HIGHEST);
+/// Harmonics of the motion, one where a joint slips unless the study says otherwise.
+fn harmonics(
+    study: &StudyText,
+    table: Option<&HarmonicsTable>,
+    laps: &[StudyLap],
+) -> Result<Harmonics, StudyError> {
+    let mut joints = laps.iter().map(|lap| &lap.file.joint);
+    let otherwise = match joints.any(|joint| !joint.friction.is_empty()) {
+        true => 1,
+        false => HIGHEST,
+    };
+    let highest = table.and_then(|table| table.highest).unwrap_or(otherwise);
     let harmonics = match table.is_some_and(|table| table.even) {
         true => Harmonics::all(highest),
         false => Harmonics::odd(highest),
@@ -292,7 +302,12 @@ fn start(
     Ok(start)
 }
 
-pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<Test, StudyError> {
+pub(super) fn test(
+    study: &StudyText,
+    file: &StudyFile,
+    laps: &[StudyLap],
+) -> Result<Test, StudyError> {
+    let dofs = laps[0].file.joint.dofs;
     let load = match &file.load {
         Some(table) => {
             let name = table.dof.dof().name;
@@ -330,7 +345,7 @@ pub(super) fn test(study: &StudyText, file: &StudyFile, dofs: DofSet) -> Result<
     let frequency = || study.needed("frequency", file.frequency.as_ref(), "a table");
     let response = || study.needed("response", file.response.as_ref(), "a table");
     let time = file.time.as_ref();
-    let harmonics = || harmonics(study, file.harmonics.as_ref());
+    let harmonics = || harmonics(study, file.harmonics.as_ref(), laps);
     match file.kind {
         Kind::Linear => {
             no_level()?;

@@ -236,7 +236,7 @@ impl RespondStudy {
         )?;
         Ok(Self {
             path: study.path().to_owned(),
-            test: check::test(study, &file, dofs)?,
+            test: check::test(study, &file, &laps)?,
             name: file.name,
             laps,
             motions,

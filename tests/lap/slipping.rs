@@ -184,6 +184,40 @@ fn many_sliders_that_slip_through_are_known_by_all_four() {
     );
 }
 
+/// A run that is left out is predicted, and said to be where the model does not fit it.
+#[test]
+fn a_backbone_left_out_is_compared() {
+    let (k, h) = (6e4, 6.0);
+    let folder = tempfile::tempdir().unwrap();
+    let written = |name: &str, law: &FirstLoading| {
+        let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
+        for [amplitude, hz, ratio] in backbone(law, k) {
+            writeln!(csv, "{hz:e},{amplitude:e},{ratio:e}").unwrap();
+        }
+        std::fs::write(folder.path().join(name), csv).unwrap();
+    };
+    written("own.csv", &move |u| (k * u).min(h));
+    written("other.csv", &move |u| (k * u).min(2.0 * h));
+    let study = format!(
+        "method = \"lap-response\"\nname = \"x\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\nterms = [\"jenkins\"]\n\
+         [known]\nm = {MASS}\n[[backbone]]\nfile = \"own.csv\"\n[[backbone]]\nfile = \"own.csv\"\nname = \"same\"\nuse = \"predict\"\n\
+         [[backbone]]\nfile = \"other.csv\"\nuse = \"predict\"\n"
+    );
+    let path = folder.path().join("study.toml");
+    std::fs::write(&path, study).unwrap();
+    let study = LapResponseStudy::read(&path).unwrap();
+    let found = LapResponse::of(&study, &|| {}).unwrap();
+    let [own, same, other] = found.backbones.as_slice() else {
+        panic!("{:?}", found.backbones);
+    };
+    assert!(!own.left_out && same.left_out && other.left_out);
+    assert!(same.frequency_error_hz < 1e-4 && same.damping_error.unwrap() < 1e-3);
+    assert!(other.frequency_error_hz > 0.1 && other.damping_error.unwrap() > 0.1);
+    let warnings = found.warnings(&study);
+    let of = |name: &str| warnings.iter().any(|text| text.starts_with(name));
+    assert!(of("other") && !of("same"), "{warnings:?}");
+}
+
 /// The right law comes out by itself, and it is passive.
 #[test]
 fn the_law_that_made_the_data_is_chosen() {

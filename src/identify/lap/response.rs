@@ -62,6 +62,7 @@ pub(in super::super) fn run(
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "models": found.comparison,
             "predictions": found.predictions,
+            "backbones": found.backbones,
             "warnings": warnings,
         });
         return print(&serde_json::to_string_pretty(&value)?);
@@ -159,6 +160,20 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
                     row.amplitude_error()
                         .map(|error| format!("{:+.1} %", 100.0 * error)),
                 ),
+            ]);
+        }
+        text += &table.render();
+    }
+    if !found.backbones.is_empty() {
+        text += "\nbackbones and decays beside the model, root mean square\n";
+        let mut table = Table::new(&["run", "", "frequency, Hz", "damping ratio"]);
+        for row in &found.backbones {
+            let of_damping = row.damping_error;
+            table.row(vec![
+                row.run.clone(),
+                if row.left_out { "left out" } else { "fitted" }.to_owned(),
+                number(row.frequency_error_hz, 2),
+                of_damping.map_or_else(String::new, |error| format!("{:.1} %", 100.0 * error)),
             ]);
         }
         text += &table.render();

@@ -27,7 +27,9 @@ pub use choice::ModelComparison;
 pub use data::{SineLine, SineRun, Use};
 pub use fit::Fit;
 pub use model::{Model, ResponseUnknown, Values};
-pub use prediction::{Prediction, Resonance, measured_resonance, predicted_resonance};
+pub use prediction::{
+    BackbonePrediction, Prediction, Resonance, measured_resonance, predicted_resonance,
+};
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};
 pub use start::fit_responses;

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::{Matrix2, Vector2};
 use serde::Serialize;
 
+use super::backbone::BackboneRun;
 use super::data::{SineRun, Use, wrapped};
+use super::dynamic_stiffness::RelativeMotion;
 use super::model::{Model, Values};
 
 const ITERATIONS: usize = 100;
@@ -59,6 +61,43 @@ impl Prediction {
     pub fn amplitude_error(&self) -> Option<f64> {
         let acceleration = |at: &Resonance| at.displacement_m * at.frequency_hz.powi(2);
         Some(acceleration(&self.predicted?) / acceleration(&self.measured) - 1.0)
+    }
+}
+
+/// How far a backbone or a free decay is from the model's.
+#[derive(Clone, Debug, Serialize)]
+pub struct BackbonePrediction {
+    /// The run.
+    pub run: String,
+    /// Whether the run was left out of the estimate.
+    pub left_out: bool,
+    /// Root of the mean square error of the frequencies, Hz.
+    pub frequency_error_hz: f64,
+    /// Root of the mean square relative error of the damping ratios, where they were measured.
+    pub damping_error: Option<f64>,
+}
+
+impl BackbonePrediction {
+    pub(super) fn of(values: &Values, run: &BackboneRun) -> Self {
+        let motion = RelativeMotion::fundamental(values);
+        let (mut squares, mut of_damping) = (0.0, Vec::new());
+        for line in &run.lines {
+            let z = motion.stiffness(line.amplitude_m, line.omega).value;
+            // ω² = K/M, ζ = C/(2Mω), M = m/2
+            let mass = 0.5 * values.mass;
+            let omega = ((z.re + mass * line.omega * line.omega) / mass).sqrt();
+            squares += ((omega - line.omega) / TAU).powi(2);
+            let ratio = z.im / (2.0 * mass * line.omega * line.omega);
+            of_damping.extend(line.damping_ratio.map(|own| (ratio / own - 1.0).powi(2)));
+        }
+        let mean = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
+        let damping_error = mean(of_damping.iter().sum(), of_damping.len());
+        Self {
+            run: run.name.clone(),
+            left_out: run.used_for == Use::Predict,
+            frequency_error_hz: mean(squares, run.lines.len()),
+            damping_error: (!of_damping.is_empty()).then_some(damping_error),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
-use super::prediction::Prediction;
+use super::prediction::{BackbonePrediction, Prediction};
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
 use crate::error::LapError;
@@ -60,6 +60,8 @@ pub struct LapResponse {
     pub starts: (usize, usize),
     /// Resonances of all runs, measured and of the model.
     pub predictions: Vec<Prediction>,
+    /// Backbones and free decays beside the model's.
+    pub backbones: Vec<BackbonePrediction>,
     /// Largest amplitude of the relative motion that was fitted, m.
     pub amplitude_m: f64,
     /// Where the joint comes from.
@@ -119,6 +121,9 @@ impl LapResponse {
                     .collect()
             }
         };
+        let backbones = study.backbones.iter();
+        let of_backbones = backbones.map(|run| BackbonePrediction::of(&fit.values, run));
+        let of_backbones = of_backbones.collect();
         let role = |used: Use, what: &str| match used {
             Use::Fit => what.to_owned(),
             Use::Predict => format!("{what}, predicted"),
@@ -150,6 +155,7 @@ impl LapResponse {
             comparison,
             starts: chosen.starts,
             predictions,
+            backbones: of_backbones,
             amplitude_m,
         })
     }

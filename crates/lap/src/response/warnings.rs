@@ -83,6 +83,16 @@ impl LapResponse {
                 ));
             }
         }
+        for row in self.backbones.iter().filter(|row| row.left_out) {
+            let missed_damping = row.damping_error.is_some_and(|error| error > AMPLITUDE);
+            if row.frequency_error_hz > FREQUENCY_HZ || missed_damping {
+                warnings.push(format!(
+                    "{}, which was left out, is missed by more than {FREQUENCY_HZ} Hz or {} % of its damping",
+                    row.run,
+                    100.0 * AMPLITUDE
+                ));
+            }
+        }
         warnings
     }
 }

@@ -4,7 +4,7 @@
 //! straight from one to the next: the joint moves on to the motion that is put in where the next step begins, because only
 //! then is it known to stay.
 
-use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, Number};
+use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, Number, Polynomial, law::Law};
 
 use crate::{
     input_course::InputCourse,
@@ -14,7 +14,7 @@ use crate::{
     },
     models::{
         Model, Outcome, Step,
-        sides::{A, B, check_laws, forgetful_joint_law, is_active, joint_law},
+        sides::{A, B, check_laws, is_active, joint_law, joint_linear, joint_polynomials},
         watch::{Watch, finite},
     },
     refusal::{Active, Reached, Refusal},
@@ -131,17 +131,14 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
-        let law = if REMEMBERS {
-            joint_law::<D>(values)
-        } else {
-            forgetful_joint_law(values)
-        };
-        set_outputs(values, &law);
-        if REMEMBERS {
-            // as of the last step
-            let energy_dissipated = values[vr::ENERGY_DISSIPATED];
-            ElementMemoryOutputs { energy_dissipated }.write(values);
+        if !REMEMBERS {
+            forgetful_outputs::<D>(values).write(values);
+            return;
         }
+        set_outputs(values, &joint_law::<D>(values));
+        // as of the last step
+        let energy_dissipated = values[vr::ENERGY_DISSIPATED];
+        ElementMemoryOutputs { energy_dissipated }.write(values);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
@@ -205,6 +202,32 @@ fn outputs<const D: usize, N: Number>(
         joint_load: on_b,
         energy_stored: of(law.stored_energy_after(memory, &relative.displacement)),
         power_dissipated: of(law.dissipated_power_after(memory, relative)),
+    }
+}
+
+/// What is calculated of a joint that remembers nothing: no other law is looked at, as that takes longer than all the rest.
+#[inline]
+fn forgetful_outputs<const D: usize>(values: &Values) -> ElementOutputs<D> {
+    let (linear, polynomials) = (joint_linear::<D>(values), joint_polynomials::<D>(values));
+    let relative = relative::<D>(values);
+    let mut load = linear.load(&relative);
+    let mut energy_stored = linear.stored_energy(&relative.displacement);
+    let mut power_dissipated = linear.dissipated_power(&relative.velocity);
+    for (i, polynomial) in polynomials.iter().enumerate() {
+        if *polynomial == Polynomial::NONE {
+            continue;
+        }
+        let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
+        load[i] += polynomial.load(&[], r, velocity);
+        energy_stored += polynomial.stored_energy(&[], r);
+        power_dissipated += polynomial.dissipated_power(&[], r, velocity);
+    }
+    ElementOutputs {
+        a_load: load.map(|load| 0.0 - load),
+        b_load: load,
+        joint_load: load,
+        energy_stored,
+        power_dissipated,
     }
 }
 

@@ -1,8 +1,8 @@
 //! Where the two sides of the joint, and its law, are among the variables.
 
 use bolted_joint_dynamics::{
-    Body, DOF_COUNT, DOFS, DofLaws, JointLaw, Linear, Motion, is_positive_semidefinite,
-    law::{DOF_PARAMETER_COUNT, FORGETFUL_PARAMETER_COUNT, dof_parameters},
+    Body, DOF_COUNT, DOFS, DofLaws, JointLaw, Linear, Motion, Polynomial, is_positive_semidefinite,
+    law::{FORGETFUL_PARAMETER_COUNT, Law, TERM_COUNT, dof_parameters},
 };
 
 use crate::{
@@ -98,32 +98,31 @@ impl Side {
 #[inline]
 pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     JointLaw {
-        linear: Linear {
-            stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
-            damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
-        },
+        linear: joint_linear(values),
         on: std::array::from_fn(|dof| {
             DofLaws::new(vr::LAW_PARAMETERS[dof].map(|reference| values[reference]))
         }),
     }
 }
 
-/// The same of a joint that remembers nothing, whose other parameters are not looked at.
+/// Its linear part.
 #[inline]
-pub(super) fn forgetful_joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
-    JointLaw {
-        linear: Linear {
-            stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
-            damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
-        },
-        on: std::array::from_fn(|dof| {
-            let mut parameters = [0.0; DOF_PARAMETER_COUNT];
-            for place in 0..FORGETFUL_PARAMETER_COUNT {
-                parameters[place] = values[vr::LAW_PARAMETERS[dof][place]];
-            }
-            DofLaws::new(parameters)
-        }),
+pub(super) fn joint_linear<const D: usize>(values: &Values) -> Linear<D> {
+    Linear {
+        stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
+        damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
     }
+}
+
+/// What remembers nothing beside that: the polynomial, whose parameters are the first of all laws'.
+#[inline]
+pub(super) fn joint_polynomials<const D: usize>(values: &Values) -> [Polynomial; D] {
+    const { assert!(FORGETFUL_PARAMETER_COUNT == TERM_COUNT) };
+    std::array::from_fn(|dof| {
+        let parameters: [f64; FORGETFUL_PARAMETER_COUNT] =
+            std::array::from_fn(|place| values[vr::LAW_PARAMETERS[dof][place]]);
+        Polynomial::new(&parameters)
+    })
 }
 
 /// Whether each law's parameters are in its range.

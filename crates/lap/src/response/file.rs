@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::law::Term;
+use nalgebra::DVector;
 
 use super::data::Use;
 use super::model::ResponseUnknown;
@@ -82,18 +83,14 @@ impl LapResponse {
                 found.map_or([known, known], |estimate| estimate.interval_95),
             ]]
         };
-        // of the file's stiffness, which is less by that of a law that slips, as well known as that of small motion
         let of_slider = self
             .fit
             .values
             .slider
             .map_or(0.0, |slider| slider.stiffness());
-        let stiffness = interval(ResponseUnknown::JointStiffness);
-        let stiffness = stiffness.into_iter().map(|row| {
-            let rows = row.into_iter();
-            rows.map(|interval| interval.map(|end| end - of_slider))
-                .collect()
-        });
+        let stiffness = self.fit.values.joint_stiffness - of_slider;
+        let [deviation_of_stiffness, interval_of_stiffness] = self.stiffness_deviations();
+        let ends = [-1.0, 1.0].map(|side| stiffness + side * interval_of_stiffness);
         let size = self.estimates.len();
         let deviation: Vec<f64> = self
             .estimates
@@ -119,7 +116,7 @@ impl LapResponse {
         });
         Some(Uncertainty {
             standard_deviation: StandardDeviation {
-                stiffness: entry(ResponseUnknown::JointStiffness),
+                stiffness: vec![vec![deviation_of_stiffness]],
                 damping: entry(ResponseUnknown::JointDamping),
             },
             basis: format!(
@@ -137,7 +134,7 @@ impl LapResponse {
                     .collect(),
             }),
             interval_95: Some(Intervals {
-                stiffness: stiffness.collect(),
+                stiffness: vec![vec![ends]],
                 damping: interval(ResponseUnknown::JointDamping),
             }),
             inflation: (study.noise.is_stated && self.inflation > 1.0).then_some(self.inflation),
@@ -148,6 +145,23 @@ impl LapResponse {
                 .collect(),
             ..Uncertainty::default()
         })
+    }
+
+    /// Standard deviation of the file's stiffness, which is less by that of a law that slips, and half its interval of 95 %.
+    fn stiffness_deviations(&self) -> [f64; 2] {
+        let slider = self.fit.values.slider;
+        let by = |unknown: ResponseUnknown| match (unknown, slider) {
+            (ResponseUnknown::JointStiffness, _) => 1.0,
+            (ResponseUnknown::Slider(parameter), Some(slider)) => {
+                let index = slider.index(parameter);
+                index.map_or(0.0, |index| -slider.stiffness_by_parameters()[index])
+            }
+            _ => 0.0,
+        };
+        let by = self.estimates.iter().map(|estimate| by(estimate.unknown));
+        let by = DVector::from_iterator(self.estimates.len(), by);
+        let deviation = by.dot(&(&self.covariance * &by)).sqrt();
+        [deviation, self.quantile * deviation]
     }
 
     fn residual(&self, study: &LapResponseStudy) -> Residual {

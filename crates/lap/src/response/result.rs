@@ -51,6 +51,8 @@ pub struct LapResponse {
     pub estimates: Vec<Estimate>,
     /// Covariance of the unknowns.
     pub covariance: DMatrix<f64>,
+    /// Half an interval of 95 % in standard deviations.
+    pub(super) quantile: f64,
     /// By how much the standard deviations were raised because the residual is larger than the stated noise, or the factor that makes
     /// the nominal noise that of the residual.
     pub inflation: f64,
@@ -151,6 +153,7 @@ impl LapResponse {
             fit,
             estimates,
             covariance,
+            quantile,
             inflation: factor.sqrt(),
             comparison,
             starts: chosen.starts,

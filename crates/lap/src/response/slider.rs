@@ -212,6 +212,22 @@ impl SliderValues {
         all.into_iter().map(|n| (n.value, n.change)).collect()
     }
 
+    /// Derivatives of K_T by its parameters, in the order of [`Slider::parameters`].
+    pub(super) fn stiffness_by_parameters(&self) -> Vec<f64> {
+        let parameters = self.slider.parameters().iter();
+        let by = |parameter: &SliderParameter| match (self.slider, parameter) {
+            (_, SliderParameter::Stiffness) => 1.0,
+            // K_T = R φ_max^(χ+1)/(χ+1)
+            (Slider::MicroSlip, SliderParameter::Density) => self.stiffness() / self.of(*parameter),
+            (Slider::MicroSlip, SliderParameter::Exponent) => {
+                let above = self.of(*parameter) + 1.0;
+                self.stiffness() * ((BEYOND * self.reference_m).ln() - above.recip())
+            }
+            _ => 0.0,
+        };
+        parameters.map(by).collect()
+    }
+
     /// The law of a joint file: its name there and its parameters, in the order of its declaration.
     pub(super) fn in_file(&self) -> (&'static str, Vec<f64>) {
         match self.law(self.logs) {
@@ -403,6 +419,26 @@ mod tests {
             let expected = 4.0 * density * amplitude.powf(exponent + 3.0)
                 / ((exponent + 2.0) * (exponent + 3.0));
             assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_stiffness_follows_its_parameters() {
+        for values in all() {
+            let step = 1e-6;
+            for i in 0..values.slider.parameters().len() {
+                let moved = |by: f64| {
+                    let mut moved = values;
+                    moved.logs[i] += by;
+                    moved
+                };
+                let difference = moved(step).stiffness() - moved(-step).stiffness();
+                let by_parameters = values.stiffness_by_parameters();
+                let parts = by_parameters.iter().zip(values.parameters());
+                let expected: f64 = parts.map(|(by, (_, change))| by * change[i]).sum();
+                let error = (difference / (2.0 * step) - expected).abs();
+                assert!(error < 1e-6 * values.stiffness(), "{values:?} {i}: {error}");
+            }
         }
     }
 

@@ -89,12 +89,6 @@ impl<const D: usize> HarmonicBalance<D> {
         })
     }
 
-    /// The lap model, with the stiffness of laws that slip while they stick.
-    #[must_use]
-    pub fn lap(&self) -> &Lap<D> {
-        &self.lap
-    }
-
     /// The harmonics that the motion is made of.
     #[must_use]
     pub fn harmonics(&self) -> &Harmonics {

@@ -60,6 +60,12 @@ pub trait Number:
     }
 }
 
+/// |x|
+#[inline]
+pub(crate) fn magnitude<N: Number>(x: N) -> N {
+    if x.value() < 0.0 { -x } else { x }
+}
+
 impl Number for f64 {
     const ZERO: Self = 0.0;
 

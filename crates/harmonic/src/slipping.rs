@@ -57,10 +57,10 @@ impl<const D: usize> Slipping<D> {
         ];
         let laws = DofLaws::new(laws.parameters().map(Dual::<1>::from));
         let at = Dual::along(amplitude, 0);
-        let loads: [&dyn Fn(Dual<1>) -> Dual<1>; 2] =
-            [&|u| laws.jenkins().load(&[], u, Dual::from(0.0)), &|u| {
-                laws.iwan().load(&[], u, Dual::from(0.0))
-            }];
+        let loads: [&dyn Fn(Dual<1>) -> Dual<1>; 2] = [
+            &|u| laws.jenkins().load::<f64>(&[], u, Dual::from(0.0)),
+            &|u| laws.iwan().load::<f64>(&[], u, Dual::from(0.0)),
+        ];
         let mut sum = none;
         for (load, (stuck, knee)) in loads.into_iter().zip(knees) {
             if stuck == 0.0 {

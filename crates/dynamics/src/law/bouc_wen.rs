@@ -95,13 +95,13 @@ impl<N: Number> BoucWen<N> {
     }
 
     /// The way from the memory's place to r.
-    fn way(&self, memory: &[f64], r: N) -> (f64, Way<N>) {
-        let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
-        let way = r - N::from(number(PLACE));
+    fn way<M: Number + Into<N>>(&self, memory: &[M], r: N) -> (f64, Way<N>) {
+        let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
+        let way = r - number(PLACE);
         let sign = match way.value() {
             way if way > 0.0 => 1.0,
             way if way < 0.0 => -1.0,
-            _ if number(DIRECTION) < 0.0 => -1.0,
+            _ if number(DIRECTION).value() < 0.0 => -1.0,
             _ => 1.0,
         };
         let branch = Branch {
@@ -109,7 +109,7 @@ impl<N: Number> BoucWen<N> {
             loading: self.beta + self.gamma,
             unloading: self.beta - self.gamma,
         };
-        let before = N::from(sign * number(LOAD)) / self.slip_force;
+        let before = N::from(sign) * number(LOAD) / self.slip_force;
         let length = N::from(sign) * way * self.stiffness / self.slip_force;
         (sign, branch.way(before, length))
     }
@@ -190,7 +190,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
         }
     }
 
-    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
@@ -198,7 +198,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
         N::from(sign) * self.slip_force * way.after
     }
 
-    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
@@ -207,7 +207,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
         N::from(0.5) * load * load / self.stiffness
     }
 
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
@@ -223,16 +223,19 @@ impl<N: Number> Law<N> for BoucWen<N> {
         self.slip_force * w.powf(self.exponent + N::from(1.0)) * coefficient * sign * velocity
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
-        let law = BoucWen::<f64>::new(&self.parameters().map(Number::value));
-        if memory.len() <= DIRECTION || !law.is_there() || !r.is_finite() || r == memory[PLACE] {
+    fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
+        if memory.len() <= DIRECTION || !self.is_there() || !r.is_finite() {
             return 0.0;
         }
-        let (sign, way) = law.way(memory, r);
-        memory[LOAD] = sign * law.slip_force * way.after;
+        if r.value() == memory[PLACE].value() {
+            return 0.0;
+        }
+        let (sign, way) = self.way(memory, r);
+        memory[LOAD] = N::from(sign) * self.slip_force * way.after;
         memory[PLACE] = r;
-        memory[DIRECTION] = sign;
-        law.slip_force * law.slip_force / law.stiffness * way.heat
+        memory[DIRECTION] = N::from(sign);
+        let [stiffness, slip_force, ..] = self.parameters().map(Number::value);
+        slip_force * slip_force / stiffness * way.heat
     }
 
     fn outside(&self) -> Option<Outside> {

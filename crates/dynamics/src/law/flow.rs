@@ -35,24 +35,24 @@ struct Way<N> {
     /// By how much s w grows.
     growth: N,
     /// ln of what is left to the limit at its end over what was left before.
-    logarithm: f64,
+    logarithm: N,
     /// E₁ |Δx|/p_m
-    length: f64,
+    length: N,
 }
 
 impl<N: Number> Flow<N> {
     /// The way from the memory's place to r.
-    fn way(&self, memory: &[f64], r: N) -> Way<N> {
-        let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
+    fn way<M: Number + Into<N>>(&self, memory: &[M], r: N) -> Way<N> {
+        let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
         let one = N::from(1.0);
-        let way = r - N::from(number(PLACE));
+        let way = r - number(PLACE);
         let sign = match way.value() {
             way if way > 0.0 => 1.0,
             way if way < 0.0 => -1.0,
-            _ if number(DIRECTION) < 0.0 => -1.0,
+            _ if number(DIRECTION).value() < 0.0 => -1.0,
             _ => 1.0,
         };
-        let before = N::from(sign * number(LOAD)) / self.limit;
+        let before = N::from(sign) * number(LOAD) / self.limit;
         // a limit that was lowered meanwhile holds at once
         let before = match before.value() {
             w if w > 1.0 => one,
@@ -66,13 +66,13 @@ impl<N: Number> Flow<N> {
             before,
             growth,
             logarithm,
-            length: length.value(),
+            length,
         }
     }
 
     /// By how much s w grows where `left` is left to the limit, over a way of this length in p_m/E₁; and the logarithm
     /// of the part that is left of it.
-    fn growth(&self, left: N, length: N) -> (N, f64) {
+    fn growth(&self, left: N, length: N) -> (N, N) {
         let one = N::from(1.0);
         let c = self.sharpness;
         if c.value() >= 1.0 {
@@ -82,7 +82,7 @@ impl<N: Number> Flow<N> {
             } else {
                 left
             };
-            return (growth, f64::NEG_INFINITY);
+            return (growth, N::from(f64::NEG_INFINITY));
         }
         // c y (1 − e^ℓ) − (1−c) ℓ = ξ for ℓ = ln(y'/y): the Lambert W step in logarithms, so that nothing overflows
         let at = logarithm(c.value(), left.value(), length.value());
@@ -90,11 +90,11 @@ impl<N: Number> Flow<N> {
         let slope = c.value() * left.value() * elementary::exp(at) + 1.0 - c.value();
         // a step of Newton's method from the root has the root's changes
         let logarithm = N::from(at) - missing / N::from(slope);
-        (-(left * logarithm.exp_m1()), at)
+        (-(left * logarithm.exp_m1()), logarithm)
     }
 
     /// Load on side b at r.
-    pub(super) fn load(&self, memory: &[f64], r: N) -> N {
+    pub(super) fn load<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         let Way {
             sign,
             before,
@@ -105,14 +105,19 @@ impl<N: Number> Flow<N> {
     }
 
     /// Energy in its spring at r.
-    pub(super) fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    pub(super) fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         // p²/(2 E₁)
         let load = self.load(memory, r);
         N::from(0.5) * load * load / self.stiffness
     }
 
     /// Power that it turns into heat at r.
-    pub(super) fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    pub(super) fn dissipated_power<M: Number + Into<N>>(
+        &self,
+        memory: &[M],
+        r: N,
+        velocity: N,
+    ) -> N {
         let one = N::from(1.0);
         let w = self.load(memory, r) / self.limit;
         let against = N::from(velocity.value().signum()) * w;
@@ -123,36 +128,34 @@ impl<N: Number> Flow<N> {
         // p_m (1 − c) w²/(1 − c s w) |ẋ|
         self.limit * (one - self.sharpness) * w * w / (one - self.sharpness * against) * speed
     }
-}
 
-impl Flow<f64> {
     /// Moves the memory on to r, and returns the heat of the way, J.
-    pub(super) fn commit(&self, memory: &mut [f64], r: f64) -> f64 {
-        if memory.len() <= HIDDEN || r == memory[PLACE] {
+    pub(super) fn commit(&self, memory: &mut [N], r: N) -> f64 {
+        if memory.len() <= HIDDEN || r.value() == memory[PLACE].value() {
             return 0.0;
         }
         let way = self.way(memory, r);
         let heat = self.limit * self.limit / self.stiffness * self.heat(&way);
-        memory[LOAD] = way.sign * self.limit * (way.before + way.growth);
+        memory[LOAD] = N::from(way.sign) * self.limit * (way.before + way.growth);
         memory[PLACE] = r;
-        memory[DIRECTION] = way.sign;
+        memory[DIRECTION] = N::from(way.sign);
         // rounding apart, no way gives heat back
-        heat.max(0.0)
+        heat.value().max(0.0)
     }
 
     /// Heat of a way in p_m²/E₁.
-    fn heat(&self, way: &Way<f64>) -> f64 {
+    fn heat(&self, way: &Way<N>) -> N {
         let (before, after) = (way.before, way.before + way.growth);
-        if self.sharpness >= 1.0 {
+        if self.sharpness.value() >= 1.0 {
             return way.length - way.growth;
         }
         // (1−c) ∫ w²/(1−w) dw
-        let integral = if before.abs().max(after.abs()) < SERIES_BELOW {
+        let integral = if before.value().abs().max(after.value().abs()) < SERIES_BELOW {
             series(after) - series(before)
         } else {
-            -way.logarithm - way.growth * (1.0 + 0.5 * (before + after))
+            -way.logarithm - way.growth * (N::from(1.0) + N::from(0.5) * (before + after))
         };
-        (1.0 - self.sharpness) * integral
+        (N::from(1.0) - self.sharpness) * integral
     }
 }
 
@@ -177,9 +180,8 @@ fn logarithm(c: f64, left: f64, length: f64) -> f64 {
 const SERIES_BELOW: f64 = 0.25;
 
 /// −ln(1−w) − w − ½w² = Σ wᵏ/k from k = 3, without the cancellation.
-fn series(w: f64) -> f64 {
-    let sum = (3..30)
-        .rev()
-        .fold(0.0, |sum, k| sum * w + 1.0 / f64::from(k));
+fn series<N: Number>(w: N) -> N {
+    let terms = (3..30).rev().map(|k| N::from(1.0 / f64::from(k)));
+    let sum = terms.fold(N::ZERO, |sum, term| sum * w + term);
     w * w * w * sum
 }

@@ -16,7 +16,7 @@ use super::{
         UnitRule,
     },
 };
-use crate::number::Number;
+use crate::number::{Number, magnitude};
 use curve::Curve;
 use reversals::{HIDDEN, Reversals};
 
@@ -156,7 +156,7 @@ impl<N: Number> Law<N> for Iwan<N> {
         }
     }
 
-    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         let Some(curve) = self.curve() else {
             return N::ZERO;
         };
@@ -170,7 +170,7 @@ impl<N: Number> Law<N> for Iwan<N> {
         }
     }
 
-    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         let Some(curve) = self.curve() else {
             return N::ZERO;
         };
@@ -180,10 +180,10 @@ impl<N: Number> Law<N> for Iwan<N> {
             None => curve.stored(r),
             Some(tip) => tip.stored + curve.masing_stored(tip.load, tip.stored, r - tip.place),
         };
-        stored - N::from(reversals.owed())
+        stored - reversals.owed().into()
     }
 
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         let (Some(curve), reversals) = (self.curve(), Reversals::of(memory)) else {
             return N::ZERO;
         };
@@ -196,13 +196,12 @@ impl<N: Number> Law<N> for Iwan<N> {
         let speed = velocity * N::from(rate.signum());
         match reversals.place_of(&branch) {
             None => curve.heat_slope(magnitude(r)) * speed,
-            Some(place) => curve.heat_slope(N::from(0.5) * magnitude(r - N::from(place))) * speed,
+            Some(place) => curve.heat_slope(N::from(0.5) * magnitude(r - place.into())) * speed,
         }
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
-        let values = self.parameters().map(Number::value);
-        match Iwan::<f64>::new(&values).curve() {
+    fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
+        match self.curve() {
             Some(curve) if r.is_finite() => reversals::commit(memory, &curve, r),
             _ => 0.0,
         }
@@ -231,12 +230,6 @@ impl<N: Number> Law<N> for Iwan<N> {
         self.curve()
             .map_or(f64::INFINITY, |curve| curve.span.value())
     }
-}
-
-/// |x|
-#[inline]
-fn magnitude<N: Number>(x: N) -> N {
-    if x.value() < 0.0 { -x } else { x }
 }
 
 #[cfg(test)]

@@ -68,10 +68,9 @@ enum Bearing<N> {
 
 impl<N: Number> Jenkins<N> {
     /// Return mapping from the slider's committed place x to the displacement r.
-    fn bearing(&self, memory: &[f64], r: N) -> Bearing<N> {
+    fn bearing<M: Number + Into<N>>(&self, memory: &[M], r: N) -> Bearing<N> {
         // e* = r − x; it sticks if |k e*| ≤ h
-        let slider = memory.first().copied().unwrap_or(0.0);
-        let elongation = r - N::from(slider);
+        let elongation = r - slider(memory);
         if (self.stiffness.value() * elongation.value()).abs() <= self.slip_force.value() {
             Bearing::Sticks(elongation)
         } else {
@@ -125,7 +124,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
-    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         match self.bearing(memory, r) {
             // f = k e*
             Bearing::Sticks(elongation) => self.stiffness * elongation,
@@ -134,7 +133,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
-    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         let half = N::from(0.5);
         match self.bearing(memory, r) {
             // ½ k e²
@@ -144,9 +143,9 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         // h |ṙ| while it moves on at the slip force, where a commit has left it, or beyond
-        let elongation = r.value() - memory.first().copied().unwrap_or(0.0);
+        let elongation = r.value() - slider::<N, M>(memory).value();
         let (force, rate) = (self.stiffness.value() * elongation, velocity.value());
         let is_at_slip = force.abs() >= (1.0 - ROUNDING) * self.slip_force.value();
         if is_at_slip && force * rate > 0.0 {
@@ -156,15 +155,13 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
-        let (Bearing::Slips(sign), [slider, ..]) = (self.bearing(memory, N::from(r)), &mut *memory)
-        else {
+    fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
+        let (Bearing::Slips(sign), [slider, ..]) = (self.bearing(memory, r), &mut *memory) else {
             return 0.0;
         };
         // x = r − h/k sgn e*, heat h |Δx|
-        let (k, h) = (self.stiffness.value(), self.slip_force.value());
-        let place = r - sign * h / k;
-        let heat = h * (place - *slider).abs();
+        let place = r - N::from(sign) * self.slip_force / self.stiffness;
+        let heat = self.slip_force.value() * (place - *slider).value().abs();
         *slider = place;
         heat
     }
@@ -173,6 +170,12 @@ impl<N: Number> Law<N> for Jenkins<N> {
         // it slips from h/k on
         self.slip_force.value() / self.stiffness.value()
     }
+}
+
+/// The slider's committed place.
+#[inline]
+fn slider<N: Number, M: Number + Into<N>>(memory: &[M]) -> N {
+    memory.first().map_or(N::ZERO, |&place| place.into())
 }
 
 #[cfg(test)]

@@ -120,8 +120,8 @@ impl<N: Number> LuGre<N> {
     }
 
     /// The way from the memory's place to r, where this velocity is reached.
-    fn way(&self, memory: &[f64], r: N, velocity: N) -> Way<N> {
-        let number = |place: usize| N::from(memory.get(place).copied().unwrap_or(0.0));
+    fn way<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> Way<N> {
+        let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
         let way = r - number(PLACE);
         let sign = N::from(if way.value() < 0.0 { -1.0 } else { 1.0 });
         let mean = mean_velocity(memory, velocity);
@@ -214,7 +214,7 @@ impl<N: Number> Law<N> for LuGre<N> {
         }
     }
 
-    fn load(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
@@ -225,17 +225,17 @@ impl<N: Number> Law<N> for LuGre<N> {
             + self.damping * velocity
     }
 
-    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
         // ½ σ₀ z², at the velocity of the last step: the energy is a function of places alone
-        let velocity = N::from(memory.get(VELOCITY).copied().unwrap_or(0.0));
+        let velocity = memory.get(VELOCITY).map_or(N::ZERO, |&rate| rate.into());
         let deflection = self.way(memory, r, velocity).deflection;
         N::from(0.5) * self.stiffness * deflection * deflection
     }
 
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
             return N::ZERO;
         }
@@ -248,20 +248,21 @@ impl<N: Number> Law<N> for LuGre<N> {
             + self.damping * velocity * velocity
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64, velocity: f64) -> f64 {
-        let law = LuGre::<f64>::new(&self.parameters().map(Number::value));
-        if memory.len() <= VELOCITY || !law.is_there() || !(r + velocity).is_finite() {
+    fn commit(&self, memory: &mut [N], r: N, velocity: N) -> f64 {
+        if memory.len() <= VELOCITY || !self.is_there() || !(r + velocity).is_finite() {
             return 0.0;
         }
-        let way = law.way(memory, r, velocity);
-        let length = (r - memory[PLACE]).abs();
-        let speed = mean_velocity(memory, velocity).abs();
-        let [before, after] = way.missing;
-        let (steady, gone) = (way.slip_force / law.stiffness, before - after);
+        let way = self.way(memory, r, velocity);
+        let length = (r - memory[PLACE]).value().abs();
+        let speed = mean_velocity::<N, N>(memory, velocity).value().abs();
+        let [before, after] = way.missing.map(Number::value);
+        let slip_force = way.slip_force.value();
+        let [stiffness, bristle_damping, damping, ..] = self.parameters().map(Number::value);
+        let (steady, gone) = (slip_force / stiffness, before - after);
         // ∫ g ζ² dx with ζ = 1 − y
-        let slipped = way.slip_force * (length - steady * gone * (2.0 - 0.5 * (before + after)));
+        let slipped = slip_force * (length - steady * gone * (2.0 - 0.5 * (before + after)));
         // |v| ∫ (σ₁ (1−ζ) + σ₂) dx
-        let damped = speed * (law.bristle_damping * steady * gone + law.damping * length);
+        let damped = speed * (bristle_damping * steady * gone + damping * length);
         memory[DEFLECTION] = way.deflection;
         memory[PLACE] = r;
         memory[VELOCITY] = velocity;
@@ -318,11 +319,12 @@ impl<N: Number> Law<N> for LuGre<N> {
 
 /// Velocity of the way from the memory's place to where this one is reached. How the joint came to its first place is
 /// not known: slowly.
-fn mean_velocity<N: Number>(memory: &[f64], velocity: N) -> N {
-    if memory.iter().all(|&number| number == 0.0) {
+fn mean_velocity<N: Number, M: Number + Into<N>>(memory: &[M], velocity: N) -> N {
+    if memory.iter().all(|&number| number.value() == 0.0) {
         return N::ZERO;
     }
-    N::from(0.5) * (velocity + N::from(memory.get(VELOCITY).copied().unwrap_or(0.0)))
+    let before = memory.get(VELOCITY).map_or(N::ZERO, |&rate| rate.into());
+    N::from(0.5) * (velocity + before)
 }
 
 #[cfg(test)]

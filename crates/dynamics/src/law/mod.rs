@@ -50,17 +50,17 @@ pub trait Law<N: Number>: Copy {
     fn write(&self, parameters: &mut [N]);
 
     /// Load on side b, N or N·m, at the relative displacement r (m, rad) and its rate.
-    fn load(&self, memory: &[f64], r: N, velocity: N) -> N;
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N;
 
     /// Energy stored in its springs, J.
-    fn stored_energy(&self, memory: &[f64], r: N) -> N;
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N;
 
     /// Power that it turns into heat, W.
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N;
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N;
 
     /// Moves what it remembers on to the relative displacement r (m, rad) and its rate; returns the heat of that way (J) beside
-    /// that of dampers.
-    fn commit(&self, _memory: &mut [f64], _r: f64, _velocity: f64) -> f64 {
+    /// that of dampers, without its changes.
+    fn commit(&self, _memory: &mut [N], _r: N, _velocity: N) -> f64 {
         0.0
     }
 
@@ -136,7 +136,7 @@ macro_rules! dof_laws {
             /// Load on side b, N or N·m, at the relative displacement r (m, rad) and its rate.
             #[inline]
             #[must_use]
-            pub fn load(&self, memory: &DofMemory, r: N, velocity: N) -> N {
+            pub fn load<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
                     sum = sum + self.$name().load(part(memory, PLACES.$name), r, velocity);
@@ -147,7 +147,7 @@ macro_rules! dof_laws {
             /// Energy stored in the springs, J.
             #[inline]
             #[must_use]
-            pub fn stored_energy(&self, memory: &DofMemory, r: N) -> N {
+            pub fn stored_energy<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
                     sum = sum + self.$name().stored_energy(part(memory, PLACES.$name), r);
@@ -158,7 +158,7 @@ macro_rules! dof_laws {
             /// Power turned into heat, W.
             #[inline]
             #[must_use]
-            pub fn dissipated_power(&self, memory: &DofMemory, r: N, velocity: N) -> N {
+            pub fn dissipated_power<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
                 $(if self.has(PLACES.$name) {
                     sum = sum + self.$name().dissipated_power(part(memory, PLACES.$name), r, velocity);
@@ -172,9 +172,19 @@ macro_rules! dof_laws {
             pub fn viscous_power(&self, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
                 $(if !PLACES.$name.has_memory() && self.has(PLACES.$name) {
-                    sum = sum + self.$name().dissipated_power(&[], r, velocity);
+                    sum = sum + self.$name().dissipated_power::<N>(&[], r, velocity);
                 })+
                 sum
+            }
+
+            /// Moves what is remembered on to the relative displacement r (m, rad) and its rate; returns the heat of that way,
+            /// J, beside that of dampers and without its changes.
+            pub fn commit(&self, memory: &mut DofMemory<N>, r: N, velocity: N) -> f64 {
+                let mut heat = 0.0;
+                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    heat += self.$name().commit(part_mut(memory, PLACES.$name), r, velocity);
+                })+
+                heat
             }
 
             /// Whether a law that is there remembers the motion.
@@ -186,16 +196,6 @@ macro_rules! dof_laws {
         }
 
         impl DofLaws {
-            /// Moves what is remembered on to the relative displacement r (m, rad) and its rate; returns the heat of that way,
-            /// J, beside that of dampers.
-            pub fn commit(&self, memory: &mut DofMemory, r: f64, velocity: f64) -> f64 {
-                let mut heat = 0.0;
-                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
-                    heat += self.$name().commit(part_mut(memory, PLACES.$name), r, velocity);
-                })+
-                heat
-            }
-
             /// Copies what the laws that are there remember, and nothing else.
             pub fn copy_memory(&self, from: &DofMemory, to: &mut DofMemory) {
                 $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
@@ -287,7 +287,7 @@ pub struct DofLaws<N = f64> {
 }
 
 /// What the laws on one relative DOF remember, in the order of [`DECLARATIONS`]: of each law first what is a variable.
-pub type DofMemory = [f64; DOF_MEMORY_COUNT];
+pub type DofMemory<N = f64> = [N; DOF_MEMORY_COUNT];
 
 /// Nothing has moved yet.
 pub const DOF_AT_REST: DofMemory = [0.0; DOF_MEMORY_COUNT];
@@ -326,13 +326,13 @@ pub fn remembered() -> impl Iterator<Item = (usize, &'static Remembered)> {
 }
 
 #[inline]
-fn part(memory: &DofMemory, place: Place) -> &[f64] {
+fn part<N>(memory: &DofMemory<N>, place: Place) -> &[N] {
     let [start, end] = place.memory;
     &memory[start..end]
 }
 
 #[inline]
-fn part_mut(memory: &mut DofMemory, place: Place) -> &mut [f64] {
+fn part_mut<N>(memory: &mut DofMemory<N>, place: Place) -> &mut [N] {
     let [start, end] = place.memory;
     &mut memory[start..end]
 }

@@ -261,7 +261,7 @@ impl<N: Number> Law<N> for Polynomial<N> {
     }
 
     #[inline]
-    fn load(&self, _: &[f64], r: N, velocity: N) -> N {
+    fn load<M: Number + Into<N>>(&self, _: &[M], r: N, velocity: N) -> N {
         // k3 r³ + (k5 + k7 r²) r⁴ r + (c2 r² + c4 r⁴) ṙ
         let cubic = self.springs[0] * r * r * r;
         if self.is_cubic() {
@@ -273,7 +273,7 @@ impl<N: Number> Law<N> for Polynomial<N> {
     }
 
     #[inline]
-    fn stored_energy(&self, _: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, _: &[M], r: N) -> N {
         // ¼ k3 r⁴ + ⅙ k5 r⁶ + ⅛ k7 r⁸
         let squared = r * r;
         let of_spring = |j: usize| self.springs[j] / N::from((2 * j + 4) as f64);
@@ -286,7 +286,7 @@ impl<N: Number> Law<N> for Polynomial<N> {
     }
 
     #[inline]
-    fn dissipated_power(&self, _: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, _: &[M], r: N, velocity: N) -> N {
         // (c2 r² + c4 r⁴) ṙ²
         self.damping(r) * velocity * velocity
     }
@@ -432,7 +432,7 @@ mod tests {
         let all = Polynomial::with(&[-3e2, 7e3, 2e5], &[4.0, -6e2]);
         for (r, velocity) in [(0.1, 2.0), (-0.07, 0.5), (0.0, 1.0)] {
             let terms = Polynomial::new(&Term::ALL.map(|term| all.coefficient(term).into()));
-            let dual = terms.load(&[], Dual::<2>::along(r, 0), Dual::along(velocity, 1));
+            let dual = terms.load::<f64>(&[], Dual::<2>::along(r, 0), Dual::along(velocity, 1));
             let tangent = all.tangent(r, velocity);
             for (found, expected) in [
                 (tangent.force, dual.value),
@@ -454,7 +454,7 @@ mod tests {
             let mut alone = Polynomial::<f64>::NONE;
             alone.springs[j] = 1.0;
             let expected = 1.5_f64.powi(2 * j as i32 + 3);
-            assert!((alone.load(&[], 1.5, 7.0) / expected - 1.0).abs() < 1e-15);
+            assert!((alone.load::<f64>(&[], 1.5, 7.0) / expected - 1.0).abs() < 1e-15);
         }
         for (j, damper) in DAMPERS.iter().enumerate() {
             // c r^(2j+2) ṙ: one more displacement is in the velocity
@@ -462,7 +462,7 @@ mod tests {
             let mut alone = Polynomial::<f64>::NONE;
             alone.dampers[j] = 1.0;
             let expected = 7.0 * 1.5_f64.powi(2 * j as i32 + 2);
-            assert!((alone.load(&[], 1.5, 7.0) / expected - 1.0).abs() < 1e-15);
+            assert!((alone.load::<f64>(&[], 1.5, 7.0) / expected - 1.0).abs() < 1e-15);
         }
     }
 }

@@ -4,7 +4,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Law;
-use crate::{number::Dual, random::Random};
+use crate::{
+    number::{Dual, Number},
+    random::Random,
+};
 
 /// A law by its numbers, as real ones and with their changes.
 pub(super) trait Tried: Law<f64> {
@@ -101,7 +104,7 @@ pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
 }
 
 /// In every state the power of the load is what is stored and the heat per second, and loads and energies change as
-/// their differences, with the motion and with every parameter.
+/// their differences, with the motion, with each point that it passed before and with every parameter.
 pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
     law: &L,
     way: &[f64],
@@ -110,9 +113,10 @@ pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
 ) {
     let mut memory = L::at_rest();
     let parameters = law.parameters();
+    let towards = |index: usize| speed * if index % 2 == 0 { 1.0 } else { -1.0 };
     for (index, &r) in way.iter().enumerate() {
         let trial = r + 0.1 * amplitude * if index % 2 == 0 { 1.0 } else { -0.3 };
-        let velocity = speed * (trial - r).signum();
+        let velocity = towards(index);
         law.commit(&mut memory, r, velocity);
         let plain = |numbers: &[f64], at: f64, rate: f64| {
             let law = L::new(numbers);
@@ -157,6 +161,36 @@ pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
             "{law:?}: {left:e} of {:e}",
             load * velocity
         );
+        // with each earlier point of the way
+        for past in 0..=index {
+            let step = 1e-6 * amplitude;
+            let with = |step: f64| {
+                let mut memory = L::at_rest();
+                for (k, &point) in way[..=index].iter().enumerate() {
+                    let at = if k == past { point + step } else { point };
+                    law.commit(&mut memory, at, towards(k));
+                }
+                [
+                    law.load(&memory, trial, velocity),
+                    law.stored_energy(&memory, trial),
+                ]
+            };
+            let mut changing = vec![Dual::ZERO; memory.len()];
+            let own = L::Changing::new(&constant);
+            for (k, &point) in way[..=index].iter().enumerate() {
+                let at = if k == past {
+                    Dual::along(point, 0)
+                } else {
+                    Dual::from(point)
+                };
+                own.commit(&mut changing, at, towards(k).into());
+            }
+            let found = [
+                own.load(&changing, at, rate).change[0],
+                own.stored_energy(&changing, at).change[0],
+            ];
+            check(found, with(step), with(-step), step, amplitude);
+        }
         // with the velocity
         let step = 1e-6 * speed;
         let [above, below] = [step, -step].map(|step| plain(&parameters, trial, velocity + step));

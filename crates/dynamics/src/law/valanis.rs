@@ -147,27 +147,26 @@ impl<N: Number> Law<N> for Valanis<N> {
         }
     }
 
-    fn load(&self, memory: &[f64], r: N, _: N) -> N {
+    fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         // F = E_t x + p
         let slider = self.flow().map_or(N::ZERO, |flow| flow.load(memory, r));
         self.slip_stiffness * r + slider
     }
 
-    fn stored_energy(&self, memory: &[f64], r: N) -> N {
+    fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         let slider = self
             .flow()
             .map_or(N::ZERO, |flow| flow.stored_energy(memory, r));
         N::from(0.5) * self.slip_stiffness * r * r + slider
     }
 
-    fn dissipated_power(&self, memory: &[f64], r: N, velocity: N) -> N {
+    fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         self.flow()
             .map_or(N::ZERO, |flow| flow.dissipated_power(memory, r, velocity))
     }
 
-    fn commit(&self, memory: &mut [f64], r: f64, _: f64) -> f64 {
-        let values = self.parameters().map(Number::value);
-        match Valanis::<f64>::new(&values).flow() {
+    fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
+        match self.flow() {
             Some(flow) if r.is_finite() => flow.commit(memory, r),
             _ => 0.0,
         }

@@ -208,6 +208,8 @@ fn outputs<const D: usize, N: Number>(
 /// What is calculated of a joint that remembers nothing: no other law is looked at, as that takes longer than all the rest.
 #[inline]
 fn forgetful_outputs<const D: usize>(values: &Values) -> ElementOutputs<D> {
+    /// What such laws remember.
+    const NOTHING: [f64; 0] = [];
     let (linear, polynomials) = (joint_linear::<D>(values), joint_polynomials::<D>(values));
     let relative = relative::<D>(values);
     let mut load = linear.load(&relative);
@@ -218,9 +220,9 @@ fn forgetful_outputs<const D: usize>(values: &Values) -> ElementOutputs<D> {
             continue;
         }
         let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
-        load[i] += polynomial.load(&[], r, velocity);
-        energy_stored += polynomial.stored_energy(&[], r);
-        power_dissipated += polynomial.dissipated_power(&[], r, velocity);
+        load[i] += polynomial.load(&NOTHING, r, velocity);
+        energy_stored += polynomial.stored_energy(&NOTHING, r);
+        power_dissipated += polynomial.dissipated_power(&NOTHING, r, velocity);
     }
     ElementOutputs {
         a_load: load.map(|load| 0.0 - load),

@@ -299,8 +299,11 @@ impl SliderValues {
                 if amplitude_m <= span {
                     self.of_small_motion(logs, amplitude)
                 } else {
-                    let found =
-                        masing_fundamental(|u| law.load(&[], u, Dual::ZERO), span, amplitude);
+                    let found = masing_fundamental(
+                        |u| law.load::<f64>(&[], u, Dual::ZERO),
+                        span,
+                        amplitude,
+                    );
                     // f = a₁ cos θ + b₁ sin θ of u = U cos θ: z = (a₁ − j b₁)/U − K_T
                     let [in_phase, quadrature] = [found.in_phase, found.quadrature];
                     [
@@ -455,7 +458,7 @@ mod tests {
                     }
                     Valued::Iwan(law) => {
                         let span = law.nonlinear_amplitude(0.0, 0.0);
-                        masing_fundamental(|u| law.load(&[], u, 0.0), span, amplitude)
+                        masing_fundamental(|u| law.load::<f64>(&[], u, 0.0), span, amplitude)
                     }
                 };
                 let real = of_loop.in_phase / amplitude - values.stiffness();

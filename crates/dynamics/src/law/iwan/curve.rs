@@ -3,8 +3,8 @@
 //! All of it is written by the power v^(χ+2) of v = u/φ_max alone, so that nothing is the difference of almost equal
 //! numbers where the motion is small.
 
-use super::{Iwan, magnitude};
-use crate::number::Number;
+use super::Iwan;
+use crate::number::{Number, magnitude};
 
 /// What the parameters give.
 #[derive(Clone, Copy, Debug)]

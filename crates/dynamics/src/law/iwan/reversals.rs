@@ -6,7 +6,7 @@
 //! forgotten before: those whose loss changes the load least.
 
 use super::curve::Curve;
-use crate::number::Number;
+use crate::number::{Number, magnitude};
 
 /// Reversal points that are kept.
 ///
@@ -40,8 +40,8 @@ pub(super) const HIDDEN: usize = POINTS + REVERSALS_MAX - 1;
 
 /// The memory to read in.
 #[derive(Clone, Copy)]
-pub(super) struct Reversals<'m> {
-    numbers: &'m [f64],
+pub(super) struct Reversals<'m, M> {
+    numbers: &'m [M],
 }
 
 /// The branch that a motion is on: so many of the remembered reversal points are left, and perhaps the present place is
@@ -70,19 +70,17 @@ impl<N: Number> Tip<N> {
     };
 
     /// The end of the way from here to `place`.
-    fn to(&self, place: f64, curve: &Curve<N>) -> Self {
-        let to = N::from(place);
-        let way = to - self.place;
+    fn to(&self, place: N, curve: &Curve<N>) -> Self {
+        let way = place - self.place;
         Self {
-            place: to,
+            place,
             load: self.load + curve.masing(way),
             stored: self.stored + curve.masing_stored(self.load, self.stored, way),
         }
     }
 
     /// The end of the way from the origin to `place`.
-    fn first(place: f64, curve: &Curve<N>) -> Self {
-        let place = N::from(place);
+    fn first(place: N, curve: &Curve<N>) -> Self {
         Self {
             place,
             load: curve.along(place),
@@ -91,42 +89,43 @@ impl<N: Number> Tip<N> {
     }
 
     /// The end of the way over all these points.
-    fn over(points: &[f64], curve: &Curve<N>) -> Option<Self> {
+    fn over<M: Number + Into<N>>(points: &[M], curve: &Curve<N>) -> Option<Self> {
         let (&first, rest) = points.split_first()?;
-        let start = Self::first(first, curve);
-        Some(rest.iter().fold(start, |tip, &place| tip.to(place, curve)))
+        let start = Self::first(first.into(), curve);
+        let to = |tip: Self, &place: &M| tip.to(place.into(), curve);
+        Some(rest.iter().fold(start, to))
     }
 }
 
-impl<'m> Reversals<'m> {
-    pub(super) fn of(memory: &'m [f64]) -> Self {
+impl<'m, M: Number> Reversals<'m, M> {
+    pub(super) fn of(memory: &'m [M]) -> Self {
         Self { numbers: memory }
     }
 
-    fn number(&self, place: usize) -> f64 {
-        self.numbers.get(place).copied().unwrap_or(0.0)
+    fn number(&self, place: usize) -> M {
+        self.numbers.get(place).copied().unwrap_or(M::ZERO)
     }
 
-    fn place(&self) -> f64 {
+    fn place(&self) -> M {
         self.number(PLACE)
     }
 
-    pub(super) fn owed(&self) -> f64 {
+    pub(super) fn owed(&self) -> M {
         self.number(OWED)
     }
 
     /// The reversal points, oldest first.
-    fn points(&self) -> &'m [f64] {
+    fn points(&self) -> &'m [M] {
         let all = self.numbers.get(POINTS..).unwrap_or_default();
         // a number that only this file writes; whatever else it is, it is no more than there are
-        let count = (self.number(COUNT) as usize).min(all.len());
+        let count = (self.number(COUNT).value() as usize).min(all.len());
         &all[..count]
     }
 
     /// The branch on which the joint is.
     fn own_branch(&self) -> Branch {
-        let (points, place) = (self.points(), self.place());
-        let start = points.last().copied().unwrap_or(0.0);
+        let (points, place) = (self.points(), self.place().value());
+        let start = points.last().map_or(0.0, |start| start.value());
         Branch {
             count: points.len(),
             turned: false,
@@ -136,7 +135,7 @@ impl<'m> Reversals<'m> {
 
     /// The branch on which a straight way to r ends.
     pub(super) fn branch(&self, r: f64) -> Branch {
-        let (points, place) = (self.points(), self.place());
+        let (points, place) = (self.points(), self.place().value());
         let mut branch = self.own_branch();
         if r == place {
             return branch;
@@ -144,19 +143,22 @@ impl<'m> Reversals<'m> {
         let is_forward = r > place;
         branch.turned = branch.is_forward.is_some_and(|it| it != is_forward);
         branch.is_forward = Some(is_forward);
-        while let Some(shorter) = branch.without_closed_loop(points, place, r) {
+        while let Some(shorter) = branch.without_closed_loop(points, self.place(), r) {
             branch = shorter;
         }
         branch
     }
 
     /// Where a branch begins; `None` where it is the first way from the origin.
-    pub(super) fn place_of(&self, branch: &Branch) -> Option<f64> {
+    pub(super) fn place_of(&self, branch: &Branch) -> Option<M> {
         branch.last(self.points(), self.place(), 0)
     }
 
     /// Where a branch begins, with what holds there.
-    pub(super) fn tip<N: Number>(&self, branch: &Branch, curve: &Curve<N>) -> Option<Tip<N>> {
+    pub(super) fn tip<N: Number>(&self, branch: &Branch, curve: &Curve<N>) -> Option<Tip<N>>
+    where
+        M: Into<N>,
+    {
         let points = self.points();
         let kept = &points[..branch.count.min(points.len())];
         let before = if kept.len() == points.len() && self.holds_for(curve) {
@@ -166,25 +168,31 @@ impl<'m> Reversals<'m> {
         };
         match (branch.turned, before) {
             (false, tip) => tip,
-            (true, Some(tip)) => Some(tip.to(self.place(), curve)),
-            (true, None) => Some(Tip::first(self.place(), curve)),
+            (true, Some(tip)) => Some(tip.to(self.place().into(), curve)),
+            (true, None) => Some(Tip::first(self.place().into(), curve)),
         }
     }
 
     /// The last reversal point, as it was committed.
-    fn known_tip<N: Number>(&self) -> Option<Tip<N>> {
+    fn known_tip<N: Number>(&self) -> Option<Tip<N>>
+    where
+        M: Into<N>,
+    {
         self.points().last().map(|&place| Tip {
-            place: N::from(place),
-            load: N::from(self.number(LOAD)),
-            stored: N::from(self.number(STORED)),
+            place: place.into(),
+            load: self.number(LOAD).into(),
+            stored: self.number(STORED).into(),
         })
     }
 
     /// Whether what was committed holds for these parameters, which do not change.
-    fn holds_for<N: Number>(&self, curve: &Curve<N>) -> bool {
+    fn holds_for<N: Number>(&self, curve: &Curve<N>) -> bool
+    where
+        M: Into<N>,
+    {
         let mut own = curve.parameters.iter().enumerate();
         own.all(|(k, &parameter)| {
-            let known = N::from(self.number(PARAMETERS + k));
+            let known: N = self.number(PARAMETERS + k).into();
             (parameter - known).is_zero()
         })
     }
@@ -192,7 +200,7 @@ impl<'m> Reversals<'m> {
 
 impl Branch {
     /// The reversal point so many before the one where the branch begins.
-    fn last(&self, points: &[f64], place: f64, before: usize) -> Option<f64> {
+    fn last<M: Number>(&self, points: &[M], place: M, before: usize) -> Option<M> {
         if self.turned && before == 0 {
             return Some(place);
         }
@@ -202,7 +210,7 @@ impl Branch {
     }
 
     /// Where the branch meets the one before it.
-    fn closes_at(&self, points: &[f64], place: f64) -> Option<f64> {
+    fn closes_at<M: Number>(&self, points: &[M], place: M) -> Option<M> {
         match self.last(points, place, 1) {
             Some(before) => Some(before),
             // the first way from the origin goes on from the mirror image of the first reversal
@@ -211,8 +219,8 @@ impl Branch {
     }
 
     /// The branch on which a way to r goes on where this one has closed a loop; `None` where it has not.
-    fn without_closed_loop(&self, points: &[f64], place: f64, r: f64) -> Option<Self> {
-        let end = self.closes_at(points, place)?;
+    fn without_closed_loop<M: Number>(&self, points: &[M], place: M, r: f64) -> Option<Self> {
+        let end = self.closes_at(points, place)?.value();
         let is_forward = self.is_forward?;
         let passes = if is_forward { r >= end } else { r <= end };
         passes.then(|| self.shortened())
@@ -229,75 +237,81 @@ impl Branch {
     }
 
     /// Heat of the way from the branch's begin to a point on it.
-    fn heat(&self, points: &[f64], place: f64, to: f64, curve: &Curve<f64>) -> f64 {
+    fn heat<N: Number>(&self, points: &[N], place: N, to: N, curve: &Curve<N>) -> N {
         match self.last(points, place, 0) {
-            None => curve.heat(to.abs()),
-            Some(start) => curve.masing_heat((to - start).abs()),
+            None => curve.heat(magnitude(to)),
+            Some(start) => curve.masing_heat(magnitude(to - start)),
         }
     }
 }
 
 /// Moves the memory on to r, and returns the heat of the way, J.
-pub(super) fn commit(memory: &mut [f64], curve: &Curve<f64>, r: f64) -> f64 {
-    if memory.len() <= HIDDEN || r == memory[PLACE] {
+pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64 {
+    if memory.len() <= HIDDEN || r.value() == memory[PLACE].value() {
         return 0.0;
     }
-    if memory[COUNT] >= REVERSALS_MAX as f64 {
+    if memory[COUNT].value() >= REVERSALS_MAX as f64 {
         forget(memory, curve);
     }
-    let is_forward = r > memory[PLACE];
+    let is_forward = r.value() > memory[PLACE].value();
     let reversals = Reversals::of(memory);
     let (points, place) = (reversals.points(), reversals.place());
     let known = reversals.holds_for(curve);
     let mut branch = reversals.own_branch();
     let mut before = match branch.is_forward {
-        Some(it) if it != is_forward => 0.0,
+        Some(it) if it != is_forward => N::ZERO,
         _ if known => memory[HEAT],
         _ => branch.heat(points, place, place, curve),
     };
     branch.turned = branch.is_forward.is_some_and(|it| it != is_forward);
     branch.is_forward = Some(is_forward);
     // from loop to loop, each with the heat of its own branch
-    let mut heat = 0.0;
+    let mut heat = N::ZERO;
     while let (Some(end), Some(next)) = (
         branch.closes_at(points, place),
-        branch.without_closed_loop(points, place, r),
+        branch.without_closed_loop(points, place, r.value()),
     ) {
-        heat += branch.heat(points, place, end, curve) - before;
+        heat = heat + branch.heat(points, place, end, curve) - before;
         branch = next;
         before = branch.heat(points, place, end, curve);
     }
     let after = branch.heat(points, place, r, curve);
-    heat += after - before;
+    heat = heat + (after - before);
     let tip = reversals.tip(&branch, curve);
     write(memory, curve, &branch, tip.unwrap_or(Tip::ORIGIN));
     memory[HEAT] = after;
     memory[PLACE] = r;
-    if memory[COUNT] >= REVERSALS_MAX as f64 {
+    if memory[COUNT].value() >= REVERSALS_MAX as f64 {
         // now, because the shift does no work while the joint stays, and so that there is room where it turns next
         forget(memory, curve);
     }
     // rounding apart, no way gives heat back
-    pay(memory, heat.max(0.0))
+    let heat = if heat.value() > 0.0 { heat } else { N::ZERO };
+    pay(memory, heat).value()
 }
 
 /// What is left of this heat when what is owed is paid.
-fn pay(memory: &mut [f64], heat: f64) -> f64 {
-    let paid = heat.min(memory[OWED]);
-    memory[OWED] -= paid;
+fn pay<N: Number>(memory: &mut [N], heat: N) -> N {
+    let owed = memory[OWED];
+    let paid = if heat.value() < owed.value() {
+        heat
+    } else {
+        owed
+    };
+    memory[OWED] = owed - paid;
     heat - paid
 }
 
 /// Takes over the branch on which the joint is from now on.
-fn write(memory: &mut [f64], curve: &Curve<f64>, branch: &Branch, tip: Tip<f64>) {
+fn write<N: Number>(memory: &mut [N], curve: &Curve<N>, branch: &Branch, tip: Tip<N>) {
     let mut count = branch.count;
     if branch.turned {
         memory[POINTS + count] = memory[PLACE];
         count += 1;
     }
-    memory[COUNT] = count as f64;
+    memory[COUNT] = N::from(count as f64);
     if count == 0 {
-        memory[SHIFT] = 0.0;
+        memory[SHIFT] = N::ZERO;
     }
     memory[TURN] = tip.place;
     memory[LOAD] = tip.load;
@@ -308,40 +322,41 @@ fn write(memory: &mut [f64], curve: &Curve<f64>, branch: &Branch, tip: Tip<f64>)
 /// Forgets two neighbouring reversal points: of those whose loss shifts the load back from where earlier losses have
 /// shifted it, those that shift it least. What the springs gain by that is owed; what they lose is taken off it, and
 /// heat if it is more.
-fn forget(memory: &mut [f64], curve: &Curve<f64>) {
+fn forget<N: Number>(memory: &mut [N], curve: &Curve<N>) {
     let place = memory[PLACE];
     let stored_at =
-        |points: &[f64]| Tip::over(points, curve).map_or(0.0, |tip| tip.to(place, curve).stored);
+        |points: &[N]| Tip::over(points, curve).map_or(N::ZERO, |tip| tip.to(place, curve).stored);
     let points = Reversals::of(memory).points();
     let way = |k: usize| points[k + 1] - points[k];
     // over the ways a, b, c between four points: 2F((a+b+c)/2) − 2F(a/2) − 2F(b/2) − 2F(c/2), which has the sign of a
     let shift = |k: usize| {
         let ways = [way(k - 1), way(k), way(k + 1)];
-        let each: f64 = ways.map(|way| curve.masing(way)).iter().sum();
-        curve.masing(ways.iter().sum()) - each
+        let sum = |parts: [N; 3]| parts[0] + parts[1] + parts[2];
+        curve.masing(sum(ways)) - sum(ways.map(|way| curve.masing(way)))
     };
-    let is_up = memory[SHIFT] < 0.0;
+    let is_up = memory[SHIFT].value() < 0.0;
     // neither the first point, whose mirror image is one as well, nor the last, from which the present way is still
     // short
-    let candidates = (1..points.len().saturating_sub(2)).filter(|&k| (way(k - 1) > 0.0) == is_up);
+    let candidates =
+        (1..points.len().saturating_sub(2)).filter(|&k| (way(k - 1).value() > 0.0) == is_up);
     let least = candidates
         .map(|k| (k, shift(k)))
-        .min_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        .min_by(|(_, one), (_, other)| one.value().abs().total_cmp(&other.value().abs()));
     let Some((least, shift)) = least else {
         return;
     };
     let before = stored_at(points);
     let count = points.len();
     memory.copy_within(POINTS + least + 2..POINTS + count, POINTS + least);
-    memory[COUNT] = (count - 2) as f64;
+    memory[COUNT] = N::from((count - 2) as f64);
     let kept = Reversals::of(memory).points();
     let after = stored_at(kept);
     let tip = Tip::over(kept, curve).unwrap_or(Tip::ORIGIN);
     memory[TURN] = tip.place;
     memory[LOAD] = tip.load;
     memory[STORED] = tip.stored;
-    memory[HEAT] = curve.masing_heat((place - tip.place).abs());
+    memory[HEAT] = curve.masing_heat(magnitude(place - tip.place));
     memory[PARAMETERS..SHIFT].copy_from_slice(&curve.parameters);
-    memory[OWED] += after - before;
-    memory[SHIFT] += shift;
+    memory[OWED] = memory[OWED] + (after - before);
+    memory[SHIFT] = memory[SHIFT] + shift;
 }

@@ -163,7 +163,7 @@ mod tests {
             assert_eq!(polynomial.coefficient(term), 2.0);
             let [of_r, of_rate] = term.powers();
             let expected = 2.0 * 1.5_f64.powi(of_r) * 7.0_f64.powi(of_rate);
-            let load = crate::law::Law::load(&polynomial, &[], 1.5, 7.0);
+            let load = crate::law::Law::load::<f64>(&polynomial, &[], 1.5, 7.0);
             assert!((load / expected - 1.0).abs() < 1e-15);
             assert_eq!(polynomial.degree(), term.degree().max(3));
         }

@@ -94,6 +94,14 @@ impl<N: Number> BoucWen<N> {
         stiffness > 0.0 && slip_force > 0.0 && exponent >= 1.0 && beta >= gamma.abs()
     }
 
+    fn branch(&self) -> Branch<N> {
+        Branch {
+            exponent: self.exponent,
+            loading: self.beta + self.gamma,
+            unloading: self.beta - self.gamma,
+        }
+    }
+
     /// The way from the memory's place to r.
     fn way<M: Number + Into<N>>(&self, memory: &[M], r: N) -> (f64, Way<N>) {
         let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
@@ -104,14 +112,9 @@ impl<N: Number> BoucWen<N> {
             _ if number(DIRECTION).value() < 0.0 => -1.0,
             _ => 1.0,
         };
-        let branch = Branch {
-            exponent: self.exponent,
-            loading: self.beta + self.gamma,
-            unloading: self.beta - self.gamma,
-        };
         let before = N::from(sign) * number(LOAD) / self.slip_force;
         let length = N::from(sign) * way * self.stiffness / self.slip_force;
-        (sign, branch.way(before, length))
+        (sign, self.branch().way(before, length))
     }
 }
 
@@ -236,6 +239,21 @@ impl<N: Number> Law<N> for BoucWen<N> {
         memory[DIRECTION] = N::from(sign);
         let [stiffness, slip_force, ..] = self.parameters().map(Number::value);
         slip_force * slip_force / stiffness * way.heat
+    }
+
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+        if self.is_there() {
+            // where no load is left
+            let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
+            let (place, load) = (number(PLACE), number(LOAD));
+            let sign = if to < place { -1.0 } else { 1.0 };
+            let [stiffness, slip_force, ..] = self.parameters().map(Number::value);
+            let against = sign * load / slip_force;
+            if against < 0.0 {
+                let way = self.branch().unloading_way(N::from(-against)).value();
+                tell(place + sign * way * slip_force / stiffness);
+            }
+        }
     }
 
     fn outside(&self) -> Option<Outside> {

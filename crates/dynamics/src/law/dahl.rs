@@ -129,6 +129,12 @@ impl<N: Number> Law<N> for Dahl<N> {
         }
     }
 
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+        if let Some(flow) = self.flow() {
+            tell(flow.corner(memory, to));
+        }
+    }
+
     fn outside(&self) -> Option<Outside> {
         let values = [self.stiffness, self.slip_force].map(Number::value);
         let mut numbers = values.iter();

@@ -104,6 +104,14 @@ impl<N: Number> Flow<N> {
         N::from(sign) * self.limit * (before + growth)
     }
 
+    /// Where a spring alone would have come to the limit on a straight way to `to`: the sharper the slider, the nearer a
+    /// corner it has there.
+    pub(super) fn corner(&self, memory: &[f64], to: f64) -> f64 {
+        let way = self.way(memory, N::from(to));
+        let left = (1.0 - way.before.value()) * self.limit.value() / self.stiffness.value();
+        memory.get(PLACE).copied().unwrap_or(0.0) + way.sign * left
+    }
+
     /// Energy in its spring at r.
     pub(super) fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
         // p²/(2 E₁)

@@ -207,6 +207,13 @@ impl<N: Number> Law<N> for Iwan<N> {
         }
     }
 
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+        let values = self.parameters().map(Number::value);
+        if let Some(curve) = Iwan::<f64>::new(&values).curve() {
+            Reversals::of(memory).corners(to, curve.span, tell);
+        }
+    }
+
     fn outside(&self) -> Option<Outside> {
         let outside = |parameter: usize, expected: &str| {
             Some(Outside {

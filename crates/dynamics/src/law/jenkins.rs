@@ -166,6 +166,14 @@ impl<N: Number> Law<N> for Jenkins<N> {
         heat
     }
 
+    fn corners(&self, memory: &[f64], _: f64, tell: &mut dyn FnMut(f64)) {
+        // x ± h/k
+        let span = self.slip_force.value() / self.stiffness.value();
+        let slider = slider::<f64, f64>(memory);
+        tell(slider - span);
+        tell(slider + span);
+    }
+
     fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
         // it slips from h/k on
         self.slip_force.value() / self.stiffness.value()

@@ -64,6 +64,10 @@ pub trait Law<N: Number>: Copy {
         0.0
     }
 
+    /// Tells the relative displacements (m, rad) at which its load may have a corner, or nearly one, on the straight way from where the memory
+    /// is to `to`; beside the way there may be others.
+    fn corners(&self, _memory: &[f64], _to: f64, _tell: &mut dyn FnMut(f64)) {}
+
     /// The first of its parameters that is outside of the law's range, such that it is not passive or gives no load.
     fn outside(&self) -> Option<Outside> {
         None
@@ -196,6 +200,14 @@ macro_rules! dof_laws {
         }
 
         impl DofLaws {
+            /// Tells the relative displacements (m, rad) at which the load may have a corner on the straight way from where the
+            /// memory is to `to`; beside the way there may be others.
+            pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(f64)) {
+                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                    self.$name().corners(part(memory, PLACES.$name), to, tell);
+                })+
+            }
+
             /// Copies what the laws that are there remember, and nothing else.
             pub fn copy_memory(&self, from: &DofMemory, to: &mut DofMemory) {
                 $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {

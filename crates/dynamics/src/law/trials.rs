@@ -60,15 +60,9 @@ pub(super) fn way(random: &mut Random, count: usize, amplitude: f64) -> Vec<f64>
         .collect()
 }
 
-/// Work along the way is what is stored and the heat, and no part of the way gives heat back. `bends` are the places at
-/// which the load of a straight way from where the memory is may not be smooth; on a way the velocity is `speed`
-/// towards its end.
-pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
-    law: &L,
-    way: &[f64],
-    speed: f64,
-    bends: impl Fn(&[f64], f64) -> Vec<f64>,
-) {
+/// Work along the way is what is stored and the heat, and no part of the way gives heat back. On a way the velocity is
+/// `speed` towards its end.
+pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(law: &L, way: &[f64], speed: f64) {
     let mut memory = L::at_rest();
     let (mut work, mut heat, mut turned) = (0.0, 0.0, 0.0);
     let mut r = 0.0;
@@ -79,7 +73,8 @@ pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(
         let velocity = speed * (target - r).signum();
         // the way begins at this velocity
         turned += law.commit(&mut memory, r, velocity).abs();
-        let mut stops = bends(&memory, r);
+        let mut stops = Vec::new();
+        law.corners(&memory, target, &mut |corner| stops.push(corner));
         stops.retain(|stop| (stop - r) * (target - stop) > 0.0);
         stops.extend([r, target]);
         stops.sort_by(f64::total_cmp);

@@ -172,6 +172,12 @@ impl<N: Number> Law<N> for Valanis<N> {
         }
     }
 
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+        if let Some(flow) = self.flow() {
+            tell(flow.corner(memory, to));
+        }
+    }
+
     fn outside(&self) -> Option<Outside> {
         let [stiffness, slip_stiffness, slip_force, kappa] = self.parameters().map(Number::value);
         let outside = |parameter: usize, expected: String| {

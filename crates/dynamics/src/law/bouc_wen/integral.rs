@@ -188,7 +188,7 @@ impl<N: Number> Branch<N> {
     }
 
     /// x from w = −y to no load.
-    fn unloading_way(&self, y: N) -> N {
+    pub(super) fn unloading_way(&self, y: N) -> N {
         let a = N::from(1.0) / self.exponent;
         y * hypergeometric(a, -(self.unloading * y.powf(self.exponent)))
     }

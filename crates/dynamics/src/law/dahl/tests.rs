@@ -40,7 +40,7 @@ fn energies_balance_and_changes_are_those_of_differences() {
             slip_force: 10.0_f64.powf(4.0 * random.unit()),
         };
         let way_of = way(&mut random, 20, 4.0 * law.slip_force / law.stiffness);
-        assert_balance(&law, &way_of, 1.0, |_, _| Vec::new());
+        assert_balance(&law, &way_of, 1.0);
         let law = Dahl {
             stiffness: 1.0 + random.unit(),
             slip_force: 1.0 + random.unit(),

@@ -135,18 +135,40 @@ impl<'m, M: Number> Reversals<'m, M> {
 
     /// The branch on which a straight way to r ends.
     pub(super) fn branch(&self, r: f64) -> Branch {
-        let (points, place) = (self.points(), self.place().value());
-        let mut branch = self.own_branch();
-        if r == place {
-            return branch;
+        let (points, place) = (self.points(), self.place());
+        if r == place.value() {
+            return self.own_branch();
         }
-        let is_forward = r > place;
-        branch.turned = branch.is_forward.is_some_and(|it| it != is_forward);
-        branch.is_forward = Some(is_forward);
-        while let Some(shorter) = branch.without_closed_loop(points, self.place(), r) {
+        let mut branch = self.branch_towards(r);
+        while let Some(shorter) = branch.without_closed_loop(points, place, r) {
             branch = shorter;
         }
         branch
+    }
+
+    /// The branch on which a straight way to r begins.
+    fn branch_towards(&self, r: f64) -> Branch {
+        let mut branch = self.own_branch();
+        let is_forward = r > self.place().value();
+        branch.turned = branch.is_forward.is_some_and(|it| it != is_forward);
+        branch.is_forward = Some(is_forward);
+        branch
+    }
+
+    /// Tells where a straight way to r closes loops, and where all slips on each of its branches: from `span` on.
+    pub(super) fn corners(&self, r: f64, span: f64, tell: &mut dyn FnMut(f64)) {
+        let (points, place) = (self.points(), self.place());
+        let mut branch = self.branch_towards(r);
+        let sign = if r > place.value() { 1.0 } else { -1.0 };
+        loop {
+            let start = branch.last(points, place, 0);
+            tell(start.map_or(sign * span, |start| start.value() + 2.0 * sign * span));
+            let Some(shorter) = branch.without_closed_loop(points, place, r) else {
+                break;
+            };
+            branch.closes_at(points, place).map(|end| tell(end.value()));
+            branch = shorter;
+        }
     }
 
     /// Where a branch begins; `None` where it is the first way from the origin.
@@ -253,25 +275,22 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
     if memory[COUNT].value() >= REVERSALS_MAX as f64 {
         forget(memory, curve);
     }
-    let is_forward = r.value() > memory[PLACE].value();
     let reversals = Reversals::of(memory);
     let (points, place) = (reversals.points(), reversals.place());
     let known = reversals.holds_for(curve);
-    let mut branch = reversals.own_branch();
-    let mut before = match branch.is_forward {
-        Some(it) if it != is_forward => N::ZERO,
-        _ if known => memory[HEAT],
-        _ => branch.heat(points, place, place, curve),
+    let mut branch = reversals.branch_towards(r.value());
+    let mut before = match branch.turned {
+        true => N::ZERO,
+        false if known => memory[HEAT],
+        false => branch.heat(points, place, place, curve),
     };
-    branch.turned = branch.is_forward.is_some_and(|it| it != is_forward);
-    branch.is_forward = Some(is_forward);
     // from loop to loop, each with the heat of its own branch
     let mut heat = N::ZERO;
     while let (Some(end), Some(next)) = (
         branch.closes_at(points, place),
         branch.without_closed_loop(points, place, r.value()),
     ) {
-        heat = heat + branch.heat(points, place, end, curve) - before;
+        heat = heat + (branch.heat(points, place, end, curve) - before);
         branch = next;
         before = branch.heat(points, place, end, curve);
     }

@@ -98,7 +98,7 @@ fn energies_balance_and_changes_are_those_of_differences() {
     for _ in 0..40 {
         let law = random_law(&mut random);
         let way_of = way(&mut random, 15, 6.0);
-        assert_balance(&law, &way_of, 0.1 + random.unit(), |_, _| Vec::new());
+        assert_balance(&law, &way_of, 0.1 + random.unit());
         let way_of = way(&mut random, 10, 2.0);
         assert_changes(&law, &way_of, 2.0, 0.1 + random.unit());
     }

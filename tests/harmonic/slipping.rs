@@ -3,7 +3,7 @@
 use bolted_joint::harmonic::{
     CurveOptions, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics, Observed, Target,
 };
-use bolted_joint_dynamics::law::{DofLaws, Iwan, Jenkins};
+use bolted_joint_dynamics::law::{DofLaws, Iwan, Jenkins, LuGre};
 use bolted_joint_dynamics::{Body, JointLaw, Lap, Linear};
 
 const SPAN: f64 = 1.316_129_032_258_1;
@@ -119,21 +119,15 @@ fn curves_go_through_where_all_slips() {
 }
 
 #[test]
-fn more_harmonics_and_other_memories_are_refused() {
-    let lap = oscillator(iwan(), 0.0);
-    for harmonics in [Harmonics::odd(3), Harmonics::all(1)] {
-        let refused = HarmonicBalance::new(&lap, harmonics.unwrap()).unwrap_err();
-        assert_eq!(refused, HarmonicError::SlippingHarmonics);
-    }
-    let mut dahl = DofLaws::NONE;
-    let own = bolted_joint_dynamics::law::dof_parameters();
-    let mut parameters = *dahl.parameters();
-    for (value, (law, _)) in parameters.iter_mut().zip(own) {
-        if law.name == "dahl" {
-            *value = 1.0;
-        }
-    }
-    dahl = DofLaws::new(parameters);
-    let refused = HarmonicBalance::new(&oscillator(dahl, 0.0), Harmonics::odd(1).unwrap());
-    assert_eq!(refused.unwrap_err(), HarmonicError::Memory);
+fn friction_that_knows_time_is_refused() {
+    let lugre = DofLaws::from(LuGre {
+        stiffness: 1.0,
+        bristle_damping: 0.0,
+        damping: 0.0,
+        slip_force: 1.0,
+        static_force: 1.0,
+        stribeck_velocity: 1.0,
+    });
+    let refused = HarmonicBalance::new(&oscillator(lugre, 0.0), Harmonics::odd(1).unwrap());
+    assert_eq!(refused.unwrap_err(), HarmonicError::Rate);
 }

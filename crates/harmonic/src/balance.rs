@@ -4,7 +4,9 @@ use bolted_joint_dynamics::{Lap, Polynomial, law::Term};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use super::branches::Remembering;
 use super::condensed::{BodyNumber, Circumstances, Condensed};
+use super::course::Course;
 use super::sampling::{Sampling, Spectrum};
 use super::slipping::Slipping;
 use super::{HarmonicError, HarmonicLoads, Harmonics, Parameter};
@@ -51,8 +53,7 @@ impl<const D: usize> HarmonicBalance<D> {
     ///
     /// # Errors
     /// [`HarmonicError::Model`] if the lap has an inertia that is not positive or anything that is not finite,
-    /// [`HarmonicError::Memory`] if its joint remembers the motion otherwise than by Masing's rule,
-    /// [`HarmonicError::SlippingHarmonics`] if it slips and the motion is to have more than one harmonic.
+    /// [`HarmonicError::Rate`] if its joint has friction that depends on how fast it moves.
     pub fn new(lap: &Lap<D>, harmonics: Harmonics) -> Result<Self, HarmonicError> {
         if let Some(defect) = lap.defect() {
             return Err(HarmonicError::Model(defect));
@@ -60,11 +61,9 @@ impl<const D: usize> HarmonicBalance<D> {
         let slipping = Slipping::of(&lap.joint)?;
         let mut lap = *lap;
         if let Some(slipping) = &slipping {
-            if harmonics.highest() > 1 || harmonics.has_constant() {
-                return Err(HarmonicError::SlippingHarmonics);
-            }
             for dof in 0..D {
-                lap.joint.linear.stiffness[dof][dof] += slipping.stuck(dof);
+                let stuck = slipping.on(dof).map_or(0.0, Remembering::stuck);
+                lap.joint.linear.stiffness[dof][dof] += stuck;
             }
         }
         let terms = lap.joint.polynomials();
@@ -210,37 +209,12 @@ impl<const D: usize> HarmonicBalance<D> {
         self.add_linear(coefficients, loads, at, result);
         for dof in 0..D {
             self.add_terms(dof, coefficients, at.omega, result);
-            if let Some(slipping) = &self.slipping {
-                self.add_slipping(slipping, dof, coefficients, result);
+            if let Some(laws) = self.slipping.as_ref().and_then(|all| all.on(dof)) {
+                let slots = self.harmonics.slots();
+                let from = dof * slots;
+                let course = Course::new(&self.harmonics, &coefficients[from..from + slots]);
+                laws.add(course, from, &mut result.residual, &mut result.jacobian);
             }
-        }
-    }
-
-    fn add_slipping(
-        &self,
-        slipping: &Slipping<D>,
-        dof: usize,
-        coefficients: &[f64],
-        result: &mut Evaluation,
-    ) {
-        let Some(harmonic) = self.place_of(1) else {
-            return;
-        };
-        let motion = self.amplitude(coefficients, dof, harmonic);
-        let amplitude = motion.norm();
-        let [z, by_amplitude] = slipping.stiffness(dof, amplitude);
-        self.add(z * motion, dof, harmonic, &mut result.residual);
-        if amplitude == 0.0 {
-            return;
-        }
-        // d(zX) = z dX + X z′ dU with X = a − jb, dU = (a da + b db)/U
-        let of_turn = motion * by_amplitude / amplitude;
-        let by_cosine = z + of_turn * motion.re;
-        let by_sine = -Complex64::I * z - of_turn * motion.im;
-        let at = dof * self.harmonics.slots() + harmonic.1;
-        for (column, by) in [(at, by_cosine), (at + 1, by_sine)] {
-            result.jacobian[(at, column)] += by.re;
-            result.jacobian[(at + 1, column)] -= by.im;
         }
     }
 

@@ -19,17 +19,12 @@ pub enum HarmonicError {
         "the lap model has an inertia that is not positive or a number that is not finite: {0:?}"
     )]
     Model(Defect),
-    /// The joint remembers its motion.
+    /// The load of the joint's friction depends on its velocity.
     #[error(
-        "the joint has friction without Masing's rule (other than jenkins and iwan): harmonic balance does not know it; compute the \
-         response in time"
+        "the joint has friction that depends on how fast it slips (lugre): harmonic balance does not know it; compute the response in \
+         time"
     )]
-    Memory,
-    /// Laws that slip are balanced with one harmonic.
-    #[error(
-        "the joint has friction, which is balanced with one harmonic: set `harmonics.highest` = 1, or compute the response in time"
-    )]
-    SlippingHarmonics,
+    Rate,
     /// Stability is that of springs and dampers.
     #[error(
         "the joint has friction: the stability of its motions is not computed; follow them in time"

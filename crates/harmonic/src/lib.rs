@@ -39,12 +39,15 @@
 //!   [`HarmonicBalance::backbone`]: curves through folds, by continuation.
 //! * [`HarmonicBalance::stability`]: Floquet multipliers.
 //!
-//! Friction with Masing's rule (Jenkins, Iwan) is balanced with one harmonic, by the closed loops of its law.
+//! Friction is balanced with as many harmonics as anything else, by the exact loads of its laws on each branch of the motion
+//! between two turns; LuGre's alone is not, whose load depends on how fast the joint slips.
 #![forbid(unsafe_code)]
 
 mod balance;
+mod branches;
 mod condensed;
 mod continuation;
+mod course;
 mod curve;
 mod error;
 mod harmonics;
@@ -53,6 +56,7 @@ mod masing;
 mod modes;
 mod observed;
 mod parameter;
+mod quadrature;
 mod sampling;
 mod sensitivity;
 mod slipping;

@@ -3,15 +3,11 @@
 //! Masing's rule: after each turn the load follows the curve of first loading F, at twice its size. The loop of the motion
 //! U cos θ therefore follows from F alone.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::LazyLock;
+use std::f64::consts::PI;
 
 use bolted_joint_dynamics::Number;
 
-/// Step and number of steps to each side of the quadrature, and so its error: below 1e-13 where F is a power with an
-/// exponent above 1 at the turns.
-const STEP: f64 = 1.0 / 14.0;
-const STEPS: i32 = 46;
+use super::quadrature::NODES;
 
 /// The fundamental of a load: f ≈ a₁ cos θ + b₁ sin θ while u = U cos θ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,21 +68,6 @@ pub fn masing_fundamental<N: Number>(
         quadrature,
     }
 }
-
-/// Places in (0, 1) and weights of the double exponential rule, which takes powers at both ends:
-/// x = ½(1 + tanh(½π sinh t))   (Takahasi and Mori, Publ. RIMS 9 (1974) 721)
-static NODES: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    let node = |step: i32| {
-        let t = STEP * f64::from(step);
-        let s = FRAC_PI_2 * t.sinh();
-        // from the nearer end, without cancellation
-        let from_end = 1.0 / (1.0 + (2.0 * s.abs()).exp());
-        let place = if s < 0.0 { from_end } else { 1.0 - from_end };
-        let weight = STEP * FRAC_PI_2 * t.cosh() / (2.0 * s.cosh() * s.cosh());
-        (place, weight)
-    };
-    (-STEPS..=STEPS).map(node).collect()
-});
 
 #[cfg(test)]
 mod tests {

@@ -15,6 +15,10 @@ use nalgebra::DMatrix;
 use super::course::Course;
 use super::quadrature::NODES;
 
+mod deviating;
+
+pub(super) use deviating::Deviating;
+
 /// Turns by whose places loads are differentiated in one go.
 const GROUP: usize = 2;
 /// A number with its changes by the present place and by the places of as many turns.
@@ -63,22 +67,10 @@ impl Remembering {
         residual: &mut [f64],
         jacobian: &mut DMatrix<f64>,
     ) {
-        let turns = course.turns();
-        if turns.is_empty() {
+        let Some(way) = Loop::new(course) else {
             return;
-        }
+        };
         let slots = course.slots();
-        let mut waves = vec![0.0; slots];
-        let mut place_at = |&phase: &f64| {
-            course.waves(phase, &mut waves);
-            course.place(&waves)
-        };
-        let places = turns.iter().map(&mut place_at).collect();
-        let way = Loop {
-            course,
-            turns,
-            places,
-        };
         let (steady, lasting) = self.steady(&way);
         let changing = DofLaws::new(self.laws.parameters().map(Changing::from));
         for first in (0..way.turns.len()).step_by(GROUP) {
@@ -214,7 +206,29 @@ fn memories(
     begins
 }
 
-impl Loop<'_> {
+impl<'a> Loop<'a> {
+    /// That of a motion; `None` where it rests.
+    fn new(course: Course<'a>) -> Option<Self> {
+        let turns = course.turns();
+        let places = turns.iter().map(|&turn| course.motion(turn)[0]).collect();
+        (!turns.is_empty()).then_some(Self {
+            course,
+            turns,
+            places,
+        })
+    }
+
+    /// The same with the turns of the whole period.
+    fn whole(mut self) -> Self {
+        if self.course.is_odd() {
+            for n in 0..self.turns.len() {
+                self.turns.push(self.turns[n] + self.course.span());
+                self.places.push(-self.places[n]);
+            }
+        }
+        self
+    }
+
     /// Moves a memory on over one period.
     fn period<N: Number>(&self, laws: &DofLaws<N>, memory: &mut DofMemory<N>, places: &[N]) {
         for &place in places {

@@ -83,6 +83,22 @@ impl<'a> Course<'a> {
         })
     }
 
+    /// r and dr/dτ.
+    pub(super) fn motion(&self, phase: f64) -> [f64; 2] {
+        let constant = if self.harmonics.has_constant() {
+            self.coefficients[0]
+        } else {
+            0.0
+        };
+        let mut motion = [constant, 0.0];
+        for (wave, (order, place)) in self.turning(phase).zip(self.harmonics.places()) {
+            let (a, b) = (self.coefficients[place], self.coefficients[place + 1]);
+            motion[0] += a * wave.re + b * wave.im;
+            motion[1] += order as f64 * (b * wave.re - a * wave.im);
+        }
+        motion
+    }
+
     /// dr/dτ and d²r/dτ².
     fn rates(&self, phase: f64) -> [f64; 2] {
         let mut rates = [0.0; 2];

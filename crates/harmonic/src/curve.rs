@@ -157,7 +157,7 @@ impl<const D: usize> HarmonicBalance<D> {
         options: &CurveOptions,
     ) -> Result<Vec<CurvePoint<D>>, HarmonicError> {
         let finish = |point: Followed<D>| {
-            let stability = match options.with_stability && self.slipping.is_none() {
+            let stability = match options.with_stability {
                 true => Some(self.stability(&point.solution)?),
                 false => None,
             };

@@ -25,11 +25,6 @@ pub enum HarmonicError {
          time"
     )]
     Rate,
-    /// Stability is that of springs and dampers.
-    #[error(
-        "the joint has friction: the stability of its motions is not computed; follow them in time"
-    )]
-    SlippingStability,
     /// A number of the problem is outside of what it can be.
     #[error("{what}: found {found}, expected {expected}")]
     Value {

@@ -49,6 +49,7 @@ mod condensed;
 mod continuation;
 mod course;
 mod curve;
+mod deviation;
 mod error;
 mod harmonics;
 mod loads;

@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::Body;
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
 use super::balance::HarmonicBalance;
+use super::branches::Deviating;
+use super::course::Course;
+use super::deviation::{Deviation, Linearised, Tangent};
 use super::{HarmonicError, Solution};
 
 /// Runge–Kutta steps of one radian of the fastest motion: the phase of a multiplier is then exact to
@@ -14,7 +16,9 @@ use super::{HarmonicError, Solution};
 const STEPS_PER_RADIAN: f64 = 24.0;
 /// Multipliers beyond one by no more than what the integration adds count as on the unit circle.
 const ON_THE_CIRCLE: f64 = 1e-9;
-/// Iterations for all eigenvalues of a matrix of at most eight rows.
+/// Part of a step by which a moment at the end of a smooth part is taken from within.
+const EDGE: f64 = 1e-6;
+/// Iterations for all eigenvalues of a small matrix.
 const MOST_ITERATIONS: usize = 1000;
 
 /// Floquet multipliers of a periodic motion.
@@ -34,30 +38,20 @@ impl Stability {
     }
 }
 
-/// Deviations of the bodies: displacements and their rates over τ = ωt, one row a deviation.
-#[derive(Clone, Copy)]
-struct Deviation<const D: usize> {
-    x: [[f64; D]; 2],
-    rate: [[f64; D]; 2],
-}
-
-/// The equations of small deviations about a motion, over τ.
-struct Linearised<'a, const D: usize> {
-    bodies: [&'a Body<D>; 2],
-    joint_stiffness: &'a [[f64; D]; D],
-    joint_damping: &'a [[f64; D]; D],
-    omega: f64,
+/// A small deviation on its way through a period.
+struct Column<const D: usize> {
+    bodies: Deviation<D>,
+    /// Of what each DOF remembers: see [`Deviating`].
+    remembered: [Vec<f64>; D],
 }
 
 impl<const D: usize> HarmonicBalance<D> {
-    /// Floquet multipliers of a solution: eigenvalues of what one period makes of small deviations, by RK4.
+    /// Floquet multipliers of a solution: eigenvalues of what one period makes of small deviations, by RK4. What a joint
+    /// remembers deviates too: the places of its latest turns, and loads that relax.
     ///
     /// # Errors
     /// [`HarmonicError::Multipliers`] if they are not finite.
     pub fn stability(&self, solution: &Solution<D>) -> Result<Stability, HarmonicError> {
-        if self.slipping.is_some() {
-            return Err(HarmonicError::SlippingStability);
-        }
         let refuse = || HarmonicError::Multipliers {
             frequency_hz: solution.frequency_hz(),
         };
@@ -67,24 +61,21 @@ impl<const D: usize> HarmonicBalance<D> {
         if steps.is_nan() || steps >= 1e7 {
             return Err(refuse());
         }
-        let steps = steps as usize;
-        let tangents = self.tangents(solution, 2 * steps);
-        let equations = Linearised {
-            bodies: [&self.lap.a, &self.lap.b],
-            joint_stiffness: &self.lap.joint.linear.stiffness,
-            joint_damping: &self.lap.joint.linear.damping,
-            omega,
-        };
-        let mut deviations = Deviation::units();
-        let step = TAU / steps as f64;
-        for n in 0..steps {
-            let tangents = [2 * n, 2 * n + 1, 2 * n + 2].map(|at| &tangents[at % (2 * steps)]);
-            for deviation in &mut deviations {
-                *deviation = equations.step(deviation, tangents, step);
+        let motion = Deviated::new(self, solution);
+        let mut columns = motion.units();
+        let mut from = 0.0;
+        for (to, turn) in motion.stops() {
+            motion.follow(&mut columns, [from, to], steps * (to - from) / TAU);
+            if let Some((dof, turn)) = turn {
+                for column in &mut columns {
+                    column.turn(dof, turn, &motion);
+                }
             }
+            from = to;
         }
-        let size = 4 * D;
-        let monodromy = DMatrix::from_fn(size, size, |row, column| deviations[column].entry(row));
+        let size = columns.len();
+        let states: Vec<Vec<f64>> = columns.iter().map(|column| motion.end(column)).collect();
+        let monodromy = DMatrix::from_fn(size, size, |row, column| states[column][row]);
         if monodromy.iter().any(|entry| !entry.is_finite()) {
             return Err(refuse());
         }
@@ -94,46 +85,31 @@ impl<const D: usize> HarmonicBalance<D> {
         Ok(Stability { multipliers })
     }
 
-    /// ∂f/∂r and ∂f/∂ṙ of each DOF at so many moments of the period.
-    fn tangents(&self, solution: &Solution<D>, count: usize) -> Vec<[[f64; D]; 2]> {
+    /// The course of a DOF.
+    fn course<'a>(&'a self, solution: &'a Solution<D>, dof: usize) -> Course<'a> {
         let slots = self.harmonics.slots();
-        let mut tangents = vec![[[0.0; D]; 2]; count];
-        for (n, tangent) in tangents.iter_mut().enumerate() {
-            let phase = TAU * n as f64 / count as f64;
-            let turn = Complex64::cis(phase);
-            let mut r = [0.0; D];
-            let mut rate = [0.0; D];
-            if self.harmonics.has_constant() {
-                for dof in 0..D {
-                    r[dof] = solution.coefficients[dof * slots];
-                }
-            }
-            // e^{jhτ} by repeated turns
-            let (mut wave, mut last) = (Complex64::ONE, 0);
-            for (order, place) in self.harmonics.places() {
-                for _ in last..order {
-                    wave *= turn;
-                }
-                last = order;
-                for dof in 0..D {
-                    let at = dof * slots + place;
-                    let (a, b) = (solution.coefficients[at], solution.coefficients[at + 1]);
-                    r[dof] += a * wave.re + b * wave.im;
-                    rate[dof] += order as f64 * (b * wave.re - a * wave.im);
-                }
-            }
-            for dof in 0..D {
-                let here = self.terms[dof].tangent(r[dof], solution.at.omega * rate[dof]);
-                tangent[0][dof] = here.stiffness;
-                tangent[1][dof] = here.damping;
-            }
+        let own = &solution.coefficients[dof * slots..(dof + 1) * slots];
+        Course::new(&self.harmonics, own)
+    }
+
+    /// ∂f/∂r and ∂f/∂ṙ of the polynomials on each DOF at τ.
+    fn tangents(&self, solution: &Solution<D>, phase: f64) -> [[f64; D]; 2] {
+        let mut tangents = [[0.0; D]; 2];
+        for dof in 0..D {
+            let [r, rate] = self.course(solution, dof).motion(phase);
+            let here = self.terms[dof].tangent(r, solution.at.omega * rate);
+            tangents[0][dof] = here.stiffness;
+            tangents[1][dof] = here.damping;
         }
         tangents
     }
 
     /// No motion is faster than this, rad/s: a bound of the eigenvalues by row sums, of the joint at its stiffest.
     fn fastest(&self, solution: &Solution<D>) -> f64 {
-        let tangents = self.tangents(solution, 4 * self.harmonics.highest() + 4);
+        let count = 4 * self.harmonics.highest() + 4;
+        let tangents: Vec<[[f64; D]; 2]> = (0..count)
+            .map(|n| self.tangents(solution, TAU * n as f64 / count as f64))
+            .collect();
         let stiffest: [f64; D] = std::array::from_fn(|dof| {
             tangents
                 .iter()
@@ -160,92 +136,155 @@ impl<const D: usize> HarmonicBalance<D> {
     }
 }
 
-impl<const D: usize> Deviation<D> {
-    const NONE: Self = Self {
-        x: [[0.0; D]; 2],
-        rate: [[0.0; D]; 2],
-    };
+/// A periodic motion with what deviates from it.
+struct Deviated<'a, const D: usize> {
+    balance: &'a HarmonicBalance<D>,
+    solution: &'a Solution<D>,
+    equations: Linearised<'a, D>,
+    on: [Option<Deviating<'a>>; D],
+}
 
-    /// One deviation for each state.
-    fn units() -> Vec<Self> {
-        (0..4 * D)
-            .map(|n| {
-                let mut unit = Self::NONE;
-                let (side, dof) = (n / D % 2, n % D);
-                if n < 2 * D {
-                    unit.x[side][dof] = 1.0;
-                } else {
-                    unit.rate[side][dof] = 1.0;
-                }
-                unit
-            })
-            .collect()
-    }
-
-    fn entry(&self, n: usize) -> f64 {
-        let (side, dof) = (n / D % 2, n % D);
-        if n < 2 * D {
-            self.x[side][dof]
-        } else {
-            self.rate[side][dof]
+impl<'a, const D: usize> Deviated<'a, D> {
+    fn new(balance: &'a HarmonicBalance<D>, solution: &'a Solution<D>) -> Self {
+        let joint = &balance.lap.joint.linear;
+        Self {
+            balance,
+            solution,
+            equations: Linearised {
+                bodies: [&balance.lap.a, &balance.lap.b],
+                joint_stiffness: &joint.stiffness,
+                joint_damping: &joint.damping,
+                omega: solution.at.omega,
+            },
+            on: std::array::from_fn(|dof| {
+                let laws = balance.slipping.as_ref()?.on(dof)?;
+                laws.deviating(balance.course(solution, dof))
+            }),
         }
     }
 
-    /// `self + factor · by`
-    fn moved(&self, factor: f64, by: &Self) -> Self {
-        let sum = |one: &[[f64; D]; 2], other: &[[f64; D]; 2]| {
-            std::array::from_fn(|side| {
-                std::array::from_fn(|dof| one[side][dof] + factor * other[side][dof])
-            })
+    /// Numbers that a DOF remembers from the period before.
+    fn memories(&self, dof: usize) -> usize {
+        self.on[dof].as_ref().map_or(0, Deviating::memories)
+    }
+
+    /// One deviation of each state, of the bodies and of what is remembered.
+    fn units(&self) -> Vec<Column<D>> {
+        let at_rest = || Column {
+            bodies: Deviation::NONE,
+            remembered: std::array::from_fn(|dof| {
+                vec![0.0; self.on[dof].as_ref().map_or(0, Deviating::inputs)]
+            }),
         };
-        Self {
-            x: sum(&self.x, &by.x),
-            rate: sum(&self.rate, &by.rate),
+        let mut units = Vec::new();
+        for state in 0..4 * D {
+            units.push(Column {
+                bodies: Deviation::unit(state),
+                ..at_rest()
+            });
+        }
+        for dof in 0..D {
+            for memory in 0..self.memories(dof) {
+                let mut unit = at_rest();
+                unit.remembered[dof][memory] = 1.0;
+                units.push(unit);
+            }
+        }
+        units
+    }
+
+    /// τ up to which all is smooth, ascending to the end of the period, each with the DOF and the number of the turn there.
+    fn stops(&self) -> Vec<(f64, Option<(usize, usize)>)> {
+        let mut stops = vec![(TAU, None)];
+        for (dof, on) in self.on.iter().enumerate() {
+            let Some(on) = on else { continue };
+            let turns = on.turns().iter().enumerate();
+            stops.extend(turns.map(|(n, &turn)| (turn, Some((dof, n)))));
+            stops.extend(on.corners().into_iter().map(|corner| (corner, None)));
+        }
+        // turns at the end of the period before the end
+        stops.sort_by(|one, other| one.0.total_cmp(&other.0).then(other.1.cmp(&one.1)));
+        stops
+    }
+
+    /// Moves the deviations on over a smooth part of the period, by about so many steps.
+    fn follow(&self, columns: &mut [Column<D>], [from, to]: [f64; 2], steps: f64) {
+        if to <= from {
+            return;
+        }
+        let steps = steps.ceil().max(1.0);
+        let step = (to - from) / steps;
+        // from within, since the ends belong to other branches as well
+        let inside = EDGE * step;
+        let moment = |half: f64| {
+            let phase = (from + 0.5 * half * step).clamp(from + inside, to - inside);
+            Moment::of(self, phase)
+        };
+        let mut last = moment(0.0);
+        for n in 0..steps as usize {
+            let half = 2.0 * n as f64;
+            let moments = [last, moment(half + 1.0), moment(half + 2.0)];
+            for column in columns.iter_mut() {
+                let tangents = moments.each_ref().map(|moment| moment.tangent(column));
+                column.bodies = self.equations.step(&column.bodies, &tangents, step);
+            }
+            let [_, _, end] = moments;
+            last = end;
+        }
+    }
+
+    /// The states of a deviation at the end of the period.
+    fn end(&self, column: &Column<D>) -> Vec<f64> {
+        let mut states: Vec<f64> = (0..4 * D).map(|state| column.bodies.entry(state)).collect();
+        for (on, remembered) in self.on.iter().zip(&column.remembered) {
+            if let Some(on) = on {
+                states.extend(on.after(remembered));
+            }
+        }
+        states
+    }
+}
+
+impl<const D: usize> Column<D> {
+    /// Notes that a DOF turns, with its deviation there.
+    fn turn(&mut self, dof: usize, turn: usize, motion: &Deviated<'_, D>) {
+        if let Some(on) = &motion.on[dof] {
+            self.remembered[dof][on.memories() + turn] = self.bodies.relative(dof);
         }
     }
 }
 
-impl<const D: usize> Linearised<'_, D> {
-    /// x'' = −M⁻¹ (K x + …)/ω² − M⁻¹ (C x' + …)/ω, the joint's tangent added to its K and C
-    fn rate(&self, deviation: &Deviation<D>, [stiffness, damping]: &[[f64; D]; 2]) -> Deviation<D> {
-        let (x, rate) = (&deviation.x, &deviation.rate);
-        let by_stiffness = 1.0 / (self.omega * self.omega);
-        let by_damping = 1.0 / self.omega;
-        let mut second = [[0.0; D]; 2];
-        for i in 0..D {
-            let mut joint = by_stiffness * stiffness[i] * (x[0][i] - x[1][i])
-                + by_damping * damping[i] * (rate[0][i] - rate[1][i]);
-            for j in 0..D {
-                joint += by_stiffness * self.joint_stiffness[i][j] * (x[0][j] - x[1][j])
-                    + by_damping * self.joint_damping[i][j] * (rate[0][j] - rate[1][j]);
-            }
-            for (side, sign) in [(0, 1.0), (1, -1.0)] {
-                let body = self.bodies[side];
-                let own = by_stiffness * body.stiffness[i] * x[side][i]
-                    + by_damping * body.damping[i] * rate[side][i];
-                second[side][i] = -(own + sign * joint) / body.inertia[i];
-            }
-        }
-        Deviation {
-            x: *rate,
-            rate: second,
+/// The joint's changes at a moment.
+struct Moment<const D: usize> {
+    by_motion: [[f64; D]; 2],
+    by_remembered: [Vec<f64>; D],
+}
+
+impl<const D: usize> Moment<D> {
+    fn of(motion: &Deviated<'_, D>, phase: f64) -> Self {
+        let mut by_motion = motion.balance.tangents(motion.solution, phase);
+        let by_remembered = std::array::from_fn(|dof| {
+            let Some(on) = &motion.on[dof] else {
+                return Vec::new();
+            };
+            let (stiffness, by_remembered) = on.tangent(phase);
+            by_motion[0][dof] += stiffness;
+            by_remembered
+        });
+        Self {
+            by_motion,
+            by_remembered,
         }
     }
 
-    fn step(
-        &self,
-        start: &Deviation<D>,
-        [first, middle, last]: [&[[f64; D]; 2]; 3],
-        step: f64,
-    ) -> Deviation<D> {
-        let one = self.rate(start, first);
-        let two = self.rate(&start.moved(0.5 * step, &one), middle);
-        let three = self.rate(&start.moved(0.5 * step, &two), middle);
-        let four = self.rate(&start.moved(step, &three), last);
-        start
-            .moved(step / 6.0, &one)
-            .moved(step / 3.0, &two)
-            .moved(step / 3.0, &three)
-            .moved(step / 6.0, &four)
+    /// What it does to a deviation.
+    fn tangent(&self, column: &Column<D>) -> Tangent<D> {
+        Tangent {
+            by_motion: self.by_motion,
+            remembered: std::array::from_fn(|dof| {
+                let products = self.by_remembered[dof].iter().zip(&column.remembered[dof]);
+                products.map(|(by, deviation)| by * deviation).sum()
+            }),
+        }
     }
 }

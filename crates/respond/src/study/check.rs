@@ -197,18 +197,9 @@ fn no_lines(study: &StudyText, table: &FrequencyTable) -> Result<(), StudyError>
     )
 }
 
-/// Harmonics of the motion, one where a joint slips unless the study says otherwise.
-fn harmonics(
-    study: &StudyText,
-    table: Option<&HarmonicsTable>,
-    laps: &[StudyLap],
-) -> Result<Harmonics, StudyError> {
-    let mut joints = laps.iter().map(|lap| &lap.file.joint);
-    let otherwise = match joints.any(|joint| !joint.friction.is_empty()) {
-        true => 1,
-        false => HIGHEST,
-    };
-    let highest = table.and_then(|table| table.highest).unwrap_or(otherwise);
+/// Harmonics of the motion.
+fn harmonics(study: &StudyText, table: Option<&HarmonicsTable>) -> Result<Harmonics, StudyError> {
+    let highest = table.and_then(|table| table.highest).unwrap_or(HIGHEST);
     let harmonics = match table.is_some_and(|table| table.even) {
         true => Harmonics::all(highest),
         false => Harmonics::odd(highest),
@@ -345,7 +336,7 @@ pub(super) fn test(
     let frequency = || study.needed("frequency", file.frequency.as_ref(), "a table");
     let response = || study.needed("response", file.response.as_ref(), "a table");
     let time = file.time.as_ref();
-    let harmonics = || harmonics(study, file.harmonics.as_ref(), laps);
+    let harmonics = || harmonics(study, file.harmonics.as_ref());
     match file.kind {
         Kind::Linear => {
             no_level()?;

@@ -166,7 +166,9 @@ impl<'m, M: Number> Reversals<'m, M> {
             let Some(shorter) = branch.without_closed_loop(points, place, r) else {
                 break;
             };
-            branch.closes_at(points, place).map(|end| tell(end.value()));
+            if let Some(end) = branch.closes_at(points, place) {
+                tell(end.value());
+            }
             branch = shorter;
         }
     }

@@ -4,7 +4,7 @@
 use std::ops::{Deref, DerefMut};
 
 use bolted_joint_dynamics::{
-    DOF_AT_REST, DofMemory, JointMemory,
+    DOF_AT_REST, DofMemory, JointLaw, JointMemory, Motion,
     law::{DOF_MEMORY_COUNT, REMEMBERED_PLACES},
 };
 
@@ -82,6 +82,25 @@ impl Values {
             }
         }
         Some(result)
+    }
+
+    /// Moves what the joint remembers on to a relative motion, and returns the heat of that way, J; `None` where a number is
+    /// no finite one any more: then nothing has moved.
+    pub(crate) fn commit_joint<const D: usize>(
+        &mut self,
+        law: &JointLaw<D>,
+        relative: &Motion<D>,
+    ) -> Option<f64> {
+        let mut moved = [DOF_AT_REST; D];
+        law.copy_memory(self.joint(), &mut moved);
+        let heat = law.commit(&mut moved, relative);
+        // without a branch for each, so that a processor looks at several at once
+        let numbers = moved.as_flattened().iter();
+        if !numbers.fold(heat.is_finite(), |all, number| all & number.is_finite()) {
+            return None;
+        }
+        self.change_joint(|joint| law.copy_memory(&moved, joint));
+        Some(heat)
     }
 
     /// What the joint remembers, as numbers.

@@ -108,7 +108,13 @@ pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
 ) {
     let mut memory = L::at_rest();
     let parameters = law.parameters();
-    let towards = |index: usize| if index.is_multiple_of(2) { speed } else { -speed };
+    let towards = |index: usize| {
+        if index.is_multiple_of(2) {
+            speed
+        } else {
+            -speed
+        }
+    };
     for (index, &r) in way.iter().enumerate() {
         let trial = r + 0.1 * amplitude * if index % 2 == 0 { 1.0 } else { -0.3 };
         let velocity = towards(index);

@@ -107,7 +107,8 @@ impl Instance {
         // a restored state may have brought other parameters
         let active = self.use_parameters()?;
         let reached = self.model.check_states(&self.values)?;
-        self.model.commit(&mut self.values);
+        let time_s = self.values[TIME];
+        self.model.commit(&mut self.values, time_s)?;
         self.outputs_stale = true;
         Ok(Warning::of(active, reached))
     }

@@ -13,7 +13,7 @@ use crate::{
         memory, reference as vr,
     },
     models::{
-        Model, Outcome, Step,
+        Model, Outcome, Step, heat_not_finite,
         sides::{A, B, check_laws, is_active, joint_law, joint_linear, joint_polynomials},
         watch::{Watch, finite},
     },
@@ -72,22 +72,31 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
             let relative = relative::<D>(values);
             values[vr::ENERGY_DISSIPATED] = 0.0;
             values[memory::COMMITTED_TIME] = values[vr::TIME];
-            values[memory::COMMITTED_POWER] = joint_law::<D>(values).viscous_power(&relative);
+            // finite however fast the motion starts, since it is remembered
+            let power = joint_law::<D>(values).viscous_power(&relative);
+            values[memory::COMMITTED_POWER] = power.min(f64::MAX);
         }
     }
 
-    fn commit(&self, values: &mut Values) {
-        if REMEMBERS {
-            let (law, relative): (JointLaw<D>, _) = (joint_law(values), relative(values));
-            let slid_j = values.change_joint(|memory| law.commit(memory, &relative));
-            // the dampers' heat by the trapezoidal rule
-            let power = law.viscous_power(&relative);
-            let since_s = values[vr::TIME] - values[memory::COMMITTED_TIME];
-            let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
-            values[vr::ENERGY_DISSIPATED] += slid_j.unwrap_or(0.0) + damped_j;
-            values[memory::COMMITTED_TIME] = values[vr::TIME];
-            values[memory::COMMITTED_POWER] = power;
+    fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
+        if !REMEMBERS {
+            return Ok(());
         }
+        let (law, relative): (JointLaw<D>, _) = (joint_law(values), relative(values));
+        // the dampers' heat by the trapezoidal rule
+        let power = law.viscous_power(&relative);
+        let since_s = time_s - values[memory::COMMITTED_TIME];
+        let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
+        let before_j = values[vr::ENERGY_DISSIPATED] + damped_j;
+        let slid_j = if before_j.is_finite() {
+            values.commit_joint(&law, &relative)
+        } else {
+            None
+        };
+        values[vr::ENERGY_DISSIPATED] = before_j + slid_j.ok_or(heat_not_finite(time_s))?;
+        values[memory::COMMITTED_TIME] = time_s;
+        values[memory::COMMITTED_POWER] = power;
+        Ok(())
     }
 
     fn check_states(&mut self, values: &Values) -> Outcome {
@@ -95,10 +104,7 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
     }
 
     fn advance(&mut self, values: &mut Values, step: Step, _: &InputCourse) -> Outcome {
-        if REMEMBERS {
-            values[vr::TIME] = step.time_s;
-            self.commit(values);
-        }
+        self.commit(values, step.time_s)?;
         Ok(self.look(values, step.time_s))
     }
 

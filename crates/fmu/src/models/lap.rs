@@ -62,8 +62,8 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         W::begin(values);
     }
 
-    fn commit(&self, values: &mut Values) {
-        W::commit(values);
+    fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
+        W::commit(values, time_s)
     }
 
     fn check_states(&mut self, values: &Values) -> Outcome {

@@ -75,8 +75,11 @@ pub(crate) trait Model: Send {
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
 
-    /// Moves what the joint remembers on to the present point, where the importer has completed a step of its own.
-    fn commit(&self, _: &mut Values) {}
+    /// Moves what the joint remembers on to the present point, where a step is completed at `_time_s` (s); on refusal `values`
+    /// are untouched.
+    fn commit(&self, _values: &mut Values, _time_s: f64) -> Result<(), Refusal> {
+        Ok(())
+    }
 
     /// Writes the derivatives of inputs and states with respect to time to `rates`, at the point `values`, of which the
     /// outputs are up to date.
@@ -85,6 +88,14 @@ pub(crate) trait Model: Send {
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
     /// variables at the point `values` but calculated parameters: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
+}
+
+/// Why a step is refused whose heat overflows.
+fn heat_not_finite(time_s: f64) -> Refusal {
+    Refusal::StateNotFinite {
+        name: "energy.dissipated",
+        time_s,
+    }
 }
 
 /// What a step, or a look at the states, has come to: what there is to tell the user, or why nothing has moved.

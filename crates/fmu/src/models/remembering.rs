@@ -11,7 +11,7 @@ use crate::{
     input_course::InputCourse,
     interface::{Values, reference as vr},
     models::{
-        Outcome, Step,
+        Outcome, Step, heat_not_finite,
         lap::{
             faults::check_held,
             loads::Loads,
@@ -58,14 +58,16 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
     fn begin(values: &mut Values) {
         // the joint has come straight to where it starts; the heat of that way was before
         values.change_joint(|memory| *memory = [DOF_AT_REST; D]);
-        Self::commit(values);
+        let law: JointLaw<D> = lap(values).joint;
+        values.commit_joint(&law, &state(values).relative());
     }
 
-    fn commit(values: &mut Values) {
+    fn commit(values: &mut Values, time_s: f64) -> Result<(), Refusal> {
         let relative = state::<D>(values).relative();
         let law: JointLaw<D> = lap(values).joint;
         // its heat is part of the power that the importer integrates
-        values.change_joint(|memory| law.commit(memory, &relative));
+        let heat_j = values.commit_joint(&law, &relative);
+        heat_j.map(|_| ()).ok_or(heat_not_finite(time_s))
     }
 
     fn advance(
@@ -104,10 +106,7 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
         }
         let end_s = step.time_s + step.interval_s;
         if !counted.passed.dissipated.is_finite() {
-            return Err(Refusal::StateNotFinite {
-                name: "energy.dissipated",
-                time_s: end_s,
-            });
+            return Err(heat_not_finite(end_s));
         }
         set_state(values, &counted.state);
         let (law, own) = (&self.lap.joint, &self.memory);

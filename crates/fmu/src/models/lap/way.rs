@@ -44,7 +44,9 @@ pub(in crate::models) trait Way<const D: usize>: Sized + Send {
 
     fn begin(_: &mut Values) {}
 
-    fn commit(_: &mut Values) {}
+    fn commit(_values: &mut Values, _time_s: f64) -> Result<(), Refusal> {
+        Ok(())
+    }
 
     /// Adds the rates of what is integrated beside the motion.
     fn add_rates(_values: &Values, _rates: &mut Values) {}

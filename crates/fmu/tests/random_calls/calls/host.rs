@@ -21,10 +21,61 @@ pub(crate) struct Model {
     pub(crate) dofs: u8,
     cubic_n_per_m3: f64,
     quintic_n_per_m5: f64,
+    friction: &'static [Friction],
 }
 
-/// Element and lap; one and two degrees of freedom; linear, hardening, softening, and with terms of higher order.
-pub(crate) const MODELS: [Model; 8] = [
+/// A law that remembers the motion: its name, and the symbols of its parameters with values.
+type Friction = (&'static str, &'static [(&'static str, f64)]);
+
+const IWAN: Friction = (
+    "iwan",
+    &[
+        ("iwan_h", 100.0),
+        ("iwan_k", 2e6),
+        ("iwan_chi", -0.3),
+        ("iwan_beta", 0.5),
+    ],
+);
+
+const ALL_FRICTION: [Friction; 6] = [
+    ("jenkins", &[("jenkins_k", 1e6), ("jenkins_h", 20.0)]),
+    IWAN,
+    (
+        "valanis",
+        &[
+            ("valanis_e0", 1e6),
+            ("valanis_et", 1e5),
+            ("valanis_s0", 20.0),
+            ("valanis_kappa", 0.7),
+        ],
+    ),
+    ("dahl", &[("dahl_k", 1e6), ("dahl_h", 10.0)]),
+    (
+        "lugre",
+        &[
+            ("lugre_s0", 1e6),
+            ("lugre_s1", 10.0),
+            ("lugre_s2", 6.0),
+            ("lugre_fc", 10.0),
+            ("lugre_fs", 15.0),
+            ("lugre_vs", 1e-3),
+        ],
+    ),
+    (
+        "bouc-wen",
+        &[
+            ("bouc_wen_k", 1e6),
+            ("bouc_wen_h", 20.0),
+            ("bouc_wen_n", 1.5),
+            ("bouc_wen_beta", 0.7),
+            ("bouc_wen_gamma", -0.2),
+        ],
+    ),
+];
+
+/// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, and with
+/// friction.
+pub(crate) const MODELS: [Model; 11] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -33,6 +84,9 @@ pub(crate) const MODELS: [Model; 8] = [
     Model::new(false, 2, 0.0),
     Model::with_quintic(true, 2, -2e12, 2e17),
     Model::with_quintic(false, 1, 5e11, -3e17),
+    Model::new(false, 1, 0.0).slipping(&[IWAN]),
+    Model::new(true, 1, 5e11).slipping(&[IWAN]),
+    Model::new(true, 2, 0.0).slipping(&ALL_FRICTION),
 ];
 
 impl Model {
@@ -46,7 +100,12 @@ impl Model {
             dofs,
             cubic_n_per_m3,
             quintic_n_per_m5,
+            friction: &[],
         }
+    }
+
+    const fn slipping(self, friction: &'static [Friction]) -> Self {
+        Self { friction, ..self }
     }
 
     /// Number of continuous states.
@@ -85,7 +144,24 @@ impl Model {
             ("joint.k5_y", self.quintic_n_per_m5),
             ("joint.c2_y", self.quintic_n_per_m5.abs() * 1e-11),
         ];
-        start_text(self.lap, self.dofs, &TOKEN.to_string_lossy(), &changes)
+        let mut text = start_text(self.lap, self.dofs, &TOKEN.to_string_lossy(), &changes);
+        if self.friction.is_empty() {
+            return text;
+        }
+        let names: Vec<&str> = self.friction.iter().map(|(name, _)| *name).collect();
+        let first = text.find("joint.").expect("the joint's parameters");
+        text.insert_str(first, &format!("laws {}\n", names.join(" ")));
+        for (symbol, value) in self.friction.iter().flat_map(|(_, parameters)| *parameters) {
+            for dof in ["y", "theta"].iter().take(self.dofs.into()) {
+                text += &format!("joint.{symbol}_{dof} {value}\n");
+            }
+        }
+        text
+    }
+
+    /// One more than the largest value reference that is tried.
+    pub(crate) const fn references(self) -> u32 {
+        if self.friction.is_empty() { 45 } else { 120 }
     }
 }
 

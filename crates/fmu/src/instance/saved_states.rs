@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fmu_state::{Snapshot, StateError},
-    interface::{Roles, is_committed},
+    interface::is_committed,
     refusal::Refusal,
 };
 
@@ -17,14 +17,22 @@ impl Instance {
     pub(crate) fn snapshot(&self) -> Snapshot {
         // what is calculated is no part of the state: it follows from the rest, and may not even be finite; all that
         // stands beside the variables is remembered
-        let values = self.values.with(std::array::from_fn(|index| {
-            let roles = self.roles.get(index).copied().unwrap_or(Roles::NONE);
-            if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) && !is_committed(index) {
-                0.0
-            } else {
-                self.values[index]
-            }
+        // nor is what a joint remembers before it has moved, which follows from the start values
+        let begins = self.begins();
+        let mut values = self.values.with(std::array::from_fn(|index| {
+            let roles = self.roles.get(index).copied();
+            let is_kept = match roles {
+                None => !begins,
+                Some(roles) if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) => {
+                    is_committed(index) && !begins
+                }
+                Some(_) => true,
+            };
+            if is_kept { self.values[index] } else { 0.0 }
         }));
+        if begins {
+            values.remembered_mut().fill(0.0);
+        }
         Snapshot {
             identity: Arc::clone(&self.identity),
             mode: self.mode,
@@ -80,6 +88,7 @@ mod tests {
     fn all_that_stands_beside_the_variables_is_remembered() {
         let mut instance = instance();
         let fresh = instance.snapshot();
+        instance.mode = Mode::Step;
         // whatever it is, and however many numbers it takes
         for (index, number) in instance.values[REFERENCE_COUNT..].iter_mut().enumerate() {
             *number = 1.5 + index as f64;
@@ -100,6 +109,13 @@ mod tests {
         assert_eq!(
             instance.values[REFERENCE_COUNT..],
             remembered[REFERENCE_COUNT..]
+        );
+        // before the simulation has begun it follows from the start values
+        instance.mode = Mode::Initialization;
+        assert!(
+            instance.snapshot().values[REFERENCE_COUNT..]
+                .iter()
+                .all(|&number| number == 0.0)
         );
     }
 }

@@ -178,7 +178,7 @@ impl Instance {
     #[inline]
     pub(super) fn calculate_outputs(&mut self) {
         if self.outputs_stale {
-            if matches!(self.mode, Mode::Instantiated | Mode::Initialization) {
+            if self.begins() {
                 self.model.begin(&mut self.values);
             }
             self.values[memory::PRELOAD_RATE] = self.preload_rate();
@@ -187,6 +187,11 @@ impl Instance {
             self.values[memory::PRELOAD_RATE] = 0.0;
             self.outputs_stale = false;
         }
+    }
+
+    /// Whether the simulation has not begun, so that all follows from parameters and start values.
+    pub(super) fn begins(&self) -> bool {
+        matches!(self.mode, Mode::Instantiated | Mode::Initialization)
     }
 
     /// Rate of the preload (N·m/s), as far as the importer has told it; zero where the preload is held.

@@ -8,7 +8,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use bolted_joint_dynamics::{JointLaw, Lap, LapIntegrator, LapLoads, LapState, Motion};
+use bolted_joint_dynamics::{
+    DOF_AT_REST, JointLaw, Lap, LapIntegrator, LapLoads, LapState, Motion,
+};
 use criterion::Criterion;
 
 use crate::{
@@ -133,12 +135,17 @@ impl<'a> Comparison<'a> {
 
         let law = *law;
         let mut next = 0;
+        let mut memory = [DOF_AT_REST; D];
         let plain = move |steps| {
             let mut sum = 0.0;
             for _ in 0..steps {
                 let [a, b] = black_box(&motions[next]);
                 next = (next + 1) % PERIOD;
-                let on_b = law.load_on_b(&a.relative_to(b));
+                let relative = a.relative_to(b);
+                if law.has_memory() {
+                    black_box(law.commit(&mut memory, &relative));
+                }
+                let on_b = law.load_on_b_after(&memory, &relative);
                 for load in on_b {
                     sum -= load;
                 }

@@ -13,7 +13,10 @@ mod start_file;
 
 use std::{error::Error, time::Duration};
 
-use bolted_joint_dynamics::{Body, Lap, Linear, Polynomial};
+use bolted_joint_dynamics::{
+    Body, JointLaw, Lap, Linear, Polynomial,
+    law::{DofLaws, Iwan},
+};
 use criterion::Criterion;
 
 use crate::{
@@ -55,6 +58,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             50,
         )?,
         Comparison::of_element("element, 2 DOF", &library, &rotation.joint)?,
+        Comparison::of_element("element, 1 DOF", &library, &translation.joint)?,
+        Comparison::of_element(
+            "element with Iwan, 1 DOF",
+            &library,
+            &slipping(&translation),
+        )?,
     ];
     for comparison in &mut comparisons {
         comparison.check()?;
@@ -134,6 +143,23 @@ fn rotational_lap() -> Lap<2> {
 }
 
 /// The same without its cubic springs: the FMU then takes one product for all Runge–Kutta steps of a communication step.
+/// Its joint with Iwan's law beside, which slips in part under the motions here.
+fn slipping(lap: &Lap<1>) -> JointLaw<1> {
+    let mut joint = lap.joint;
+    let mut parameters = *joint.on[0].parameters();
+    let iwan = DofLaws::from(Iwan {
+        slip_force: 400.0,
+        stiffness: 2e6,
+        exponent: -0.4,
+        ratio: 0.5,
+    });
+    for (parameter, own) in parameters.iter_mut().zip(iwan.parameters()) {
+        *parameter += own;
+    }
+    joint.on[0] = DofLaws::new(parameters);
+    joint
+}
+
 fn without_cubic<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     Lap {
         joint: lap.joint.linear.into(),

@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
-use bolted_joint_dynamics::{DOFS, JointLaw, Lap, law::Term};
+use bolted_joint_dynamics::{
+    DOFS, JointLaw, Lap,
+    law::{Term, dof_parameters},
+};
 
 /// Instantiation token of both.
 pub(crate) const TOKEN: &str = "benchmark";
@@ -32,7 +35,22 @@ fn header(model: &str, dofs: usize) -> String {
 }
 
 fn joint<const D: usize>(law: &JointLaw<D>) -> String {
+    // the laws that remember, each with all of its parameters
+    let has = |name: &str| {
+        law.on.iter().any(|laws| {
+            let mut own = laws.parameters().iter().zip(dof_parameters());
+            own.any(|(&value, (law, _))| law.name == name && value != 0.0)
+        })
+    };
+    let mut remembering: Vec<&str> = dof_parameters()
+        .filter(|(law, _)| law.remembers() && has(law.name))
+        .map(|(law, _)| law.name)
+        .collect();
+    remembering.dedup();
     let mut text = String::new();
+    if !remembering.is_empty() {
+        text += &format!("laws {}\n", remembering.join(" "));
+    }
     let (linear, polynomials) = (&law.linear, law.polynomials());
     for i in 0..D {
         let dof = DOFS[i].name;
@@ -44,6 +62,11 @@ fn joint<const D: usize>(law: &JointLaw<D>) -> String {
         for term in Term::ALL {
             let (symbol, value) = (term.row().symbol, polynomials[i].coefficient(term));
             let _ = writeln!(text, "joint.{symbol}_{dof} {value:e}");
+        }
+        for (value, (law, parameter)) in law.on[i].parameters().iter().zip(dof_parameters()) {
+            if remembering.contains(&law.name) {
+                let _ = writeln!(text, "joint.{}_{dof} {value:e}", parameter.symbol);
+            }
         }
     }
     text

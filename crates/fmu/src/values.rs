@@ -91,15 +91,14 @@ impl Values {
         law: &JointLaw<D>,
         relative: &Motion<D>,
     ) -> Option<f64> {
-        let mut moved = [DOF_AT_REST; D];
-        law.copy_memory(self.joint(), &mut moved);
+        let mut moved = *self.joint();
         let heat = law.commit(&mut moved, relative);
         // without a branch for each, so that a processor looks at several at once
         let numbers = moved.as_flattened().iter();
         if !numbers.fold(heat.is_finite(), |all, number| all & number.is_finite()) {
             return None;
         }
-        self.change_joint(|joint| law.copy_memory(&moved, joint));
+        self.change_joint(|joint| *joint = moved);
         Some(heat)
     }
 

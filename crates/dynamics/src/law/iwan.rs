@@ -16,8 +16,8 @@ use super::{
         UnitRule,
     },
 };
-use crate::number::{Number, magnitude};
-use curve::Curve;
+use crate::number::Number;
+use curve::{Curve, towards};
 use reversals::{HIDDEN, Reversals};
 
 pub use reversals::REVERSALS_MAX;
@@ -162,11 +162,12 @@ impl<N: Number> Law<N> for Iwan<N> {
         };
         let reversals = Reversals::of(memory);
         let branch = reversals.branch(r.value());
+        let load = curve.load(&reversals.at(&branch, r, &curve));
         match reversals.tip(&branch, &curve) {
             // f = F(r), F odd
-            None => curve.along(r),
+            None => towards(r, load),
             // f = f_r + 2 F((r − u_r)/2)   (Masing)
-            Some(tip) => tip.load + curve.masing(r - tip.place),
+            Some(tip) => tip.load + N::from(2.0) * towards(r - tip.place, load),
         }
     }
 
@@ -176,9 +177,10 @@ impl<N: Number> Law<N> for Iwan<N> {
         };
         let reversals = Reversals::of(memory);
         let branch = reversals.branch(r.value());
+        let at = reversals.at(&branch, r, &curve);
         let stored = match reversals.tip(&branch, &curve) {
-            None => curve.stored(r),
-            Some(tip) => tip.stored + curve.masing_stored(tip.load, tip.stored, r - tip.place),
+            None => curve.stored(&at),
+            Some(tip) => tip.stored + curve.masing_stored(tip.load, tip.stored, r - tip.place, &at),
         };
         stored - reversals.owed().into()
     }
@@ -194,10 +196,7 @@ impl<N: Number> Law<N> for Iwan<N> {
             return N::ZERO;
         }
         let speed = velocity * N::from(rate.signum());
-        match reversals.place_of(&branch) {
-            None => curve.heat_slope(magnitude(r)) * speed,
-            Some(place) => curve.heat_slope(N::from(0.5) * magnitude(r - place.into())) * speed,
-        }
+        curve.heat_slope(&reversals.at(&branch, r, &curve)) * speed
     }
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {

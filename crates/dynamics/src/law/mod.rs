@@ -83,6 +83,8 @@ pub trait Law<N: Number>: Copy {
 /// Where a law's numbers are among those of all laws on a DOF.
 #[derive(Clone, Copy, Debug)]
 struct Place {
+    /// Its own bit.
+    bit: u32,
     parameters: [usize; 2],
     memory: [usize; 2],
 }
@@ -97,6 +99,7 @@ impl Place {
     const fn then(self, declaration: &Declaration) -> Self {
         let ([_, parameters], [_, memory]) = (self.parameters, self.memory);
         Self {
+            bit: if self.bit == 0 { 1 } else { self.bit << 1 },
             parameters: [parameters, parameters + declaration.parameters.len()],
             memory: [memory, memory + declaration.memory_count()],
         }
@@ -118,8 +121,14 @@ macro_rules! dof_laws {
             end: Place,
         }
 
+        /// The places of all of them.
+        const ALL: &[Place] = &[$(PLACES.$name),+];
+
+        /// The bits of the laws that remember.
+        const REMEMBERING: u32 = $((if PLACES.$name.has_memory() { PLACES.$name.bit } else { 0 }) |)+ 0;
+
         const PLACES: Places = {
-            let end = Place { parameters: [0, 0], memory: [0, 0] };
+            let end = Place { bit: 0, parameters: [0, 0], memory: [0, 0] };
             $(
                 let end = end.then(&<$law<f64> as Law<f64>>::DECLARATION);
                 let $name = end;
@@ -191,12 +200,6 @@ macro_rules! dof_laws {
                 heat
             }
 
-            /// Whether a law that is there remembers the motion.
-            #[inline]
-            #[must_use]
-            pub fn have_memory(&self) -> bool {
-                $((PLACES.$name.has_memory() && self.has(PLACES.$name)) ||)+ false
-            }
         }
 
         impl DofLaws {
@@ -245,10 +248,10 @@ macro_rules! dof_laws {
             impl<N: Number> From<$law<N>> for DofLaws<N> {
                 /// This law alone.
                 fn from(law: $law<N>) -> Self {
-                    let mut laws = Self::NONE;
+                    let mut parameters = Self::NONE.parameters;
                     let [start, end] = PLACES.$name.parameters;
-                    law.write(&mut laws.parameters[start..end]);
-                    laws
+                    law.write(&mut parameters[start..end]);
+                    Self::new(parameters)
                 }
             }
         )+
@@ -296,6 +299,8 @@ pub const DOF_MEMORY_COUNT: usize = PLACES.end.memory[1];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DofLaws<N = f64> {
     parameters: [N; DOF_PARAMETER_COUNT],
+    /// The bits of those that are there.
+    present: u32,
 }
 
 /// What the laws on one relative DOF remember, in the order of [`DECLARATIONS`]: of each law first what is a variable.
@@ -353,13 +358,24 @@ impl<N: Number> DofLaws<N> {
     /// No law there.
     pub const NONE: Self = Self {
         parameters: [N::ZERO; DOF_PARAMETER_COUNT],
+        present: 0,
     };
 
     /// The laws with these parameters, in the order of [`DECLARATIONS`].
     #[inline]
     #[must_use]
-    pub const fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
-        Self { parameters }
+    pub fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
+        let present = ALL.iter().fold(0, |present, place| {
+            let [start, end] = place.parameters;
+            let is_there = parameters[start..end]
+                .iter()
+                .any(|number| !number.is_zero());
+            present | if is_there { place.bit } else { 0 }
+        });
+        Self {
+            parameters,
+            present,
+        }
     }
 
     /// Their parameters, in the order of [`DECLARATIONS`].
@@ -372,20 +388,27 @@ impl<N: Number> DofLaws<N> {
     /// Whether no law is there: all parameters are zero.
     #[inline]
     #[must_use]
-    pub fn are_none(&self) -> bool {
-        self.parameters.iter().all(|parameter| parameter.is_zero())
+    pub const fn are_none(&self) -> bool {
+        self.present == 0
+    }
+
+    /// Whether a law that is there remembers the motion.
+    #[inline]
+    #[must_use]
+    pub const fn have_memory(&self) -> bool {
+        self.present & REMEMBERING != 0
     }
 
     /// The laws with these parameters alone, the others zero.
     #[must_use]
     pub fn with_only(&self, stays: impl Fn(&Parameter) -> bool) -> Self {
-        let mut only = *self;
-        for (value, (_, parameter)) in only.parameters.iter_mut().zip(dof_parameters()) {
+        let mut only = self.parameters;
+        for (value, (_, parameter)) in only.iter_mut().zip(dof_parameters()) {
             if !stays(parameter) {
                 *value = N::ZERO;
             }
         }
-        only
+        Self::new(only)
     }
 
     #[inline]
@@ -395,7 +418,7 @@ impl<N: Number> DofLaws<N> {
     }
 
     #[inline]
-    fn has(&self, place: Place) -> bool {
-        !self.of(place).iter().all(|parameter| parameter.is_zero())
+    const fn has(&self, place: Place) -> bool {
+        self.present & place.bit != 0
     }
 }

@@ -21,6 +21,15 @@ pub(super) struct Curve<N> {
     softening: N,
 }
 
+/// A place on the curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At<N> {
+    /// |u|
+    u: N,
+    /// φ_max v^(χ+2), the only power that load and energies need; `None` where all slips.
+    pub(super) bent: Option<N>,
+}
+
 impl<N: Number> Curve<N> {
     #[inline]
     pub(super) fn new(law: &Iwan<N>) -> Self {
@@ -38,42 +47,51 @@ impl<N: Number> Curve<N> {
         }
     }
 
-    /// φ_max v^(χ+2) with v = u/φ_max; `None` where all slips.
+    /// A place on the curve.
     #[inline]
-    fn bent(&self, u: N) -> Option<N> {
-        (u.value() < self.span.value()).then(|| self.span * (u / self.span).powf(self.power))
-    }
-
-    /// Load at u ≥ 0.
-    #[inline]
-    fn load(&self, u: N) -> N {
-        match self.bent(u) {
-            // F = K_T u − R u^(χ+2)/((χ+1)(χ+2)) = K_T (u − φ_max v^(χ+2)/((1+β)(χ+2)))
-            Some(bent) => self.stiffness * (u - self.softening * bent),
-            None => self.slip_force,
+    pub(super) fn at(&self, u: N) -> At<N> {
+        let u = magnitude(u);
+        let sticks = u.value() < self.span.value();
+        At {
+            u,
+            // φ_max v^(χ+2) with v = u/φ_max
+            bent: sticks.then(|| self.span * (u / self.span).powf(self.power)),
         }
     }
 
-    /// Load on the way from the origin to r.
+    /// A place of which the power is known.
     #[inline]
-    pub(super) fn along(&self, r: N) -> N {
-        let load = self.load(magnitude(r));
-        if r.value() < 0.0 { -load } else { load }
+    pub(super) fn known(&self, u: N, bent: N) -> At<N> {
+        let u = magnitude(u);
+        let sticks = u.value() < self.span.value();
+        At {
+            u,
+            bent: sticks.then_some(bent),
+        }
+    }
+
+    /// Load there.
+    #[inline]
+    pub(super) fn load(&self, at: &At<N>) -> N {
+        match at.bent {
+            // F = K_T u − R u^(χ+2)/((χ+1)(χ+2)) = K_T (u − φ_max v^(χ+2)/((1+β)(χ+2)))
+            Some(bent) => self.stiffness * (at.u - self.softening * bent),
+            None => self.slip_force,
+        }
     }
 
     /// Change of the load on a way of this length from a reversal.
     #[inline]
     pub(super) fn masing(&self, way: N) -> N {
-        // 2 F(x/2)
-        N::from(2.0) * self.along(N::from(0.5) * way)
+        // 2 F(x/2), F odd
+        N::from(2.0) * towards(way, self.load(&self.at(N::from(0.5) * way)))
     }
 
-    /// Energy in the springs at u on the way from the origin.
+    /// Energy in the springs on the way from the origin.
     #[inline]
-    pub(super) fn stored(&self, u: N) -> N {
-        let u = magnitude(u);
-        match self.bent(u) {
-            Some(bent) => self.stored_at(u, bent),
+    pub(super) fn stored(&self, at: &At<N>) -> N {
+        match at.bent {
+            Some(bent) => self.stored_at(at.u, bent),
             None => self.stored_at(self.span, self.span),
         }
     }
@@ -86,13 +104,13 @@ impl<N: Number> Curve<N> {
         self.stiffness * u * (N::from(0.5) * u - part * bent)
     }
 
-    /// Heat on the way from the origin to u ≥ 0: a quarter of what the cycle of this amplitude costs.
+    /// Heat on the way from the origin: a quarter of what the cycle of this amplitude costs.
     #[inline]
-    pub(super) fn heat(&self, u: N) -> N {
-        match self.bent(u) {
-            Some(bent) => self.heat_at(u, bent),
+    pub(super) fn heat(&self, at: &At<N>) -> N {
+        match at.bent {
+            Some(bent) => self.heat_at(at.u, bent),
             // all slips at F_S from φ_max on
-            None => self.heat_at(self.span, self.span) + self.slip_force * (u - self.span),
+            None => self.heat_at(self.span, self.span) + self.slip_force * (at.u - self.span),
         }
     }
 
@@ -104,35 +122,34 @@ impl<N: Number> Curve<N> {
         self.stiffness * part * u * bent
     }
 
-    /// How that heat grows with u ≥ 0, N or N·m.
+    /// How that heat grows with u, N or N·m.
     #[inline]
-    pub(super) fn heat_slope(&self, u: N) -> N {
-        match self.bent(u) {
+    pub(super) fn heat_slope(&self, at: &At<N>) -> N {
+        match at.bent {
             // d(D/4)/du = K_T (χ+1) φ_max v^(χ+2)/((1+β)(χ+2))
             Some(bent) => self.stiffness * self.softening * (self.power - N::from(1.0)) * bent,
             None => self.slip_force,
         }
     }
 
-    /// Heat on a way of length x ≥ 0 from a reversal.
+    /// Change of the stored energy on a way from a reversal at which this load acts and this much is stored; `half` is the place
+    /// at half of the way.
     #[inline]
-    pub(super) fn masing_heat(&self, x: N) -> N {
-        // D(x/2)/2
-        N::from(2.0) * self.heat(N::from(0.5) * x)
-    }
-
-    /// Change of the stored energy on a way from a reversal at which this load acts and this much is stored.
-    #[inline]
-    pub(super) fn masing_stored(&self, load: N, stored: N, way: N) -> N {
-        let half = N::from(0.5) * magnitude(way);
+    pub(super) fn masing_stored(&self, load: N, stored: N, way: N, half: &At<N>) -> N {
         let two = N::from(2.0);
-        match self.bent(half) {
+        match half.bent {
             // work less heat: f_r x + 4 ∫F − D(x/2)/2 with ∫F = W + D/4
             Some(bent) => {
-                load * way + two * (two * self.stored_at(half, bent) + self.heat_at(half, bent))
+                load * way + two * (two * self.stored_at(half.u, bent) + self.heat_at(half.u, bent))
             }
             // every slider has slipped since: W(φ_max)
             None => self.stored_at(self.span, self.span) - stored,
         }
     }
+}
+
+/// A load in the direction of a way.
+#[inline]
+pub(super) fn towards<N: Number>(way: N, load: N) -> N {
+    if way.value() < 0.0 { -load } else { load }
 }

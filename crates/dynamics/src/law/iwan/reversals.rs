@@ -5,8 +5,8 @@
 //! are more than [`REVERSALS_MAX`] of them, as after many cycles of a slowly decaying vibration, two neighbours are
 //! forgotten before: those whose loss changes the load least.
 
-use super::curve::Curve;
-use crate::number::{Number, magnitude};
+use super::curve::{At, Curve, towards};
+use crate::number::Number;
 
 /// Reversal points that are kept.
 ///
@@ -32,8 +32,10 @@ const OWED: usize = 6;
 const PARAMETERS: usize = 7;
 /// By how much forgetting has changed the load since the joint was last on its first curve.
 const SHIFT: usize = 11;
+/// The power of the way from the last reversal, from which all follows at the present place.
+const BENT: usize = 12;
 /// The reversal points, oldest first.
-const POINTS: usize = 12;
+const POINTS: usize = 13;
 
 /// Numbers that are no variables: all but the last reversal point.
 pub(super) const HIDDEN: usize = POINTS + REVERSALS_MAX - 1;
@@ -72,19 +74,21 @@ impl<N: Number> Tip<N> {
     /// The end of the way from here to `place`.
     fn to(&self, place: N, curve: &Curve<N>) -> Self {
         let way = place - self.place;
+        let half = curve.at(N::from(0.5) * way);
         Self {
             place,
-            load: self.load + curve.masing(way),
-            stored: self.stored + curve.masing_stored(self.load, self.stored, way),
+            load: self.load + N::from(2.0) * towards(way, curve.load(&half)),
+            stored: self.stored + curve.masing_stored(self.load, self.stored, way, &half),
         }
     }
 
     /// The end of the way from the origin to `place`.
     fn first(place: N, curve: &Curve<N>) -> Self {
+        let at = curve.at(place);
         Self {
             place,
-            load: curve.along(place),
-            stored: curve.stored(place),
+            load: towards(place, curve.load(&at)),
+            stored: curve.stored(&at),
         }
     }
 
@@ -178,6 +182,23 @@ impl<'m, M: Number> Reversals<'m, M> {
         branch.last(self.points(), self.place(), 0)
     }
 
+    /// The place on the curve at a point of a branch: of the way from the origin, or of half the way from where it begins.
+    pub(super) fn at<N: Number>(&self, branch: &Branch, r: N, curve: &Curve<N>) -> At<N>
+    where
+        M: Into<N>,
+    {
+        let way = match self.place_of(branch) {
+            None => r,
+            Some(start) => N::from(0.5) * (r - start.into()),
+        };
+        let is_here = *branch == self.own_branch() && (r - self.place().into()).is_zero();
+        if is_here && self.holds_for(curve) {
+            curve.known(way, self.number(BENT).into())
+        } else {
+            curve.at(way)
+        }
+    }
+
     /// Where a branch begins, with what holds there.
     pub(super) fn tip<N: Number>(&self, branch: &Branch, curve: &Curve<N>) -> Option<Tip<N>>
     where
@@ -262,9 +283,21 @@ impl Branch {
 
     /// Heat of the way from the branch's begin to a point on it.
     fn heat<N: Number>(&self, points: &[N], place: N, to: N, curve: &Curve<N>) -> N {
+        self.end(points, place, to, curve).0
+    }
+
+    /// That heat, with the place on the curve from which it follows.
+    fn end<N: Number>(&self, points: &[N], place: N, to: N, curve: &Curve<N>) -> (N, At<N>) {
         match self.last(points, place, 0) {
-            None => curve.heat(magnitude(to)),
-            Some(start) => curve.masing_heat(magnitude(to - start)),
+            None => {
+                let at = curve.at(to);
+                (curve.heat(&at), at)
+            }
+            // D(x/2)/2
+            Some(start) => {
+                let half = curve.at(N::from(0.5) * (to - start));
+                (N::from(2.0) * curve.heat(&half), half)
+            }
         }
     }
 }
@@ -296,11 +329,12 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
         branch = next;
         before = branch.heat(points, place, end, curve);
     }
-    let after = branch.heat(points, place, r, curve);
+    let (after, at) = branch.end(points, place, r, curve);
     heat = heat + (after - before);
     let tip = reversals.tip(&branch, curve);
     write(memory, curve, &branch, tip.unwrap_or(Tip::ORIGIN));
     memory[HEAT] = after;
+    memory[BENT] = at.bent.unwrap_or(N::ZERO);
     memory[PLACE] = r;
     if memory[COUNT].value() >= REVERSALS_MAX as f64 {
         // now, because the shift does no work while the joint stays, and so that there is room where it turns next
@@ -376,7 +410,9 @@ fn forget<N: Number>(memory: &mut [N], curve: &Curve<N>) {
     memory[TURN] = tip.place;
     memory[LOAD] = tip.load;
     memory[STORED] = tip.stored;
-    memory[HEAT] = curve.masing_heat(magnitude(place - tip.place));
+    let half = curve.at(N::from(0.5) * (place - tip.place));
+    memory[HEAT] = N::from(2.0) * curve.heat(&half);
+    memory[BENT] = half.bent.unwrap_or(N::ZERO);
     memory[PARAMETERS..SHIFT].copy_from_slice(&curve.parameters);
     memory[OWED] = memory[OWED] + (after - before);
     memory[SHIFT] = memory[SHIFT] + shift;

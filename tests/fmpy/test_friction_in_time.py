@@ -151,6 +151,7 @@ def test_a_lap_follows_the_located_turns(slave, law):
                 found.append(instance.get("a.y", "a.v"))
         errors.append(np.abs(np.array(found) - expected).max() / np.abs(expected).max())
     order = np.log(errors[0] / errors[1]) / np.log(4)
-    assert errors[1] < 5e-6
-    # a commit at the end of a step does not see when within it the joint turned
-    assert 1.6 < order < 3
+    # steps are cut where the joint turns; LuGre's law is stepped at the mean velocity
+    most, least_order = (1e-6, 1.8) if law["law"] == "lugre" else (3e-8, 2.2)
+    assert errors[1] < most
+    assert order > least_order

@@ -1,6 +1,8 @@
 //! Time integration of a lap that keeps account: the joint's law may change within a step because its bolt loosens, the joint
 //! may remember its motion, and the energy that comes and goes is counted.
 
+mod cut;
+
 use std::array::from_fn;
 
 use crate::{
@@ -75,19 +77,29 @@ impl<const D: usize> LapConditions<D> {
     }
 
     /// Motion and energies after one step of the classical Runge–Kutta method of `step_s` (s), in which these conditions hold
-    /// at its start, middle and end. What the joint remembers moves on once, at the end: with such a joint the order is between
-    /// one and three, because a slider sticks or slips somewhere within a step. A joint that remembers nothing needs no
-    /// `memory`.
+    /// at its start, middle and end. What the joint remembers moves on at the end, and before where the joint turns or its load
+    /// has a corner: there the step is cut. A joint that remembers nothing needs no `memory`.
     #[must_use]
     pub fn step(
-        [start, middle, end]: [&Self; 3],
+        conditions: [&Self; 3],
         counted: &CountedState<D>,
         memory: Option<&mut JointMemory<D>>,
         step_s: f64,
     ) -> CountedState<D> {
+        match memory {
+            None => Self::plain_step(conditions, counted, &[DOF_AT_REST; D], step_s),
+            Some(memory) => Self::cut_step(conditions, counted, memory, step_s),
+        }
+    }
+
+    /// One step of a joint that remembers this all the way.
+    fn plain_step(
+        [start, middle, end]: [&Self; 3],
+        counted: &CountedState<D>,
+        before: &JointMemory<D>,
+        step_s: f64,
+    ) -> CountedState<D> {
         let half_s = 0.5 * step_s;
-        let at_rest = &const { [DOF_AT_REST; D] };
-        let before = memory.as_deref().unwrap_or(at_rest);
         let k1 = start.rate(before, &counted.state);
         let k2 = middle.rate(before, &moved(&counted.state, half_s, &k1.state));
         let k3 = middle.rate(before, &moved(&counted.state, half_s, &k2.state));
@@ -98,7 +110,7 @@ impl<const D: usize> LapConditions<D> {
             let [k1, k2, k3, k4] = [&k1, &k2, &k3, &k4].map(|k| of(&k.powers));
             of(&counted.passed) + sixth_s * (k1 + 2.0 * (k2 + k3) + k4)
         };
-        let mut passed = PassedEnergy {
+        let passed = PassedEnergy {
             supplied: mean(|passed| passed.supplied),
             dissipated: mean(|passed| passed.dissipated),
             preload: mean(|passed| passed.preload),
@@ -107,9 +119,6 @@ impl<const D: usize> LapConditions<D> {
         let outer = moved(&k1.state, 1.0, &k4.state);
         let sum = moved(&outer, 2.0, &inner);
         let state = moved(&counted.state, sixth_s, &sum);
-        if let Some(memory) = memory {
-            passed.dissipated += end.lap.joint.commit(memory, &state.relative());
-        }
         CountedState { state, passed }
     }
 

@@ -141,7 +141,10 @@ impl Remembering {
         let plain = memory.map(Number::value);
         self.laws
             .corners(&plain, way.place_after(branch), &mut |corner| {
-                stops.extend(way.course.passes(corner, [begin, end], &mut sums.waves));
+                stops.extend(
+                    way.course
+                        .passes(corner.place(), [begin, end], &mut sums.waves),
+                );
             });
         stops.sort_by(f64::total_cmp);
         for panel in stops.windows(2) {

@@ -173,7 +173,7 @@ fn a_slider_converges_to_the_located_events_and_keeps_the_balance() {
         a: body(1.0),
         b: body(held),
     };
-    for (steps_a_period, tolerance, imbalance) in [(100, 1e-3, 1e-5), (1600, 3e-6, 1e-7)] {
+    for (steps_a_period, tolerance, imbalance) in [(100, 2e-5, 1e-6), (1600, 1e-8, 1e-11)] {
         let count = 20 * steps_a_period;
         let step_s = duration_s / f64::from(count);
         let conditions = |time_s: f64| LapConditions {
@@ -307,14 +307,21 @@ fn every_law_with_memory_converges_and_keeps_the_balance() {
         ),
     ];
     for (name, law) in laws {
-        let [coarse, middle, fine] = [50, 200, 3200].map(|steps| driven(law, steps));
+        let [coarse, middle, fine, exact] = [50, 200, 800, 3200].map(|steps| driven(law, steps));
         let error = |found: [f64; 3]| {
-            let [y, v] = [0, 1].map(|k| (found[k] - fine[k]).abs());
+            let [y, v] = [0, 1].map(|k| (found[k] - exact[k]).abs());
             y.max(v)
         };
-        assert!(error(middle) < 0.5 * error(coarse), "{name}");
-        assert!(error(middle) < 1e-3, "{name}: {:e}", error(middle));
-        for (found, most) in [(coarse, 3e-3), (middle, 2e-4)] {
+        // cut where the joint turns, the steps keep their order; LuGre's way is that of the mean velocity
+        let (least, most) = if name == "lugre" {
+            (1.9, [2e-3, 1e-4])
+        } else {
+            (3.7, [2e-5, 2e-8])
+        };
+        let order = (error(middle) / error(fine)).log2() / 2.0;
+        assert!(order > least, "{name}: {order}");
+        assert!(error(middle) < 1e-5, "{name}: {:e}", error(middle));
+        for (found, most) in [coarse, middle].into_iter().zip(most) {
             assert!(found[2].abs() < most, "{name}: {:e}", found[2]);
         }
     }

@@ -6,10 +6,10 @@
 mod integral;
 
 use super::{
-    Law,
+    Corner, Law,
     declaration::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule,
+        UnitRule, is_positive,
     },
 };
 use crate::number::Number;
@@ -175,23 +175,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
         hidden_memory: 2,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            stiffness: at(0),
-            slip_force: at(1),
-            exponent: at(2),
-            beta: at(3),
-            gamma: at(4),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(stiffness, slip_force, exponent, beta, gamma);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         if !self.is_there() {
@@ -241,7 +225,7 @@ impl<N: Number> Law<N> for BoucWen<N> {
         slip_force * slip_force / stiffness * way.heat
     }
 
-    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
         if self.is_there() {
             // where no load is left
             let number = |place: usize| memory.get(place).copied().unwrap_or(0.0);
@@ -251,28 +235,21 @@ impl<N: Number> Law<N> for BoucWen<N> {
             let against = sign * load / slip_force;
             if against < 0.0 {
                 let way = self.branch().unloading_way(N::from(-against)).value();
-                tell(place + sign * way * slip_force / stiffness);
+                tell(Corner::Sharp(place + sign * way * slip_force / stiffness));
             }
         }
     }
 
     fn outside(&self) -> Option<Outside> {
-        let outside = |parameter: usize, expected: String| {
-            Some(Outside {
-                parameter,
-                expected,
-            })
-        };
         let [stiffness, slip_force, exponent, beta, gamma] = self.parameters().map(Number::value);
-        let is_positive = |value: f64| value > 0.0 && value.is_finite();
         match () {
-            () if !is_positive(stiffness) => outside(0, "a number above 0".to_owned()),
-            () if !is_positive(slip_force) => outside(1, "a number above 0".to_owned()),
+            () if !is_positive(stiffness) => Outside::at(0, "a number above 0"),
+            () if !is_positive(slip_force) => Outside::at(1, "a number above 0"),
             () if !(1.0..=EXPONENT_MAX).contains(&exponent) => {
-                outside(2, format!("1 to {EXPONENT_MAX}"))
+                Outside::at(2, format!("1 to {EXPONENT_MAX}"))
             }
-            () if !is_positive(beta) => outside(3, "a number above 0".to_owned()),
-            () if !(-beta..=beta).contains(&gamma) => outside(
+            () if !is_positive(beta) => Outside::at(3, "a number above 0"),
+            () if !(-beta..=beta).contains(&gamma) => Outside::at(
                 4,
                 format!("-{beta:?} to {beta:?}, beta: beyond that the law gives energy"),
             ),

@@ -1,10 +1,10 @@
 //! Dahl's law (1968): a slider whose stiffness falls evenly with its load, from all of it to none at the slip force.
 
 use super::{
-    Law,
+    Corner, Law,
     declaration::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule,
+        UnitRule, is_positive,
     },
     flow::{Flow, HIDDEN},
 };
@@ -93,20 +93,7 @@ impl<N: Number> Law<N> for Dahl<N> {
         hidden_memory: HIDDEN,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            stiffness: at(0),
-            slip_force: at(1),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip([self.stiffness, self.slip_force]) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(stiffness, slip_force);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         self.flow().map_or(N::ZERO, |flow| flow.load(memory, r))
@@ -129,7 +116,7 @@ impl<N: Number> Law<N> for Dahl<N> {
         }
     }
 
-    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
         if let Some(flow) = self.flow() {
             tell(flow.corner(memory, to));
         }
@@ -137,12 +124,8 @@ impl<N: Number> Law<N> for Dahl<N> {
 
     fn outside(&self) -> Option<Outside> {
         let values = [self.stiffness, self.slip_force].map(Number::value);
-        let mut numbers = values.iter();
-        let parameter = numbers.position(|&value| !(value > 0.0 && value.is_finite()))?;
-        Some(Outside {
-            parameter,
-            expected: "a number above 0".to_owned(),
-        })
+        let parameter = values.iter().position(|&value| !is_positive(value))?;
+        Outside::at(parameter, "a number above 0")
     }
 
     fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {

@@ -39,6 +39,22 @@ pub struct Outside {
     pub expected: String,
 }
 
+impl Outside {
+    /// The parameter at this place.
+    pub(super) fn at(parameter: usize, expected: impl Into<String>) -> Option<Self> {
+        let expected = expected.into();
+        Some(Self {
+            parameter,
+            expected,
+        })
+    }
+}
+
+/// Whether a parameter is a finite number above zero.
+pub(super) fn is_positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
 /// One parameter of a law, on each DOF or between each two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {

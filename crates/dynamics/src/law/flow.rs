@@ -4,6 +4,7 @@
 //! Its load p follows dp/dx = E₁ (1 − s w)/(1 − c s w) with w = p/p_m and s = sgn ẋ. At c = 0 it is Dahl's, and towards
 //! c = 1 a spring in series with a slider. The step over a way of any length is exact.
 
+use super::Corner;
 use crate::{elementary, number::Number};
 
 /// Places of what is remembered: the load, and beside what is a variable the place and the direction of the latest
@@ -106,10 +107,15 @@ impl<N: Number> Flow<N> {
 
     /// Where a spring alone would have come to the limit on a straight way to `to`: the sharper the slider, the nearer a
     /// corner it has there.
-    pub(super) fn corner(&self, memory: &[f64], to: f64) -> f64 {
+    pub(super) fn corner(&self, memory: &[f64], to: f64) -> Corner {
         let way = self.way(memory, N::from(to));
         let left = (1.0 - way.before.value()) * self.limit.value() / self.stiffness.value();
-        memory.get(PLACE).copied().unwrap_or(0.0) + way.sign * left
+        let place = memory.get(PLACE).copied().unwrap_or(0.0) + way.sign * left;
+        if self.sharpness.value() >= 1.0 {
+            Corner::Sharp(place)
+        } else {
+            Corner::Rounded(place)
+        }
     }
 
     /// Energy in its spring at r.

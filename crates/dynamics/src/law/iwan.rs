@@ -10,10 +10,10 @@ mod curve;
 mod reversals;
 
 use super::{
-    Law,
+    Corner, Law,
     declaration::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule,
+        UnitRule, is_positive,
     },
 };
 use crate::number::Number;
@@ -139,22 +139,7 @@ impl<N: Number> Law<N> for Iwan<N> {
         hidden_memory: HIDDEN,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            slip_force: at(0),
-            stiffness: at(1),
-            exponent: at(2),
-            ratio: at(3),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(slip_force, stiffness, exponent, ratio);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         let Some(curve) = self.curve() else {
@@ -206,7 +191,7 @@ impl<N: Number> Law<N> for Iwan<N> {
         }
     }
 
-    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
         let values = self.parameters().map(Number::value);
         if let Some(curve) = Iwan::<f64>::new(&values).curve() {
             Reversals::of(memory).corners(to, curve.span, tell);
@@ -214,19 +199,12 @@ impl<N: Number> Law<N> for Iwan<N> {
     }
 
     fn outside(&self) -> Option<Outside> {
-        let outside = |parameter: usize, expected: &str| {
-            Some(Outside {
-                parameter,
-                expected: expected.to_owned(),
-            })
-        };
         let [slip_force, stiffness, exponent, ratio] = self.parameters().map(Number::value);
-        let is_positive = |value: f64| value > 0.0 && value.is_finite();
         match () {
-            () if !is_positive(slip_force) => outside(0, "a number above 0"),
-            () if !is_positive(stiffness) => outside(1, "a number above 0"),
-            () if !(exponent > -1.0 && exponent.is_finite()) => outside(2, "a number above -1"),
-            () if !(ratio >= 0.0 && ratio.is_finite()) => outside(3, "zero or more"),
+            () if !is_positive(slip_force) => Outside::at(0, "a number above 0"),
+            () if !is_positive(stiffness) => Outside::at(1, "a number above 0"),
+            () if !(exponent > -1.0 && exponent.is_finite()) => Outside::at(2, "a number above -1"),
+            () if !(ratio >= 0.0 && ratio.is_finite()) => Outside::at(3, "zero or more"),
             () => None,
         }
     }

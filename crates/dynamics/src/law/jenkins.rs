@@ -1,7 +1,7 @@
 //! The Jenkins element: a spring and a slider in series, which sticks until the spring bears the slip force (Tol 2.2).
 
 use super::{
-    Law,
+    Corner, Law,
     declaration::{
         ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
     },
@@ -109,20 +109,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
         hidden_memory: 0,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            stiffness: at(0),
-            slip_force: at(1),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip([self.stiffness, self.slip_force]) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(stiffness, slip_force);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         match self.bearing(memory, r) {
@@ -166,12 +153,12 @@ impl<N: Number> Law<N> for Jenkins<N> {
         heat
     }
 
-    fn corners(&self, memory: &[f64], _: f64, tell: &mut dyn FnMut(f64)) {
+    fn corners(&self, memory: &[f64], _: f64, tell: &mut dyn FnMut(Corner)) {
         // x ± h/k
         let span = self.slip_force.value() / self.stiffness.value();
         let slider = slider::<f64, f64>(memory);
-        tell(slider - span);
-        tell(slider + span);
+        tell(Corner::Sharp(slider - span));
+        tell(Corner::Sharp(slider + span));
     }
 
     fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {

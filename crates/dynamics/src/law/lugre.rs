@@ -9,7 +9,7 @@ use super::{
     Law,
     declaration::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule,
+        UnitRule, is_positive,
     },
 };
 use crate::number::Number;
@@ -195,24 +195,14 @@ impl<N: Number> Law<N> for LuGre<N> {
         hidden_memory: 2,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            stiffness: at(0),
-            bristle_damping: at(1),
-            damping: at(2),
-            slip_force: at(3),
-            static_force: at(4),
-            stribeck_velocity: at(5),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(
+        stiffness,
+        bristle_damping,
+        damping,
+        slip_force,
+        static_force,
+        stribeck_velocity
+    );
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
@@ -271,12 +261,6 @@ impl<N: Number> Law<N> for LuGre<N> {
     }
 
     fn outside(&self) -> Option<Outside> {
-        let outside = |parameter: usize, expected: String| {
-            Some(Outside {
-                parameter,
-                expected,
-            })
-        };
         let [
             stiffness,
             bristle_damping,
@@ -285,22 +269,20 @@ impl<N: Number> Law<N> for LuGre<N> {
             static_force,
             velocity,
         ] = self.parameters().map(Number::value);
-        let is_positive = |value: f64| value > 0.0 && value.is_finite();
         let is_damper = |value: f64| value >= 0.0 && value.is_finite();
-        let positive = || "a number above 0".to_owned();
         // Barabanov and Ortega, IEEE Trans. Autom. Control 45 (2000) 830
         let least = bristle_damping * (static_force - slip_force) / slip_force;
         match () {
-            () if !is_positive(stiffness) => outside(0, positive()),
-            () if !is_damper(bristle_damping) => outside(1, "zero or more".to_owned()),
-            () if !is_damper(damping) => outside(2, "zero or more".to_owned()),
-            () if !is_positive(slip_force) => outside(3, positive()),
+            () if !is_positive(stiffness) => Outside::at(0, "a number above 0"),
+            () if !is_damper(bristle_damping) => Outside::at(1, "zero or more"),
+            () if !is_damper(damping) => Outside::at(2, "zero or more"),
+            () if !is_positive(slip_force) => Outside::at(3, "a number above 0"),
             () if !(static_force >= slip_force && static_force.is_finite()) => {
-                outside(4, format!("{slip_force:?}, the slip force, or more"))
+                Outside::at(4, format!("{slip_force:?}, the slip force, or more"))
             }
-            () if !is_positive(velocity) => outside(5, positive()),
+            () if !is_positive(velocity) => Outside::at(5, "a number above 0"),
             // written so that rounding does not refuse the bound itself
-            () if damping < least * (1.0 - 4.0 * f64::EPSILON) => outside(
+            () if damping < least * (1.0 - 4.0 * f64::EPSILON) => Outside::at(
                 2,
                 format!(
                     "{least:?} or more, the bristles' damping times (static force - slip force)/slip force: below that the \

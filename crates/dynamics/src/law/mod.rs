@@ -3,6 +3,23 @@
 //!
 //! A new law is a file here and a line in `dof_laws!` below.
 
+/// Makes a law of its parameters and writes them, in the order of its declaration.
+macro_rules! by_numbers {
+    ($($field:ident),+) => {
+        #[inline]
+        fn new(parameters: &[N]) -> Self {
+            let mut numbers = parameters.iter().copied();
+            Self { $($field: numbers.next().unwrap_or(N::ZERO)),+ }
+        }
+
+        fn write(&self, parameters: &mut [N]) {
+            for (parameter, own) in parameters.iter_mut().zip([$(self.$field),+]) {
+                *parameter = own;
+            }
+        }
+    };
+}
+
 mod bouc_wen;
 mod dahl;
 mod declaration;
@@ -35,6 +52,25 @@ pub use valanis::Valanis;
 
 use crate::number::Number;
 
+/// A place at which a load is not smooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Corner {
+    /// The slope changes at this relative displacement, m or rad.
+    Sharp(f64),
+    /// It changes soon about there.
+    Rounded(f64),
+}
+
+impl Corner {
+    /// Relative displacement, m or rad.
+    #[must_use]
+    pub const fn place(self) -> f64 {
+        match self {
+            Self::Sharp(place) | Self::Rounded(place) => place,
+        }
+    }
+}
+
 /// A law of the relative motion of one DOF, which acts beside the linear one.
 ///
 /// `memory` is what the law remembers since its last commit, [`Declaration::memory_count`] numbers, all zero before the first
@@ -64,9 +100,9 @@ pub trait Law<N: Number>: Copy {
         0.0
     }
 
-    /// Tells the relative displacements (m, rad) at which its load may have a corner, or nearly one, on the straight way from where the memory
-    /// is to `to`; beside the way there may be others.
-    fn corners(&self, _memory: &[f64], _to: f64, _tell: &mut dyn FnMut(f64)) {}
+    /// Tells where its load may not be smooth on the straight way from where the memory is to `to`; beside the way there may be
+    /// others.
+    fn corners(&self, _memory: &[f64], _to: f64, _tell: &mut dyn FnMut(Corner)) {}
 
     /// The first of its parameters that is outside of the law's range, such that it is not passive or gives no load.
     fn outside(&self) -> Option<Outside> {
@@ -203,9 +239,9 @@ macro_rules! dof_laws {
         }
 
         impl DofLaws {
-            /// Tells the relative displacements (m, rad) at which the load may have a corner on the straight way from where the
-            /// memory is to `to`; beside the way there may be others.
-            pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(f64)) {
+            /// Tells where the load may not be smooth on the straight way from where the memory is to `to`; beside the way
+            /// there may be others.
+            pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(Corner)) {
                 $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
                     self.$name().corners(part(memory, PLACES.$name), to, tell);
                 })+

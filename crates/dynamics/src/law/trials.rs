@@ -74,7 +74,7 @@ pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(law: &L, way: &[f64], s
         // the way begins at this velocity
         turned += law.commit(&mut memory, r, velocity).abs();
         let mut stops = Vec::new();
-        law.corners(&memory, target, &mut |corner| stops.push(corner));
+        law.corners(&memory, target, &mut |corner| stops.push(corner.place()));
         stops.retain(|stop| (stop - r) * (target - stop) > 0.0);
         stops.extend([r, target]);
         stops.sort_by(f64::total_cmp);

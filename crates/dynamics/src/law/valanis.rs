@@ -3,10 +3,10 @@
 //! beside one.
 
 use super::{
-    Law,
+    Corner, Law,
     declaration::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule,
+        UnitRule, is_positive,
     },
     flow::{Flow, HIDDEN},
 };
@@ -130,22 +130,7 @@ impl<N: Number> Law<N> for Valanis<N> {
         hidden_memory: HIDDEN,
     };
 
-    #[inline]
-    fn new(parameters: &[N]) -> Self {
-        let at = |index: usize| parameters.get(index).copied().unwrap_or(N::ZERO);
-        Self {
-            stiffness: at(0),
-            slip_stiffness: at(1),
-            slip_force: at(2),
-            kappa: at(3),
-        }
-    }
-
-    fn write(&self, parameters: &mut [N]) {
-        for (parameter, own) in parameters.iter_mut().zip(self.parameters()) {
-            *parameter = own;
-        }
-    }
+    by_numbers!(stiffness, slip_stiffness, slip_force, kappa);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
         // F = E_t x + p
@@ -172,7 +157,7 @@ impl<N: Number> Law<N> for Valanis<N> {
         }
     }
 
-    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(f64)) {
+    fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
         if let Some(flow) = self.flow() {
             tell(flow.corner(memory, to));
         }
@@ -180,20 +165,13 @@ impl<N: Number> Law<N> for Valanis<N> {
 
     fn outside(&self) -> Option<Outside> {
         let [stiffness, slip_stiffness, slip_force, kappa] = self.parameters().map(Number::value);
-        let outside = |parameter: usize, expected: String| {
-            Some(Outside {
-                parameter,
-                expected,
-            })
-        };
-        let positive = || "a number above 0".to_owned();
         match () {
-            () if !(stiffness > 0.0 && stiffness.is_finite()) => outside(0, positive()),
+            () if !is_positive(stiffness) => Outside::at(0, "a number above 0"),
             () if !(0.0..=stiffness).contains(&slip_stiffness) => {
-                outside(1, format!("0 to {stiffness:?}, the stiffness"))
+                Outside::at(1, format!("0 to {stiffness:?}, the stiffness"))
             }
-            () if !(slip_force > 0.0 && slip_force.is_finite()) => outside(2, positive()),
-            () if !(0.0..=1.0).contains(&kappa) => outside(3, "0 to 1".to_owned()),
+            () if !is_positive(slip_force) => Outside::at(2, "a number above 0"),
+            () if !(0.0..=1.0).contains(&kappa) => Outside::at(3, "0 to 1"),
             () => None,
         }
     }

@@ -121,7 +121,11 @@ impl Deviating<'_> {
             let to = self.way.places[branch % turns.len()];
             let memory = self.groups[0][branch].map(Number::value);
             laws.corners(&memory, to, &mut |corner| {
-                corners.extend(self.way.course.passes(corner, [begin, end], &mut waves));
+                corners.extend(
+                    self.way
+                        .course
+                        .passes(corner.place(), [begin, end], &mut waves),
+                );
             });
         }
         corners.retain(|&phase| phase > 0.0 && phase < TAU);

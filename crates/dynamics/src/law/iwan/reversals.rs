@@ -6,6 +6,7 @@
 //! forgotten before: those whose loss changes the load least.
 
 use super::curve::{At, Curve, towards};
+use crate::law::Corner;
 use crate::number::Number;
 
 /// Reversal points that are kept.
@@ -160,18 +161,19 @@ impl<'m, M: Number> Reversals<'m, M> {
     }
 
     /// Tells where a straight way to r closes loops, and where all slips on each of its branches: from `span` on.
-    pub(super) fn corners(&self, r: f64, span: f64, tell: &mut dyn FnMut(f64)) {
+    pub(super) fn corners(&self, r: f64, span: f64, tell: &mut dyn FnMut(Corner)) {
         let (points, place) = (self.points(), self.place());
         let mut branch = self.branch_towards(r);
         let sign = if r > place.value() { 1.0 } else { -1.0 };
         loop {
             let start = branch.last(points, place, 0);
-            tell(start.map_or(sign * span, |start| start.value() + 2.0 * sign * span));
+            let slips = start.map_or(sign * span, |start| start.value() + 2.0 * sign * span);
+            tell(Corner::Sharp(slips));
             let Some(shorter) = branch.without_closed_loop(points, place, r) else {
                 break;
             };
             if let Some(end) = branch.closes_at(points, place) {
-                tell(end.value());
+                tell(Corner::Sharp(end.value()));
             }
             branch = shorter;
         }

@@ -288,7 +288,7 @@ def test_work_is_what_is_stored_and_the_heat(slave, laws):
 @both_versions
 @pytest.mark.parametrize("laws", ALL)
 def test_model_exchange_commits_completed_steps_alone(slave, model, laws):
-    """The importer's Runge–Kutta steps with a commit after each are those of the library itself."""
+    """The importer's Runge–Kutta steps with a commit after each are those of the library, but for its cuts where the joint turns."""
     file = with_friction(*laws)
     file["bodies"] = {"a": body([1.0], [5e6], [50.0]), "b": body([1e9], [0.0], [0.0])}
     size = 1e-6
@@ -315,7 +315,7 @@ def test_model_exchange_commits_completed_steps_alone(slave, model, laws):
         outer.fmu.completedIntegratorStep()
         inner.step(index * size, size)
     names = ("a.y", "a.v", "joint.F", "energy.stored")
-    assert outer.get(*names) == pytest.approx(inner.get(*names), rel=1e-9)
+    assert outer.get(*names) == pytest.approx(inner.get(*names), rel=2e-5)
     # the importer integrates the power of slipping; the library knows the heat of each way
     heat = outer.states().index("energy.dissipated")
     assert x[heat] == pytest.approx(inner.get("energy.dissipated")[0], rel=1e-2)

@@ -153,7 +153,7 @@ LAP = changed(
 
 
 @both_versions
-@pytest.mark.parametrize("steps, tolerance, imbalance", [(200, 1e-3, 1e-5), (1600, 3e-5, 1e-6)])
+@pytest.mark.parametrize("steps, tolerance, imbalance", [(200, 5e-4, 1e-7), (1600, 1e-5, 1e-9)])
 def test_a_lap_follows_the_located_events(slave, steps, tolerance, imbalance):
     size = 2 * np.pi / OMEGA / steps
     instance = slave(LAP, "lap", "--step-size-max", repr(size))
@@ -175,7 +175,7 @@ def test_a_lap_follows_the_located_events(slave, steps, tolerance, imbalance):
 
 @both_versions
 def test_model_exchange_commits_completed_steps_alone(slave, model):
-    """The importer's Runge–Kutta steps with a commit after each are those of the library itself."""
+    """The importer's Runge–Kutta steps with a commit after each are those of the library, but for its cuts where the joint turns."""
     steps = 400
     size = 2 * np.pi / OMEGA / steps
     inner = slave(LAP, "lap", "--step-size-max", repr(size))
@@ -201,7 +201,7 @@ def test_model_exchange_commits_completed_steps_alone(slave, model):
         outer.fmu.completedIntegratorStep()
         inner.step(index * size, size)
     names = ("a.y", "a.v", "joint.jenkins_slider_y", "joint.F")
-    assert outer.get(*names) == pytest.approx(inner.get(*names), rel=1e-10)
+    assert outer.get(*names) == pytest.approx(inner.get(*names), rel=3e-4)
     assert abs(outer.get("joint.jenkins_slider_y")[0]) > 0.05
     # the importer integrates the power of slipping; the library knows the heat of each way
     assert x[heat] == pytest.approx(inner.get("energy.dissipated")[0], rel=1e-2)

@@ -128,7 +128,9 @@ impl Plan {
                 report.findings.push(wrong);
                 return;
             }
-            if let Some(wrong) = judge::load_finding(joint, inspection.interface, &samples) {
+            let step_s = self.excitation.span_s / steps as f64;
+            let found = judge::load_finding(joint, inspection.interface, &samples, step_s);
+            if let Some(wrong) = found {
                 report.findings.push(wrong);
                 return;
             }

@@ -42,6 +42,19 @@ impl Friction {
         on_dofs.filter(move |law| law.name != polynomial)
     }
 
+    /// This law on a DOF; `None` of a law that does not stand there.
+    #[must_use]
+    pub fn of<L: Law<f64>>(dof: &'static Dof, law: &L) -> Option<Self> {
+        let declared = Self::laws().find(|declared| declared.name == L::DECLARATION.name)?;
+        let mut parameters = vec![0.0; declared.parameters.len()];
+        law.write(&mut parameters);
+        Some(Self {
+            dof,
+            law: declared,
+            parameters,
+        })
+    }
+
     /// Value of a parameter of the law.
     #[must_use]
     pub fn value(&self, parameter: &Parameter) -> Option<f64> {

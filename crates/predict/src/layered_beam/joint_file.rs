@@ -1,12 +1,12 @@
 //! The joint file of a layered beam: the equivalent lap of its mode, with what it rests on.
 
 use bolted_joint_joint::{
-    Bodies, DofSet, Format, HigherTerms, Joint, JointFile, OverPreload, Validity,
+    Bodies, DofSet, Format, Friction, Joint, JointFile, OverPreload, Validity,
 };
 use bolted_joint_study::{Method, provenance};
 
-use super::amplitude_damping::AmplitudeDamping;
 use super::damping::SlipDamping;
+use super::dry_friction::DrySlider;
 use super::error::LayeredBeamError;
 use super::lap::{EquivalentDamping, EquivalentLap};
 use super::scatter::Scattered;
@@ -22,30 +22,38 @@ pub(super) struct LapFile {
     pub(super) worst_error: f64,
 }
 
-/// Stiffness (N/m) and constant damping (N·s/m) of the joint for a mode with this damping.
+/// Stiffness of the joint (N/m) for a mode with this damping, and its damper.
 pub(super) fn terms(
     damping: &SlipDamping,
     how: &EquivalentDamping,
-) -> Result<(f64, f64), LayeredBeamError> {
+) -> Result<(f64, Damper), LayeredBeamError> {
     let lap = EquivalentLap::of(damping);
-    let constant = match how {
-        EquivalentDamping::AtAmplitude(amplitude) => {
-            lap.joint_damping_n_s_per_m(damping.viscous_damping_n_s_per_m(*amplitude))
-        }
-        EquivalentDamping::Over(range) => {
-            lap.joint_damping_over(damping, range)?.constant_n_s_per_m
-        }
+    let damper = match how {
+        EquivalentDamping::AtAmplitude(amplitude) => Damper::Viscous(
+            lap.joint_damping_n_s_per_m(damping.viscous_damping_n_s_per_m(*amplitude)),
+        ),
+        EquivalentDamping::Over(range) => Damper::Dry(lap.slider_over(damping, range)?),
     };
-    Ok((lap.stiffness_n_per_m, constant))
+    Ok((lap.stiffness_n_per_m, damper))
 }
 
 /// The joint's damping at the nominal torque.
 #[derive(Clone, Copy, Debug)]
-enum Damper {
+pub(super) enum Damper {
     /// N·s/m.
     Viscous(f64),
-    /// Over the amplitude.
-    OverAmplitude(AmplitudeDamping),
+    /// Friction.
+    Dry(DrySlider),
+}
+
+impl Damper {
+    /// Its size: N·s/m, or the slip force, N.
+    pub(super) fn size(&self) -> f64 {
+        match self {
+            Self::Viscous(damping) => *damping,
+            Self::Dry(slider) => slider.law.slip_force,
+        }
+    }
 }
 
 /// The file of a study whose mode has `nominal` damping, and that at each torque.
@@ -99,22 +107,26 @@ pub(super) fn lap_file(
             )
         }
         EquivalentDamping::Over(range) => {
-            let found = lap.joint_damping_over(nominal, range)?;
-            joint.damping = vec![vec![found.constant_n_s_per_m]];
-            let amplitude = vec![lap.relative(range.to_m())];
-            joint.higher = Some(HigherTerms::of(&[found.terms()], amplitude));
+            let found = lap.slider_over(nominal, range)?;
+            joint.damping = vec![vec![0.0]];
+            joint
+                .friction
+                .extend(Friction::of(DofSet::TRANSLATION.row(0), &found.law));
+            let smallest = lap.relative(range.from_m());
             notes.push(format!(
-                "c + c2 r^2 + c4 r^4 in place of dry friction: its loss over a period is within {:.1} % of friction's for amplitudes from {:.4e} to {:.4e} m; below, it is less, beyond, more",
+                "dry friction is a slider whose spring bears its slip force of {:.5e} N at {:.1} % of the smallest amplitude, {:.4e} m: so \
+                 much of the heat is missing there, and less beyond; the spring makes the lap stiffer by {:.2} % there",
+                found.law.slip_force,
                 100.0 * found.worst_error,
                 range.from_m(),
-                range.to_m()
+                100.0 * found.secant_n_per_m(smallest) / lap.stiffness_n_per_m
             ));
             let level = format!(
                 "amplitudes from {:.4e} to {:.4e} m",
                 range.from_m(),
                 range.to_m()
             );
-            (Damper::OverAmplitude(found), found.worst_error, level)
+            (Damper::Dry(found), found.worst_error, level)
         }
     };
     notes.extend(study.notes.iter().cloned());
@@ -162,9 +174,7 @@ impl LapFile {
     pub(super) fn damping_ratio(&self, damping: &SlipDamping, amplitude_m: f64) -> f64 {
         let c = match &self.damper {
             Damper::Viscous(c) => *c,
-            Damper::OverAmplitude(terms) => {
-                terms.equivalent_n_s_per_m(self.lap.relative(amplitude_m))
-            }
+            Damper::Dry(slider) => slider.equivalent_n_s_per_m(self.lap.relative(amplitude_m)),
         };
         self.lap.damping_ratio(damping, c)
     }

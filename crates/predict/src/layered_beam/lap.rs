@@ -3,8 +3,8 @@
 
 use bolted_joint_joint::Body;
 
-use super::amplitude_damping::{AmplitudeDamping, AmplitudeRange};
 use super::damping::SlipDamping;
+use super::dry_friction::{AmplitudeRange, DrySlider};
 use super::error::LayeredBeamError;
 
 /// Mass of the mount over the mode's: large, so that the mount stays where it is.
@@ -21,7 +21,7 @@ const MOUNT_DAMPING: f64 = 0.01;
 pub enum EquivalentDamping {
     /// A viscous damper that is right at one amplitude of the drive point, m.
     AtAmplitude(f64),
-    /// c + c2 r² + c4 r⁴ over a range of amplitudes of the drive point.
+    /// A slider, over a range of amplitudes of the drive point.
     Over(AmplitudeRange),
 }
 
@@ -81,22 +81,22 @@ impl EquivalentLap {
         own / (1.0 - self.mount_share).powi(2)
     }
 
-    /// Damping of the joint over the amplitude with which the mode follows dry friction over `range`, amplitudes of the drive
-    /// point.
+    /// The joint's slider, with which the mode has the heat of dry friction over `range`, amplitudes of the drive point.
     ///
     /// # Errors
     /// None of a valid range.
-    pub fn joint_damping_over(
+    pub fn slider_over(
         &self,
         damping: &SlipDamping,
         range: &AmplitudeRange,
-    ) -> Result<AmplitudeDamping, LayeredBeamError> {
+    ) -> Result<DrySlider, LayeredBeamError> {
         let (from, to) = (self.relative(range.from_m()), self.relative(range.to_m()));
         let relative = AmplitudeRange::new("motion.amplitude", from, to)?;
         // c_eq R is the same at every amplitude
         let at_largest = damping.viscous_damping_n_s_per_m(range.to_m());
         let coulomb = self.joint_damping_n_s_per_m(at_largest) * to;
-        Ok(AmplitudeDamping::following(coulomb, &relative))
+        let omega = damping.mode.angular_frequency;
+        Ok(DrySlider::following(coulomb, omega, &relative))
     }
 
     /// Relative motion of the joint for a motion of the drive point.

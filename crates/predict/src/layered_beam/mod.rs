@@ -11,10 +11,10 @@
 //! joint file ([`Outcome::joint_file`]), a table of frequencies and damping ratios over the amplitude ([`Outcome::csv`]), a
 //! summary for people ([`Outcome::summary`]) and for machines (it serialises), and warnings ([`Outcome::warnings`]).
 
-mod amplitude_damping;
 mod beam;
 mod beam_mode;
 mod damping;
+mod dry_friction;
 mod error;
 mod fasteners;
 mod joint_file;
@@ -26,10 +26,10 @@ mod scatter;
 mod shape;
 mod study;
 
-pub use amplitude_damping::{AmplitudeDamping, AmplitudeRange};
 pub use beam::{Layer, LayeredBeam};
 pub use beam_mode::{BeamMode, ELEMENTS, Route, StoredEnergy};
 pub use damping::SlipDamping;
+pub use dry_friction::{AmplitudeRange, DrySlider};
 pub use error::LayeredBeamError;
 pub use fasteners::{FastenerKind, Fasteners, NormalForceRule, RIVET_STRESS_PA};
 pub use lap::{EquivalentDamping, EquivalentLap};

@@ -125,18 +125,22 @@ impl Scatter {
         over_torque: &[(f64, SlipDamping)],
     ) -> Result<Scattered, LayeredBeamError> {
         let first = study.amplitudes_m.first().copied().unwrap_or(f64::NAN);
-        let mut names: Vec<String> = ["k_yy", "c_yy", "frequency_hz", "damping_ratio"]
+        let damper = match study.damping {
+            EquivalentDamping::AtAmplitude(_) => "c_yy",
+            EquivalentDamping::Over(_) => "slip_force",
+        };
+        let mut names: Vec<String> = ["k_yy", damper, "frequency_hz", "damping_ratio"]
             .map(str::to_owned)
             .to_vec();
         for (torque, _) in over_torque {
-            names.extend(["k_yy", "c_yy"].map(|name| format!("{name}@{torque}")));
+            names.extend(["k_yy", damper].map(|name| format!("{name}@{torque}")));
         }
         let pair = |damping: &SlipDamping, factors: &Factors, how: &EquivalentDamping| {
             let damping = damping.scaled(factors);
-            let (stiffness, constant) = terms(&damping, how).map_err(|error| Refusal {
+            let (stiffness, damper) = terms(&damping, how).map_err(|error| Refusal {
                 reason: error.to_string(),
             })?;
-            Ok::<_, Refusal>([stiffness, constant])
+            Ok::<_, Refusal>([stiffness, damper.size()])
         };
         let model = |drawn: &Drawn| {
             let factors = self.factors(drawn);
@@ -179,7 +183,7 @@ pub(super) struct Scattered {
 /// One result with its scatter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScatterRow {
-    /// Its name: `k_yy` and `c_yy` of the joint file, `frequency_hz`, `damping_ratio` at the smallest amplitude.
+    /// Its name: `k_yy` and `c_yy` or `slip_force` of the joint file, `frequency_hz`, `damping_ratio` at the smallest amplitude.
     pub name: String,
     /// Mean of the draws.
     pub mean: f64,
@@ -228,8 +232,7 @@ impl Scattered {
         Uncertainty {
             standard_deviation: self.deviation(""),
             basis: format!(
-                "Monte Carlo over {}: {} draws, seed {}; scatter of what was put into the model, not the model's own error; terms of higher \
-                 order scatter as c_yy does, relative to their size",
+                "Monte Carlo over {}: {} draws, seed {}; scatter of what was put into the model, not the model's own error",
                 self.outcome.inputs.join(", "),
                 of.draws,
                 of.seed
@@ -275,7 +278,9 @@ impl Scattered {
     fn correlation(&self, names: &[String]) -> Correlation {
         let estimates = &self.outcome.estimates;
         let place = |name: &String| estimates.iter().position(|found| found.name == *name);
-        let places: Vec<usize> = names.iter().filter_map(place).collect();
+        // friction has no place among the unknowns of a joint file
+        let names = names.iter().filter(|name| place(name).is_some());
+        let places: Vec<usize> = names.clone().filter_map(place).collect();
         let entry = |i: usize, j: usize| match i == j {
             true => 1.0,
             // of a result that does not vary there is none
@@ -285,7 +290,7 @@ impl Scattered {
         };
         let row = |&i: &usize| places.iter().map(|&j| entry(i, j)).collect();
         Correlation {
-            unknowns: names.to_vec(),
+            unknowns: names.cloned().collect(),
             matrix: places.iter().map(row).collect(),
         }
     }

@@ -4,9 +4,9 @@ use bolted_joint_study::{StudyError, StudyText};
 
 use super::super::super::pressure::Tightening;
 use super::super::super::uncertain::{MonteCarlo, Uncertain};
-use super::super::amplitude_damping::AmplitudeRange;
 use super::super::beam::{Layer, LayeredBeam};
 use super::super::beam_mode::HIGHEST_MODE;
+use super::super::dry_friction::AmplitudeRange;
 use super::super::error::{LayeredBeamError, positive};
 use super::super::fasteners::{FastenerKind, Fasteners, RIVET_STRESS_PA};
 use super::super::lap::EquivalentDamping;
@@ -274,7 +274,7 @@ fn damping(
         linear || !over_torque,
         "joint.damping",
         found,
-        "\"linear\": a joint file over the torque has no damping that depends on the amplitude",
+        "\"linear\": a joint file over the torque has no friction",
     )?;
     study.ensure(
         table.nominal_torque.is_none() || over_torque,

@@ -9,6 +9,7 @@
 mod brake_reuss;
 mod free_vibration;
 mod oscillator;
+mod published_backbone;
 mod refusals;
 mod responses;
 mod slipping;

@@ -105,17 +105,21 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
     }
     text += &table.render();
     let reduced = found.fit.chi_squared / found.fit.degrees_of_freedom.max(1) as f64;
+    let noise: Vec<String> = study
+        .noise_by_kind()
+        .into_iter()
+        .map(|(kind, part)| format!("{} % ({kind})", number(100.0 * part, 2)))
+        .collect();
     let _ = writeln!(
         text,
-        "\nχ² per degree of freedom {} with {} noise of {} % (response) and {} % (force); {} of {} starts agree",
+        "\nχ² per degree of freedom {} with {} noise of {}; {} of {} starts agree",
         number(reduced, 4),
         if study.noise.is_stated {
             "the stated"
         } else {
             "a nominal"
         },
-        number(100.0 * study.noise.response, 2),
-        number(100.0 * study.noise.force, 2),
+        noise.join(", "),
         found.starts.1,
         found.starts.0
     );

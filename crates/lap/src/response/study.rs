@@ -212,6 +212,22 @@ fn name_of(stated: Option<String>, file: &Path) -> String {
 }
 
 impl LapResponseStudy {
+    /// Noise of each kind of data that there is: its name and the fraction.
+    #[must_use]
+    pub fn noise_by_kind(&self) -> Vec<(&'static str, f64)> {
+        let of_sines = [
+            ("response", self.noise.response),
+            ("force", self.noise.force),
+        ];
+        let of_curves = [
+            ("frequency", self.noise.frequency),
+            ("damping", self.noise.damping),
+        ];
+        let sines = of_sines.iter().filter(|_| !self.sines.is_empty());
+        let curves = of_curves.iter().filter(|_| !self.backbones.is_empty());
+        sines.chain(curves).copied().collect()
+    }
+
     /// Reads and checks a study and its data.
     ///
     /// # Errors

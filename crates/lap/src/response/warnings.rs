@@ -5,6 +5,10 @@ use super::study::LapResponseStudy;
 
 /// χ² per degree of freedom from which on a stated noise does not explain the residual.
 const TOO_LARGE: f64 = 1.5;
+/// The same where no noise was stated, so that a nominal one is compared with: three times its deviations.
+const FAR_TOO_LARGE: f64 = 9.0;
+/// χ² per degree of freedom below which a stated noise is more than there is.
+const TOO_SMALL: f64 = 0.3;
 /// Difference of Schwarz's criterion that is strong evidence.
 const STRONG: f64 = 10.0;
 /// Errors of the resonance of a run left out that are worth a word: frequency in Hz, relative amplitude.
@@ -27,6 +31,20 @@ impl LapResponse {
         if study.noise.is_stated && reduced > TOO_LARGE {
             warnings.push(format!(
                 "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
+            ));
+        }
+        if !study.noise.is_stated && reduced > FAR_TOO_LARGE {
+            warnings.push(format!(
+                "the residual is {:.1} times the noise that is taken where none is stated: χ² per degree of freedom {reduced:.3}; all \
+                 standard deviations were raised, but they hold only if the residual is noise: state [noise], or look at the residual for \
+                 what the model leaves out",
+                reduced.sqrt()
+            ));
+        }
+        if study.noise.is_stated && reduced < TOO_SMALL {
+            warnings.push(format!(
+                "the residual is much less than the stated noise: χ² per degree of freedom {reduced:.3}; the standard deviations are \
+                 those of the stated noise"
             ));
         }
         let is_of_one = self.fit.values.slider.is_none();

@@ -75,21 +75,26 @@ impl LapResponseReport<'_> {
         });
         let rows: Vec<String> = rows.collect();
         let reduced = self.found.fit.chi_squared / self.found.fit.degrees_of_freedom.max(1) as f64;
+        let parts: Vec<String> = self
+            .study
+            .noise_by_kind()
+            .into_iter()
+            .map(|(kind, part)| format!("{} % of the {kind}", shown(100.0 * part, 3)))
+            .collect();
         let noise = match self.study.noise.is_stated {
             true => "stated",
             false => "nominal, and the intervals follow the residual",
         };
         format!(
-            "<h2>Identified parameters</h2>\n{}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise of {} % of the \
-             response and {} % of the force ({noise}); {} of {} starts agree.</p>\n",
+            "<h2>Identified parameters</h2>\n{}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise of {} \
+             ({noise}); {} of {} starts agree.</p>\n",
             table(
                 &["", "Estimate", "Std. dev.", "95 % interval", "Unit"],
                 &rows
             ),
             escaped(&self.found.model.terms.to_string()),
             shown(reduced, 4),
-            shown(100.0 * self.study.noise.response, 3),
-            shown(100.0 * self.study.noise.force, 3),
+            parts.join(", "),
             self.found.starts.1,
             self.found.starts.0,
         )

@@ -6,7 +6,7 @@ use bolted_joint::harmonic::{
     CurveOptions, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics, Observed, Target,
 };
 use bolted_joint_dynamics::law::{BoucWen, Dahl, DofLaws, Iwan, Jenkins, LuGre, Valanis};
-use bolted_joint_dynamics::{Body, JointLaw, Lap, LapMoment, LapStepper, Linear};
+use bolted_joint_dynamics::{Body, JointLaw, Lap, LapMoment, LapState, LapStepper, Linear};
 use num_complex::Complex64;
 
 const SPAN: f64 = 1.316_129_032_258_1;
@@ -319,5 +319,45 @@ fn multipliers_are_those_of_two_histories() {
         }
         let error = size(&left) / scale;
         assert!(error < 3e-3, "{law:?}: {own:?} {error:e}");
+    }
+}
+
+/// Dry friction without a spring before it is what a slider tends to as its spring gets stiff: Den Hartog's amplitude of motion
+/// without stops, X = (F/k) √(V² − (F_f/F)² U²) with V = 1/(1−r²), U = sin(π/r)/(r (1 + cos(π/r)))
+/// (Trans. ASME 53 (1931) 107).
+#[test]
+fn a_stiff_slider_tends_to_den_hartog_s_dry_friction() {
+    let friction = 0.3;
+    for (ratio, expected) in [
+        (0.8, 2.626_104_875_723),
+        (1.5, 0.721_110_255_093),
+        (2.0, 0.297_676_184_992),
+    ] {
+        let error = |stiffness: f64| {
+            let law = Jenkins {
+                stiffness,
+                slip_force: friction,
+            };
+            let mut lap = oscillator(law.into(), 0.0);
+            lap.joint.linear.stiffness = [[1.0]];
+            let mut moment = LapMoment::from(LapState::REST);
+            let steps = 3000;
+            follow(&lap, &mut moment, 1.0, ratio, [100, steps], |_, _| {});
+            let mut largest: f64 = 0.0;
+            follow(&lap, &mut moment, 1.0, ratio, [1, steps], |_, r| {
+                largest = largest.max(r.abs());
+            });
+            largest / expected - 1.0
+        };
+        // the spring's stiffness at the turns goes with √(h/k)
+        let [soft, stiff] = [error(300.0), error(3000.0)];
+        let root = 10.0_f64.sqrt();
+        assert!(stiff.abs() < 2e-2, "{ratio}: {stiff:e}");
+        assert!(
+            (soft / stiff / root - 1.0).abs() < 0.1,
+            "{ratio}: {soft:e} {stiff:e}"
+        );
+        let limit = (root * stiff - soft) / (root - 1.0);
+        assert!(limit.abs() < 5e-4, "{ratio}: {limit:e}");
     }
 }

@@ -38,9 +38,14 @@ impl<const D: usize> LapConditions<D> {
         // part of the step that is behind
         let mut done = 0.0;
         for cuts in 0..=MOST_CUTS {
-            let stages = [done, 0.5 * (done + 1.0), 1.0].map(|part| Self::within(conditions, part));
             let left_s = step_s * (1.0 - done);
-            let next = Self::plain_step(stages.each_ref(), &counted, memory, left_s);
+            let next = if done == 0.0 {
+                Self::plain_step(conditions, &counted, memory, step_s)
+            } else {
+                let parts = [done, 0.5 * (done + 1.0), 1.0];
+                let stages = parts.map(|part| Self::within(conditions, part));
+                Self::plain_step(stages.each_ref(), &counted, memory, left_s)
+            };
             let (before, after) = (counted.state.relative(), next.state.relative());
             let cut = law.first_cut(memory, [&before, &after], left_s);
             let Some(cut) = cut.filter(|_| cuts < MOST_CUTS) else {

@@ -171,7 +171,7 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
         (balance(&format!("{band}[load]\namplitude = 1\n[harmonics]\nhighest = 0\n")), ["`harmonics.highest`: found 0", "1 to"]),
         (balance(&format!("{band}lines = 10\n[load]\namplitude = 1\n")), ["`frequency.lines`", "chooses its own points"]),
         (balance(&format!("{band}[load]\namplitude = 1\ndof = \"theta\"\n")), ["`load.dof`", "theta"]),
-        (balance(&format!("{band}[load]\namplitude = 1\n[start]\n\"a.y\" = 1\n")), ["`start`", "no use for it"]),
+        (balance(&format!("{band}[load]\namplitude = 1\n[start]\n\"a.y\" = 1\n")), ["`start`", "kind \"harmonic-balance\" has no use for it"]),
         (format!("motions = [\"c.y\"]\n{}", balance(&format!("{band}[load]\namplitude = 1\n"))), ["`motions`", "\"c.y\""]),
         (balance("frequencies = 3"), ["unknown field", "frequencies"]),
         (study("harmonics", ""), ["study.toml", "unknown variant"]),

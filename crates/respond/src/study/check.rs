@@ -52,9 +52,9 @@ pub(super) fn tables(study: &StudyText, file: &StudyFile) -> Result<(), StudyErr
         ),
         ("start", file.start.is_some(), of(&[FreeDecay]), false),
     ] {
-        let expected = format!("a table, for kind {kind:?}");
+        let expected = format!("a table, for kind \"{kind}\"");
         study.ensure(is_there || !needed, key, "nothing", expected)?;
-        let expected = format!("no such table: kind {kind:?} has no use for it");
+        let expected = format!("no such table: kind \"{kind}\" has no use for it");
         study.ensure(!is_there || needed || useful, key, "a table", expected)?;
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! The tables of a response study as they stand in its TOML file, before anything is checked.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::PathBuf;
 
 use bolted_joint_joint::DofName;
@@ -42,6 +43,24 @@ pub(super) enum Kind {
     Dwell,
     FreeDecay,
     Hysteresis,
+}
+
+impl fmt::Display for Kind {
+    /// As a study names it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Linear => "linear",
+            Self::HarmonicBalance => "harmonic-balance",
+            Self::ConstantAmplitude => "constant-amplitude",
+            Self::Backbone => "backbone",
+            Self::PhaseResonance => "phase-resonance",
+            Self::SteppedSine => "stepped-sine",
+            Self::Sweep => "sweep",
+            Self::Dwell => "dwell",
+            Self::FreeDecay => "free-decay",
+            Self::Hysteresis => "hysteresis",
+        })
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]

@@ -244,6 +244,31 @@ fn a_loop_has_the_heat_of_its_slider() {
     }
 }
 
+/// Six laws with the same slip force: none loses more than dry friction, D = 4hU but for what sticks.
+#[test]
+fn the_laws_of_the_example_lose_no_more_than_dry_friction() {
+    let bench = files_of("friction");
+    bench.done("respond laws.toml -o laws.csv --report laws.svg");
+    let table = table(&bench.text("laws.csv"));
+    let heat = |name: &str| {
+        let mut rows = table.iter().filter(|(lap, _)| lap == name);
+        rows.next_back().unwrap().1["heat"]
+    };
+    let (h, u) = (4000.0, 6e-4);
+    close(heat("dry"), 4.0 * h * (u - h / 4e9), 1e-12);
+    close(heat("Jenkins"), 4.0 * h * (u - h / 1.5e7), 1e-12);
+    // its slip force in slow motion is the static one
+    let most = 4.0 * 1.5 * h * u;
+    for (name, most) in [
+        ("Iwan", heat("Jenkins")),
+        ("Valanis", heat("dry")),
+        ("Bouc–Wen", heat("dry")),
+        ("LuGre", most),
+    ] {
+        assert!(heat(name) > 0.1 * most && heat(name) < most, "{name}");
+    }
+}
+
 /// At small amplitudes all sticks; where all slips the slider's stiffness is lost and D = 4h(U − h/k) is left.
 #[test]
 fn a_backbone_of_a_joint_that_slips_falls() {

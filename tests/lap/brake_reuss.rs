@@ -168,7 +168,25 @@ fn each_run_is_predicted_from_the_others() {
             row.frequency_error_hz().unwrap(),
             row.amplitude_error().unwrap(),
         );
-        println!("{run}: {hz:+.3} Hz, {:+.1} %", 100.0 * amplitude);
+        let expected = row.interval_95.unwrap();
+        let [low, high] = expected.frequency_hz;
+        let [least, most] = expected.displacement_m;
+        let holds = [
+            (low..=high).contains(&row.measured.frequency_hz),
+            (least..=most).contains(&row.measured.displacement_m),
+        ];
+        println!(
+            "{run}: {hz:+.3} Hz of ±{:.3}, {:+.1} % of ±{:.1}: {holds:?}",
+            0.5 * (high - low),
+            100.0 * amplitude,
+            50.0 * (most / least).ln()
+        );
+        // that of the lowest level, too, which is missed by a third
+        assert!(
+            holds == [true; 2],
+            "{run}: {expected:?} does not hold {:?}",
+            row.measured
+        );
         // The run of the lowest level is a quarter of the next: what damping is left there is an extrapolation.
         let is_lowest = *run == RUNS[0];
         // The turn from softening to stiffening at 50 m/s² is sharp without a run there.

@@ -15,9 +15,9 @@ pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     BackboneLine, BackbonePrediction, BackboneRun, Estimate, Fit, LapResponse, LapResponseStudy,
-    Model, ModelComparison, Noise, Place, Prediction, Resonance, ResponseUnknown, SineLine,
-    SineRun, Slider, SliderParameter, SliderValues, TermSet, Use, Values, fit_responses,
-    measured_resonance, predicted_resonance,
+    Model, ModelComparison, Noise, Place, Prediction, Resonance, ResonanceInterval,
+    ResponseUnknown, SineLine, SineRun, Slider, SliderParameter, SliderValues, TermSet, Use,
+    Values, fit_responses, measured_resonance, predicted_resonance,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

@@ -143,13 +143,15 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
             "force, N",
             "measured, Hz",
             "model",
+            "expected, 95 %",
             "error, Hz",
             "measured, mm",
             "model",
+            "expected, 95 %",
             "error",
         ]);
         for row in &found.predictions {
-            let predicted = row.predicted;
+            let (predicted, expected) = (row.predicted, row.interval_95);
             let optional = |value: Option<String>| value.unwrap_or_else(|| "none".to_owned());
             table.row(vec![
                 row.run.clone(),
@@ -157,9 +159,17 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
                 number(row.measured.force_n, 3),
                 format!("{:.3}", row.measured.frequency_hz),
                 optional(predicted.map(|at| format!("{:.3}", at.frequency_hz))),
+                optional(expected.map(|at| {
+                    let [low, high] = at.frequency_hz;
+                    format!("{low:.3} … {high:.3}")
+                })),
                 optional(row.frequency_error_hz().map(|error| format!("{error:+.3}"))),
                 number(1e3 * row.measured.displacement_m, 4),
                 optional(predicted.map(|at| number(1e3 * at.displacement_m, 4))),
+                optional(expected.map(|at| {
+                    let [low, high] = at.displacement_m.map(|m| number(1e3 * m, 3));
+                    format!("{low} … {high}")
+                })),
                 optional(
                     row.amplitude_error()
                         .map(|error| format!("{:+.1} %", 100.0 * error)),

@@ -28,7 +28,8 @@ pub use data::{SineLine, SineRun, Use};
 pub use fit::Fit;
 pub use model::{Model, ResponseUnknown, Values};
 pub use prediction::{
-    BackbonePrediction, Prediction, Resonance, measured_resonance, predicted_resonance,
+    BackbonePrediction, Prediction, Resonance, ResonanceInterval, measured_resonance,
+    predicted_resonance,
 };
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};

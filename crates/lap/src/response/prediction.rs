@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use nalgebra::{Matrix2, Vector2};
+use bolted_joint_statistics::student_975;
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
 use super::backbone::BackboneRun;
@@ -37,16 +38,66 @@ pub struct Prediction {
     pub measured: Resonance,
     /// Of the model at the same force; `None` if it has none there.
     pub predicted: Option<Resonance>,
+    /// Within which a measurement is expected, with 95 %; `None` where too few runs were fitted to tell how they scatter.
+    pub interval_95: Option<ResonanceInterval>,
+    #[serde(skip)]
+    gradients: Option<Gradients>,
 }
 
+/// Where a run's resonance is expected.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ResonanceInterval {
+    /// Hz
+    pub frequency_hz: [f64; 2],
+    /// Amplitude of the displacement, m.
+    pub displacement_m: [f64; 2],
+}
+
+/// How a resonance changes with the unknowns, each in its standard deviations: Hz, and the logarithm of the displacement's
+/// amplitude.
+#[derive(Clone, Debug, PartialEq)]
+struct Gradients {
+    by_unknown: [DVector<f64>; 2],
+}
+
+/// Part of an unknown's standard deviation by which it is moved for a difference.
+const PART: f64 = 0.1;
+/// Fewest runs beyond what the unknowns take up that tell how runs scatter about the model.
+const FEWEST_FREE: f64 = 1.5;
+
 impl Prediction {
-    pub(super) fn of(model: &Model, values: &Values, run: &SineRun) -> Option<Self> {
+    /// Of all runs; `covariance` is that of the unknowns as they are searched.
+    pub(super) fn of_all(
+        model: &Model,
+        values: &Values,
+        runs: &[SineRun],
+        covariance: &DMatrix<f64>,
+    ) -> Vec<Self> {
+        let runs = runs.iter();
+        let mut all: Vec<Self> = runs
+            .filter_map(|run| Self::of(model, values, run, covariance))
+            .collect();
+        expect(&mut all);
+        all
+    }
+
+    fn of(
+        model: &Model,
+        values: &Values,
+        run: &SineRun,
+        covariance: &DMatrix<f64>,
+    ) -> Option<Self> {
         let measured = measured_resonance(run)?;
+        let predicted = predicted_resonance(model, values, &measured);
+        let gradients =
+            predicted.and_then(|at| gradients(model, values, &measured, &at, covariance));
         Some(Self {
             run: run.name.clone(),
             left_out: run.used_for == Use::Predict,
             measured,
-            predicted: predicted_resonance(model, values, &measured),
+            predicted,
+            interval_95: None,
+            gradients,
         })
     }
 
@@ -61,6 +112,102 @@ impl Prediction {
     pub fn amplitude_error(&self) -> Option<f64> {
         let acceleration = |at: &Resonance| at.displacement_m * at.frequency_hz.powi(2);
         Some(acceleration(&self.predicted?) / acceleration(&self.measured) - 1.0)
+    }
+}
+
+/// How a resonance changes with the unknowns, by differences.
+fn gradients(
+    model: &Model,
+    values: &Values,
+    measured: &Resonance,
+    predicted: &Resonance,
+    covariance: &DMatrix<f64>,
+) -> Option<Gradients> {
+    let none = DVector::zeros(covariance.nrows());
+    let mut by_unknown = [none.clone(), none];
+    for (place, unknown) in model.unknowns.iter().enumerate() {
+        let mut moved = *values;
+        *moved.place(*unknown)? += PART * covariance[(place, place)].sqrt();
+        let found = predicted_resonance(model, &moved, measured)?;
+        by_unknown[0][place] = (found.frequency_hz - predicted.frequency_hz) / PART;
+        by_unknown[1][place] = (found.displacement_m / predicted.displacement_m).ln() / PART;
+    }
+    Some(Gradients { by_unknown })
+}
+
+/// Where each run is expected. Runs differ from the model by more than the noise of their lines, and each as a whole: the error of
+/// a run is taken as one number in frequency and one in amplitude. With the gradients G of the fitted runs, in deviations s of
+/// these errors, a new run has the variance s² (1 + g (GᵀG)⁻¹ gᵀ), and s² = Σe²/(n − p) where p, the part of the errors that the
+/// unknowns take up, is the trace of G (GᵀG)⁻¹ Gᵀ over them.
+fn expect(all: &mut [Prediction]) {
+    let fitted: Vec<([f64; 2], &Gradients)> = all
+        .iter()
+        .filter(|row| !row.left_out)
+        .filter_map(|row| {
+            let relative = row.predicted?.displacement_m / row.measured.displacement_m;
+            Some((
+                [row.frequency_error_hz()?, relative.ln()],
+                row.gradients.as_ref()?,
+            ))
+        })
+        .collect();
+    let Some((_, first)) = fitted.first() else {
+        return;
+    };
+    let (count, unknowns) = (fitted.len() as f64, first.by_unknown[0].len());
+    let squares = [0, 1].map(|kind| {
+        let each = fitted.iter().map(|(errors, _)| errors[kind].powi(2));
+        each.sum::<f64>()
+    });
+    let mut taken_up = [0.0; 2];
+    let mut inverse = DMatrix::zeros(unknowns, unknowns);
+    let mut variances = [0.0; 2];
+    for _ in 0..ITERATIONS {
+        let free = taken_up.map(|taken_up| count - taken_up);
+        if free.iter().any(|&free| free < FEWEST_FREE) {
+            return;
+        }
+        variances = [0, 1].map(|kind| squares[kind] / free[kind]);
+        let mut normal = DMatrix::zeros(unknowns, unknowns);
+        for (_, gradients) in &fitted {
+            for (by, variance) in gradients.by_unknown.iter().zip(variances) {
+                normal.ger(1.0 / variance, by, by, 1.0);
+            }
+        }
+        let Ok(found) = normal.pseudo_inverse(ACCURACY) else {
+            return;
+        };
+        inverse = found;
+        let before = taken_up;
+        taken_up = [0, 1].map(|kind| {
+            let each = fitted.iter().map(|(_, gradients)| {
+                let by = &gradients.by_unknown[kind];
+                by.dot(&(&inverse * by)) / variances[kind]
+            });
+            each.sum()
+        });
+        let moves = (0..2).map(|kind| (taken_up[kind] - before[kind]).abs());
+        if moves.fold(0.0, f64::max) < 1e-3 {
+            break;
+        }
+    }
+    let quantiles = taken_up.map(|taken_up| student_975((count - taken_up).round() as usize));
+    for row in all {
+        let (Some(at), Some(own)) = (row.predicted, &row.gradients) else {
+            continue;
+        };
+        let [of_frequency, of_displacement] = [0, 1].map(|kind| {
+            let by = &own.by_unknown[kind];
+            quantiles[kind] * (variances[kind] + by.dot(&(&inverse * by))).sqrt()
+        });
+        let factor = of_displacement.exp();
+        row.interval_95 = Some(ResonanceInterval {
+            frequency_hz: [
+                at.frequency_hz - of_frequency,
+                at.frequency_hz + of_frequency,
+            ],
+            displacement_m: [at.displacement_m / factor, at.displacement_m * factor],
+        });
     }
 }
 

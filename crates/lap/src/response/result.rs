@@ -86,9 +86,9 @@ impl LapResponse {
             reduced
         };
         // The covariance of χ²'s information is its inverse; the function gives half of it.
-        let covariance = 2.0 * factor * unit_covariance(&fit.information);
+        let searched = 2.0 * factor * unit_covariance(&fit.information);
         let by_searched = by_searched(&model, &fit.values);
-        let covariance = &by_searched * covariance * by_searched.transpose();
+        let covariance = &by_searched * &searched * by_searched.transpose();
         let amplitude_m = fit.largest_amplitude_m(&choice::fitted_backbone(study));
         let quantile = if study.noise.is_stated {
             NORMAL_975
@@ -117,11 +117,7 @@ impl LapResponse {
         let estimates = estimates.collect();
         let predictions = match model.sees_sum() {
             true => Vec::new(),
-            false => {
-                let runs = study.sines.iter();
-                runs.filter_map(|run| Prediction::of(&model, &fit.values, run))
-                    .collect()
-            }
+            false => Prediction::of_all(&model, &fit.values, &study.sines, &searched),
         };
         let backbones = study.backbones.iter();
         let of_backbones = backbones.map(|run| BackbonePrediction::of(&fit.values, run));

@@ -119,6 +119,10 @@ impl LapResponseReport<'_> {
                 number_cell(&optional(
                     row.predicted.map(|at| format!("{:.3}", at.frequency_hz)),
                 )),
+                number_cell(&optional(row.interval_95.map(|at| {
+                    let [low, high] = at.frequency_hz;
+                    format!("{low:.3} … {high:.3}")
+                }))),
                 number_cell(&optional(
                     row.frequency_error_hz()
                         .map(|error| signed(format!("{error:+.3}"))),
@@ -127,6 +131,10 @@ impl LapResponseReport<'_> {
                 number_cell(&optional(
                     row.predicted.map(|at| shown(1e6 * at.displacement_m, 4)),
                 )),
+                number_cell(&optional(row.interval_95.map(|at| {
+                    let [low, high] = at.displacement_m.map(|m| shown(1e6 * m, 3));
+                    format!("{low} … {high}")
+                }))),
                 number_cell(&optional(
                     row.amplitude_error()
                         .map(|error| signed(format!("{:+.1} %", 100.0 * error))),
@@ -137,10 +145,11 @@ impl LapResponseReport<'_> {
         let rows: Vec<String> = rows.collect();
         format!(
             "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90°: measured, and of the model at the force that was \
-             measured there. The last column is the error of the acceleration’s amplitude.</p>\n{}{}",
+             measured there. Expected is what the unknowns’ deviations and the scatter of the fitted runs about the model leave open. \
+             The last column is the error of the acceleration’s amplitude.</p>\n{}{}",
             table(
                 &columns(
-                    "Run||Force, N|Measured, Hz|Model, Hz|Error, Hz|Measured, µm|Model, µm|Error"
+                    "Run||Force, N|Measured, Hz|Model, Hz|Expected, 95 %|Error, Hz|Measured, µm|Model, µm|Expected, 95 %|Error"
                 ),
                 &rows
             ),

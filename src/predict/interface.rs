@@ -12,7 +12,7 @@ use super::super::table::{Table, number};
 use super::{PredictArguments, refuse};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::{matrix27, table};
-use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, State};
+use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, Slip, State};
 use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
 use bolted_joint::study::{Method, StudyError, StudyText};
@@ -203,11 +203,29 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
             let [low, high] = estimate.interval_95;
             row.push(number(estimate.standard_deviation, 2));
             row.push(format!("{} … {}", number(low, 4), number(high, 4)));
+        } else if found.outcome.is_some() {
+            row.extend([String::new(), String::new()]);
         }
         row.push(unknown.unit);
         table.row(row);
     }
-    text + &table.render()
+    text += &table.render();
+    for slip in &state.slips {
+        let fitted = &slip.fitted;
+        let _ = writeln!(
+            text,
+            "  {} slips: the law's heat is within {} % of that of {} patches from {} to {} {} ({} % r.m.s.), its load within {} %",
+            slip.dof.name,
+            number(100.0 * fitted.worst_heat_error, 2),
+            slip.patches.count(),
+            number(fitted.amplitudes.from, 2),
+            number(fitted.amplitudes.to, 2),
+            slip.dof.kind.displacement_unit(),
+            number(100.0 * fitted.heat_error, 2),
+            number(100.0 * fitted.worst_load_error, 2),
+        );
+    }
+    text
 }
 
 /// Which inputs the scatter comes from.
@@ -226,6 +244,23 @@ fn shares(found: &Prediction<'_>) -> String {
         }
     }
     text
+}
+
+/// The friction of a DOF.
+fn slip(slip: &Slip) -> Value {
+    let (law, amplitudes) = (&slip.fitted.law, &slip.fitted.amplitudes);
+    json!({
+        "dof": slip.dof.name,
+        "slip_force": law.slip_force,
+        "stiffness": law.stiffness,
+        "exponent": law.exponent,
+        "ratio": law.ratio,
+        "patches": slip.patches.count(),
+        "amplitudes": [amplitudes.from, amplitudes.to],
+        "heat_error": slip.fitted.heat_error,
+        "worst_heat_error": slip.fitted.worst_heat_error,
+        "worst_load_error": slip.fitted.worst_load_error,
+    })
 }
 
 fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[String]) -> Value {
@@ -254,6 +289,7 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
                 "stiffness": state.interface.stiffness,
                 "hysteretic_damping": state.interface.hysteretic,
                 "viscous_damping": state.interface.viscous,
+                "slip": state.slips.iter().map(slip).collect::<Vec<_>>(),
             })
         })
         .collect();

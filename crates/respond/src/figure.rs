@@ -67,7 +67,9 @@ impl RespondStudy {
             if is_history {
                 for series in &table.series {
                     let title = match series.level {
-                        Some(level) => format!("{}, {level} {}", series.lap, table.level_unit),
+                        Some(level) => {
+                            format!("{}, {} {}", series.lap, short(level), table.level_unit)
+                        }
                         None => series.lap.clone(),
                     };
                     panels.push(panel(title, vec![curve(String::new(), series, up)]));
@@ -80,7 +82,7 @@ impl RespondStudy {
                 for group in groups {
                     let named = |series: &Series| {
                         let level = series.level.unwrap_or(f64::NAN);
-                        curve(format!("{level} {}", table.level_unit), series, up)
+                        curve(format!("{} {}", short(level), table.level_unit), series, up)
                     };
                     panels.push(panel(
                         group[0].lap.clone(),
@@ -95,5 +97,13 @@ impl RespondStudy {
             panels,
         }
         .to_svg()
+    }
+}
+
+/// A level as people write it: small and large ones by a power of ten.
+fn short(level: f64) -> String {
+    match level.abs() {
+        size if size == 0.0 || (1e-4..1e7).contains(&size) => level.to_string(),
+        _ => format!("{level:e}"),
     }
 }

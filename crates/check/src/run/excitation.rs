@@ -214,13 +214,12 @@ fn amplitude(file: &JointFile) -> Vec<f64> {
     dofs.rows()
         .enumerate()
         .map(|(i, dof)| {
-            let k = file.joint.stiffness.get(i).and_then(|row| row.get(i));
             let nonlinear = nonlinear.get(i).copied().unwrap_or(f64::INFINITY);
-            let by_terms = match k {
-                Some(&k) if k > 0.0 && nonlinear > 0.0 && nonlinear.is_finite() => {
-                    (part * nonlinear).min(of_kind(LARGEST_AMPLITUDE, dof.kind))
-                }
-                _ => of_kind(LINEAR_AMPLITUDE, dof.kind),
+            // zero of a polynomial without a spring beside it
+            let by_terms = if nonlinear > 0.0 && nonlinear.is_finite() {
+                (part * nonlinear).min(of_kind(LARGEST_AMPLITUDE, dof.kind))
+            } else {
+                of_kind(LINEAR_AMPLITUDE, dof.kind)
             };
             let escape = escape.get(i).copied().flatten();
             escape.map_or(by_terms, |escape| by_terms.min(part * escape))

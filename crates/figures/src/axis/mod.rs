@@ -169,6 +169,22 @@ mod tests {
     }
 
     #[test]
+    fn small_and_large_values_share_a_power_of_ten() {
+        let micro = Axis::Linear {
+            low: -4e-6,
+            high: 4e-6,
+        };
+        let expected = ["−4·10⁻⁶", "−2·10⁻⁶", "0", "2·10⁻⁶", "4·10⁻⁶"];
+        assert_eq!(labels(&micro.ticks(10)), expected);
+        let large = Axis::Linear {
+            low: 9.5e6,
+            high: 1.05e7,
+        };
+        let expected = ["0.96·10⁷", "0.98·10⁷", "1.00·10⁷", "1.02·10⁷", "1.04·10⁷"];
+        assert_eq!(labels(&large.ticks(12)), expected);
+    }
+
+    #[test]
     fn axes_without_extent_are_widened() {
         assert_eq!(
             Axis::linear([].into_iter()),

@@ -5,6 +5,10 @@ use super::series::{TICK_ROUNDING, mantissa, one_two_five, series_at_least};
 /// Ticks of a logarithmic axis are written as plain numbers if all lie within these powers of ten.
 const PLAIN_EXPONENTS: std::ops::RangeInclusive<i32> = -3..=3;
 
+/// Ticks of a linear axis are written as plain numbers with so many decimals at most, and below this magnitude.
+const PLAIN_DECIMALS: usize = 4;
+const PLAIN_BELOW: f64 = 1e6;
+
 /// Text beside a tick.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TickLabel {
@@ -45,10 +49,20 @@ pub(super) fn phase_tick(degrees: i32) -> Tick {
 }
 
 pub(super) fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
-    let step_number = series_at_least((high - low) / f64::from(most.max(1)));
+    let step_of = |most: u32| series_at_least((high - low) / f64::from(most.max(1)));
+    let decimals_of = |number: i32| usize::try_from(-number.div_euclid(3)).unwrap_or(0);
+    let largest = low.abs().max(high.abs());
+    let is_plain = decimals_of(step_of(most)) <= PLAIN_DECIMALS && largest < PLAIN_BELOW;
+    // the power of ten that all labels share, which takes room
+    let power = (!is_plain && largest.is_normal()).then(|| largest.log10().floor() as i32);
+    let step_number = step_of(if power.is_some() {
+        most.div_ceil(2)
+    } else {
+        most
+    });
     let step = one_two_five(step_number);
     let parts = if mantissa(step_number) == 2 { 4 } else { 5 };
-    let decimals = usize::try_from(-step_number.div_euclid(3)).unwrap_or(0);
+    let decimals = decimals_of(step_number);
     let minor_step = step / f64::from(parts);
 
     let mut ticks = Ticks::default();
@@ -59,7 +73,16 @@ pub(super) fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
         let value = count * minor_step;
         if count % f64::from(parts) == 0.0 {
             // Adding zero turns −0 into 0.
-            let text = format!("{:.decimals$}", count / f64::from(parts) * step + 0.0);
+            let exact = count / f64::from(parts) * step + 0.0;
+            let text = match power {
+                None => format!("{exact:.decimals$}"),
+                Some(_) if exact == 0.0 => "0".to_owned(),
+                Some(power) => {
+                    let shown = usize::try_from(power - step_number.div_euclid(3)).unwrap_or(0);
+                    let mantissa = exact / 10_f64.powi(power);
+                    format!("{mantissa:.shown$}·10{}", raised(power))
+                }
+            };
             ticks.major.push(Tick {
                 value,
                 label: TickLabel::Plain(with_minus_sign(&text)),
@@ -124,6 +147,18 @@ fn logarithmic_label(mantissa: u8, exponent: i32, plain: bool) -> TickLabel {
     } else {
         TickLabel::Power { mantissa, exponent }
     }
+}
+
+/// An exponent in raised digits.
+fn raised(exponent: i32) -> String {
+    let raise = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32(u32::from('⁰') + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    };
+    exponent.to_string().chars().map(raise).collect()
 }
 
 /// `number` with the typographic minus sign, which is as wide as a plus.

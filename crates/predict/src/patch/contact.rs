@@ -17,6 +17,17 @@ pub struct Contact {
     pub tangential_damping_n_per_m3: f64,
 }
 
+impl Contact {
+    /// What it has along the normal alone.
+    pub(crate) fn along_normal(self) -> Self {
+        Self {
+            tangential_stiffness_n_per_m3: 0.0,
+            tangential_damping_n_per_m3: 0.0,
+            ..self
+        }
+    }
+}
+
 /// Σ s ΔA, Σ s r_x ΔA, … Σ s r_y² ΔA of a density s, with lever arms r from a reference point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PatchMoments {

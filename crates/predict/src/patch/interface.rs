@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::pressure::Element;
 
+use super::axis::Axis;
 use super::contact::{Contact, ContactMoments, PatchMoments};
 use super::damping::NormalDamping;
 use crate::number::{NumberError, positive};
@@ -78,6 +79,28 @@ impl InterfaceJoint {
                 moments.tangential_damping.sum,
             ],
         })
+    }
+
+    /// How far an element is displaced along the interface by a unit of a translation along an axis, or of a rotation about it:
+    /// along x and y.
+    pub(crate) fn tangential_arm(
+        &self,
+        element: &Element,
+        axis: Axis,
+        is_rotation: bool,
+    ) -> [f64; 2] {
+        let [x, y, z] = self.reference_m;
+        // the interface lies at −z of the reference point
+        let [x, y, z] = [element.x_m - x, element.y_m - y, -z];
+        match (axis, is_rotation) {
+            (Axis::X, false) => [1.0, 0.0],
+            (Axis::Y, false) => [0.0, 1.0],
+            (Axis::Z, false) => [0.0, 0.0],
+            // θ × r
+            (Axis::X, true) => [0.0, -z],
+            (Axis::Y, true) => [z, 0.0],
+            (Axis::Z, true) => [-y, x],
+        }
     }
 
     /// All damping as a dashpot that dissipates the same at this frequency (Hz): C + D/ω.

@@ -41,6 +41,15 @@ pub enum ModelError {
     /// Axes of the joint.
     #[error(transparent)]
     Planar(#[from] PlanarError),
+    /// Translation and rotation of the joint slide the same patches the same way.
+    #[error(
+        "translation and rotation slide the interface the same way (by {part:.2e} of their stiffness): expected a reference point at the \
+         centre of the tangential stiffness, in the interface, or no rotation"
+    )]
+    CoupledSlip {
+        /// What they share, 0 to 1.
+        part: f64,
+    },
     /// A correlation of inputs.
     #[error(transparent)]
     Correlation(NumberError),

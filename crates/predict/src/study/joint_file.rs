@@ -2,7 +2,7 @@
 
 use crate::uncertain::{Estimate, Outcome};
 use bolted_joint_joint::{
-    Correlation, DofSet, Format, Intervals, Joint, JointFile, OverPreload, Provenance,
+    Correlation, DofSet, Format, Friction, Intervals, Joint, JointFile, OverPreload, Provenance,
     StandardDeviation, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
@@ -10,7 +10,8 @@ use bolted_joint_study::provenance;
 
 use super::model::State;
 use super::prediction::{CONTACT_ALONE, Prediction};
-use super::results::{at, unknowns};
+use super::results::{Unknown, at, unknowns};
+use super::slip::Slip;
 
 impl Prediction<'_> {
     /// The joint file: one joint, or one over the torques of the table.
@@ -19,7 +20,10 @@ impl Prediction<'_> {
         let nominal = self.nominal();
         let dofs = self.study.planar.dofs();
         let planar = &nominal.planar;
-        let joint = Joint::linear(dofs, planar.stiffness.clone(), planar.damping.clone());
+        let mut joint = Joint::linear(dofs, planar.stiffness.clone(), planar.damping.clone());
+        let slips = nominal.slips.iter();
+        let laws = slips.filter_map(|slip| Friction::of(slip.dof, &slip.fitted.law));
+        joint.friction.extend(laws);
         JointFile {
             format: Format::V1,
             name: self.study.name.clone(),
@@ -146,10 +150,41 @@ impl Prediction<'_> {
                 _ => None,
             },
             level: Some(format!(
-                "{preload}pressures of up to {} MPa; motion small enough for the interface neither to open nor to slide",
-                range(1e-6 * low_pa, 1e-6 * high_pa)
+                "{preload}pressures of up to {} MPa; motion small enough for the interface {}",
+                range(1e-6 * low_pa, 1e-6 * high_pa),
+                match self.study.microslip {
+                    None => "neither to open nor to slide",
+                    Some(_) => "not to open",
+                }
             )),
         }
+    }
+
+    /// How the friction of a DOF came about, how close it is, and how well its numbers are known.
+    fn slip_note(&self, slip: &Slip) -> String {
+        let fitted = &slip.fitted;
+        let length = slip.dof.kind.displacement_unit();
+        let known = |unknown: Unknown| {
+            let estimate = self.estimate(&unknown.name, self.nominal().torque_n_m)?;
+            let deviation = estimate.standard_deviation;
+            Some(format!(
+                " {} = {:.4e} ± {deviation:.1e} {}.",
+                unknown.name, unknown.value, unknown.unit
+            ))
+        };
+        format!(
+            "{} slips: {} patches follow Mindlin's contact and slip through at the friction of their pressure; one law stands for them, whose heat \
+             in a cycle is within {:.0} % of theirs from {:.2e} to {:.2e} {length} ({:.0} % r.m.s.), its load within {:.1} %. Each motion slips by \
+             itself.{}",
+            slip.dof.name,
+            slip.patches.count(),
+            100.0 * fitted.worst_heat_error,
+            fitted.amplitudes.from,
+            fitted.amplitudes.to,
+            100.0 * fitted.heat_error,
+            100.0 * fitted.worst_load_error,
+            slip.unknowns().filter_map(known).collect::<String>()
+        )
     }
 
     fn provenance(&self) -> Provenance {
@@ -177,6 +212,7 @@ impl Prediction<'_> {
                 study.frequency_hz
             ),
         ];
+        notes.extend(self.nominal().slips.iter().map(|slip| self.slip_note(slip)));
         notes.extend(study.notes.iter().cloned());
         let model = match study.planar.rotation() {
             None => "translation",

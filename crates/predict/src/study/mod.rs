@@ -18,6 +18,7 @@ mod model;
 mod prediction;
 mod refusal;
 mod results;
+mod slip;
 mod tables;
 mod warnings;
 
@@ -28,3 +29,4 @@ pub use law::Layer;
 pub use model::State;
 pub use prediction::{CONTACT_ALONE, Prediction};
 pub use results::Unknown;
+pub use slip::{Microslip, Slip};

@@ -1,12 +1,14 @@
 //! From one set of values to the joint: the contact, the pressure, and their sum over the interface.
 
 use crate::fractal::{FractalContact, Friction, PerArea};
+use crate::microslip::Patches;
 use crate::patch::{Contact, InterfaceJoint, PlanarJoint};
-use crate::pressure::{Balance, Bolt, PressureField};
+use crate::pressure::{Balance, Bolt, Element, PressureField};
 use crate::surface::Roughness;
-use crate::uncertain::{Drawn, InputPlace};
+use crate::uncertain::{Drawn as Values, InputPlace};
 use crate::virtual_material::LayerContact;
 use crate::{Material, Pair};
+use bolted_joint_dynamics::Dof;
 
 use super::both_surfaces::both;
 use super::check::{ContactInputs, InterfaceStudy, MaterialInputs, SurfaceInput, SurfaceInputs};
@@ -14,6 +16,7 @@ use super::contact_curve::ContactLaw;
 use super::error::ModelError;
 use super::geometry::Plate;
 use super::law::{Law, Layer, LayerLaw, OverField};
+use super::slip::{self, Slip, SlipSums};
 
 /// The joint at one torque, or at the only tightness.
 #[derive(Debug, Clone)]
@@ -34,8 +37,18 @@ pub struct State {
     pub layer: Option<Layer>,
     /// The joint.
     pub interface: InterfaceJoint,
-    /// The part of it in the joint file.
+    /// The part of it in the joint file's matrices: all, or what does not slip.
     pub planar: PlanarJoint,
+    /// The friction of each relative DOF of the joint that slips, where the study asks for it.
+    pub slips: Vec<Slip>,
+}
+
+/// What a draw comes to.
+#[derive(Debug, Clone)]
+pub(super) struct Drawn {
+    pub(super) interface: InterfaceJoint,
+    pub(super) planar: PlanarJoint,
+    pub(super) slips: Vec<SlipSums>,
 }
 
 impl State {
@@ -78,7 +91,7 @@ impl InterfaceStudy {
     }
 
     /// The contact of these values.
-    pub(super) fn law(&self, values: &Drawn) -> Result<Law, ModelError> {
+    pub(super) fn law(&self, values: &Values) -> Result<Law, ModelError> {
         let of = |place: InputPlace| values.of(place);
         let material = |inputs: &MaterialInputs| {
             let material = Material::new(of(inputs.youngs_modulus), of(inputs.poissons_ratio));
@@ -122,7 +135,7 @@ impl InterfaceStudy {
     }
 
     /// The roughness of both surfaces together.
-    pub(super) fn roughness(&self, values: &Drawn) -> Result<Roughness, ModelError> {
+    pub(super) fn roughness(&self, values: &Values) -> Result<Roughness, ModelError> {
         let of = |input: &SurfaceInput| {
             Roughness::new(
                 values.of(input.fractal_dimension),
@@ -139,7 +152,7 @@ impl InterfaceStudy {
     /// All that follows from these values at a torque, every element computed on its own.
     pub(super) fn state(
         &self,
-        values: &Drawn,
+        values: &Values,
         law: &Law,
         torque_n_m: Option<f64>,
     ) -> Result<State, ModelError> {
@@ -150,11 +163,15 @@ impl InterfaceStudy {
             per_area,
             layer,
         } = law.over(&field)?;
-        let parts = field.elements().iter().zip(contacts.iter().copied());
-        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
-            .map_err(ModelError::Damping)?;
-        let planar = self.planar.of(&interface, self.frequency_hz);
-        let planar = planar.map_err(ModelError::Damping)?;
+        let elements = field.elements().iter();
+        let parts = elements
+            .zip(&contacts)
+            .map(|(element, contact)| (element, element.pressure_pa, *contact));
+        let (interface, planar, patches) = self.joint(values, parts)?;
+        let slips = match self.microslip {
+            Some(microslip) => slip::fitted(patches, self.planar, microslip),
+            None => Vec::new(),
+        };
         Ok(State {
             torque_n_m,
             bolts,
@@ -165,26 +182,86 @@ impl InterfaceStudy {
             layer,
             interface,
             planar,
+            slips,
         })
     }
 
     /// The joint of these values at a torque, for draws: the contact is computed at the knots of a curve over the pressure.
     pub(super) fn drawn_joint(
         &self,
-        values: &Drawn,
+        values: &Values,
         law: &Law,
         torque_n_m: Option<f64>,
-    ) -> Result<(InterfaceJoint, PlanarJoint), ModelError> {
+    ) -> Result<Drawn, ModelError> {
         let bolts = self.clamping.bolts(values, torque_n_m)?;
         let mut pressures_pa = Vec::new();
         self.geometry.pressures(&bolts, &mut pressures_pa);
         let force_n = self.geometry.force_n(&pressures_pa);
         let contacts = law.drawn(&pressures_pa, force_n)?;
-        let parts = self.geometry.elements().iter().zip(contacts);
-        let interface = InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
-            .map_err(ModelError::Damping)?;
-        let planar = self.planar.of(&interface, self.frequency_hz);
-        let planar = planar.map_err(ModelError::Damping)?;
-        Ok((interface, planar))
+        let elements = self.geometry.elements().iter().zip(&pressures_pa);
+        let parts = elements
+            .zip(contacts)
+            .map(|((element, &pressure_pa), contact)| (element, pressure_pa, contact));
+        let parts: Vec<_> = parts.collect();
+        let (interface, planar, patches) = self.joint(values, parts.iter().copied())?;
+        let slips = match self.microslip {
+            Some(_) => slip::slipping(self.planar, self.reference_m)
+                .map(|index| SlipSums::of(patches.get(index)))
+                .collect(),
+            None => Vec::new(),
+        };
+        Ok(Drawn {
+            interface,
+            planar,
+            slips,
+        })
+    }
+
+    /// The interface of these elements with their pressures (Pa) and contacts, its part in the joint file's matrices, and the
+    /// patches of each relative DOF that slips.
+    fn joint<'e>(
+        &self,
+        values: &Values,
+        parts: impl Iterator<Item = (&'e Element, f64, Contact)> + Clone,
+    ) -> Result<(InterfaceJoint, PlanarJoint, Vec<Option<Patches>>), ModelError> {
+        let of = |slips: bool| {
+            let parts = parts.clone().map(move |(element, _, contact)| {
+                let contact = if slips {
+                    contact.along_normal()
+                } else {
+                    contact
+                };
+                (element, contact)
+            });
+            InterfaceJoint::new(parts, self.reference_m, self.normal_damping)
+                .map_err(ModelError::Damping)
+        };
+        let interface = of(false)?;
+        let planar = |interface: &InterfaceJoint| {
+            let planar = self.planar.of(interface, self.frequency_hz);
+            planar.map_err(ModelError::Damping)
+        };
+        match (self.microslip, &self.contact) {
+            (Some(_), ContactInputs::Fractal { friction, .. }) => {
+                let coefficient = values.of(*friction);
+                let patches = slip::patches(parts.clone(), &interface, self.planar, coefficient)?;
+                // what slips is the law's, stiffness and heat
+                Ok((interface, planar(&of(true)?)?, patches))
+            }
+            _ => {
+                let planar = planar(&interface)?;
+                Ok((interface, planar, Vec::new()))
+            }
+        }
+    }
+
+    /// The relative DOFs of the joint that slip.
+    pub(super) fn slipping_dofs(&self) -> Vec<&'static Dof> {
+        if self.microslip.is_none() {
+            return Vec::new();
+        }
+        slip::slipping(self.planar, self.reference_m)
+            .map(|index| self.planar.dofs().row(index))
+            .collect()
     }
 }

@@ -49,7 +49,7 @@ impl<'s> Prediction<'s> {
         let dofs = study.planar.dofs();
         let names: Vec<String> = torques
             .iter()
-            .flat_map(|&torque| results::names(dofs, torque))
+            .flat_map(|&torque| results::names(dofs, &study.slipping_dofs(), torque))
             .collect();
         let outcome = study.monte_carlo.map(|monte_carlo| {
             monte_carlo.run(
@@ -59,8 +59,8 @@ impl<'s> Prediction<'s> {
                     let law = study.law(values)?;
                     let mut all = Vec::with_capacity(names.len());
                     for &torque in &torques {
-                        let (interface, planar) = study.drawn_joint(values, &law, torque)?;
-                        all.extend(results::values(dofs, &interface, &planar));
+                        let drawn = study.drawn_joint(values, &law, torque)?;
+                        all.extend(results::values(dofs, &drawn));
                     }
                     Ok::<_, Refusal>(all)
                 },
@@ -120,6 +120,7 @@ fn key_of(error: &ModelError) -> &'static str {
         ModelError::Field(_) => "interface.field",
         ModelError::Damping(_) => "damping",
         ModelError::Planar(_) => "joint",
+        ModelError::CoupledSlip { .. } => "joint.reference",
         ModelError::Correlation(_) | ModelError::MonteCarlo(_) => "uncertainty",
     }
 }

@@ -1,9 +1,13 @@
 //! The numbers of a joint that draws give intervals of, by name.
 
-use super::model::State;
+use super::model::{Drawn, State};
 use super::prediction::Prediction;
-use crate::patch::{DOFS, InterfaceJoint, PlanarJoint};
-use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS};
+use super::slip::{Slip, sum_names};
+use crate::patch::DOFS;
+use bolted_joint_dynamics::{
+    Dof,
+    law::{DAMPING, Parameter, STIFFNESS},
+};
 use bolted_joint_joint::DofSet;
 
 /// Names of the unknowns of a planar joint's stiffness, and of its damping, with the place of each in its matrix.
@@ -28,7 +32,11 @@ pub(super) fn at(name: &str, torque_n_m: Option<f64>) -> String {
 }
 
 /// Names of all results at a torque, in the order of [`values`].
-pub(super) fn names(dofs: DofSet, torque_n_m: Option<f64>) -> Vec<String> {
+pub(super) fn names(
+    dofs: DofSet,
+    slipping: &[&'static Dof],
+    torque_n_m: Option<f64>,
+) -> Vec<String> {
     let planar = unknowns(dofs)
         .into_iter()
         .map(|(name, ..)| at(&name, torque_n_m));
@@ -36,11 +44,18 @@ pub(super) fn names(dofs: DofSet, torque_n_m: Option<f64>) -> Vec<String> {
         .iter()
         .map(|dof| at(&format!("K_{dof}{dof}"), torque_n_m));
     let loss = ["eta_n", "eta_t"].map(|name| at(name, torque_n_m));
-    planar.chain(diagonal).chain(loss).collect()
+    let slips = slipping.iter().flat_map(|dof| sum_names(dof));
+    let slips = slips.map(|name| at(&name, torque_n_m));
+    planar.chain(diagonal).chain(loss).chain(slips).collect()
 }
 
 /// The results themselves.
-pub(super) fn values(dofs: DofSet, interface: &InterfaceJoint, planar: &PlanarJoint) -> Vec<f64> {
+pub(super) fn values(dofs: DofSet, drawn: &Drawn) -> Vec<f64> {
+    let Drawn {
+        interface,
+        planar,
+        slips,
+    } = drawn;
     let of_planar = unknowns(dofs).into_iter().map(|(_, is_stiffness, [i, j])| {
         let matrix = match is_stiffness {
             true => &planar.stiffness,
@@ -53,7 +68,10 @@ pub(super) fn values(dofs: DofSet, interface: &InterfaceJoint, planar: &PlanarJo
         interface.normal_loss_factor(),
         interface.tangential_loss_factor(),
     ];
-    of_planar.chain(diagonal).chain(loss).collect()
+    let slips = slips
+        .iter()
+        .flat_map(|sums| [sums.slip_force, sums.stiffness]);
+    of_planar.chain(diagonal).chain(loss).chain(slips).collect()
 }
 
 /// A number of the joint file.
@@ -85,7 +103,9 @@ impl Prediction<'_> {
                     unit: dofs.unit(row.unit, place),
                 }
             });
-        valued.collect()
+        valued
+            .chain(state.slips.iter().flat_map(Slip::unknowns))
+            .collect()
     }
 
     /// Inputs that account for `at_least` this share of the scatter of a result, the largest first.

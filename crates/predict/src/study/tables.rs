@@ -28,6 +28,7 @@ pub(super) struct StudyFile {
     pub(super) tightening: Option<TighteningTable>,
     pub(super) joint: JointTable,
     pub(super) damping: DampingTable,
+    pub(super) microslip: Option<MicroslipTable>,
     pub(super) uncertainty: Option<UncertaintyTable>,
 }
 
@@ -92,6 +93,22 @@ pub(super) struct ContactTable {
     pub(super) shear_strength: Option<Uncertain>,
     /// Tangential load over the friction force.
     pub(super) friction_ratio: Option<Uncertain>,
+}
+
+/// That the interface slips under the joint's motion.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MicroslipTable {
+    /// Of the relative motion, m; rad of a joint whose rotation slips alone.
+    pub(super) amplitudes: Option<AmplitudesTable>,
+}
+
+/// Smallest and largest.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AmplitudesTable {
+    pub(super) from: f64,
+    pub(super) to: f64,
 }
 
 /// The virtual layer.

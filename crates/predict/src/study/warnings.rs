@@ -9,6 +9,8 @@ const IMBALANCE: f64 = 0.01;
 const CROWDED: f64 = 0.1;
 /// Loss factor that no joint in one piece has.
 const LOSSY: f64 = 1.0;
+/// Error of the heat of the law that stands for patches, r.m.s., that is worth a word.
+const FAR_FROM_PATCHES: f64 = 0.2;
 /// Share of refused draws from which the intervals are those of another distribution.
 const REFUSED: f64 = 0.05;
 
@@ -73,6 +75,17 @@ impl Prediction<'_> {
                 warnings.push(format!(
                     "the layer has no damping{at}: its model gives none; state layer.loss_factor"
                 ));
+            }
+            for slip in &state.slips {
+                let fitted = &slip.fitted;
+                if fitted.heat_error > FAR_FROM_PATCHES {
+                    warnings.push(format!(
+                        "the law for the slip of {} misses the heat of its patches by {:.0} % r.m.s.{at}: state the amplitudes that matter \
+                         (microslip.amplitudes)",
+                        slip.dof.name,
+                        100.0 * fitted.heat_error
+                    ));
+                }
             }
             if state.interface.stiffness[2][2] == 0.0 {
                 warnings.push(format!(

@@ -28,7 +28,11 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
     let mut taken = vec![
         format!("<b>{CONTACT_ALONE}</b>"),
         "The parts are flat between their holes; the pressure is what the bolts make of them, and vibration does not change it.".to_owned(),
-        "Motion is small: the interface neither opens nor slides as a whole.".to_owned(),
+        match study.microslip {
+            None => "Motion is small: the interface neither opens nor slides as a whole.",
+            Some(_) => "The interface does not open. What it is pressed with stays the same while it slips.",
+        }
+        .to_owned(),
     ];
     match study.method {
         Method::FractalContact => taken.extend([

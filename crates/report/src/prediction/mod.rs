@@ -3,6 +3,7 @@
 mod assumptions;
 mod matrices;
 mod parameters;
+mod slip;
 mod surfaces;
 
 use super::lap::{page, warnings};
@@ -33,6 +34,7 @@ impl PredictionReport<'_> {
             warnings(self.warnings),
             parameters::section(found),
             parameters::contributions(found),
+            slip::section(found),
             matrices::pressure(found),
             matrices::section(found),
             surfaces::section(found),

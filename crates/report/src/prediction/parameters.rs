@@ -74,7 +74,10 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
                     ]
                     .concat()
                 }
-                None => number_cell(&number(unknown.value)),
+                None => {
+                    let unknown_to = if found.outcome.is_some() { 3 } else { 0 };
+                    number_cell(&number(unknown.value)) + &number_cell("–").repeat(unknown_to)
+                }
             };
             format!("{head}{cells}{}", cell(&unknown.unit))
         })
@@ -133,7 +136,8 @@ pub(super) fn contributions(found: &Prediction<'_>) -> String {
         return String::new();
     };
     let state = found.nominal();
-    let unknowns = found.unknowns(state);
+    let mut unknowns = found.unknowns(state);
+    unknowns.retain(|unknown| found.estimate(&unknown.name, state.torque_n_m).is_some());
     let estimates: Vec<_> = unknowns
         .iter()
         .filter_map(|unknown| found.estimate(&unknown.name, state.torque_n_m))

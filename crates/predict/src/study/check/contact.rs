@@ -46,7 +46,13 @@ impl Checker<'_> {
                     .needed("contact.friction", table.friction, expected)?;
                 let key = "contact.shear_strength";
                 let expected = "the shear strength of the softer part in Pa, or 0 for a joint without tangential load";
-                let shear_strength = self.study.needed(key, table.shear_strength, expected)?;
+                let shear_strength = match (file.microslip.is_some(), table.shear_strength) {
+                    (true, None) => Uncertain::exact(0.0),
+                    (_, given) => self.study.needed(key, given, expected)?,
+                };
+                let expected = "0, or nothing: with [microslip] the load along the interface is that of the joint's motion";
+                let good = file.microslip.is_none() || shear_strength.value == 0.0;
+                self.study.ensure(good, key, shear_strength, expected)?;
                 Ok(ContactInputs::Fractal {
                     hardness,
                     friction: self.positive("contact.friction", "friction", friction)?,

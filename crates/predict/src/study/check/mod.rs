@@ -2,6 +2,7 @@
 
 mod contact;
 mod interface;
+mod microslip;
 mod surfaces;
 mod tightening;
 
@@ -9,6 +10,7 @@ use crate::fractal::StoredEnergy;
 use crate::patch::{LossFactor, NormalDamping, Planar};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
+use crate::study::slip::Microslip;
 use crate::study::tables::{MaterialTable, NormalWord, StudyFile};
 use crate::surface::ProfileFit;
 use crate::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
@@ -55,6 +57,8 @@ pub struct InterfaceStudy {
     pub stored_energy: StoredEnergy,
     /// How the interface dissipates along its normal.
     pub normal_damping: NormalDamping,
+    /// Whether it slips under the joint's motion, and how that is fitted.
+    pub microslip: Option<Microslip>,
     /// Draws, where a value is uncertain.
     pub monte_carlo: Option<MonteCarlo>,
     /// How the pressure is spread, in words.
@@ -181,6 +185,7 @@ impl Checker<'_> {
                 return study.refuse("damping.mass", mass, expected);
             }
         };
+        let microslip = self.microslip(&file, planar, reference_m, !torques_n_m.is_empty())?;
         let monte_carlo = self.monte_carlo(file.uncertainty.as_ref())?;
         Ok(InterfaceStudy {
             path: study.path().to_owned(),
@@ -199,6 +204,7 @@ impl Checker<'_> {
             loss_factor: file.damping.loss_factor.unwrap_or_default(),
             stored_energy: file.damping.stored_energy.unwrap_or_default(),
             normal_damping,
+            microslip,
             monte_carlo,
             materials,
             surfaces,

@@ -116,13 +116,4 @@ impl Problem<'_> {
         }
         Some((all, means))
     }
-
-    pub(super) fn objective(&self, at: Unknowns) -> f64 {
-        let sum = self.residuals(at).map(|all| squares(&all));
-        sum.filter(|sum| sum.is_finite()).unwrap_or(f64::INFINITY)
-    }
-}
-
-fn squares(all: &[[f64; 2]]) -> f64 {
-    all.iter().map(|[a, b]| a * a + b * b).sum()
 }

@@ -1,8 +1,9 @@
 //! The fitted surface, its layers, and how well it is determined.
 
 use super::problem::{Problem, Unknowns};
-use super::search::{bounds, solved};
+use super::search::bounds;
 use super::{Fit, FittedLayer, Magnitudes, Observation};
+use crate::least_squares::{normal_equations, solved};
 use crate::surface::Roughness;
 use crate::virtual_material::{LayerContact, Moduli};
 use crate::{ContactError, Pair};
@@ -32,7 +33,7 @@ pub fn fit(
     let best = problem
         .starts()
         .into_iter()
-        .map(|start| problem.refined(start))
+        .map(|start| problem.squares().refined(start))
         .min_by(|one, other| one.1.total_cmp(&other.1))
         .ok_or(ContactError::NothingFits)?;
     problem.result(best.0)
@@ -62,7 +63,7 @@ impl Problem<'_> {
         });
         let layers = layers.collect::<Result<Vec<_>, ContactError>>()?;
         let count = 2 * self.observations.len();
-        let sum = self.objective(at);
+        let sum = self.squares().objective(at);
         let is_at_bound = (0..2).any(|n| bounds()[n].contains(&at[n]));
         let deviations = self.deviations(at, roughness_m, sum, is_at_bound);
         Ok(Fit {
@@ -88,7 +89,7 @@ impl Problem<'_> {
         if freedom == 0 || is_at_bound {
             return None;
         }
-        let (matrix, _) = self.normal_equations(|[d, log_roughness]| {
+        let (matrix, _) = normal_equations(|[d, log_roughness]| {
             self.residuals_of(self.contact(at[0] + d, roughness_m * log_roughness.exp())?)
         })?;
         let variance = sum / freedom as f64;

@@ -1,12 +1,14 @@
-//! Laws that slip from backbones that quadrature of their loops supplies, with noise.
+//! Laws that slip from backbones and stepped sines that quadrature of their loops supplies, with noise.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use std::fmt::Write as _;
+use std::path::Path;
 
 use bolted_joint::identify::lap::{
     LapResponse, LapResponseStudy, ResponseUnknown, SliderParameter,
 };
 use bolted_joint::joint::JointFile;
+use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -17,6 +19,8 @@ const C12: f64 = 2.0;
 const LARGEST_M: f64 = 3.0e-4;
 const FREQUENCY: f64 = 1e-4;
 const DAMPING: f64 = 0.01;
+/// Of a complex response.
+const RESPONSE: f64 = 0.01;
 const DRAWS: u64 = 40;
 
 /// F(u) of a first motion to u ≥ 0.
@@ -65,23 +69,79 @@ fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
     (1..=40).map(point).collect()
 }
 
-/// The joint identified from a backbone with noise of its own in frequency and damping ratio.
-fn identified(backbone: &[[f64; 3]], terms: &str, seed: u64) -> (LapResponse, JointFile) {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let mut noisy = |value: f64, part: f64| -> f64 {
-        let normal: f64 = StandardNormal.sample(&mut generator);
-        value * (part * normal).exp()
-    };
-    let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
-    for &[amplitude, hz, ratio] in backbone {
-        let (hz, ratio) = (noisy(hz, FREQUENCY), noisy(ratio, DAMPING));
-        writeln!(csv, "{hz:e},{amplitude:e},{ratio:e}").unwrap();
+/// What was measured, without its noise.
+enum Measured {
+    /// Amplitude (m), frequency (Hz) and damping ratio of each point.
+    Backbone(Vec<[f64; 3]>),
+    /// Frequency (Hz), force (N), and the complex response to it (m), level by level.
+    Sines(Vec<Vec<(f64, f64, Complex64)>>),
+}
+
+impl Measured {
+    /// Its files with noise of their own, as tables of a study, and what the study says of the noise.
+    fn written(&self, folder: &Path, seed: u64) -> String {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut generator) };
+        match self {
+            Self::Backbone(points) => {
+                let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
+                for &[amplitude, hz, ratio] in points {
+                    let hz = hz * (FREQUENCY * normal()).exp();
+                    let ratio = ratio * (DAMPING * normal()).exp();
+                    writeln!(csv, "{hz:e},{amplitude:e},{ratio:e}").unwrap();
+                }
+                std::fs::write(folder.join("backbone.csv"), csv).unwrap();
+                format!(
+                    "[noise]\nfrequency = {FREQUENCY}\ndamping = {DAMPING}\n[[backbone]]\nfile = \"backbone.csv\"\n"
+                )
+            }
+            Self::Sines(levels) => {
+                let mut study = format!("[noise]\nresponse = {RESPONSE}\nforce = 1e-9\n");
+                for (level, lines) in levels.iter().enumerate() {
+                    let mut csv = "frequency_hz,force_n,displacement_m,phase_rad\n".to_owned();
+                    for &(hz, force, exact) in lines {
+                        let error = Complex64::new(normal(), normal()) * FRAC_1_SQRT_2 * RESPONSE;
+                        let (amplitude, phase) = (exact * (1.0 + error)).to_polar();
+                        writeln!(csv, "{hz:e},{force:e},{amplitude:e},{phase:e}").unwrap();
+                    }
+                    std::fs::write(folder.join(format!("{level}.csv")), csv).unwrap();
+                    writeln!(study, "[[sine]]\nfile = \"{level}.csv\"").unwrap();
+                }
+                study
+            }
+        }
     }
+}
+
+/// Responses at frequencies about the resonance of each of some amplitudes, by quadrature of the loop, with the force that
+/// each takes.
+fn sines(first_loading: &FirstLoading, small: f64) -> Measured {
+    let level = |n: u32| {
+        let amplitude = LARGEST_M * f64::from(n) / 8.0;
+        let [stiffness, loss] = equivalent(first_loading, amplitude);
+        let stiffness = K0 - small + stiffness;
+        let omega = (stiffness / (0.5 * MASS)).sqrt();
+        let half_width = (C12 * omega + loss) / (MASS * omega);
+        let line = |place: i32| {
+            let omega = omega + 0.5 * f64::from(place) * half_width;
+            // (K − ½mω² + j(cω + loss)) X = F
+            let dynamic =
+                Complex64::new(stiffness - 0.5 * MASS * omega * omega, C12 * omega + loss);
+            let force = amplitude * dynamic.norm();
+            (omega / TAU, force, force / dynamic)
+        };
+        (-6..=6).map(line).collect()
+    };
+    Measured::Sines((1..=8).map(level).collect())
+}
+
+/// The joint identified from what was measured, with noise of its own.
+fn identified(measured: &Measured, terms: &str, seed: u64) -> (LapResponse, JointFile) {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("backbone.csv"), csv).unwrap();
+    let tables = measured.written(folder.path(), seed);
     let study = format!(
-        "method = \"lap-response\"\nname = \"slips\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n{terms}\n[known]\nm = {MASS}\n\
-         [noise]\nfrequency = {FREQUENCY}\ndamping = {DAMPING}\n[[backbone]]\nfile = \"backbone.csv\"\n"
+        "method = \"lap-response\"\nname = \"slips\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n{terms}\n\
+         harmonics = 1\n[known]\nm = {MASS}\n{tables}"
     );
     let path = folder.path().join("study.toml");
     std::fs::write(&path, study).unwrap();
@@ -100,11 +160,26 @@ fn assert_known(
     name: &str,
     truth: &[(ResponseUnknown, f64)],
 ) {
+    let backbone = Measured::Backbone(backbone(first_loading, small));
+    assert_known_from(&backbone, small, name, truth);
+    assert_known_from(&sines(first_loading, small), small, name, truth);
+}
+
+#[track_caller]
+fn assert_known_from(
+    measured: &Measured,
+    small: f64,
+    name: &str,
+    truth: &[(ResponseUnknown, f64)],
+) {
     let terms = format!("terms = [\"{name}\"]");
-    let backbone = backbone(first_loading, small);
+    let kind = match measured {
+        Measured::Backbone(_) => "backbone",
+        Measured::Sines(_) => "sines",
+    };
     let (mut squares, mut within, mut count) = (0.0, 0, 0);
     for seed in 0..DRAWS {
-        let (found, file) = identified(&backbone, &terms, seed);
+        let (found, file) = identified(measured, &terms, seed);
         // of small motion the file's split between law and spring is a convention
         if name != "micro-slip" {
             let deviation = file.uncertainty.unwrap().standard_deviation.stiffness[0][0];
@@ -127,10 +202,10 @@ fn assert_known(
     }
     let rms = (squares / f64::from(count)).sqrt();
     let held = within as f64 / f64::from(count);
-    println!("{name}: {rms:.3} deviations, intervals hold {held:.3}");
+    println!("{name} from {kind}: {rms:.3} deviations, intervals hold {held:.3}");
     assert!(
         (0.75..1.2).contains(&rms) && held > 0.9,
-        "{name}: {rms} {held}"
+        "{name} from {kind}: {rms} {held}"
     );
 }
 
@@ -239,7 +314,7 @@ fn the_law_that_made_the_data_is_chosen() {
         (&iwan(density, exponent, span, 0.0), small, "micro-slip"),
     ];
     for (law, small, name) in cases {
-        let (found, _) = identified(&backbone(law, small), "", 1);
+        let (found, _) = identified(&Measured::Backbone(backbone(law, small)), "", 1);
         assert_eq!(found.model.terms.to_string(), name);
         let reduced = found.fit.chi_squared / found.fit.degrees_of_freedom as f64;
         assert!((0.6..1.5).contains(&reduced), "{reduced}");

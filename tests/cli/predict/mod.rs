@@ -2,6 +2,7 @@
 
 mod bad;
 mod good;
+mod microslip;
 
 use crate::bench::Bench;
 use serde_json::Value;

@@ -86,7 +86,7 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
         }
     };
     findings.extend(against_joint_file(&start, &joint));
-    let table = table_lines(joint.joint.over_preload.as_ref(), start.extrapolates());
+    let table = table_lines(&joint.joint, start.extrapolates());
     if start.table != laws_line(&joint) + &table {
         findings.push(
             "resources/start.txt: found another table over the preload than that of resources/joint.json; export the FMU again"

@@ -23,17 +23,20 @@ pub fn declared(
     Ok(declared)
 }
 
-/// Whether the FMU's joint is a constant one, one over the preload, or one with memory.
+/// Whether the FMU's joint is a constant one, or one over the preload, or with memory, or both.
 pub(super) fn kind(file: &JointFile) -> Joints {
-    if file.joint.over_preload.is_some() {
-        return Joints::OVER_PRELOAD;
-    }
     let of_laws = Joints::of_memory_laws(DECLARATIONS);
     let own = file.joint.laws_with_memory();
     of_laws
         .into_iter()
         .filter(|(name, _)| own.contains(name))
         .map(|(_, joints)| joints)
+        .chain(
+            file.joint
+                .over_preload
+                .is_some()
+                .then_some(Joints::OVER_PRELOAD),
+        )
         .reduce(Joints::with)
         .unwrap_or(Joints::CONSTANT)
 }

@@ -234,7 +234,8 @@ fn fmu(
         description.set_preload(table.nominal, range);
         parameters.push(("preload".to_owned(), table.nominal));
     }
-    let table = laws_line(subject.source()) + &table_lines(subject.table(), options.extrapolate);
+    let table =
+        laws_line(subject.source()) + &table_lines(&subject.source().joint, options.extrapolate);
     let library_name = description.model_identifier();
     let parameters = parameter_lines(&parameters);
     let resources = format!("{table}{parameters}");

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Interface;
-use bolted_joint_joint::{DofSet, JointFile, OverPreload};
+use bolted_joint_joint::{DofSet, Joint, JointFile};
 
 /// First line of the file.
 const HEADER: &str = "bolted-joint-start/1";
@@ -27,13 +27,17 @@ pub fn laws_line(file: &JointFile) -> String {
 }
 
 /// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K
-/// and C row by row, and k3; empty for a constant joint.
-pub fn table_lines(table: Option<&OverPreload>, extrapolate: bool) -> String {
-    let Some(table) = table else {
+/// and C row by row, and k3; empty for a constant joint. Friction is stated at the preload at the heading's end.
+pub fn table_lines(joint: &Joint, extrapolate: bool) -> String {
+    let Some(table) = &joint.over_preload else {
         return String::new();
     };
     let beyond = if extrapolate { "held" } else { "refused" };
-    let mut text = format!("table {} {beyond}\n", table.preload.len());
+    let mut text = format!("table {} {beyond}", table.preload.len());
+    if !joint.friction.is_empty() {
+        let _ = write!(text, " {:?}", table.nominal);
+    }
+    text.push('\n');
     for (place, preload) in table.preload.iter().enumerate() {
         let mut numbers = vec![*preload];
         let mut order = 0;
@@ -130,8 +134,8 @@ impl StartFile {
 
     /// Whether the joint is one over the preload that is held beyond its table.
     pub fn extrapolates(&self) -> bool {
-        let heading = self.table.lines().next();
-        heading.is_some_and(|heading| heading.ends_with(" held"))
+        let heading = self.table.lines().find(|line| line.starts_with("table "));
+        heading.is_some_and(|heading| heading.split(' ').nth(2) == Some("held"))
     }
 
     /// Start value of the parameter `name`.

@@ -89,7 +89,8 @@ impl fmt::Display for Identity {
             dependence,
         } = self.variables;
         let preload = match dependence {
-            Dependence::OverPreload => " over the preload",
+            Dependence::OverPreload(0) => " over the preload",
+            Dependence::OverPreload(_) => " over the preload with memory",
             Dependence::Constant => "",
             Dependence::Memory(_) => " with memory",
         };

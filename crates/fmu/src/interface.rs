@@ -41,8 +41,8 @@ pub(crate) struct ContinuousState {
 pub(crate) enum Dependence {
     /// Parameters alone.
     Constant,
-    /// The preload.
-    OverPreload,
+    /// The preload; with what these laws remember, a bit for each, if there are any.
+    OverPreload(u32),
     /// Parameters, and what these laws remember of the motion, a bit for each as in [`Variable::joints`]; not empty.
     Memory(u32),
 }
@@ -65,7 +65,7 @@ impl Dependence {
     pub(crate) const fn number(self) -> u8 {
         match self {
             Self::Constant => 0,
-            Self::OverPreload => 1,
+            Self::OverPreload(laws) => 1 | (laws >> KINDS_WITHOUT_MEMORY) as u8,
             Self::Memory(laws) => (laws >> KINDS_WITHOUT_MEMORY) as u8,
         }
     }
@@ -75,19 +75,42 @@ impl Dependence {
         let known = MEMORY_LAWS.iter().fold(0, |all, (_, law)| all | law);
         match number {
             0 => Some(Self::Constant),
-            1 => Some(Self::OverPreload),
-            _ => Some(u32::from(number) << KINDS_WITHOUT_MEMORY)
+            _ => Some(u32::from(number & !1) << KINDS_WITHOUT_MEMORY)
                 .filter(|laws| laws & !known == 0)
-                .map(Self::Memory),
+                .map(|laws| match number & 1 {
+                    0 => Self::Memory(laws),
+                    _ => Self::OverPreload(laws),
+                }),
         }
     }
 
-    /// Bit of such joints in [`Variable::joints`].
-    const fn joints(self) -> u32 {
+    /// The same over the preload.
+    pub(crate) const fn over_preload(self) -> Self {
         match self {
-            Self::Constant => CONSTANT_JOINTS,
-            Self::OverPreload => JOINTS_OVER_PRELOAD,
-            Self::Memory(laws) => laws,
+            Self::Memory(laws) | Self::OverPreload(laws) => Self::OverPreload(laws),
+            Self::Constant => Self::OverPreload(0),
+        }
+    }
+
+    /// Whether the joint remembers its motion.
+    pub(crate) const fn remembers(self) -> bool {
+        match self {
+            Self::Memory(_) => true,
+            Self::OverPreload(laws) => laws != 0,
+            Self::Constant => false,
+        }
+    }
+
+    /// Whether such a joint has what belongs to these, as in [`Variable::joints`]. One over the preload has no parameter of a
+    /// constant law, whatever it remembers.
+    const fn has(self, joints: u32) -> bool {
+        match self {
+            Self::Constant => joints & CONSTANT_JOINTS != 0,
+            Self::Memory(laws) => joints & laws != 0,
+            Self::OverPreload(_) if joints & CONSTANT_JOINTS != 0 => {
+                joints & JOINTS_OVER_PRELOAD != 0
+            }
+            Self::OverPreload(laws) => joints & (laws | JOINTS_OVER_PRELOAD) != 0,
         }
     }
 }
@@ -307,7 +330,7 @@ impl Variables {
         table
             .get(reference)?
             .as_ref()
-            .filter(|variable| variable.joints & self.dependence.joints() != 0)
+            .filter(|variable| self.dependence.has(variable.joints))
             .filter(|variable| {
                 let missing = !self.dofs.rows();
                 variable.rows.iter().any(|needed| needed & missing == 0)

@@ -1,6 +1,8 @@
 //! The table of a joint over the preload of its bolt, as the start-value file gives it.
 
-use bolted_joint_dynamics::{Beyond, JointLaw, JointOverPreload, Linear, Polynomial, TableDefect};
+use bolted_joint_dynamics::{
+    Beyond, DofLaws, JointLaw, JointOverPreload, Linear, Polynomial, TableDefect,
+};
 
 use crate::interface::Dofs;
 
@@ -8,9 +10,18 @@ use crate::interface::Dofs;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PreloadTable {
     /// Translation y.
-    One(JointOverPreload<1>),
+    One(OverPreload<1>),
     /// Translation y and rotation θ.
-    Two(JointOverPreload<2>),
+    Two(OverPreload<2>),
+}
+
+/// A joint over the preload, and the preload that its friction is stated at.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OverPreload<const D: usize> {
+    /// The joint; its friction is among the parameters.
+    pub(crate) joint: JointOverPreload<D>,
+    /// N·m; of a joint without friction there is none.
+    pub(crate) nominal_n_m: Option<f64>,
 }
 
 impl PreloadTable {
@@ -21,26 +32,31 @@ impl PreloadTable {
     }
 
     /// The joint through these rows, each of [`PreloadTable::columns`] numbers.
-    pub(crate) fn new(dofs: Dofs, rows: &[Vec<f64>], beyond: Beyond) -> Result<Self, TableDefect> {
+    pub(crate) fn new(
+        dofs: Dofs,
+        rows: &[Vec<f64>],
+        beyond: Beyond,
+        nominal_n_m: Option<f64>,
+    ) -> Result<Self, TableDefect> {
         match dofs {
-            Dofs::One => over_preload(rows, beyond).map(Self::One),
-            Dofs::Two => over_preload(rows, beyond).map(Self::Two),
+            Dofs::One => over_preload(rows, beyond, nominal_n_m).map(Self::One),
+            Dofs::Two => over_preload(rows, beyond, nominal_n_m).map(Self::Two),
         }
     }
 
     /// Whether there is a joint at this preload (N·m).
     pub(crate) fn covers(&self, preload_n_m: f64) -> bool {
         match self {
-            Self::One(joint) => joint.covers(preload_n_m),
-            Self::Two(joint) => joint.covers(preload_n_m),
+            Self::One(table) => table.joint.covers(preload_n_m),
+            Self::Two(table) => table.joint.covers(preload_n_m),
         }
     }
 
     /// First and last preload of the table, N·m.
     pub(crate) fn range_n_m(&self) -> [f64; 2] {
         match self {
-            Self::One(joint) => joint.range_n_m(),
-            Self::Two(joint) => joint.range_n_m(),
+            Self::One(table) => table.joint.range_n_m(),
+            Self::Two(table) => table.joint.range_n_m(),
         }
     }
 }
@@ -48,9 +64,24 @@ impl PreloadTable {
 fn over_preload<const D: usize>(
     rows: &[Vec<f64>],
     beyond: Beyond,
-) -> Result<JointOverPreload<D>, TableDefect> {
+    nominal_n_m: Option<f64>,
+) -> Result<OverPreload<D>, TableDefect> {
     let table: Vec<_> = rows.iter().filter_map(|row| law(row)).collect();
-    JointOverPreload::new(&table, beyond)
+    Ok(OverPreload {
+        joint: JointOverPreload::new(&table, beyond)?,
+        nominal_n_m,
+    })
+}
+
+impl<const D: usize> OverPreload<D> {
+    /// The joint with the friction of these laws on each relative DOF.
+    pub(crate) fn with_friction(&self, on: [DofLaws; D]) -> JointOverPreload<D> {
+        let joint = self.joint.clone();
+        match self.nominal_n_m {
+            Some(nominal_n_m) => joint.with_friction(on, nominal_n_m),
+            None => joint,
+        }
+    }
 }
 
 /// Preload and law of one row.

@@ -132,11 +132,11 @@ impl StartFile {
         let token = header.next("token ", "\"token\" and the instantiation token", |found| {
             (!found.trim().is_empty()).then(|| found.to_owned())
         })?;
-        let table = header.table(dofs)?;
-        let dependence = match (&table, header.laws()?) {
-            (Some(_), _) => Dependence::OverPreload,
-            (None, Some(dependence)) => dependence,
-            (None, None) => Dependence::Constant,
+        let dependence = header.laws()?.unwrap_or(Dependence::Constant);
+        let table = header.table(dofs, dependence.remembers())?;
+        let dependence = match table {
+            Some(_) => dependence.over_preload(),
+            None => dependence,
         };
         let variables = Variables {
             kind,
@@ -204,20 +204,31 @@ impl Header<'_> {
             .map(Some)
     }
 
-    /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, and the lines.
-    fn table(&mut self, dofs: Dofs) -> Result<Option<PreloadTable>, StartFileError> {
-        const EXPECTED: &str = "\"table\", the number of its lines, and \"refused\" or \"held\"";
+    /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, of a joint that remembers
+    /// the preload that its friction is stated at, and the lines.
+    fn table(
+        &mut self,
+        dofs: Dofs,
+        remembers: bool,
+    ) -> Result<Option<PreloadTable>, StartFileError> {
+        const EXPECTED: &str = "\"table\", the number of its lines, \"refused\" or \"held\", and with laws the preload of these";
         if !self.goes_on_with("table ") {
             return Ok(None);
         }
-        let (count, beyond) = self.next("table ", EXPECTED, |found| {
-            let (count, beyond) = found.split_once(' ')?;
-            let beyond = match beyond {
+        let (count, beyond, nominal_n_m) = self.next("table ", EXPECTED, |found| {
+            let mut words = found.split(' ');
+            let count = words.next()?.parse::<u32>().ok()?;
+            let beyond = match words.next()? {
                 "refused" => Beyond::Refused,
                 "held" => Beyond::Held,
                 _ => return None,
             };
-            Some((count.parse::<u32>().ok()?, beyond))
+            let nominal_n_m = words.next().map(str::parse::<f64>).transpose().ok()?;
+            let is_good = match nominal_n_m {
+                Some(nominal_n_m) => remembers && nominal_n_m > 0.0 && nominal_n_m.is_finite(),
+                None => !remembers,
+            };
+            (is_good && words.next().is_none()).then_some((count, beyond, nominal_n_m))
         })?;
         let heading = self.line;
         let columns = PreloadTable::columns(dofs);
@@ -237,7 +248,7 @@ impl Header<'_> {
                 }
             }
         }
-        let table = PreloadTable::new(dofs, &rows, beyond);
+        let table = PreloadTable::new(dofs, &rows, beyond, nominal_n_m);
         table
             .map(Some)
             .map_err(|defect| self.refuse(heading, Fault::Table(defect)))

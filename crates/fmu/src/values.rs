@@ -8,7 +8,7 @@ use bolted_joint_dynamics::{
     law::{DOF_MEMORY_COUNT, REMEMBERED_PLACES},
 };
 
-use crate::interface::{Dependence, VALUE_COUNT, Variables, reference::LAW_MEMORY};
+use crate::interface::{VALUE_COUNT, Variables, reference::LAW_MEMORY};
 
 /// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
 ///
@@ -119,8 +119,8 @@ pub(crate) fn remembered_count(variables: Variables) -> usize {
 }
 
 fn remembering_dofs(variables: Variables) -> usize {
-    match variables.dependence {
-        Dependence::Memory(_) => usize::from(variables.dofs.count()),
-        Dependence::Constant | Dependence::OverPreload => 0,
+    match variables.dependence.remembers() {
+        true => usize::from(variables.dofs.count()),
+        false => 0,
     }
 }

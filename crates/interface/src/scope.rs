@@ -55,7 +55,16 @@ impl Joints {
     /// Whether they remember their motion.
     #[must_use]
     pub const fn remembers(self) -> bool {
-        self.0 & !Self::MEMORY.0 == 0
+        self.0 & Self::MEMORY.0 != 0 && self.0 & Self::CONSTANT.0 == 0
+    }
+
+    /// Whether a joint of this kind has what belongs to these joints. One over the preload has no parameter of a constant law,
+    /// whatever it remembers.
+    const fn has(self, of: Self) -> bool {
+        if self.0 & Self::OVER_PRELOAD.0 != 0 && of.0 & Self::CONSTANT.0 != 0 {
+            return of.0 & Self::OVER_PRELOAD.0 != 0;
+        }
+        self.intersects(of)
     }
 
     /// Both sets together.
@@ -124,13 +133,13 @@ impl Scope {
     /// Whether the FMU of a joint of this kind with these DOFs has the variable.
     #[must_use]
     pub fn includes(&self, rows: Rows, joint: Joints) -> bool {
-        self.joints.intersects(joint) && self.rows.iter().any(|&needed| rows.contains(needed))
+        joint.has(self.joints) && self.rows.iter().any(|&needed| rows.contains(needed))
     }
 
     /// Whether joints of this kind have it, if they have its DOFs.
     #[must_use]
     pub fn includes_joint(&self, joint: Joints) -> bool {
-        self.joints.intersects(joint)
+        joint.has(self.joints)
     }
 
     /// Whether it is of these kinds of joints and no other.

@@ -38,6 +38,7 @@ const SLIDER: Declaration = Declaration {
             },
             description: "{load} at which the joint slips in {motion}",
             acts_on: ActsOn::SPRING,
+            grows_with_preload: false,
         },
         Parameter {
             symbol: "q",
@@ -55,6 +56,7 @@ const SLIDER: Declaration = Declaration {
             },
             description: "of {motion}",
             acts_on: ActsOn::DAMPER,
+            grows_with_preload: false,
         },
     ],
     memory: &[Remembered {

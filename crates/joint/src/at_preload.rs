@@ -166,6 +166,10 @@ impl Joint {
         let law = self
             .law_over_preload::<D>(Beyond::Refused)?
             .law(preload_n_m);
+        let share = match &self.over_preload {
+            Some(table) => preload_n_m / table.nominal,
+            None => 1.0,
+        };
         let rows = |matrix: [[f64; D]; D]| matrix.map(|row| row.to_vec()).to_vec();
         let linear = &law.linear;
         let cubic = law
@@ -173,6 +177,11 @@ impl Joint {
             .map(|terms| terms.coefficient(Term::CUBIC));
         Ok(Self {
             cubic: cubic.to_vec(),
+            friction: self
+                .friction
+                .iter()
+                .map(|own| own.at_share_of_preload(share))
+                .collect(),
             ..Self::linear(self.dofs, rows(linear.stiffness), rows(linear.damping))
         })
     }

@@ -55,6 +55,17 @@ impl Friction {
         })
     }
 
+    /// The law at this share of the preload that it is stated for.
+    pub(super) fn at_share_of_preload(&self, share: f64) -> Self {
+        let mut own = self.clone();
+        for (parameter, value) in own.law.parameters.iter().zip(&mut own.parameters) {
+            if parameter.grows_with_preload {
+                *value *= share;
+            }
+        }
+        own
+    }
+
     /// Value of a parameter of the law.
     #[must_use]
     pub fn value(&self, parameter: &Parameter) -> Option<f64> {

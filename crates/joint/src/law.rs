@@ -200,7 +200,13 @@ impl Joint {
                 Ok((table.preload[place], joint.law()?))
             })
             .collect::<Result<Vec<_>, LawError>>()?;
-        dynamics::JointOverPreload::new(&entries, beyond).map_err(LawError::Table)
+        let law = dynamics::JointOverPreload::new(&entries, beyond).map_err(LawError::Table)?;
+        let zero = vec![vec![0.0; D]; D];
+        let friction = Self {
+            friction: self.friction.clone(),
+            ..Self::linear(self.dofs, zero.clone(), zero)
+        };
+        Ok(law.with_friction(friction.law()?.on, table.nominal))
     }
 }
 

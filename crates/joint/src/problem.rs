@@ -56,6 +56,24 @@ pub enum JointProblem {
         /// What stands there.
         what: &'static str,
     },
+    /// A law of friction that does not go with the preload, beside a table over it.
+    #[error(
+        "{path}: found \"{law}\" beside joint.over_preload, expected {expected}: what it remembers is that of one preload; take one of \
+         the two out, or take the joint at one preload"
+    )]
+    KeepsItsPreload {
+        /// Path of the law.
+        path: String,
+        /// Its name.
+        law: &'static str,
+        /// The laws that do.
+        expected: String,
+    },
+    /// A joint with friction whose nominal preload is nothing.
+    #[error(
+        "joint.over_preload.nominal: found 0 beside joint.friction, expected a preload above 0: friction is in proportion to it"
+    )]
+    NothingPresses,
     /// A law on a DOF that the joint has not.
     #[error("{path}: found {found:?}, expected one of joint.dofs = {dofs}")]
     OtherDof {

@@ -62,7 +62,7 @@ impl Format {
 /// side a the opposite.
 ///
 /// `stiffness` and `damping` are required unless `over_preload` is there, which replaces them and `cubic`; `higher` cannot
-/// be combined with it.
+/// be combined with it, and of `friction` a law whose slip force goes with the preload, stated at the nominal one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -42,6 +42,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 const NUMBER: Parameter = Parameter {

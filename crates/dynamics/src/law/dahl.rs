@@ -31,6 +31,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 /// A slider on one relative DOF that flows from the first load on: dF/dx = σ₀ (1 − F sgn ẋ/F_c).

@@ -17,6 +17,19 @@ pub struct Declaration {
 }
 
 impl Declaration {
+    /// Whether it goes with the preload of a bolt: by parameters that grow with it.
+    #[must_use]
+    pub const fn follows_preload(&self) -> bool {
+        let mut place = 0;
+        while place < self.parameters.len() {
+            if self.parameters[place].grows_with_preload {
+                return true;
+            }
+            place += 1;
+        }
+        false
+    }
+
     /// Number of numbers that it remembers.
     #[must_use]
     pub const fn memory_count(&self) -> usize {
@@ -74,6 +87,8 @@ pub struct Parameter {
     pub description: &'static str,
     /// What changes with it.
     pub acts_on: ActsOn,
+    /// Whether it grows as the preload of the bolt does, where the joint depends on that: what presses makes what slides.
+    pub grows_with_preload: bool,
 }
 
 /// Where a parameter is.

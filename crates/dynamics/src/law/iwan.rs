@@ -43,6 +43,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 /// A continuum of sliders on one relative DOF, each a spring that slips at its own load: their density over the

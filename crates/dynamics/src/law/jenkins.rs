@@ -29,6 +29,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 /// Part of the slip force that rounding may leave between it and the load of a slider that has just slipped.
@@ -98,6 +99,8 @@ impl<N: Number> Law<N> for Jenkins<N> {
                     start: [0.0; 3],
                 },
                 description: "Load at which the joint's elastic slider slips in {motion}",
+                // μ times what presses
+                grows_with_preload: true,
                 ..PARAMETER
             },
         ],
@@ -106,7 +109,8 @@ impl<N: Number> Law<N> for Jenkins<N> {
             quantity: RememberedAs::Displacement,
             description: "Relative {motion} at which the joint's elastic slider is without load, as of the last step",
         }],
-        hidden_memory: 0,
+        // its slip force there
+        hidden_memory: 1,
     };
 
     by_numbers!(stiffness, slip_force);
@@ -143,12 +147,21 @@ impl<N: Number> Law<N> for Jenkins<N> {
     }
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
-        let (Bearing::Slips(sign), [slider, ..]) = (self.bearing(memory, r), &mut *memory) else {
+        let bearing = self.bearing(memory, r);
+        let Some((slider, rest)) = memory.split_first_mut() else {
             return 0.0;
         };
-        // x = r − h/k sgn e*, heat h |Δx|
+        let last = rest.first_mut();
+        let before = last.map(|last| std::mem::replace(last, self.slip_force).value());
+        let now = self.slip_force.value();
+        let before = before.filter(|&before| before > 0.0).unwrap_or(now);
+        let Bearing::Slips(sign) = bearing else {
+            return 0.0;
+        };
+        // x = r − h/k sgn e*, heat h |Δx|, of a slip force that changed on the way by its mean
         let place = r - N::from(sign) * self.slip_force / self.stiffness;
-        let heat = self.slip_force.value() * (place - *slider).value().abs();
+        let mean = 0.5 * (before + now);
+        let heat = mean * (place - *slider).value().abs();
         *slider = place;
         heat
     }
@@ -248,6 +261,29 @@ mod tests {
                 assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
             }
         }
+    }
+
+    /// A slider whose slip force falls to nothing while its spring is held gives all that the spring stored as heat; one whose
+    /// slip force grows again keeps its load.
+    #[test]
+    fn a_falling_slip_force_lets_it_slip_and_a_growing_one_does_not() {
+        let at = |slip_force| Jenkins {
+            stiffness: 2e6,
+            slip_force,
+        };
+        let mut memory = [0.0; 2];
+        let r = 1e-4;
+        at(500.0).commit(&mut memory, r, 0.0);
+        let load = at(500.0).load(&memory, r, 0.0);
+        assert!((load - 200.0).abs() < 1e-9, "{load}");
+        let stored = at(500.0).stored_energy(&memory, r);
+        let heat: f64 = (0..=500)
+            .map(|n| at(500.0 - f64::from(n)).commit(&mut memory, r, 0.0))
+            .sum();
+        assert!((heat / stored - 1.0).abs() < 1e-12, "{heat} {stored}");
+        assert_eq!(at(0.0).load(&memory, r, 0.0), 0.0);
+        assert_eq!(at(500.0).commit(&mut memory, r, 0.0), 0.0);
+        assert_eq!(at(500.0).load(&memory, r, 0.0), 0.0);
     }
 
     #[test]

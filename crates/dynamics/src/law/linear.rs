@@ -30,6 +30,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             },
             description: "Stiffness of the joint: {load} per relative {motion}",
             acts_on: ActsOn::SPRING,
+            grows_with_preload: false,
         },
         Parameter {
             symbol: "c",
@@ -49,6 +50,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             },
             description: "Damping of the joint: {load} per relative {rate}",
             acts_on: ActsOn::DAMPER,
+            grows_with_preload: false,
         },
     ],
     memory: &[],

@@ -40,6 +40,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 const DAMPER: Parameter = Parameter {

@@ -435,6 +435,18 @@ impl<N: Number> DofLaws<N> {
         self.present & REMEMBERING != 0
     }
 
+    /// The laws with what grows as the preload does times this share of it.
+    #[must_use]
+    pub fn at_share_of_preload(&self, share: N) -> Self {
+        let mut own = *self;
+        for (value, (_, parameter)) in own.parameters.iter_mut().zip(dof_parameters()) {
+            if parameter.grows_with_preload {
+                *value = share * *value;
+            }
+        }
+        own
+    }
+
     /// The laws with these parameters alone, the others zero.
     #[must_use]
     pub fn with_only(&self, stays: impl Fn(&Parameter) -> bool) -> Self {
@@ -445,6 +457,15 @@ impl<N: Number> DofLaws<N> {
             }
         }
         Self::new(only)
+    }
+
+    /// These laws and others, of which none is of the same kind.
+    #[must_use]
+    pub fn beside(&self, others: &Self) -> Self {
+        Self {
+            parameters: std::array::from_fn(|n| self.parameters[n] + others.parameters[n]),
+            present: self.present | others.present,
+        }
     }
 
     #[inline]

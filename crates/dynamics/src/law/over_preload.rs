@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::JointLaw;
+use super::{DofLaws, JointLaw};
 use crate::definiteness::is_positive_semidefinite;
 
 /// Halvings that find how much of a slope a matrix bears: as many as a double has digits.
@@ -68,6 +68,14 @@ impl fmt::Display for TableDefect {
 pub struct JointOverPreload<const D: usize> {
     knots: Box<[Knot<D>]>,
     beyond: Beyond,
+    friction: Option<Friction<D>>,
+}
+
+/// Laws that remember, beside those of the table: what grows with the preload does so in proportion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Friction<const D: usize> {
+    on: [DofLaws; D],
+    nominal_n_m: f64,
 }
 
 /// The joint at one preload of the table.
@@ -122,8 +130,30 @@ impl<const D: usize> JointOverPreload<D> {
             .collect();
         match knots.iter().position(|knot| !knot.slope.is_finite()) {
             Some(index) => Err(TableDefect::NotFinite { index }),
-            None => Ok(Self { knots, beyond }),
+            None => Ok(Self {
+                knots,
+                beyond,
+                friction: None,
+            }),
         }
+    }
+
+    /// The joint with these laws beside the table's on each relative DOF, as they are at the preload `nominal_n_m` (N·m): what
+    /// of them grows as the preload does is in proportion to it.
+    #[must_use]
+    pub fn with_friction(self, on: [DofLaws; D], nominal_n_m: f64) -> Self {
+        let is_there = on.iter().any(|laws| !laws.are_none());
+        Self {
+            friction: is_there.then_some(Friction { on, nominal_n_m }),
+            ..self
+        }
+    }
+
+    /// Whether the joint remembers its motion.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        let friction = self.friction.as_ref();
+        friction.is_some_and(|friction| friction.on.iter().any(DofLaws::have_memory))
     }
 
     /// First and last preload of the table, N·m.
@@ -167,6 +197,23 @@ impl<const D: usize> JointOverPreload<D> {
     /// The law at a preload (N·m); beyond the table that of its end.
     #[must_use]
     pub fn law(&self, preload_n_m: f64) -> JointLaw<D> {
+        let springs = self.springs(preload_n_m);
+        let Some(friction) = &self.friction else {
+            return springs;
+        };
+        let [first, last] = self.range_n_m();
+        let share = preload_n_m.clamp(first, last) / friction.nominal_n_m;
+        JointLaw {
+            on: std::array::from_fn(|i| {
+                springs.on[i].beside(&friction.on[i].at_share_of_preload(share))
+            }),
+            ..springs
+        }
+    }
+
+    /// The law of the table alone, without what remembers.
+    #[must_use]
+    pub fn springs(&self, preload_n_m: f64) -> JointLaw<D> {
         let place = self.place(preload_n_m);
         let (t, third) = (place.share, place.width_n_m / 3.0);
         let s = 1.0 - t;
@@ -180,7 +227,8 @@ impl<const D: usize> JointOverPreload<D> {
         })
     }
 
-    /// Change of the law with the preload, per N·m, at a preload (N·m); zero beyond the table.
+    /// Change of the table's law with the preload, per N·m, at a preload (N·m); zero beyond the table. No spring beside the
+    /// table depends on the preload.
     #[must_use]
     pub fn slope(&self, preload_n_m: f64) -> JointLaw<D> {
         let place = self.place(preload_n_m);
@@ -196,7 +244,28 @@ impl<const D: usize> JointOverPreload<D> {
         })
     }
 
-    /// Second derivative of the law by the preload, per (N·m)², at a preload (N·m); zero beyond the table. At the table's own
+    /// The same with what remembers, for changes of loads.
+    #[must_use]
+    pub fn change(&self, preload_n_m: f64) -> JointLaw<D> {
+        let springs = self.slope(preload_n_m);
+        let [first, last] = self.range_n_m();
+        let Some(friction) = &self.friction else {
+            return springs;
+        };
+        if !(first..=last).contains(&preload_n_m) {
+            return springs;
+        }
+        let growth = |laws: &DofLaws| {
+            let own = laws.with_only(|parameter| parameter.grows_with_preload);
+            own.at_share_of_preload(friction.nominal_n_m.recip())
+        };
+        JointLaw {
+            on: std::array::from_fn(|i| springs.on[i].beside(&growth(&friction.on[i]))),
+            ..springs
+        }
+    }
+
+    /// Second derivative of the table's law by the preload, per (N·m)², at a preload (N·m); zero beyond the table. At the table's own
     /// preloads it jumps: there it is that of the gap above.
     #[must_use]
     pub fn curvature(&self, preload_n_m: f64) -> JointLaw<D> {

@@ -33,6 +33,7 @@ const SPRING: Parameter = Parameter {
     },
     description: "",
     acts_on: ActsOn::SPRING,
+    grows_with_preload: false,
 };
 
 /// A damper, likewise.

@@ -33,6 +33,7 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
+    grows_with_preload: false,
 };
 
 /// A spring beside a slider that flows, on one relative DOF.

@@ -171,9 +171,14 @@ impl<const D: usize> System<'_, D> {
             if let Some(before) = level.checked_sub(1) {
                 // the preload jumps: U(r; p⁺) − U(r; p⁻)
                 let r = counted.state.a.relative_to(&counted.state.b).displacement;
-                let law = &conditions.lap.joint;
-                counted.passed.preload +=
-                    law.stored_energy(&r) - self.laws.at(before).stored_energy(&r);
+                let of = |level| self.laws.springs(level).stored_energy(&r);
+                counted.passed.preload += of(level) - of(before);
+                // and what holds less slips
+                if matches!(self.laws, Laws::Table { .. }) {
+                    let law = &conditions.lap.joint;
+                    let relative = counted.state.relative();
+                    counted.passed.dissipated += law.commit(&mut memory, &relative);
+                }
             }
             for _ in 0..STEPS_A_LEVEL {
                 match self.laws {

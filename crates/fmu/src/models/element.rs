@@ -69,34 +69,15 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
 
     fn begin(&self, values: &mut Values) {
         if REMEMBERS {
-            let relative = relative::<D>(values);
-            values[vr::ENERGY_DISSIPATED] = 0.0;
-            values[memory::COMMITTED_TIME] = values[vr::TIME];
-            // finite however fast the motion starts, since it is remembered
-            let power = joint_law::<D>(values).viscous_power(&relative);
-            values[memory::COMMITTED_POWER] = power.min(f64::MAX);
+            begin(values, &joint_law::<D>(values));
         }
     }
 
     fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
-        if !REMEMBERS {
-            return Ok(());
+        match REMEMBERS {
+            true => commit(values, &joint_law::<D>(values), time_s),
+            false => Ok(()),
         }
-        let (law, relative): (JointLaw<D>, _) = (joint_law(values), relative(values));
-        // the dampers' heat by the trapezoidal rule
-        let power = law.viscous_power(&relative);
-        let since_s = time_s - values[memory::COMMITTED_TIME];
-        let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
-        let before_j = values[vr::ENERGY_DISSIPATED] + damped_j;
-        let slid_j = if before_j.is_finite() {
-            values.commit_joint(&law, &relative)
-        } else {
-            None
-        };
-        values[vr::ENERGY_DISSIPATED] = before_j + slid_j.ok_or(heat_not_finite(time_s))?;
-        values[memory::COMMITTED_TIME] = time_s;
-        values[memory::COMMITTED_POWER] = power;
-        Ok(())
     }
 
     fn check_states(&mut self, values: &Values) -> Outcome {
@@ -155,6 +136,38 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
             ElementMemoryOutputs { energy_dissipated }.write(change);
         }
     }
+}
+
+/// Begins to count the heat of a joint that remembers, where initialisation ends.
+pub(super) fn begin<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
+    let relative = relative::<D>(values);
+    values[vr::ENERGY_DISSIPATED] = 0.0;
+    values[memory::COMMITTED_TIME] = values[vr::TIME];
+    // finite however fast the motion starts, since it is remembered
+    values[memory::COMMITTED_POWER] = law.viscous_power(&relative).min(f64::MAX);
+}
+
+/// Moves what the joint remembers on to where the motion is at `time_s` (s), and counts the heat of that way.
+pub(super) fn commit<const D: usize>(
+    values: &mut Values,
+    law: &JointLaw<D>,
+    time_s: f64,
+) -> Result<(), Refusal> {
+    let relative = relative(values);
+    // the dampers' heat by the trapezoidal rule
+    let power = law.viscous_power(&relative);
+    let since_s = time_s - values[memory::COMMITTED_TIME];
+    let damped_j = 0.5 * since_s * (power + values[memory::COMMITTED_POWER]);
+    let before_j = values[vr::ENERGY_DISSIPATED] + damped_j;
+    let slid_j = if before_j.is_finite() {
+        values.commit_joint(law, &relative)
+    } else {
+        None
+    };
+    values[vr::ENERGY_DISSIPATED] = before_j + slid_j.ok_or(heat_not_finite(time_s))?;
+    values[memory::COMMITTED_TIME] = time_s;
+    values[memory::COMMITTED_POWER] = power;
+    Ok(())
 }
 
 /// Derivatives of the motions with respect to time.

@@ -133,7 +133,7 @@ pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dy
 
 /// The model of a joint with `D` degrees of freedom whose law is given by parameters.
 fn model_of<const D: usize>(kind: Kind, dependence: Dependence) -> Box<dyn Model> {
-    let remembers = matches!(dependence, Dependence::Memory(_));
+    let remembers = dependence.remembers();
     match (kind, remembers) {
         (Kind::Element, false) => Box::new(Element::<D, false>::default()),
         (Kind::Element, true) => Box::new(Element::<D, true>::default()),

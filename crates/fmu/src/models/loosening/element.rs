@@ -4,24 +4,29 @@ use bolted_joint_dynamics::{JointLaw, JointOverPreload};
 
 use super::{
     CHECKED_BETWEEN, are_active, check_preload, preload_power, preload_power_change, smaller,
+    with_friction,
 };
 use crate::{
     input_course::InputCourse,
     interface::{
-        ElementCalculatedParameters, ElementOverPreloadOutputs, InterfaceType, Values,
-        reference as vr,
+        ElementCalculatedParameters, ElementMemoryOutputs, ElementOverPreloadOutputs,
+        InterfaceType, Values, reference as vr,
     },
     models::{
         Model, Outcome, Step,
-        element::{differentiate, rates, relative, set_outputs},
+        element::{begin, commit, differentiate, rates, relative, set_outputs},
         watch::{Watch, finite},
     },
+    preload_table::OverPreload,
     refusal::{Active, Reached, Refusal},
 };
 
 /// The joint alone, with `D` degrees of freedom.
 #[derive(Clone, Debug)]
 pub(in crate::models) struct LooseningElement<const D: usize> {
+    /// What the start-value file says.
+    start: OverPreload<D>,
+    /// The joint with the friction among the parameters.
     table: JointOverPreload<D>,
     watch: Watch<D>,
     /// Preload (N·m) whose limits the watch has; `None` before it has any.
@@ -29,9 +34,10 @@ pub(in crate::models) struct LooseningElement<const D: usize> {
 }
 
 impl<const D: usize> LooseningElement<D> {
-    pub(in crate::models) fn new(table: JointOverPreload<D>) -> Self {
+    pub(in crate::models) fn new(start: OverPreload<D>) -> Self {
         Self {
-            table,
+            table: start.joint.clone(),
+            start,
             watch: Watch::default(),
             watched_n_m: None,
         }
@@ -54,10 +60,25 @@ impl<const D: usize> LooseningElement<D> {
 }
 
 impl<const D: usize> Model for LooseningElement<D> {
-    fn prepare(&mut self, _: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
+    fn prepare(&mut self, values: &Values, _: InterfaceType) -> Result<Option<Active>, Refusal> {
+        self.table = with_friction(&self.start, values)?;
+        self.watched_n_m = None;
         let samples = self.table.samples_n_m(CHECKED_BETWEEN);
         let laws = samples.map(|preload_n_m| self.table.law(preload_n_m));
         Ok(Active::of(are_active(laws), false))
+    }
+
+    fn begin(&self, values: &mut Values) {
+        if self.table.has_memory() {
+            begin(values, &self.law(values));
+        }
+    }
+
+    fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
+        match self.table.has_memory() {
+            true => commit(values, &self.law(values), time_s),
+            false => Ok(()),
+        }
     }
 
     fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
@@ -77,6 +98,7 @@ impl<const D: usize> Model for LooseningElement<D> {
             let end_n_m = inputs.value(vr::PRELOAD, values[vr::PRELOAD], step.interval_s);
             check_preload(&self.table, end_n_m, Some(step.time_s + step.interval_s))?;
         }
+        self.commit(values, step.time_s)?;
         Ok(self.look(values, step.time_s))
     }
 
@@ -118,16 +140,25 @@ impl<const D: usize> Model for LooseningElement<D> {
             power_preload: preload_power(&self.table, values, &r),
         }
         .write(values);
+        if self.table.has_memory() {
+            // as of the last step
+            let energy_dissipated = values[vr::ENERGY_DISSIPATED];
+            ElementMemoryOutputs { energy_dissipated }.write(values);
+        }
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
-        let slope = self.table.slope(values[vr::PRELOAD]);
-        let law_change = slope.times(change[vr::PRELOAD]);
+        let law_change = self.table.change(values[vr::PRELOAD]);
+        let law_change = law_change.times(change[vr::PRELOAD]);
         differentiate([&self.law(values), &law_change], values, change);
         let [r, r_change] = [values, &*change].map(|values| relative::<D>(values).displacement);
         ElementOverPreloadOutputs {
             power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
         }
         .write(change);
+        if self.table.has_memory() {
+            let energy_dissipated = 0.0;
+            ElementMemoryOutputs { energy_dissipated }.write(change);
+        }
     }
 }

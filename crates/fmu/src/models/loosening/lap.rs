@@ -8,12 +8,13 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, JointLaw, JointOverPreload, Lap, LapConditions, LapLoads, LapState, PassedEnergy,
+    CountedState, DOF_AT_REST, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions,
+    LapLoads, LapState, PassedEnergy,
 };
 
 use super::{
     CHECKED_BETWEEN, are_active, check_preload, preload_power, preload_power_change, smaller,
-    stored_energy_change,
+    stored_energy_change, with_friction,
 };
 use crate::{
     input_course::InputCourse,
@@ -22,7 +23,7 @@ use crate::{
         reference as vr,
     },
     models::{
-        Model, Outcome, Step,
+        Model, Outcome, Step, heat_not_finite,
         lap::{
             differentiate,
             faults::{check_held, check_parameters, check_step},
@@ -34,6 +35,7 @@ use crate::{
         sides::{A, B},
         watch::{Watch, finite},
     },
+    preload_table::OverPreload,
     refusal::{Active, Reached, Refusal},
 };
 
@@ -43,6 +45,9 @@ const STEPS_BETWEEN_CHECKS: u32 = 8;
 /// Two bodies and a joint over the preload between them.
 #[derive(Clone, Debug)]
 pub(in crate::models) struct LooseningLap<const D: usize> {
+    /// What the start-value file says.
+    start: OverPreload<D>,
+    /// The joint with the friction among the parameters.
     table: JointOverPreload<D>,
     step_size_max_s: Option<f64>,
     /// Who integrates: where it is the importer, so it is for the energies.
@@ -62,9 +67,10 @@ struct AtPreload<const D: usize> {
 }
 
 impl<const D: usize> LooseningLap<D> {
-    pub(in crate::models) fn new(table: JointOverPreload<D>) -> Self {
+    pub(in crate::models) fn new(start: OverPreload<D>) -> Self {
         Self {
-            table,
+            table: start.joint.clone(),
+            start,
             step_size_max_s: None,
             interface_type: InterfaceType::CoSimulation,
             latest: None,
@@ -86,20 +92,21 @@ impl<const D: usize> LooseningLap<D> {
     }
 
     /// Energy (J) by the change of stiffness up to the present preload, which may have jumped since the last step.
-    fn preload_energy(&self, values: &Values, law: &JointLaw<D>, r: &[f64; D]) -> f64 {
+    fn preload_energy(&self, values: &Values, r: &[f64; D]) -> f64 {
         let counted_n_m = values[memory::COUNTED_PRELOAD];
         if counted_n_m == values[vr::PRELOAD] {
             return values[memory::PRELOAD_WORK];
         }
         // U(r; p⁺) − U(r; p⁻)
-        let jump = law.stored_energy(r) - self.table.law(counted_n_m).stored_energy(r);
-        values[memory::PRELOAD_WORK] + jump
+        let stored = |preload_n_m| self.table.springs(preload_n_m).stored_energy(r);
+        values[memory::PRELOAD_WORK] + stored(values[vr::PRELOAD]) - stored(counted_n_m)
     }
 
     /// The steps of one communication step. `conditions_at` gives what acts at a time after its start (s).
     fn steps(
         &self,
         start: &CountedState<D>,
+        mut memory: Option<&mut JointMemory<D>>,
         step: Step,
         mut hold: [f64; D],
         conditions_at: &dyn Fn(f64) -> Result<LapConditions<D>, Refusal>,
@@ -113,11 +120,12 @@ impl<const D: usize> LooseningLap<D> {
             let from_s = f64::from(index) * length_s;
             let to_s = f64::from(index + 1) * length_s;
             counted = if is_held {
-                LapConditions::step([&first; 3], &counted, None, length_s)
+                LapConditions::step([&first; 3], &counted, memory.as_deref_mut(), length_s)
             } else {
                 let middle = conditions_at(from_s + 0.5 * length_s)?;
                 let last = conditions_at(to_s)?;
-                let next = LapConditions::step([&first, &middle, &last], &counted, None, length_s);
+                let stages = [&first, &middle, &last];
+                let next = LapConditions::step(stages, &counted, memory.as_deref_mut(), length_s);
                 first = last;
                 if (index + 1) % STEPS_BETWEEN_CHECKS == 0 || index + 1 == count {
                     hold = finite(first.lap.escape_amplitude());
@@ -174,6 +182,7 @@ impl<const D: usize> Model for LooseningLap<D> {
         values: &Values,
         interface_type: InterfaceType,
     ) -> Result<Option<Active>, Refusal> {
+        self.table = with_friction(&self.start, values)?;
         let step_size_max_s = values[vr::STEP_SIZE_MAX];
         check_parameters(&self.lap(values))?;
         // the bolt may come to any preload of the table
@@ -193,12 +202,26 @@ impl<const D: usize> Model for LooseningLap<D> {
     fn begin(&self, values: &mut Values) {
         values[memory::COUNTED_PRELOAD] = values[vr::PRELOAD];
         values[memory::PRELOAD_WORK] = 0.0;
+        if self.table.has_memory() {
+            // the joint has come straight to where it starts; the heat of that way was before
+            values.change_joint(|memory| *memory = [DOF_AT_REST; D]);
+            values.commit_joint(&self.lap(values).joint, &state(values).relative());
+        }
         // what the balance E = E₀ + supplied − dissipated + preload starts from
         let stored = self
             .lap(values)
             .stored_energy(values.joint(), &state(values));
         values[memory::FIRST_ENERGY] =
             stored - values[vr::ENERGY_SUPPLIED] + values[vr::ENERGY_DISSIPATED];
+    }
+
+    fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
+        if !self.table.has_memory() {
+            return Ok(());
+        }
+        // its heat is part of the power that the importer integrates
+        let heat_j = values.commit_joint(&self.lap(values).joint, &state(values).relative());
+        heat_j.map(|_| ()).ok_or(heat_not_finite(time_s))
     }
 
     fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
@@ -239,14 +262,22 @@ impl<const D: usize> Model for LooseningLap<D> {
         let law = latest.law;
         let state = state::<D>(values);
         let relative = state.relative();
-        let start = CountedState {
+        let mut start = CountedState {
             state,
             passed: PassedEnergy {
                 supplied: values[vr::ENERGY_SUPPLIED],
                 dissipated: values[vr::ENERGY_DISSIPATED],
-                preload: self.preload_energy(values, &law, &relative.displacement),
+                preload: self.preload_energy(values, &relative.displacement),
             },
         };
+        // apart, so that a step that is refused leaves no trace
+        let mut memory = self.table.has_memory().then(|| *values.joint());
+        if let Some(memory) = &mut memory
+            && values[memory::COUNTED_PRELOAD] != preload_n_m
+        {
+            // what holds less since the preload has jumped slips where it is
+            start.passed.dissipated += law.commit(memory, &relative);
+        }
         let loads: Loads<'_, D> = Loads {
             start: loads(values),
             course: inputs,
@@ -274,8 +305,18 @@ impl<const D: usize> Model for LooseningLap<D> {
         };
         let is_held = inputs.is_held();
         let conditions_at: &dyn Fn(f64) -> _ = if is_held { &held } else { &along };
-        let (end, last) = self.steps(&start, step, latest.hold, conditions_at, is_held)?;
+        let (end, last) = self.steps(
+            &start,
+            memory.as_mut(),
+            step,
+            latest.hold,
+            conditions_at,
+            is_held,
+        )?;
         set_state(values, &end.state);
+        if let Some(own) = memory {
+            values.change_joint(|memory| *memory = own);
+        }
         values[vr::ENERGY_SUPPLIED] = end.passed.supplied;
         values[vr::ENERGY_DISSIPATED] = end.passed.dissipated;
         values[memory::PRELOAD_WORK] = end.passed.preload;
@@ -344,7 +385,7 @@ impl<const D: usize> Model for LooseningLap<D> {
             power_preload: preload_power(&self.table, values, &r),
             power_supplied: supplied_power(&loads(values), &state),
             energy_preload: match self.interface_type {
-                InterfaceType::CoSimulation => self.preload_energy(values, &lap.joint, &r),
+                InterfaceType::CoSimulation => self.preload_energy(values, &r),
                 // E − E₀ − supplied + dissipated
                 InterfaceType::ModelExchange => {
                     values[vr::ENERGY_STORED]
@@ -359,9 +400,9 @@ impl<const D: usize> Model for LooseningLap<D> {
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let lap = self.lap(values);
-        let slope = self.table.slope(values[vr::PRELOAD]);
+        let preload_n_m = values[vr::PRELOAD];
         let lap_change = Lap {
-            joint: slope.times(change[vr::PRELOAD]),
+            joint: self.table.change(preload_n_m).times(change[vr::PRELOAD]),
             a: A.body(change),
             b: B.body(change),
         };
@@ -377,8 +418,10 @@ impl<const D: usize> Model for LooseningLap<D> {
             energy_preload: match self.interface_type {
                 InterfaceType::CoSimulation => {
                     // d(U(r; p) − U(r; p_counted))
-                    let counted = self.table.law(values[memory::COUNTED_PRELOAD]);
-                    stored_energy_change([&lap.joint, &lap_change.joint], [&r, &r_change])
+                    let counted = self.table.springs(values[memory::COUNTED_PRELOAD]);
+                    let springs = self.table.springs(preload_n_m);
+                    let slope = self.table.slope(preload_n_m).times(change[vr::PRELOAD]);
+                    stored_energy_change([&springs, &slope], [&r, &r_change])
                         - stored_energy_change([&counted, &JointLaw::NONE], [&r, &r_change])
                 }
                 InterfaceType::ModelExchange => {

@@ -10,7 +10,8 @@ use bolted_joint_dynamics::{Dual, JointLaw, JointOverPreload};
 
 use crate::{
     interface::{Values, memory, reference as vr},
-    models::sides::is_active,
+    models::sides::{check_laws, is_active, joint_law},
+    preload_table::OverPreload,
     refusal::Refusal,
 };
 
@@ -19,6 +20,16 @@ const CHECKED_BETWEEN: u32 = 3;
 
 /// How far beyond its table, as a part of its range, a course of the preload may come by rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// The joint with the friction that is among the parameters, or why that cannot be.
+fn with_friction<const D: usize>(
+    start: &OverPreload<D>,
+    values: &Values,
+) -> Result<JointOverPreload<D>, Refusal> {
+    let law = joint_law(values);
+    check_laws(&law)?;
+    Ok(start.with_friction(law.on))
+}
 
 /// Refuses a preload (N·m) at which there is no joint; `time_s` (s) where the simulation has come to it by itself.
 fn check_preload<const D: usize>(

@@ -32,7 +32,8 @@ impl ToldApart {
     ///
     /// # Errors
     ///
-    /// [`SpaceError::TooFew`] without unknowns, [`SpaceError::Size`] for Jacobians with different rows, [`SpaceError::NotFinite`].
+    /// [`SpaceError::TooFew`] without unknowns, [`SpaceError::Size`] for Jacobians with different rows,
+    /// [`SpaceError::NotFinite`].
     pub fn of(first: &DMatrix<f64>, second: &DMatrix<f64>) -> Result<Self, SpaceError> {
         let rows = first.nrows();
         if second.nrows() != rows {
@@ -57,7 +58,7 @@ impl ToldApart {
                 });
             }
         }
-        let scaled = [normalised(first), normalised(second)];
+        let scaled = compressed(&normalised(first), &normalised(second));
         let [one, other] = [range(&scaled[0]), range(&scaled[1])];
         let unknowns = [first.ncols(), second.ncols()];
         let ranks = [one.ncols(), other.ncols()];
@@ -132,6 +133,19 @@ fn normalised(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
             0.0
         }
     })
+}
+
+/// Both in the basis of the Q of their QR: angles and lengths are the same, and rows that only repeat others are gone.
+fn compressed(one: &DMatrix<f64>, other: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    let (before, count) = (one.ncols(), other.ncols());
+    let mut both = DMatrix::zeros(one.nrows(), before + count);
+    both.columns_mut(0, before).copy_from(one);
+    both.columns_mut(before, count).copy_from(other);
+    let r = both.qr().r();
+    [
+        r.columns(0, before).into_owned(),
+        r.columns(before, count).into_owned(),
+    ]
 }
 
 /// Orthonormal columns that span what the columns span.

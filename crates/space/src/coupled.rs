@@ -2,7 +2,7 @@
 //!
 //! The joints may lack stiffness in any motion, or in all: nothing is divided by it.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix6};
 use num_complex::Complex64;
 
 use crate::{Selection, SpaceError};
@@ -175,6 +175,28 @@ impl Coupled {
         // −(a_p b_q + a_q b_p), and −a_p b_p on the diagonal
         let one = a(p)? * b(q)?;
         Some(if p == q { -one } else { -(one + a(q)? * b(p)?) })
+    }
+
+    /// dY_C,oi of a change of one joint by a matrix, such as one of
+    /// [`Parametrisation::bases`](crate::Parametrisation::bases): `first` is the joint's first row in D. Times jω it is
+    /// that of a damping. None beyond the matrices.
+    #[must_use]
+    pub fn by_matrix(
+        &self,
+        [output, input]: [usize; 2],
+        first: usize,
+        change: &Matrix6<f64>,
+    ) -> Option<Complex64> {
+        if output >= self.a.nrows() || input >= self.b.ncols() || first + 6 > self.b.nrows() {
+            return None;
+        }
+        // −a dD b
+        let a = self.a.fixed_view::<1, 6>(output, first);
+        let b = self.b.fixed_view::<6, 1>(first, input);
+        let sum: Complex64 = (0..6)
+            .map(|p| (0..6).map(|q| b[q] * change[(p, q)]).sum::<Complex64>() * a[p])
+            .sum();
+        Some(-sum)
     }
 }
 

@@ -77,7 +77,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::transported;
+    use crate::{CentreOfElasticity, Uncertainty, transported};
 
     #[test]
     fn there_and_back_is_the_same() {
@@ -88,6 +88,25 @@ mod tests {
             for others in [Others::Held, Others::Free] {
                 assert_eq!(planar(&spatial, beam, others), Ok(stiffness));
             }
+        }
+    }
+
+    /// The centre of a planar joint lies where y and θ are decoupled: at k_yθ/k_yy along the beam, d_z = −k_y_rx/k_yy.
+    #[test]
+    fn the_centre_of_a_planar_joint_is_on_its_beam() {
+        let stiffness = Matrix2::new(5.73e5, 1.2e4, 1.2e4, 1.29e3);
+        for (beam, along) in [(BeamAlong::X, Vector3::x()), (BeamAlong::Z, Vector3::z())] {
+            let spatial = in_space(&stiffness, beam);
+            let centre = CentreOfElasticity::of(&spatial, &Uncertainty::None).unwrap();
+            assert!(
+                (centre.offset_m - along * (1.2e4 / 5.73e5)).norm() < 1e-15,
+                "{beam:?}"
+            );
+            // no stiffness but along y
+            assert_eq!(centre.free_directions.len(), 1);
+            let there =
+                planar(&transported(&spatial, &centre.offset_m), beam, Others::Held).unwrap();
+            assert!(there[(0, 1)].abs() < 1e-10);
         }
     }
 

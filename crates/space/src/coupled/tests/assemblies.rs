@@ -1,10 +1,13 @@
 //! Assemblies of structures without any symmetry, against the inverse of their dynamic stiffness.
 
+use nalgebra::Vector3;
 use num_complex::Complex64;
 
 use super::{Matrix, SIX, dense, difference, from, inverse};
 use crate::samples::{definite, diagonal, scattered, structure};
-use crate::{Connection, Coupled, Dof, JointMatrices, Selection, block_diagonal, lumped};
+use crate::{
+    Connection, Coupled, Dof, JointMatrices, JointModel, Mirrors, Selection, block_diagonal, lumped,
+};
 
 fn assembled(structures: &[Matrix], selection: &Selection, dynamic: &Matrix) -> Matrix {
     let s = selection.matrix().map(Complex64::from);
@@ -147,6 +150,27 @@ fn the_derivative_is_that_of_differences() {
             at.by_entry([3, 33], [7, 10]).unwrap(),
         ];
         assert!((by_change - by_entry).norm() < 1e-13 * by_entry.norm());
+        // by what a number of a model is in the second joint
+        let form = JointModel::Bolt {
+            axis: Vector3::new(1.0, 2.0, 3.0),
+            mirrors: Mirrors::Kept,
+        };
+        for basis in form.parametrisation().unwrap().bases() {
+            let mut second = Matrix::zeros(12, 12);
+            second
+                .view_mut((6, 6), (6, 6))
+                .copy_from(&basis.map(Complex64::from));
+            let by_change = at.change(&second).unwrap()[(3, 33)];
+            let by_matrix = at.by_matrix([3, 33], 6, basis).unwrap();
+            assert!((by_change - by_matrix).norm() < 1e-13 * by_matrix.norm());
+            assert_eq!(
+                [
+                    at.by_matrix([36, 0], 0, basis),
+                    at.by_matrix([0, 0], 7, basis)
+                ],
+                [None; 2]
+            );
+        }
     }
 }
 

@@ -69,5 +69,5 @@ pub use planar::{BeamAlong, in_space, planar};
 pub use principal::{PrincipalAxes, PrincipalStiffness};
 pub use selection::{Connection, Selection, block_diagonal, lumped};
 pub use symmetry::semidefinite;
-pub use transport::{cross, transport, transported};
+pub use transport::{transport, transported};
 pub use uncertainty::Uncertainty;

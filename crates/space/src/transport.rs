@@ -3,13 +3,7 @@
 //! A matrix belongs to a point: the same joint has other numbers at its bolt's head than in its interface, since a
 //! rotation moves every other point.
 
-use nalgebra::{ComplexField, Matrix3, Matrix6, Vector3};
-
-/// \[a\]×, so that \[a\]× b = a × b.
-#[must_use]
-pub fn cross(a: &Vector3<f64>) -> Matrix3<f64> {
-    a.cross_matrix()
-}
+use nalgebra::{ComplexField, Matrix6, Vector3};
 
 /// X(d): the motion at P by the motion at Q = P + d of the same rigid body, q_P = X q_Q; X(d)⁻¹ = X(−d).
 #[must_use]
@@ -18,7 +12,7 @@ pub fn transport(offset_m: &Vector3<f64>) -> Matrix6<f64> {
     let mut motion = Matrix6::identity();
     motion
         .fixed_view_mut::<3, 3>(0, 3)
-        .copy_from(&cross(offset_m));
+        .copy_from(&offset_m.cross_matrix());
     motion
 }
 

@@ -34,8 +34,8 @@ pub enum JointModel {
     Translations,
     /// The diagonal: 6 numbers.
     Diagonal,
-    /// One bolt: looks the same from every side of its axis. 5 numbers, 7 without mirrors, in axes whose z is the
-    /// bolt's.
+    /// One bolt, told at a point on its axis: looks the same from every side of it. 5 numbers, 7 without mirrors, in
+    /// axes whose z is the bolt's. A bolt aside of the point is one of [`JointModel::Bolts`].
     ///
     /// `k_x_ry` = −`k_y_rx` puts the centre `k_x_ry`/`k_x` along the axis, so it changes sign with the axis' sense.
     Bolt {

@@ -51,7 +51,7 @@ pub(super) const ONE_BOLT_TWISTED: &[Term] = &[
     Term::two(Rx, Rx, 1.0, (Ry, Ry)),
     Term::one(Rz, Rz),
     Term::two(X, Ry, -1.0, (Y, Rx)),
-    // a rotation does not change sign with the mirror that changes the translation along it
+    // a mirror that holds an axis reverses the rotation about it and leaves the translation along it
     Term::two(X, Rx, 1.0, (Y, Ry)),
     Term::one(Z, Rz),
 ];

@@ -15,10 +15,17 @@ impl FrictionFigure<'_> {
     #[must_use]
     pub fn to_svg(&self) -> Option<String> {
         let laws = ChapterLaw::ALL.into_iter();
-        let loops = laws.map(|law| self.panel(law, "", "displacement, mm", displacements));
+        let loops = laws.map(|law| {
+            // figure 2.1 has the velocity alone
+            let more = match law {
+                ChapterLaw::Signum => " as a loop",
+                _ => "",
+            };
+            self.panel(law, more, "displacement, mm", displacements)
+        });
         let velocities = self.panel(
             ChapterLaw::Signum,
-            ", over the velocity",
+            " over the velocity",
             "velocity, mm/s",
             velocities,
         );
@@ -49,9 +56,9 @@ impl FrictionFigure<'_> {
             is_dashed: Vec::new(),
         });
         ResponsePanel {
-            title: format!("{}: {}{more}", law.title(), law.figures()),
-            across: (across.to_owned(), Scale::Linear),
-            up: ("force, N".to_owned(), Scale::Linear),
+            title: format!("{}{more}: {}", law.title(), law.figures()),
+            across: (across.to_owned(), Scale::Roomy),
+            up: ("force, N".to_owned(), Scale::Roomy),
             curves: curves.collect(),
         }
     }

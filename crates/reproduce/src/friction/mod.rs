@@ -14,7 +14,7 @@ pub use readings::LoopReading;
 /// What the thesis leaves open, and what was taken instead.
 const NOT_GIVEN: [&str; 5] = [
     "parameters of any law: all are ours",
-    "amplitudes and frequencies of the loops: ours, so that each law slips",
+    "amplitudes and frequencies of the loops: ours, so that each law slips; signum friction is the same at any frequency",
     "densities of the sliders in figure 2.4: that of D. J. Segalman, J. Appl. Mech. 72 (2005) 752, taken",
     "equations of the LuGre law, for which it names Canudas de Wit et al. (1995): theirs taken",
     "λ of (2.3): E_0/(σ_0 (1 − κ E_t/E_0)) taken, as Gaul and Nitsche (2001) have it; then σ_0 is where the lines of slope E_0 and E_t meet",
@@ -48,7 +48,7 @@ pub struct FrictionReproduction {
 /// A figure of the chapter.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ChapterFigure {
-    /// Its number.
+    /// Its number, or those of two.
     pub number: &'static str,
     /// What it shows by its caption and by the text.
     pub shows: &'static str,
@@ -58,32 +58,32 @@ pub struct ChapterFigure {
 
 const FIGURES: [ChapterFigure; 6] = [
     ChapterFigure {
-        number: "2.1",
+        number: "figure 2.1",
         shows: "signum friction: force over velocity, (2.1)",
         drawn: "this, and the loop of force over displacement",
     },
     ChapterFigure {
-        number: "2.2",
+        number: "figure 2.2",
         shows: "generalised elasto-slip: the sketch of a spring and Jenkins elements in parallel",
         drawn: "nothing",
     },
     ChapterFigure {
-        number: "2.3",
+        number: "figure 2.3",
         shows: "elasto-slip: the force of (2.2)",
         drawn: "loops of one element beside a spring",
     },
     ChapterFigure {
-        number: "2.4",
+        number: "figure 2.4",
         shows: "stiffness of many Jenkins elements in parallel, after Iwan",
         drawn: "loops of Iwan's law",
     },
     ChapterFigure {
-        number: "2.5, 2.6",
+        number: "figures 2.5 and 2.6",
         shows: "LuGre: sketches of bristles",
         drawn: "loops of the law",
     },
     ChapterFigure {
-        number: "2.7",
+        number: "figure 2.7",
         shows: "Valanis: a closed hysteresis, (2.3)",
         drawn: "loops with four κ",
     },

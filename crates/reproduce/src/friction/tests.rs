@@ -43,7 +43,7 @@ fn loops_have_the_heat_and_the_tip_of_independent_results() {
         ),
         (
             ChapterLaw::LuGre,
-            1e-3,
+            1e-5,
             vec![slow, (1e-3, 4_400.358_784_715, 11.491_298_354_978)],
         ),
         (

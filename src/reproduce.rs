@@ -85,7 +85,7 @@ impl Alone {
         match self {
             Self::Friction => [
                 "2.2",
-                "Chapter 2.2: joint laws as closed loops; also `tol 2.2`",
+                "Tol, chapter 2.2: joint laws as closed loops; also `tol 2.2`",
             ],
             Self::Pirdayr => [
                 "pirdayr",

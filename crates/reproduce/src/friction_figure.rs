@@ -16,16 +16,20 @@ impl FrictionFigure<'_> {
     pub fn to_svg(&self) -> Option<String> {
         let laws = ChapterLaw::ALL.into_iter();
         let loops = laws.map(|law| {
-            // figure 2.1 has the velocity alone
-            let more = match law {
-                ChapterLaw::Signum => " as a loop",
-                _ => "",
+            let title = match law {
+                // figure 2.1 has the velocity alone
+                ChapterLaw::Signum => format!("{} as a loop", law.title()),
+                _ => format!("{}: {}", law.title(), law.figures()),
             };
-            self.panel(law, more, "displacement, mm", displacements)
+            self.panel(law, title, "displacement, mm", displacements)
         });
         let velocities = self.panel(
             ChapterLaw::Signum,
-            " over the velocity",
+            format!(
+                "{} over the velocity: {}",
+                ChapterLaw::Signum.title(),
+                ChapterLaw::Signum.figures()
+            ),
             "velocity, mm/s",
             velocities,
         );
@@ -40,7 +44,7 @@ impl FrictionFigure<'_> {
     fn panel(
         &self,
         law: ChapterLaw,
-        more: &str,
+        title: String,
         across: &str,
         points: fn(&FrictionLoop) -> Vec<(f64, f64)>,
     ) -> ResponsePanel {
@@ -56,7 +60,7 @@ impl FrictionFigure<'_> {
             is_dashed: Vec::new(),
         });
         ResponsePanel {
-            title: format!("{}{more}: {}", law.title(), law.figures()),
+            title,
             across: (across.to_owned(), Scale::Roomy),
             up: ("force, N".to_owned(), Scale::Roomy),
             curves: curves.collect(),

@@ -23,8 +23,8 @@ const NOT_GIVEN: [&str; 5] = [
 /// Where the thesis and its equations part.
 const DIFFERENCES: [&str; 3] = [
     "Figure 2.3 is said to show force and velocity, but (2.2) gives force over displacement, as it is drawn here.",
-    "In (2.2) the sign of ẋ⁺ is said to be that before the reversal. With it the force would jump from h to −h there; it must be the sign after \
-     the reversal. And (2.2) holds only where the element slipped before it: the program remembers the slider's place instead.",
+    "(2.2) has x⁺ as the displacement prior to the reversal, and does not explain ẋ⁺. It must be the velocity after the reversal: with that before \
+     it the force would jump from h to −h. And (2.2) holds only where the element slipped before: the program remembers the slider's place instead.",
     "Signum friction has no stiffness. It is drawn as a slider on a spring that gives way by h/k = 0.01 µm, which is what its heat lacks.",
 ];
 

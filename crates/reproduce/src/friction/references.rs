@@ -162,7 +162,7 @@ pub(super) fn valanis(law: &Valanis, amplitude_m: f64) -> Reference {
         force_at_tip_n: law.slip_stiffness * amplitude_m + limit * low.tanh(),
         // D = 4 (p_m²/E₁) (1 − c) (a − tanh a)
         heat_j: 4.0 * limit * limit / stiffness * (1.0 - sharpness) * (low - low.tanh()),
-        by: "4 (p_m²/E_1) (1 − c) (a − tanh a), (2.3) solved from tip to tip",
+        by: "4 (p_m²/E_1) (1 − c) (a − tanh a) with E_1 U/p_m = c tanh a + (1 − c) a, E_1 = E_0 − E_t and p_m = σ_0 E_1/E_0: (2.3) from tip to tip",
     }
 }
 

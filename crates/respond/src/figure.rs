@@ -25,7 +25,6 @@ impl RespondStudy {
         };
         let scale = |is_logarithmic| match is_logarithmic {
             true => Scale::Logarithmic,
-            false if is_loop => Scale::Roomy,
             false => Scale::Linear,
         };
         let is_over_amplitude = matches!(

@@ -1,5 +1,6 @@
-//! `reproduce`: the published tables of the five sources computed anew.
+//! `reproduce`: the published tables of the five sources computed anew, and the joint laws of one of them.
 
+mod friction;
 mod kavi;
 mod page;
 mod pirdayr;
@@ -24,7 +25,7 @@ use super::table::{Table, number};
 #[command(after_help = names())]
 pub(super) struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis, or `tol` for all of them [default: tol]; or
-    /// one of `pirdayr`, `tian`, `kavi` and `zhao`, for what can be computed of these
+    /// one of `pirdayr`, `tian`, `kavi` and `zhao`, for what can be computed of these; or 2.2, for Tol's joint laws
     tables: Vec<Source>,
     /// Draws of the noise, for mean and spread
     #[arg(long, value_name = "NUMBER", default_value_t = 100)]
@@ -41,7 +42,7 @@ pub(super) struct ReproduceArguments {
     /// Print the tables as a document in Markdown
     #[arg(long)]
     markdown: bool,
-    /// Also draw damping over what is varied, for `kavi`
+    /// Also draw damping over what is varied, for `kavi`, or the loops, for 2.2
     #[arg(long, value_name = "NAME.svg")]
     figure: Option<PathBuf>,
 }
@@ -60,6 +61,8 @@ pub(super) enum Source {
 /// A source that is computed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Alone {
+    /// Chapter 2.2 of Tol's thesis.
+    Friction,
     Pirdayr,
     Tian,
     Kavi,
@@ -69,11 +72,21 @@ pub(super) enum Alone {
 const TOL: &str = "tol";
 
 impl Alone {
-    const ALL: [Self; 4] = [Self::Pirdayr, Self::Tian, Self::Kavi, Self::Zhao];
+    const ALL: [Self; 5] = [
+        Self::Friction,
+        Self::Pirdayr,
+        Self::Tian,
+        Self::Kavi,
+        Self::Zhao,
+    ];
 
     /// What the command line calls it, and what it shows.
     fn words(self) -> [&'static str; 2] {
         match self {
+            Self::Friction => [
+                "2.2",
+                "Tol, chapter 2.2: joint laws as closed loops; also `tol 2.2`",
+            ],
             Self::Pirdayr => [
                 "pirdayr",
                 "Pirdayr, Tables 3 and 4: frequencies of the updated lap joint",
@@ -93,8 +106,18 @@ impl Alone {
         }
     }
 
+    fn has_figure(self) -> bool {
+        matches!(self, Self::Friction | Self::Kavi)
+    }
+
+    /// Whether this only says whose thesis it is from.
+    fn is_named_by(self, other: Source) -> bool {
+        other == Source::Alone(self) || (self == Self::Friction && other == Source::Tol)
+    }
+
     fn run(self, arguments: &ReproduceArguments) -> Result<(), CliError> {
         match self {
+            Self::Friction => friction::run(arguments),
             Self::Pirdayr => pirdayr::run(arguments),
             Self::Tian => tian::run(arguments),
             Self::Kavi => kavi::run(arguments),
@@ -110,8 +133,14 @@ impl FromStr for Source {
         if text == TOL {
             return Ok(Self::Tol);
         }
+        // `tol-2.2` says whose chapter it is in one word
+        let chapter = text.strip_prefix("tol-").unwrap_or(text);
         let mut alone = Alone::ALL.into_iter();
-        if let Some(alone) = alone.find(|alone| alone.words()[0] == text) {
+        let is_meant = |alone: &Alone| match alone {
+            Alone::Friction => alone.words()[0] == chapter,
+            _ => alone.words()[0] == text,
+        };
+        if let Some(alone) = alone.find(is_meant) {
             return Ok(Self::Alone(alone));
         }
         text.parse()
@@ -128,18 +157,20 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         Source::Alone(alone) => Some(*alone),
         Source::Table(_) | Source::Tol => None,
     });
-    if arguments.figure.is_some() && alone != Some(Alone::Kavi) {
+    if arguments.figure.is_some() && !alone.is_some_and(Alone::has_figure) {
         return Err(CliError::option(
             "--figure",
             "other tables",
-            "`kavi`, which is the one that has a figure",
+            "`kavi` or `2.2`, which have a figure",
         ));
     }
     if let Some(alone) = alone {
-        if arguments.tables.len() > 1 {
+        let mut others = arguments.tables.clone();
+        others.retain(|&other| !alone.is_named_by(other));
+        if !others.is_empty() {
             return Err(CliError::option(
                 alone.words()[0],
-                format_args!("{} tables beside it", arguments.tables.len() - 1),
+                format_args!("{} tables beside it", others.len()),
                 "it alone: it has a table of another form",
             ));
         }

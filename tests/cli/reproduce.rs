@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use bolted_joint::reproduce::PublishedTable;
-use bolted_joint_testing::{has, near};
+use bolted_joint_testing::{close, has, near};
 
 use crate::bench::Bench;
 
@@ -20,12 +20,15 @@ fn documents_are_what_the_command_writes() {
         ("kavi --figure kavi.svg", "kavi.md"),
         ("pirdayr", "pirdayr.md"),
         ("tian", "tian.md"),
+        ("tol 2.2 --figure tol-friction.svg", "tol-friction.md"),
         ("zhao", "zhao.md"),
     ] {
         let written = bench.done(&format!("reproduce {case} --markdown")).stdout;
         assert_eq!(written, document(name), "{name}");
     }
-    assert_eq!(bench.text("kavi.svg"), document("images/kavi.svg"));
+    for figure in ["kavi.svg", "tol-friction.svg"] {
+        assert_eq!(bench.text(figure), document(&format!("images/{figure}")));
+    }
 }
 
 #[test]
@@ -82,6 +85,9 @@ fn cases_without_tables_stand_alone() {
     bench.fails("reproduce kavi 4.6", &["kavi: found 1 tables beside it"]);
     bench.fails("reproduce tian 4.2", &["1 tables beside it"]);
     bench.fails("reproduce pirdayr --figure x.svg", &["--figure"]);
+    bench.fails("reproduce tol --figure x.svg", &["`kavi` or `2.2`"]);
+    bench.fails("reproduce tol 2.2 4.6", &["2.2: found 1 tables beside it"]);
+    bench.fails("reproduce tol kavi", &["kavi: found 1 tables beside it"]);
 }
 
 #[test]
@@ -112,6 +118,43 @@ fn json_of_tian_has_published_and_obtained_values_side_by_side() {
 }
 
 #[test]
+fn joint_laws_of_tol_are_known_by_three_names_and_have_the_heat_of_closed_forms() {
+    let bench = Bench::new();
+    let json = bench.done("reproduce 2.2 --json").stdout;
+    for name in ["tol 2.2", "2.2 tol", "tol-2.2"] {
+        let same = bench.done(&format!("reproduce {name} --json")).stdout;
+        assert_eq!(same, json, "{name}");
+    }
+    let found = bench.done("reproduce 2.2 --json").json();
+    // mpmath: Iwan with 4000 N, 1.5e7 N/m, −0.3 and 0.5 at 1.5 φ_max; a slider of the same slip force and stiffness at 0.6 mm,
+    // 4 · 4000 N (0.6 mm − 4000/1.5e7 m); Valanis with κ = 0.9, of forces 800 and lengths 4/75 times those of 1000, 100 and 5
+    let expected = [
+        ("iwan", "1.5 φ_max", 4.683_763_055_5),
+        ("elasto_slip", "0.6 mm", 5.333_333_333_33),
+        (
+            "valanis",
+            "κ = 0.9",
+            0.018_574_814_300_601 * 800.0 * 4.0 / 75.0,
+        ),
+    ];
+    let loops = found["loops"].as_array().unwrap();
+    assert_eq!(loops.len(), 11);
+    for (law, case, heat_j) in expected {
+        let mut of = loops
+            .iter()
+            .filter(|of| of["law"] == law && of["case"] == case);
+        let of = of.next().unwrap();
+        close(of["heat_j"].as_f64().unwrap(), heat_j, 1e-9);
+        assert!(of["parameters"][0]["printed"].is_null());
+    }
+    let text = bench.done("reproduce tol 2.2").stdout;
+    has(
+        &text,
+        &["4.6838", "force at the tip", "the thesis prints none"],
+    );
+}
+
+#[test]
 fn zhao_is_printed_for_people_and_machines() {
     let bench = Bench::new();
     let json = bench.done("reproduce zhao --json").json();
@@ -134,7 +177,7 @@ fn a_name_that_is_none_brings_all_that_are() {
         &[
             "4.2, 4.3",
             "m10x16, m8x16",
-            "or tol for all of these, or one of pirdayr, tian, kavi, zhao",
+            "or tol for all of these, or one of 2.2, pirdayr, tian, kavi, zhao",
         ],
     );
 }

@@ -17,6 +17,8 @@ const SAMPLE_WIDTH: f64 = 26.0;
 const BETWEEN_ENTRIES: f64 = 24.0;
 /// Radius of a point.
 const MARK: f64 = 2.6;
+/// Beyond the ends of a roomy axis, as a part of what is between them.
+const ROOM: f64 = 0.06;
 /// Decades that a logarithmic axis shows at most.
 const DECADES: i32 = 9;
 
@@ -34,6 +36,8 @@ const LOOKS: [(&str, Option<&str>); 4] = [
 pub enum Scale {
     /// Evenly.
     Linear,
+    /// Evenly, with room beyond both ends: a closed loop would lie on the frame without it.
+    Roomy,
     /// By decades.
     Logarithmic,
 }
@@ -172,6 +176,14 @@ impl LineFigure<'_> {
 pub(crate) fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Axis> {
     match scale {
         Scale::Linear => Some(Axis::linear(values)),
+        Scale::Roomy => {
+            let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let room = ROOM * (high - low);
+            let ends = [low - room, high + room];
+            Some(Axis::linear(ends.into_iter()))
+        }
         Scale::Logarithmic => Axis::logarithmic(values, DECADES),
     }
 }
@@ -206,6 +218,17 @@ fn draw(path: &PathData, (colour, dashes): (&str, Option<&str>), svg: &mut Svg) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_roomy_axis_goes_beyond_what_is_finite() {
+        let ends = |scale, values: &[f64]| axis(scale, values.iter().copied());
+        let found = ends(Scale::Roomy, &[-1.0, f64::NAN, 3.0]);
+        assert_eq!(found, ends(Scale::Linear, &[-1.24, 3.24]));
+        // nothing, and a single value, are as without room
+        for values in [&[][..], &[2.0]] {
+            assert_eq!(ends(Scale::Roomy, values), ends(Scale::Linear, values));
+        }
+    }
 
     fn figure(points: Vec<(f64, f64)>) -> Option<String> {
         LineFigure {

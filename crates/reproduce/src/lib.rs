@@ -1,5 +1,5 @@
 //! The case studies of Tol's thesis, the tables of Pirdayr's, Tian's and Zhao's papers and the specimens of Kavi's thesis computed anew:
-//! published and obtained values side by side.
+//! published and obtained values side by side. The joint laws of Tol's chapter 2.2 are drawn anew.
 #![forbid(unsafe_code)]
 
 mod approaches;
@@ -7,6 +7,8 @@ mod beams;
 mod bolted;
 mod draws;
 mod error;
+mod friction;
+mod friction_figure;
 mod kavi;
 mod kavi_figure;
 mod lumped;
@@ -20,6 +22,11 @@ mod zhao;
 
 pub use draws::Draws;
 pub use error::ReproduceError;
+pub use friction::{
+    ChapterFigure, ChapterLaw, FrictionLoop, FrictionReproduction, LawParameter, LoopReading,
+    friction,
+};
+pub use friction_figure::FrictionFigure;
 pub use kavi::{
     AMPLITUDE_M, AtBoundary, BOUNDARIES, Claim, KaviReproduction, PrintedNumber, SpecimenMaterial,
     SpecimenRow, Verdict, kavi,

@@ -1,6 +1,8 @@
 //! What one lap at one level answers: its rows, and how far its joint moves.
 
-use bolted_joint_dynamics::LapState;
+use bolted_joint_dynamics::{JointLaw, LapState};
+
+use super::hysteresis::HysteresisLoop;
 
 /// Rows of a table, and the largest relative displacement of each DOF, m and rad.
 pub(super) struct Answer<const D: usize> {
@@ -14,6 +16,18 @@ impl<const D: usize> Answer<D> {
         Self {
             rows,
             largest: [0.0; D],
+        }
+    }
+
+    /// Rows of displacement, load on side b and heat of a closed loop.
+    pub(super) fn of_loop(motion: HysteresisLoop, law: &JointLaw<D>) -> Self {
+        let points = motion.points(law).into_iter();
+        let rows = points.map(|of| vec![of.displacement, of.load, of.heat_j]);
+        let mut largest = [0.0; D];
+        largest[motion.dof] = motion.amplitude;
+        Self {
+            rows: rows.collect(),
+            largest,
         }
     }
 }

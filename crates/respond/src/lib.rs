@@ -15,6 +15,7 @@ mod study;
 mod table;
 
 pub use error::RespondError;
+pub use hysteresis::{HysteresisLoop, LoopPoint};
 pub use measured::{to_csv, with_noise};
 pub use pollution::{Generator, Pollution};
 pub use study::{LoadPlace, RespondStudy, Span, Start, StudyLap, Test, Times};

@@ -11,7 +11,7 @@ use bolted_joint_study::StudyError;
 use super::RespondError;
 use super::answer::Answer;
 use super::histories::{Drive, Ended, MOST_STEPS, SteppedSine, history};
-use super::hysteresis::Loop;
+use super::hysteresis::HysteresisLoop;
 use super::periodic::{
     Curve, column, curve_columns, frequencies, load_unit, name, receptances, unit,
 };
@@ -331,12 +331,14 @@ impl RespondStudy {
             }
             Test::Hysteresis {
                 dof, frequency_hz, ..
-            } => Loop {
-                dof: *dof,
-                amplitude: level,
-                omega: frequency_hz.map(|hz| TAU * hz),
-            }
-            .answer(&lap.joint),
+            } => Answer::of_loop(
+                HysteresisLoop {
+                    dof: *dof,
+                    amplitude: level,
+                    omega_rad_per_s: frequency_hz.map(|hz| TAU * hz),
+                },
+                &lap.joint,
+            ),
         })
     }
 

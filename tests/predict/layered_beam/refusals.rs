@@ -53,7 +53,6 @@ fn what_are_no_fasteners() {
     refused("diameter = 0.006", "diameter = 0.05", &["`fasteners.diameter`", "0.04125 m"]);
     refused("torque = 4", "torque = -4", &["`fasteners.torque`", "-4"]);
     refused("torque = 4", "torque = [4, 2]", &["`fasteners.torque`", "ascending"]);
-    refused("torque = 4", "torque = [2, 4]", &["`joint.damping`", "linear"]);
     refused("torque = 4", "preload = 100\ntorque = 4", &["`fasteners`", "both"]);
     refused("torque = 4\nnut_factor = 0.18", "", &["`fasteners`", "preload"]);
     refused("nut_factor = 0.18", "nut_factor = 0", &["`fasteners.nut_factor`"]);

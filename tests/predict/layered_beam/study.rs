@@ -83,6 +83,23 @@ fn a_list_of_torques_gives_a_table_over_the_preload() {
     close(alone.joint_file.joint.damping[0][0], damping[1], 1e-13);
 }
 
+/// Dry friction is in proportion to the preload, and so is the slider that stands for it: at each torque it is that of a study
+/// with this torque alone.
+#[test]
+fn friction_over_the_preload_is_a_slider_that_follows_it() {
+    let list = STUDY.replace("torque = 4", "torque = [2, 4, 8]");
+    let list = list.replace("[motion]", "[joint]\nnominal_torque = 4\n[motion]");
+    let file = run(&list).joint_file;
+    let slip = |file: &bolted_joint::joint::JointFile| file.joint.friction[0].parameters[1];
+    for torque in [2.0, 3.0, 8.0] {
+        let alone = STUDY.replace("torque = 4", &format!("torque = {torque}"));
+        let there = file.at_preload(Some(torque)).unwrap();
+        close(slip(&there), slip(&run(&alone).joint_file), 1e-9);
+    }
+    assert_eq!(file.joint.over_preload.as_ref().unwrap().nominal, 4.0);
+    assert!(file.validate().is_empty());
+}
+
 #[test]
 fn a_calibration_on_another_beam_gives_its_alpha_mu() {
     let measured = r#"

@@ -7,10 +7,13 @@ use bolted_joint_study::{Method, provenance};
 
 use super::damping::SlipDamping;
 use super::dry_friction::DrySlider;
-use super::error::LayeredBeamError;
+use super::error::{LayeredBeamError, value};
 use super::lap::{EquivalentDamping, EquivalentLap};
 use super::scatter::Scattered;
 use super::study::LayeredBeamStudy;
+
+/// How far slip forces may be from being in proportion to the torque, as a part of the nominal one.
+const IN_PROPORTION: f64 = 1e-6;
 
 /// The joint file, and what is to be said about it.
 #[derive(Clone, Debug)]
@@ -108,7 +111,25 @@ pub(super) fn lap_file(
         }
         EquivalentDamping::Over(range) => {
             let found = lap.slider_over(nominal, range)?;
-            joint.damping = vec![vec![0.0]];
+            let none = vec![vec![0.0]];
+            if over_torque.is_empty() {
+                joint.damping = none;
+            } else {
+                let nominal_n_m = study.nominal_torque_n_m.unwrap_or(over_torque[0].0);
+                for (torque, damping) in over_torque {
+                    let slip_force = lap.slider_over(damping, range)?.law.slip_force;
+                    in_proportion([*torque, nominal_n_m], [slip_force, found.law.slip_force])?;
+                }
+                joint.stiffness = Vec::new();
+                joint.over_preload = Some(OverPreload {
+                    preload: over_torque.iter().map(|(torque, _)| *torque).collect(),
+                    nominal: nominal_n_m,
+                    stiffness: vec![stiffness; over_torque.len()],
+                    damping: vec![none; over_torque.len()],
+                    cubic: Vec::new(),
+                });
+                notes.push("the slip force is in proportion to the torque".to_owned());
+            }
             joint
                 .friction
                 .extend(Friction::of(DofSet::TRANSLATION.row(0), &found.law));
@@ -184,6 +205,23 @@ fn torques(over_torque: &[(f64, SlipDamping)]) -> Option<[f64; 2]> {
     match over_torque {
         [(first, _), .., (last, _)] => Some([*first, *last]),
         _ => None,
+    }
+}
+
+/// Refuses slip forces that are not in proportion to their torques, as the joint file has them.
+fn in_proportion(torques_n_m: [f64; 2], slip_forces_n: [f64; 2]) -> Result<(), LayeredBeamError> {
+    let [torque, nominal] = torques_n_m;
+    let [slip_force, at_nominal] = slip_forces_n;
+    let expected = at_nominal * torque / nominal;
+    match (slip_force - expected).abs() <= IN_PROPORTION * at_nominal {
+        true => Ok(()),
+        false => Err(value(
+            "fasteners.torque",
+            format_args!("a slip force of {slip_force:.6e} N at {torque} N·m"),
+            format_args!(
+                "{expected:.6e} N, in proportion to the torque, or joint.damping = \"linear\""
+            ),
+        )),
     }
 }
 

@@ -269,13 +269,6 @@ fn damping(
     let table = &file.joint;
     let over_torque = !tightened.over_torque.is_empty();
     let linear = table.damping == Some(DampingName::Linear);
-    let found = table.damping.map_or("nothing", |_| "\"over-amplitude\"");
-    study.ensure(
-        linear || !over_torque,
-        "joint.damping",
-        found,
-        "\"linear\": a joint file over the torque has no friction",
-    )?;
     study.ensure(
         table.nominal_torque.is_none() || over_torque,
         "joint.nominal_torque",

@@ -11,6 +11,7 @@ use super::super::progress::Progress;
 use super::super::table::{Table, number};
 use super::{PredictArguments, refuse};
 use bolted_joint::export::Timestamp;
+use bolted_joint::predict::patch::Principal;
 use bolted_joint::predict::patch::{matrix27, table};
 use bolted_joint::predict::study::{CONTACT_ALONE, InterfaceStudy, Prediction, Slip, State};
 use bolted_joint::predict::virtual_material::Card;
@@ -191,6 +192,13 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
             Err(_) => "\n".to_owned(),
         };
     }
+    if let Some(own) = state.interface.own_stiffness() {
+        let [x, y, z] = own.centre_m.map(|length| number(1e3 * length + 0.0, 3));
+        let _ = writeln!(
+            text,
+            "  centre of elasticity at x = {x} mm, y = {y} mm, z = {z} mm"
+        );
+    }
     let mut header = vec!["", "predicted"];
     if found.outcome.is_some() {
         header.extend(["± std. dev.", "95 % interval"]);
@@ -246,6 +254,10 @@ fn shares(found: &Prediction<'_>) -> String {
     text
 }
 
+fn principal(own: Principal) -> Value {
+    json!({ "stiffness": own.stiffness, "axis": own.axis })
+}
+
 /// The friction of a DOF.
 fn slip(slip: &Slip) -> Value {
     let (law, amplitudes) = (&slip.fitted.law, &slip.fitted.amplitudes);
@@ -289,6 +301,12 @@ fn as_json(arguments: &PredictArguments, found: &Prediction<'_>, warnings: &[Str
                 "stiffness": state.interface.stiffness,
                 "hysteretic_damping": state.interface.hysteretic,
                 "viscous_damping": state.interface.viscous,
+                "own_stiffness": state.interface.own_stiffness().map(|own| json!({
+                    "centre_m": own.centre_m,
+                    "coupling": own.coupling,
+                    "translational": own.translational.map(principal),
+                    "rotational": own.rotational.map(principal),
+                })),
                 "slip": state.slips.iter().map(slip).collect::<Vec<_>>(),
             })
         })

@@ -9,6 +9,7 @@ mod contact;
 mod damping;
 mod interface;
 mod matrix27;
+mod own;
 mod planar;
 mod table;
 
@@ -17,5 +18,6 @@ pub use contact::{Contact, PatchMoments};
 pub use damping::{LossFactor, NormalDamping};
 pub use interface::{DOFS, InterfaceJoint, Matrix6};
 pub use matrix27::matrix27;
+pub use own::{OwnStiffness, Principal};
 pub use planar::{Planar, PlanarError, PlanarJoint};
 pub use table::table;

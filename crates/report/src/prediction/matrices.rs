@@ -3,7 +3,7 @@
 use super::super::PressureFigure;
 use super::super::lap::figure;
 use bolted_joint_figures::html::{cell, columns, escaped, number, number_cell, shown, table};
-use bolted_joint_predict::patch::{DOFS, Matrix6};
+use bolted_joint_predict::patch::{DOFS, InterfaceJoint, Matrix6, Principal};
 use bolted_joint_predict::study::Prediction;
 
 /// Digits of an entry of a matrix.
@@ -148,6 +148,45 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         matrix(&interface.stiffness),
         matrix(&interface.hysteretic),
         matrix(&interface.viscous),
+    ) + &own(interface)
+}
+
+/// Centre of elasticity and principal stiffnesses.
+fn own(interface: &InterfaceJoint) -> String {
+    let Some(own) = interface.own_stiffness() else {
+        return String::new();
+    };
+    let row = |motion: &str, unit: &str, principal: &Principal| {
+        let axis = principal.axis.map_or_else(
+            || "any, another one is as large".to_owned(),
+            |axis| {
+                axis.map(|part| format!("{part:.3}").replace('-', "−"))
+                    .join(", ")
+            },
+        );
+        [
+            cell(motion),
+            number_cell(&shown(principal.stiffness, DIGITS)),
+            cell(unit),
+            cell(&axis),
+        ]
+        .concat()
+    };
+    let translations = own
+        .translational
+        .iter()
+        .map(|of| row("translation", "N/m", of));
+    let rotations = own
+        .rotational
+        .iter()
+        .map(|of| row("rotation", "N·m/rad", of));
+    let rows: Vec<String> = translations.chain(rotations).collect();
+    let [x, y, z] = own.centre_m.map(|length| number(1e3 * length));
+    format!(
+        "<h3>Its own axes</h3>\n<p>The centre of elasticity lies at <i>x</i> = {x} mm, <i>y</i> = {y} mm, <i>z</i> = {z} mm: a force through it \
+         turns nothing, but for the part {} of the stiffnesses that stays coupled. Principal stiffnesses there:</p>\n{}",
+        shown(own.coupling, 2),
+        table(&["Motion", "Stiffness", "Unit", "Axis: x, y, z"], &rows)
     )
 }
 

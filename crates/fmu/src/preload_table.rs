@@ -10,9 +10,9 @@ use crate::interface::Dofs;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PreloadTable {
     /// Translation y.
-    One(OverPreload<1>),
+    One(Box<OverPreload<1>>),
     /// Translation y and rotation θ.
-    Two(OverPreload<2>),
+    Two(Box<OverPreload<2>>),
 }
 
 /// A joint over the preload, and the preload that its friction is stated at.
@@ -39,8 +39,12 @@ impl PreloadTable {
         nominal_n_m: Option<f64>,
     ) -> Result<Self, TableDefect> {
         match dofs {
-            Dofs::One => over_preload(rows, beyond, nominal_n_m).map(Self::One),
-            Dofs::Two => over_preload(rows, beyond, nominal_n_m).map(Self::Two),
+            Dofs::One => over_preload(rows, beyond, nominal_n_m)
+                .map(Box::new)
+                .map(Self::One),
+            Dofs::Two => over_preload(rows, beyond, nominal_n_m)
+                .map(Box::new)
+                .map(Self::Two),
         }
     }
 

@@ -120,10 +120,10 @@ const _: () = assert!(size_of::<LapModel<2, Prepared<2>>>() <= MODEL_SIZE_MAX);
 /// The model of an FMU, with the table that it has if its joint is one over the preload.
 pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
     match (variables.kind, table) {
-        (Kind::Element, Some(PreloadTable::One(table))) => Box::new(LooseningElement::new(table)),
-        (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(table)),
-        (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(table)),
-        (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(table)),
+        (Kind::Element, Some(PreloadTable::One(table))) => Box::new(LooseningElement::new(*table)),
+        (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(*table)),
+        (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(*table)),
+        (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(*table)),
         (kind, None) => match variables.dofs {
             Dofs::One => model_of::<1>(kind, variables.dependence),
             Dofs::Two => model_of::<2>(kind, variables.dependence),

@@ -22,6 +22,7 @@ pub(crate) struct Model {
     cubic_n_per_m3: f64,
     quintic_n_per_m5: f64,
     friction: &'static [Friction],
+    is_over_preload: bool,
 }
 
 /// A law that remembers the motion: its name, and the symbols of its parameters with values.
@@ -37,8 +38,10 @@ const IWAN: Friction = (
     ],
 );
 
+const JENKINS: Friction = ("jenkins", &[("jenkins_k", 1e6), ("jenkins_h", 20.0)]);
+
 const ALL_FRICTION: [Friction; 6] = [
-    ("jenkins", &[("jenkins_k", 1e6), ("jenkins_h", 20.0)]),
+    JENKINS,
     IWAN,
     (
         "valanis",
@@ -73,9 +76,9 @@ const ALL_FRICTION: [Friction; 6] = [
     ),
 ];
 
-/// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, and with
-/// friction.
-pub(crate) const MODELS: [Model; 11] = [
+/// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
+/// friction, and over the preload.
+pub(crate) const MODELS: [Model; 15] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -87,6 +90,10 @@ pub(crate) const MODELS: [Model; 11] = [
     Model::new(false, 1, 0.0).slipping(&[IWAN]),
     Model::new(true, 1, 5e11).slipping(&[IWAN]),
     Model::new(true, 2, 0.0).slipping(&ALL_FRICTION),
+    Model::new(false, 1, 0.0).loosening(),
+    Model::new(true, 2, 0.0).loosening(),
+    Model::new(false, 2, 0.0).slipping(&[JENKINS]).loosening(),
+    Model::new(true, 1, 0.0).slipping(&[JENKINS]).loosening(),
 ];
 
 impl Model {
@@ -101,6 +108,14 @@ impl Model {
             cubic_n_per_m3,
             quintic_n_per_m5,
             friction: &[],
+            is_over_preload: false,
+        }
+    }
+
+    const fn loosening(self) -> Self {
+        Self {
+            is_over_preload: true,
+            ..self
         }
     }
 
@@ -145,11 +160,15 @@ impl Model {
             ("joint.c2_y", self.quintic_n_per_m5.abs() * 1e-11),
         ];
         let mut text = start_text(self.lap, self.dofs, &TOKEN.to_string_lossy(), &changes);
+        if self.is_over_preload {
+            text = self.over_preload(&text);
+        }
         if self.friction.is_empty() {
             return text;
         }
         let names: Vec<&str> = self.friction.iter().map(|(name, _)| *name).collect();
-        let first = text.find("joint.").expect("the joint's parameters");
+        let first = text.find("token ").expect("the token");
+        let first = first + text[first..].find('\n').expect("its line") + 1;
         text.insert_str(first, &format!("laws {}\n", names.join(" ")));
         for (symbol, value) in self.friction.iter().flat_map(|(_, parameters)| *parameters) {
             for dof in ["y", "theta"].iter().take(self.dofs.into()) {
@@ -159,9 +178,36 @@ impl Model {
         text
     }
 
+    /// The text with a table in place of the joint's parameters.
+    fn over_preload(self, text: &str) -> String {
+        let is_joint = |line: &&str| line.starts_with("joint.");
+        let lines: Vec<&str> = text.lines().filter(|line| !is_joint(line)).collect();
+        let nominal = if self.friction.is_empty() { "" } else { " 10" };
+        let row = |preload: f64| {
+            let share = preload / 10.0;
+            let (k, c) = (4e6 * share, 8.0 * share);
+            match self.dofs {
+                1 => format!("{preload} {k} {c} 1e12"),
+                _ => format!("{preload} {k} 1e4 2e3 {c} 0.1 0.25 1e12 0"),
+            }
+        };
+        let table = [5.0, 10.0, 20.0].map(row).join("\n");
+        let (head, tail) = lines.split_at(4);
+        format!(
+            "{}\ntable 3 refused{nominal}\n{table}\n{}\npreload 10\n",
+            head.join("\n"),
+            tail.join("\n")
+        )
+        .replace("\n\n", "\n")
+    }
+
     /// One more than the largest value reference that is tried.
     pub(crate) const fn references(self) -> u32 {
-        if self.friction.is_empty() { 45 } else { 120 }
+        if self.friction.is_empty() && !self.is_over_preload {
+            45
+        } else {
+            120
+        }
     }
 }
 

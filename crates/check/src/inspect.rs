@@ -10,7 +10,9 @@ use roxmltree::Document;
 use super::archive::Archive;
 use super::described::{Described, FILE};
 use super::{CheckError, attributes, parts, variables};
-use bolted_joint_export::{Interface, StartFile, declared, laws_line, start_value, table_lines};
+use bolted_joint_export::{
+    Interface, StartFile, declared, dofs_text, laws_line, start_value, table_lines,
+};
 use bolted_joint_joint::{JointFile, Passivity};
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
@@ -71,11 +73,11 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
             .push("binaries: found no library, expected one for at least one platform".to_owned());
     }
     findings.extend(archive.damage());
-    if start.dof_count != joint.joint.dofs.count() {
+    let dofs = dofs_text(joint.joint.dofs);
+    if start.dofs != dofs {
         findings.push(format!(
-            "resources/start.txt: found dofs {}, expected {} from resources/joint.json",
-            start.dof_count,
-            joint.joint.dofs.count()
+            "resources/start.txt: found dofs {}, expected {dofs} from resources/joint.json",
+            start.dofs
         ));
     }
     let described = match describe(&xml, &joint, &start, &mut findings) {

@@ -29,33 +29,98 @@ pub struct Dof {
     pub kind: DofKind,
 }
 
-/// Every DOF there is, in the order of rows and columns.
-pub const DOFS: [Dof; 2] = [
+/// A translation along an axis.
+const fn translation([name, symbol, rate, acceleration, load, inertia]: [&'static str; 6]) -> Dof {
     Dof {
-        name: "y",
-        symbol: "y",
-        rate: "v",
-        acceleration: "acceleration",
-        load: "F",
-        inertia: "m",
+        name,
+        symbol,
+        rate,
+        acceleration,
+        load,
+        inertia,
         kind: DofKind::Translation,
-    },
+    }
+}
+
+/// A rotation about an axis.
+const fn rotation(names: [&'static str; 6]) -> Dof {
     Dof {
-        name: "theta",
-        symbol: "θ",
-        rate: "omega",
-        acceleration: "alpha",
-        load: "M",
-        inertia: "J",
         kind: DofKind::Rotation,
-    },
+        ..translation(names)
+    }
+}
+
+/// Every DOF there is, in the order of rows and columns: first those of joints in a plane, then those of joints in space.
+#[rustfmt::skip]
+pub const DOFS: [Dof; 8] = [
+    translation(["y",  "y",  "v",  "acceleration",   "F",  "m"]),
+    rotation(["theta", "θ",  "omega", "alpha",       "M",  "J"]),
+    translation(["x",  "x",  "vx", "acceleration_x", "Fx", "m_x"]),
+    translation(["y",  "y",  "vy", "acceleration_y", "Fy", "m_y"]),
+    translation(["z",  "z",  "vz", "acceleration_z", "Fz", "m_z"]),
+    rotation(["rx",    "rx", "wx", "alpha_x",        "Mx", "J_x"]),
+    rotation(["ry",    "ry", "wy", "alpha_y",        "My", "J_y"]),
+    rotation(["rz",    "rz", "wz", "alpha_z",        "Mz", "J_z"]),
 ];
 
 /// Number of rows in [`DOFS`].
 pub const DOF_COUNT: usize = DOFS.len();
 
-/// The sets of DOFs that a joint can have, as indices of [`DOFS`].
-pub const DOF_SETS: &[&[usize]] = &[&[0], &[0, 1]];
+/// The first row of [`DOFS`] that is one of joints in space; the others follow it.
+pub const SPACE: usize = 2;
+
+/// Number of DOFs in space.
+pub const SPACE_COUNT: usize = DOF_COUNT - SPACE;
+
+/// Sets of DOFs in space, a bit for each: all but none, and but y alone, which is a joint in a plane.
+const SPACE_SET_COUNT: usize = (1 << SPACE_COUNT) - 2;
+const Y_ALONE: usize = 0b10;
+
+/// The rows of each of these sets, and how many they are; one with fewer DOFs first.
+const SPACE_SETS: [([usize; SPACE_COUNT], usize); SPACE_SET_COUNT] = {
+    let mut sets = [([0; SPACE_COUNT], 0); SPACE_SET_COUNT];
+    let (mut place, mut count) = (0, 1);
+    while count <= SPACE_COUNT {
+        let mut bits: usize = 1;
+        while bits < 1 << SPACE_COUNT {
+            if bits.count_ones() as usize == count && bits != Y_ALONE {
+                sets[place] = rows(bits);
+                place += 1;
+            }
+            bits += 1;
+        }
+        count += 1;
+    }
+    sets
+};
+
+/// The rows of a set of DOFs in space, and how many they are.
+const fn rows(bits: usize) -> ([usize; SPACE_COUNT], usize) {
+    let (mut rows, mut count, mut dof) = ([0; SPACE_COUNT], 0, 0);
+    while dof < SPACE_COUNT {
+        if bits & (1 << dof) != 0 {
+            rows[count] = SPACE + dof;
+            count += 1;
+        }
+        dof += 1;
+    }
+    (rows, count)
+}
+
+/// The sets of DOFs that a joint can have, as indices of [`DOFS`]: y, y and θ, and every set in space but y alone; the full set
+/// is the last.
+pub const DOF_SETS: &[&[usize]] = &{
+    let mut sets: [&[usize]; 2 + SPACE_SET_COUNT] = [&[]; 2 + SPACE_SET_COUNT];
+    sets[0] = &[0];
+    sets[1] = &[0, 1];
+    let mut place = 0;
+    while place < SPACE_SET_COUNT {
+        let (rows, count) = &SPACE_SETS[place];
+        sets[2 + place] = rows.split_at(*count).0;
+        place += 1;
+    }
+    sets
+};
 
 /// How many DOFs a joint can have: one case for each number of which the laws are compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +129,14 @@ pub enum DofCount {
     One,
     /// Two.
     Two,
+    /// Three.
+    Three,
+    /// Four.
+    Four,
+    /// Five.
+    Five,
+    /// Six.
+    Six,
 }
 
 impl DofCount {
@@ -73,6 +146,10 @@ impl DofCount {
         match count {
             1 => Some(Self::One),
             2 => Some(Self::Two),
+            3 => Some(Self::Three),
+            4 => Some(Self::Four),
+            5 => Some(Self::Five),
+            6 => Some(Self::Six),
             _ => None,
         }
     }
@@ -82,17 +159,16 @@ impl DofCount {
 /// `with_dofs!(count, D => file.lap::<D>())`.
 #[macro_export]
 macro_rules! with_dofs {
-    ($count:expr, $D:ident => $body:expr) => {
+    (@each $count:expr, $D:ident => $body:expr, $($case:ident = $number:literal)+) => {
         match $count {
-            $crate::DofCount::One => {
-                const $D: usize = 1;
+            $($crate::DofCount::$case => {
+                const $D: usize = $number;
                 $body
-            }
-            $crate::DofCount::Two => {
-                const $D: usize = 2;
-                $body
-            }
+            })+
         }
+    };
+    ($count:expr, $D:ident => $body:expr) => {
+        $crate::with_dofs!(@each $count, $D => $body, One = 1 Two = 2 Three = 3 Four = 4 Five = 5 Six = 6)
     };
 }
 
@@ -189,6 +265,21 @@ mod tests {
             let count = DofCount::of(set.len()).unwrap();
             assert_eq!(with_dofs!(count, D => [0; D].len()), set.len());
         }
+    }
+
+    #[test]
+    fn there_is_every_set_in_space_once() {
+        let mut sets: Vec<&[usize]> = DOF_SETS.to_vec();
+        sets.sort_unstable();
+        sets.dedup();
+        // 2⁶ − 1 sets that are not empty, one of which, y alone, is a joint in a plane; and y with θ
+        assert_eq!((sets.len(), DOF_SETS.len()), (64, 64));
+        assert_eq!(*DOF_SETS.last().unwrap(), [2, 3, 4, 5, 6, 7]);
+        let names = |set: &[usize]| set.iter().map(|&row| DOFS[row].name).collect::<Vec<_>>();
+        let mut all: Vec<_> = DOF_SETS.iter().map(|set| names(set)).collect();
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), DOF_SETS.len());
     }
 
     #[test]

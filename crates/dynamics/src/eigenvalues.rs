@@ -1,11 +1,12 @@
 //! Eigenvalues of small real matrices: Hessenberg form, then the shifted QR iteration in complex arithmetic
 //! (Golub and Van Loan, *Matrix Computations*, chapter 7).
 
+use crate::dof::SPACE_COUNT;
 use crate::elementary::hypotenuse;
 use crate::spectrum::Eigenvalue;
 
-/// Largest order that [`eigenvalues`] takes: four states for each of two DOFs a side.
-pub(crate) const MAX_ORDER: usize = 8;
+/// Largest order that [`eigenvalues`] takes: four states for each DOF of a side.
+pub(crate) const MAX_ORDER: usize = 4 * SPACE_COUNT;
 
 /// Storage for a matrix of an order up to [`MAX_ORDER`].
 pub(crate) type Square = [[f64; MAX_ORDER]; MAX_ORDER];

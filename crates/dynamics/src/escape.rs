@@ -3,6 +3,7 @@
 mod balance;
 
 use crate::{
+    condensation::following,
     lap::{Body, Lap},
     law::JointLaw,
 };
@@ -30,7 +31,8 @@ impl<const D: usize> Lap<D> {
     /// motion is not held.
     ///
     /// For the symmetric lap with a cubic spring this is √((k + 2 k12)/(−2 kN)). With rotation the other DOF follows as its
-    /// own force balance asks, all its terms included, and as long as there is such a balance.
+    /// own force balance asks, all its terms included, and as long as there is such a balance; several others that are coupled to
+    /// it follow by their stiffness at rest.
     #[must_use]
     pub fn escape_amplitude(&self) -> [Option<f64>; D] {
         let supports = self.supports_in_series();
@@ -83,11 +85,24 @@ fn tangent<const D: usize>(laws: [&JointLaw<D>; 2], supports: [&[f64; D]; 2]) ->
             return 0.0;
         };
         balance.escape().map_or(0.0, |escape| {
-            let change = Spring::of(laws[1], supports[1], i);
+            let change = match following(&held(laws[0], supports[0]), i) {
+                Some(motion) => Spring::change_of_following(laws[1], supports[1], i, &motion),
+                None => Spring::of(laws[1], supports[1], i),
+            };
             let other_change = balance
                 .other_dof()
                 .map(|j| (Spring::of(laws[1], supports[1], j), coupling(laws[1], i, j)));
             balance.tangent(&escape, &change, other_change)
+        })
+    })
+}
+
+/// K + S, symmetric: what holds the relative motion about rest.
+fn held<const D: usize>(law: &JointLaw<D>, supports: &[f64; D]) -> [[f64; D]; D] {
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            let support = if row == column { supports[row] } else { 0.0 };
+            coupling(law, row, column) + support
         })
     })
 }

@@ -1,10 +1,11 @@
 //! Equations of a bolted joint and their time integration.
 //!
 //! This crate is what runs inside every exported FMU: no dependencies, no I/O, no allocation in a step.
-//! All quantities are in SI units. The const generic `D` is the number of DOFs a side, the first rows of [`DOFS`]; `N` is the
+//! All quantities are in SI units. The const generic `D` is the number of DOFs a side, rows of [`DOFS`]; `N` is the
 //! kind of number, real ones or [`Dual`] ones that carry their changes.
 #![forbid(unsafe_code)]
 
+mod condensation;
 mod counted;
 mod definiteness;
 mod dof;
@@ -26,7 +27,7 @@ mod vector;
 
 pub use counted::{CountedState, LapConditions, PassedEnergy};
 pub use definiteness::is_positive_semidefinite;
-pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind};
+pub use dof::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind, SPACE, SPACE_COUNT};
 pub use integrator::LapIntegrator;
 pub use lap::{Body, Defect, Lap, LapLoads, LapState};
 pub use law::{

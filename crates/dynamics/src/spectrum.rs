@@ -73,7 +73,7 @@ impl Spectrum {
 }
 
 impl<const D: usize> Lap<D> {
-    /// Eigenvalues about rest, or `None` where the model cannot be integrated ([`Lap::defect`]) or `D` exceeds 2.
+    /// Eigenvalues about rest, or `None` where the model cannot be integrated ([`Lap::defect`]) or has more DOFs than there are in space.
     #[must_use]
     pub fn spectrum(&self) -> Option<Spectrum> {
         let order = 4 * D;

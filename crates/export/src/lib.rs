@@ -33,5 +33,5 @@ pub use interface::Interface;
 pub use parameters::start_value;
 pub use platforms::{EMBEDDED_LIBRARY, EMBEDDED_PLATFORM, Library, LibrarySource};
 pub use provenance::provenance;
-pub use start_file::{StartFile, laws_line, parameter_lines, table_lines};
+pub use start_file::{StartFile, dofs_text, laws_line, parameter_lines, table_lines};
 pub use step::{StepChoice, StepSize};

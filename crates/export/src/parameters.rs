@@ -18,10 +18,11 @@ pub fn start_value(file: &JointFile, longest_step_s: Option<f64>, name: &str) ->
         "preload" => joint.over_preload.as_ref().map(|table| table.nominal),
         _ => {
             let parameters = law_parameters(&Filling::PRESENT);
-            match parameters.iter().find(|parameter| parameter.name == name) {
-                Some(parameter) => of_law(joint, parameter),
-                None => of_bodies(file, name),
-            }
+            // y has one row in a plane and one in space
+            let mut named = parameters.iter().filter(|parameter| parameter.name == name);
+            named
+                .find_map(|parameter| of_law(joint, parameter))
+                .or_else(|| of_bodies(file, name))
         }
     }
 }
@@ -69,7 +70,7 @@ fn of_bodies(file: &JointFile, name: &str) -> Option<f64> {
 fn of_body(body: &Body, quantity: &str, place: usize, row: usize) -> Option<f64> {
     let dof = &DOFS[row];
     let list = match quantity.split_once('_') {
-        None if quantity == dof.inertia => &body.inertia,
+        _ if quantity == dof.inertia => &body.inertia,
         Some(("k", name)) if name == dof.name => &body.stiffness,
         Some(("c", name)) if name == dof.name => &body.damping,
         _ => return None,

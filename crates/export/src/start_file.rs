@@ -69,8 +69,17 @@ pub(super) fn start_file(
 ) -> String {
     format!(
         "{HEADER}\nmodel {interface}\ndofs {}\ntoken {token}\n{table_lines}{parameter_lines}",
-        dofs.count()
+        dofs_text(dofs)
     )
+}
+
+/// The joint's DOFs as the file has them: how many in a plane, by name in space.
+pub fn dofs_text(dofs: DofSet) -> String {
+    if dofs.is_in_space() {
+        dofs.names().join(" ")
+    } else {
+        dofs.count().to_string()
+    }
 }
 
 /// What such a file says.
@@ -78,8 +87,8 @@ pub(super) fn start_file(
 pub struct StartFile {
     /// Which FMU it is for.
     pub interface: Interface,
-    /// How many DOFs the joint has.
-    pub dof_count: usize,
+    /// The joint's DOFs, as [`dofs_text`] writes them.
+    pub dofs: String,
     /// The FMU's instantiation token.
     pub token: String,
     /// The line of the laws with memory, or heading and lines of the table over the preload; empty for a constant joint.
@@ -101,7 +110,7 @@ impl StartFile {
             "lap" => Interface::Lap,
             _ => return None,
         };
-        let dof_count = field("dofs")?.parse().ok()?;
+        let dofs = field("dofs")?.to_owned();
         let token = field("token")?.to_owned();
         let mut lines = lines.peekable();
         let mut table = String::new();
@@ -125,7 +134,7 @@ impl StartFile {
             .collect::<Option<_>>()?;
         Some(Self {
             interface,
-            dof_count,
+            dofs,
             token,
             table,
             parameters,

@@ -9,7 +9,7 @@
 //! | 4 + n | length of the instantiation token, and the token |
 //! | 1 | FMI version: 2 or 3 |
 //! | 1 | kind: 0 element, 1 lap |
-//! | 1 | degrees of freedom |
+//! | 1 | degrees of freedom: 1 and 2 in a plane; 128 and a bit for each of those in space |
 //! | 1 | joint: 0 constant, 1 over the preload |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
 //! | 1 | state of the state machine |
@@ -17,7 +17,7 @@
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of values, and all of them: by value reference, then what is remembered beside them |
 //! | 4 + 8 l | number of numbers that the joint remembers, and these |
-//! | 3 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
+//! | 9 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
@@ -34,7 +34,7 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// An enumeration of which one byte is written.
 trait Numbered: Copy + 'static {
@@ -60,7 +60,6 @@ macro_rules! numbered {
 numbered! {
     Abi { Fmi2 = 2, Fmi3 = 3 }
     Kind { Element = 0, Lap = 1 }
-    Dofs { One = 1, Two = 2 }
     InterfaceType { CoSimulation = 0, ModelExchange = 1 }
     Mode {
         Instantiated = 0, Initialization = 1, Step = 2, Terminated = 3, Event = 4, ContinuousTime = 5, SetUp = 6,
@@ -96,9 +95,8 @@ impl fmt::Display for Identity {
         };
         write!(
             f,
-            "{} with {} DOF a side{preload} for {} of {}, token {}",
+            "{} with {dofs} a side{preload} for {} of {}, token {}",
             kind.name(),
-            dofs.count(),
             self.interface_type.name(),
             self.abi.words().version,
             self.token
@@ -252,7 +250,9 @@ impl Snapshot {
         let abi = reader.one_of("FMI version")?;
         let variables = Variables {
             kind: reader.one_of("kind")?,
-            dofs: reader.one_of("number of degrees of freedom")?,
+            dofs: Dofs::from_number(reader.u8()?).ok_or(StateError::Field {
+                name: "degrees of freedom",
+            })?,
             dependence: Dependence::from_number(reader.u8()?)
                 .ok_or(StateError::Field { name: "joint" })?,
         };

@@ -29,7 +29,7 @@ pub(crate) struct InputCourse {
     /// Derivatives of first to third order, by the input's place in the order of value references.
     derivatives: [[f64; ORDER_MAX]; INPUT_COUNT],
     /// One bit for each input whose derivatives the importer has given, be they zero.
-    given: u16,
+    given: u64,
     phase: Phase,
     /// Whether any derivative is not zero.
     moves: bool,
@@ -46,7 +46,7 @@ enum Phase {
     Past,
 }
 
-const _: () = assert!(INPUT_COUNT < u16::BITS as usize, "an input has no bit");
+const _: () = assert!(INPUT_COUNT < u64::BITS as usize, "an input has no bit");
 
 impl InputCourse {
     /// All inputs held.
@@ -58,7 +58,7 @@ impl InputCourse {
     };
 
     /// Number of bytes of a serialised course.
-    pub(crate) const SIZE: usize = 3 + 8 * ORDER_MAX * INPUT_COUNT;
+    pub(crate) const SIZE: usize = 9 + 8 * ORDER_MAX * INPUT_COUNT;
 
     /// Whether the inputs are held over the step that comes next.
     #[inline]
@@ -177,7 +177,7 @@ impl InputCourse {
             .unwrap_or_default()
     }
 
-    fn bit(input: usize) -> u16 {
+    fn bit(input: usize) -> u64 {
         match place(input) {
             place if place < INPUT_COUNT => 1 << place,
             _ => 0,
@@ -191,14 +191,15 @@ impl InputCourse {
     /// The course in bytes, little endian.
     pub(crate) fn to_bytes(self) -> [u8; Self::SIZE] {
         let mut bytes = [0; Self::SIZE];
-        let (head, tail) = bytes.split_at_mut(3);
-        let [low, high] = self.given.to_le_bytes();
+        let (head, tail) = bytes.split_at_mut(9);
+        let (given, phase_byte) = head.split_at_mut(8);
+        given.copy_from_slice(&self.given.to_le_bytes());
         let phase = match self.phase {
             Phase::None => 0,
             Phase::Next => 1,
             Phase::Past => 2,
         };
-        head.copy_from_slice(&[low, high, phase]);
+        phase_byte.copy_from_slice(&[phase]);
         let numbers = self.derivatives.iter().flatten();
         for (field, number) in tail.chunks_exact_mut(8).zip(numbers) {
             field.copy_from_slice(&number.to_le_bytes());
@@ -208,9 +209,10 @@ impl InputCourse {
 
     /// Inverse of [`InputCourse::to_bytes`]; `None` for what no course can be.
     pub(crate) fn from_bytes(bytes: [u8; Self::SIZE]) -> Option<Self> {
-        let (&[low, high, phase], rest) = bytes.split_first_chunk()?;
+        let (&given, rest) = bytes.split_first_chunk::<8>()?;
+        let (&phase, rest) = rest.split_first()?;
         let mut course = Self {
-            given: u16::from_le_bytes([low, high]),
+            given: u64::from_le_bytes(given),
             phase: match phase {
                 0 => Phase::None,
                 1 => Phase::Next,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::DOF_COUNT;
+use bolted_joint_dynamics::{DOF_COUNT, DOFS, SPACE, SPACE_COUNT};
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
@@ -212,13 +212,20 @@ pub(crate) mod memory {
     pub(crate) const COMMITTED_POWER: usize = REFERENCE_COUNT + 5;
 }
 
-/// Values of the first `D` DOFs.
+/// The row of the table of DOFs that the first DOF of a model is. Models of six are those of all joints in space: where a joint
+/// has fewer, the others rest.
 #[inline]
-pub(crate) fn gather<const D: usize>(values: &Values, references: &[usize; DOF_COUNT]) -> [f64; D] {
-    std::array::from_fn(|dof| values[references[dof]])
+pub(crate) const fn first_row<const D: usize>() -> usize {
+    if D == SPACE_COUNT { SPACE } else { 0 }
 }
 
-/// Writes values of the first `D` DOFs.
+/// Values of the DOFs of a model.
+#[inline]
+pub(crate) fn gather<const D: usize>(values: &Values, references: &[usize; DOF_COUNT]) -> [f64; D] {
+    std::array::from_fn(|dof| values[references[first_row::<D>() + dof]])
+}
+
+/// Writes values of the DOFs of a model.
 #[inline]
 pub(crate) fn scatter<const D: usize>(
     values: &mut Values,
@@ -226,7 +233,7 @@ pub(crate) fn scatter<const D: usize>(
     from: &[f64; D],
 ) {
     for dof in 0..D {
-        values[references[dof]] = from[dof];
+        values[references[first_row::<D>() + dof]] = from[dof];
     }
 }
 
@@ -281,21 +288,102 @@ impl Kind {
     }
 }
 
-/// Number of degrees of freedom of the joint.
+/// Degrees of freedom of the joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dofs {
     /// Translation y.
     One,
     /// Translation y and rotation θ.
     Two,
+    /// These of x, y, z, rx, ry and rz.
+    Space(SpaceDofs),
 }
 
+/// A set of degrees of freedom in space, a bit for each; not empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SpaceDofs(u8);
+
+impl SpaceDofs {
+    fn of(bits: u8) -> Option<Self> {
+        (bits != 0 && bits >> SPACE_COUNT == 0).then_some(Self(bits))
+    }
+}
+
+/// Beside a set of degrees of freedom in space, as one number.
+const IN_SPACE: u8 = 128;
+
 impl Dofs {
-    /// The number itself.
-    pub(crate) const fn count(self) -> u8 {
+    /// As the start-value file tells them: the number of those in a plane, or the names of those in space, in their order.
+    pub(crate) fn from_text(text: &str) -> Option<Self> {
+        match text {
+            "1" => return Some(Self::One),
+            "2" => return Some(Self::Two),
+            _ => {}
+        }
+        let mut bits = 0_u8;
+        for name in text.split(' ') {
+            let place = DOFS[SPACE..].iter().position(|dof| dof.name == name)?;
+            // in their order, and none twice
+            if bits >> place != 0 {
+                return None;
+            }
+            bits |= 1 << place;
+        }
+        SpaceDofs::of(bits).map(Self::Space)
+    }
+
+    /// As one number, for a state that is written down.
+    pub(crate) const fn number(self) -> u8 {
         match self {
             Self::One => 1,
             Self::Two => 2,
+            Self::Space(SpaceDofs(bits)) => IN_SPACE | bits,
+        }
+    }
+
+    /// The reverse of [`Dofs::number`].
+    pub(crate) fn from_number(number: u8) -> Option<Self> {
+        match number {
+            1 => Some(Self::One),
+            2 => Some(Self::Two),
+            _ if number & IN_SPACE != 0 => SpaceDofs::of(number & !IN_SPACE).map(Self::Space),
+            _ => None,
+        }
+    }
+
+    /// How many they are.
+    pub(crate) const fn count(self) -> usize {
+        self.rows().count_ones() as usize
+    }
+
+    /// How many the model has that serves them.
+    pub(crate) const fn of_model(self) -> usize {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Space(_) => SPACE_COUNT,
+        }
+    }
+
+    /// The DOFs of that model that they are, by their place in it.
+    pub(crate) fn places(self) -> impl Iterator<Item = usize> {
+        let (rows, first) = (self.rows(), self.rows_of_model().start);
+        self.rows_of_model()
+            .filter(move |row| rows & (1 << row) != 0)
+            .map(move |row| row - first)
+    }
+
+    /// Rows of the table of DOFs that the model serves and the joint has not.
+    fn at_rest(self) -> impl Iterator<Item = usize> {
+        let rows = self.rows();
+        self.rows_of_model()
+            .filter(move |row| rows & (1 << row) == 0)
+    }
+
+    fn rows_of_model(self) -> std::ops::Range<usize> {
+        match self {
+            Self::One | Self::Two => 0..self.of_model(),
+            Self::Space(_) => SPACE..DOF_COUNT,
         }
     }
 
@@ -304,8 +392,24 @@ impl Dofs {
         match self {
             Self::One => 0b01,
             Self::Two => 0b11,
+            Self::Space(SpaceDofs(bits)) => (bits as u32) << SPACE,
         }
     }
+}
+
+impl fmt::Display for Dofs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.count();
+        match self {
+            Self::One | Self::Two => write!(f, "{count} DOF"),
+            Self::Space(_) => write!(f, "{count} DOF in space"),
+        }
+    }
+}
+
+/// The variable of the lap with this value reference, be it of whatever joint; the lap has all that the element has.
+pub(crate) fn declared(reference: usize) -> Option<&'static Variable> {
+    LAP.get(reference)?.as_ref()
 }
 
 /// Variables that one FMU has: a table of its kind, without those of DOFs that its joint does not have, and without those that
@@ -376,6 +480,13 @@ impl Variables {
     /// Start values of the model description.
     pub(crate) fn start(self) -> Values {
         let start = |reference| self.get(reference).map_or(0.0, |variable| variable.start);
-        Values::at_rest(std::array::from_fn(start), self)
+        let mut numbers = std::array::from_fn(start);
+        // nothing moves these masses, but they are divided by
+        for row in self.dofs.at_rest() {
+            for side in [&reference::A_INERTIA, &reference::B_INERTIA] {
+                numbers[side[row]] = 1.0;
+            }
+        }
+        Values::at_rest(numbers, self)
     }
 }

@@ -1,18 +1,20 @@
 //! The table of a joint over the preload of its bolt, as the start-value file gives it.
 
 use bolted_joint_dynamics::{
-    Beyond, DofLaws, JointLaw, JointOverPreload, Linear, Polynomial, TableDefect,
+    Beyond, DofLaws, JointLaw, JointOverPreload, Linear, Polynomial, SPACE_COUNT, TableDefect,
 };
 
 use crate::interface::Dofs;
 
-/// A joint over the preload, of either number of degrees of freedom.
+/// A joint over the preload, for each model that serves one.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PreloadTable {
     /// Translation y.
     One(Box<OverPreload<1>>),
     /// Translation y and rotation θ.
     Two(Box<OverPreload<2>>),
+    /// Degrees of freedom in space.
+    Six(Box<OverPreload<SPACE_COUNT>>),
 }
 
 /// A joint over the preload, and the preload that its friction is stated at.
@@ -27,7 +29,7 @@ pub(crate) struct OverPreload<const D: usize> {
 impl PreloadTable {
     /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3.
     pub(crate) const fn columns(dofs: Dofs) -> usize {
-        let order = dofs.count() as usize;
+        let order = dofs.count();
         1 + order * (order + 1) + order
     }
 
@@ -39,12 +41,15 @@ impl PreloadTable {
         nominal_n_m: Option<f64>,
     ) -> Result<Self, TableDefect> {
         match dofs {
-            Dofs::One => over_preload(rows, beyond, nominal_n_m)
+            Dofs::One => over_preload(dofs, rows, beyond, nominal_n_m)
                 .map(Box::new)
                 .map(Self::One),
-            Dofs::Two => over_preload(rows, beyond, nominal_n_m)
+            Dofs::Two => over_preload(dofs, rows, beyond, nominal_n_m)
                 .map(Box::new)
                 .map(Self::Two),
+            Dofs::Space(_) => over_preload(dofs, rows, beyond, nominal_n_m)
+                .map(Box::new)
+                .map(Self::Six),
         }
     }
 
@@ -53,6 +58,7 @@ impl PreloadTable {
         match self {
             Self::One(table) => table.joint.covers(preload_n_m),
             Self::Two(table) => table.joint.covers(preload_n_m),
+            Self::Six(table) => table.joint.covers(preload_n_m),
         }
     }
 
@@ -61,16 +67,18 @@ impl PreloadTable {
         match self {
             Self::One(table) => table.joint.range_n_m(),
             Self::Two(table) => table.joint.range_n_m(),
+            Self::Six(table) => table.joint.range_n_m(),
         }
     }
 }
 
 fn over_preload<const D: usize>(
+    dofs: Dofs,
     rows: &[Vec<f64>],
     beyond: Beyond,
     nominal_n_m: Option<f64>,
 ) -> Result<OverPreload<D>, TableDefect> {
-    let table: Vec<_> = rows.iter().filter_map(|row| law(row)).collect();
+    let table: Vec<_> = rows.iter().filter_map(|row| law(dofs, row)).collect();
     Ok(OverPreload {
         joint: JointOverPreload::new(&table, beyond)?,
         nominal_n_m,
@@ -89,13 +97,13 @@ impl<const D: usize> OverPreload<D> {
 }
 
 /// Preload and law of one row.
-fn law<const D: usize>(row: &[f64]) -> Option<(f64, JointLaw<D>)> {
+fn law<const D: usize>(dofs: Dofs, row: &[f64]) -> Option<(f64, JointLaw<D>)> {
     let mut numbers = row.iter().copied();
     let preload_n_m = numbers.next()?;
     let mut matrix = || {
         let mut matrix = [[0.0; D]; D];
-        for i in 0..D {
-            for j in i..D {
+        for (n, i) in dofs.places().enumerate() {
+            for j in dofs.places().skip(n) {
                 matrix[i][j] = numbers.next()?;
                 matrix[j][i] = matrix[i][j];
             }
@@ -107,8 +115,8 @@ fn law<const D: usize>(row: &[f64]) -> Option<(f64, JointLaw<D>)> {
         damping: matrix()?,
     };
     let mut cubic = [Polynomial::NONE; D];
-    for polynomial in &mut cubic {
-        *polynomial = Polynomial::cubic(numbers.next()?);
+    for i in dofs.places() {
+        cubic[i] = Polynomial::cubic(numbers.next()?);
     }
     Some((preload_n_m, linear.beside(cubic)))
 }

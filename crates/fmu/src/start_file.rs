@@ -124,11 +124,9 @@ impl StartFile {
                 .into_iter()
                 .find(|kind| kind.name() == found)
         })?;
-        let dofs = header.next("dofs ", "\"dofs 1\" or \"dofs 2\"", |found| match found {
-            "1" => Some(Dofs::One),
-            "2" => Some(Dofs::Two),
-            _ => None,
-        })?;
+        let expected =
+            "\"dofs 1\", \"dofs 2\", or \"dofs\" and some of x y z rx ry rz in this order";
+        let dofs = header.next("dofs ", expected, Dofs::from_text)?;
         let token = header.next("token ", "\"token\" and the instantiation token", |found| {
             (!found.trim().is_empty()).then(|| found.to_owned())
         })?;

@@ -8,7 +8,7 @@ use bolted_joint_dynamics::{
     law::{DOF_MEMORY_COUNT, REMEMBERED_PLACES},
 };
 
-use crate::interface::{VALUE_COUNT, Variables, reference::LAW_MEMORY};
+use crate::interface::{VALUE_COUNT, Variables, first_row, reference::LAW_MEMORY};
 
 /// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
 ///
@@ -76,7 +76,7 @@ impl Values {
     ) -> Option<T> {
         let joint = self.joint.first_chunk_mut::<D>()?;
         let result = change(joint);
-        for (references, own) in LAW_MEMORY.iter().zip(joint) {
+        for (references, own) in LAW_MEMORY[first_row::<D>()..].iter().zip(joint) {
             for (&reference, place) in references.iter().zip(REMEMBERED_PLACES) {
                 self.numbers[reference] = own[place];
             }
@@ -120,7 +120,7 @@ pub(crate) fn remembered_count(variables: Variables) -> usize {
 
 fn remembering_dofs(variables: Variables) -> usize {
     match variables.dependence.remembers() {
-        true => usize::from(variables.dofs.count()),
+        true => variables.dofs.of_model(),
         false => 0,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, law::UnitRule};
+use bolted_joint_dynamics::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, SPACE, law::UnitRule};
 use serde::{
     Deserialize, Deserializer, Serialize,
     de::{EnumAccess, Error as _, VariantAccess as _, Visitor},
@@ -12,7 +12,8 @@ use super::units::unit;
 
 /// Degrees of freedom of a joint, in the order of the rows of its matrices: one of [`DOF_SETS`].
 ///
-/// In the file it is the list of their names, `["y"]` or `["y", "theta"]`.
+/// In the file it is the list of their names: `["y"]` or `["y", "theta"]` for a joint in a plane, some of
+/// `["x", "y", "z", "rx", "ry", "rz"]` for one in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "Vec<String>", into = "Vec<&'static str>")]
 pub struct DofSet(&'static [usize]);
@@ -23,6 +24,25 @@ impl DofSet {
 
     /// A translation and a rotation.
     pub const TRANSLATION_ROTATION: Self = Self(DOF_SETS[1]);
+
+    /// All motions in space.
+    pub const SPACE: Self = Self(DOF_SETS[DOF_SETS.len() - 1]);
+
+    /// The set of the DOFs in space for which this is so; `None` of none, and of y alone, which is a joint in a plane.
+    #[must_use]
+    pub fn in_space(has: impl Fn(&'static Dof) -> bool) -> Option<Self> {
+        let rows: Vec<usize> = (SPACE..DOF_COUNT).filter(|&row| has(&DOFS[row])).collect();
+        DOF_SETS
+            .iter()
+            .find(|set| **set == rows)
+            .map(|set| Self(set))
+    }
+
+    /// Whether they are motions in space, and not in a plane.
+    #[must_use]
+    pub const fn is_in_space(self) -> bool {
+        self.0[0] >= SPACE
+    }
 
     /// Every set that a joint can have.
     pub fn all() -> impl Iterator<Item = Self> {
@@ -106,29 +126,39 @@ impl TryFrom<Vec<String>> for DofSet {
         Self::all()
             .find(|dofs| dofs.names() == names)
             .ok_or_else(|| {
-                let known: Vec<String> = Self::all().map(|dofs| dofs.to_string()).collect();
-                format!("found {names:?}, expected {}", known.join(" or "))
+                format!(
+                    "found {names:?}, expected {} or {} in a plane, or some of {} in this order in space",
+                    Self::TRANSLATION,
+                    Self::TRANSLATION_ROTATION,
+                    Self::SPACE
+                )
             })
     }
 }
 
-/// Names of all DOFs there are.
-const NAMES: [&str; DOF_COUNT] = {
-    let mut names = [""; DOF_COUNT];
-    let mut row = 0;
+/// Names of all DOFs there are; y is one in a plane and one in space.
+pub(super) const NAMES: [&str; DOF_COUNT - 1] = {
+    let mut names = [""; DOF_COUNT - 1];
+    let (mut row, mut place) = (0, 0);
     while row < DOF_COUNT {
-        names[row] = DOFS[row].name;
+        if row != Y_IN_SPACE {
+            names[place] = DOFS[row].name;
+            place += 1;
+        }
         row += 1;
     }
     names
 };
 
-/// A DOF as files name it; the first one unless another is named.
+/// The row of y in space; that in a plane is the first one.
+const Y_IN_SPACE: usize = SPACE + 1;
+
+/// A DOF as files name it; the first one unless another is named. Whether it is one in a plane or in space, the joint tells.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DofName(usize);
 
 impl DofName {
-    /// The DOF.
+    /// The DOF; y is that in a plane.
     #[must_use]
     pub fn dof(self) -> &'static Dof {
         &DOFS[self.0]
@@ -153,7 +183,7 @@ impl<'de> Visitor<'de> for DofNameVisitor {
     fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<DofName, A::Error> {
         let (found, rest) = data.variant::<String>()?;
         rest.unit_variant()?;
-        let row = NAMES.iter().position(|name| *name == found);
+        let row = DOFS.iter().position(|dof| dof.name == found);
         row.map(DofName)
             .ok_or_else(|| A::Error::unknown_variant(&found, &NAMES))
     }

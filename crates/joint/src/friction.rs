@@ -25,7 +25,7 @@ pub(super) const LAW: &str = "law";
 /// A law on one relative DOF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
-    /// The DOF.
+    /// The DOF, by its name: y is the same in a plane and in space.
     pub dof: &'static Dof,
     /// The law.
     pub law: &'static Declaration,

@@ -140,7 +140,7 @@ impl Joint {
     #[must_use]
     pub fn friction_on(&self, dof: &Dof, law: &Declaration) -> Option<&Friction> {
         let mut all = self.friction.iter();
-        all.find(|own| own.dof == dof && own.law == law)
+        all.find(|own| own.dof.name == dof.name && own.law == law)
     }
 
     /// Names of the joint's laws that remember the motion, in the order in which laws are declared.

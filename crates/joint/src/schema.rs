@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::{env, fs, path::Path};
 
 use bolted_joint_dynamics::{
-    DOF_COUNT, DOFS, DofKind,
+    DofKind,
     law::{Declaration, Parameter, Range, Term, UnitRule},
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use super::{
     DofSet, HigherTerms, JointFile,
+    dofs::NAMES,
     friction::{self, Friction},
     higher,
     units::{description, unit},
@@ -54,20 +55,31 @@ impl JsonSchema for DofSet {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let motions: Vec<String> = DOFS
-            .iter()
-            .map(|dof| {
+        let motions = |dofs: Self| {
+            let each = dofs.rows().map(|dof| {
                 let (motion, unit) = (dof.kind.motion(), dof.kind.displacement_unit());
                 format!("{motion} {} ({unit})", dof.name)
-            })
-            .collect();
-        let sets: Vec<Vec<&str>> = Self::all().map(Self::names).collect();
+            });
+            each.collect::<Vec<_>>().join(", ")
+        };
+        let plane = [Self::TRANSLATION, Self::TRANSLATION_ROTATION].map(Self::names);
         json_schema!({
             "description": format!(
-                "Relative motions that the joint resists: {}. They set the order of the matrices.",
-                motions.join(", ")
+                "Relative motions that the joint resists. In a plane: {}. In space, some of these in this order: {}. \
+                 They set the order of the matrices.",
+                motions(Self::TRANSLATION_ROTATION),
+                motions(Self::SPACE)
             ),
-            "enum": sets
+            "anyOf": [
+                { "enum": plane },
+                {
+                    "type": "array",
+                    "items": { "enum": Self::SPACE.names() },
+                    "minItems": 1,
+                    "maxItems": Self::SPACE.count(),
+                    "uniqueItems": true
+                }
+            ]
         })
     }
 }
@@ -103,9 +115,8 @@ const AMPLITUDE: &str = "Largest relative displacement, m and rad, that the join
 
 /// An entry of the list of laws.
 fn entry(law: &Declaration) -> Value {
-    let names: Vec<&str> = DOFS.iter().map(|dof| dof.name).collect();
     let mut properties = Map::new();
-    properties.insert(friction::DOF.to_owned(), json!({ "enum": names }));
+    properties.insert(friction::DOF.to_owned(), json!({ "enum": NAMES }));
     properties.insert(friction::LAW.to_owned(), json!({ "const": law.name }));
     for parameter in law.parameters {
         let mut number = json!({
@@ -157,7 +168,7 @@ fn list(description: &str, more: Value) -> Value {
         "type": "array",
         "items": items,
         "minItems": 1,
-        "maxItems": DOF_COUNT
+        "maxItems": DofSet::SPACE.count()
     })
 }
 

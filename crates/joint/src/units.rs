@@ -44,7 +44,8 @@ pub fn unit_for_people(unit: &str) -> String {
 /// A name of a variable with the symbols of the DOFs for their names: `ytheta` becomes `yθ`.
 #[must_use]
 pub fn with_symbols(name: &str) -> String {
-    DOFS.iter().fold(name.to_owned(), |name, dof| {
+    let differ = DOFS.iter().filter(|dof| dof.name != dof.symbol);
+    differ.fold(name.to_owned(), |name, dof| {
         name.replace(dof.name, dof.symbol)
     })
 }

@@ -143,7 +143,7 @@ impl Check {
                     dofs: self.dofs,
                 });
             }
-            let is_same = |other: &Friction| other.dof == own.dof && other.law == own.law;
+            let is_same = |other: &Friction| other.dof.name == own.dof.name && other.law == own.law;
             if laws[..i].iter().any(is_same) {
                 let path = format!("{path}.law");
                 self.problems

@@ -1,7 +1,8 @@
 //! The static balance of one DOF while the other follows, and where it ends first.
 
-use super::coupling;
+use super::{coupling, held};
 use crate::{
+    condensation::{condensed, following},
     law::{JointLaw, SPRING_COUNT},
     power_series::value,
 };
@@ -26,6 +27,19 @@ const TERMS: usize = SPRING_COUNT + 1;
 pub(super) struct Spring([f64; TERMS]);
 
 impl Spring {
+    /// Change of the spring of DOF `i` while several others follow it by `motion`.
+    pub(super) fn change_of_following<const D: usize>(
+        law: &JointLaw<D>,
+        supports: &[f64; D],
+        i: usize,
+        motion: &[f64; D],
+    ) -> Self {
+        // what follows is where the energy is least, so that its own change adds nothing
+        let mut change = Self::of(law, supports, i);
+        change.0[0] = condensed(&held(law, supports), motion);
+        change
+    }
+
     /// Joint and supports together.
     pub(super) fn of<const D: usize>(law: &JointLaw<D>, supports: &[f64; D], i: usize) -> Self {
         let mut terms = [law.linear.stiffness[i][i] + supports[i]; TERMS];
@@ -134,7 +148,12 @@ impl Balance {
         supports: &[f64; D],
         i: usize,
     ) -> Option<Self> {
-        let own = Spring::of(law, supports, i);
+        let mut own = Spring::of(law, supports, i);
+        let held = held(law, supports);
+        if let Some(motion) = following(&held, i) {
+            own.0[0] = condensed(&held, &motion);
+            return own.softens().then_some(Self { own, other: None });
+        }
         let other = (0..D)
             .find(|&j| j != i && coupling(law, i, j) != 0.0)
             .map(|dof| Other {

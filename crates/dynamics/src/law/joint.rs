@@ -4,6 +4,7 @@ use super::{
     DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, Linear, Outside, Polynomial,
 };
 use crate::{
+    condensation::{condensed, following},
     motion::Motion,
     number::{Dual, Number},
 };
@@ -255,8 +256,14 @@ impl<const D: usize> JointLaw<D> {
     #[must_use]
     pub fn active_amplitude(&self) -> [Option<f64>; D] {
         let damping = &self.linear.damping;
+        let symmetric: [[f64; D]; D] =
+            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (damping[i][j] + damping[j][i])));
         std::array::from_fn(|i| {
             // C + (c2 u + c4 u²) eᵢeᵢᵀ is semidefinite as long as C_ii − C_ij²/C_jj + c2 u + c4 u² is not negative
+            if let Some(motion) = following(&symmetric, i) {
+                let condensed = condensed(&symmetric, &motion);
+                return self.on[i].polynomial().first_active(condensed);
+            }
             let condensed = (0..D).filter(|&j| j != i).fold(damping[i][i], |c, j| {
                 let coupling = 0.5 * (damping[i][j] + damping[j][i]);
                 if coupling == 0.0 {

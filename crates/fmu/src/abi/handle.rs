@@ -59,7 +59,7 @@ pub(crate) struct Handle {
 }
 
 // an instance takes this memory, and what its model is prepared for
-const _: () = assert!(size_of::<Handle>() + MODEL_SIZE_MAX <= 5120);
+const _: () = assert!(size_of::<Handle>() + MODEL_SIZE_MAX <= 11 << 10);
 
 /// What an `fmi2FMUstate` or `fmi3FMUState` points to.
 #[repr(C)]

@@ -14,6 +14,8 @@ use remembering::RememberingLap;
 
 use std::num::NonZeroU32;
 
+use bolted_joint_dynamics::SPACE_COUNT;
+
 use crate::{
     input_course::InputCourse,
     interface::{Dependence, Dofs, InterfaceType, Kind, Values, Variables},
@@ -124,9 +126,12 @@ pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dy
         (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(*table)),
         (Kind::Lap, Some(PreloadTable::One(table))) => Box::new(LooseningLap::new(*table)),
         (Kind::Lap, Some(PreloadTable::Two(table))) => Box::new(LooseningLap::new(*table)),
+        (Kind::Element, Some(PreloadTable::Six(table))) => Box::new(LooseningElement::new(*table)),
+        (Kind::Lap, Some(PreloadTable::Six(table))) => Box::new(LooseningLap::new(*table)),
         (kind, None) => match variables.dofs {
             Dofs::One => model_of::<1>(kind, variables.dependence),
             Dofs::Two => model_of::<2>(kind, variables.dependence),
+            Dofs::Space(_) => model_of::<SPACE_COUNT>(kind, variables.dependence),
         },
     }
 }

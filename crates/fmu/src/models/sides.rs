@@ -6,9 +6,7 @@ use bolted_joint_dynamics::{
 };
 
 use crate::{
-    interface::{
-        Dependence, Dofs, Kind, Values, Variable, Variables, gather, reference as vr, scatter,
-    },
+    interface::{Values, declared, first_row, gather, reference as vr, scatter},
     refusal::Refusal,
 };
 
@@ -48,13 +46,14 @@ pub(super) const B: Side = Side {
 impl Side {
     /// Value references of displacements and of velocities.
     pub(super) fn motion_references<const D: usize>(&self) -> [[usize; D]; 2] {
-        [&self.displacement, &self.velocity].map(|all| std::array::from_fn(|dof| all[dof]))
+        [&self.displacement, &self.velocity]
+            .map(|all| std::array::from_fn(|dof| all[first_row::<D>() + dof]))
     }
 
     /// Value references of the loads.
     #[inline]
     pub(super) fn load_references<const D: usize>(&self) -> [usize; D] {
-        std::array::from_fn(|dof| self.load[dof])
+        std::array::from_fn(|dof| self.load[first_row::<D>() + dof])
     }
 
     #[inline]
@@ -100,7 +99,8 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     JointLaw {
         linear: joint_linear(values),
         on: std::array::from_fn(|dof| {
-            DofLaws::new(vr::LAW_PARAMETERS[dof].map(|reference| values[reference]))
+            let references = vr::LAW_PARAMETERS[first_row::<D>() + dof];
+            DofLaws::new(references.map(|reference| values[reference]))
         }),
     }
 }
@@ -109,8 +109,8 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
 #[inline]
 pub(super) fn joint_linear<const D: usize>(values: &Values) -> Linear<D> {
     Linear {
-        stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[row])),
-        damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[row])),
+        stiffness: std::array::from_fn(|row| gather(values, &vr::JOINT_K[first_row::<D>() + row])),
+        damping: std::array::from_fn(|row| gather(values, &vr::JOINT_C[first_row::<D>() + row])),
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn joint_polynomials<const D: usize>(values: &Values) -> [Polynomial;
     const { assert!(FORGETFUL_PARAMETER_COUNT == TERM_COUNT) };
     std::array::from_fn(|dof| {
         let parameters: [f64; FORGETFUL_PARAMETER_COUNT] =
-            std::array::from_fn(|place| values[vr::LAW_PARAMETERS[dof][place]]);
+            std::array::from_fn(|place| values[vr::LAW_PARAMETERS[first_row::<D>() + dof][place]]);
         Polynomial::new(&parameters)
     })
 }
@@ -137,7 +137,7 @@ pub(super) fn check_laws<const D: usize>(law: &JointLaw<D>) -> Result<(), Refusa
     let mut all = law.on[dof].parameters().iter().zip(dof_parameters());
     let found = all.find(|(_, (_, parameter))| parameter.symbol == symbol);
     Err(Refusal::OutsideLaw {
-        name: format!("joint.{symbol}_{}", DOFS[dof].name),
+        name: format!("joint.{symbol}_{}", DOFS[first_row::<D>() + dof].name),
         found: found.map_or(f64::NAN, |(&value, _)| value),
         expected: outside.expected,
     })
@@ -150,20 +150,10 @@ pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
 
 /// Name of a variable that both FMUs have.
 pub(super) fn name(reference: usize) -> &'static str {
-    variable(reference).map_or("", |variable| variable.name)
+    declared(reference).map_or("", |variable| variable.name)
 }
 
 /// Unit of a variable that both FMUs have.
 pub(super) fn unit(reference: usize) -> &'static str {
-    variable(reference).map_or("", |variable| variable.unit)
-}
-
-/// The variable of the lap, which has all that the element has.
-fn variable(reference: usize) -> Option<&'static Variable> {
-    Variables {
-        kind: Kind::Lap,
-        dofs: Dofs::Two,
-        dependence: Dependence::Constant,
-    }
-    .get(reference)
+    declared(reference).map_or("", |variable| variable.unit)
 }

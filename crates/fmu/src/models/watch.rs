@@ -4,7 +4,7 @@
 use bolted_joint_dynamics::JointLaw;
 
 use crate::{
-    interface::reference as vr,
+    interface::{first_row, reference as vr},
     models::sides::{A, B, name, unit},
     refusal::{Limit, Reached},
 };
@@ -66,9 +66,9 @@ impl<const D: usize> Watch<D> {
     pub(super) fn look(&mut self, relative: &[f64; D], time_s: f64) -> Option<Reached> {
         let reached = |dof: usize, limit: Limit, amplitude: f64| Reached {
             limit,
-            a: name(A.displacement[dof]),
-            b: name(B.displacement[dof]),
-            unit: unit(A.displacement[dof]),
+            a: name(A.displacement[first_row::<D>() + dof]),
+            b: name(B.displacement[first_row::<D>() + dof]),
+            unit: unit(A.displacement[first_row::<D>() + dof]),
             relative: relative[dof],
             amplitude,
             time_s,
@@ -78,7 +78,7 @@ impl<const D: usize> Watch<D> {
             && let Some(dof) = past(&self.escape.map(|amplitude| NEAR * amplitude))
         {
             self.escape_told = true;
-            let parameter = name(vr::JOINT_ESCAPE_AMPLITUDE[dof]);
+            let parameter = name(vr::JOINT_ESCAPE_AMPLITUDE[first_row::<D>() + dof]);
             return Some(reached(dof, Limit::Escape { parameter }, self.escape[dof]));
         }
         if !self.active_told

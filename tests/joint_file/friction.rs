@@ -160,19 +160,38 @@ fn a_law_stands_once_on_a_dof_of_the_joint() {
     )));
 }
 
-#[test]
-fn a_table_over_the_preload_has_no_friction() {
-    let message = refusal(
-        "\"stiffness\"",
-        &format!(
-            r#""friction": [{ON_Y}], "over_preload": {{ "preload": [1, 2], "nominal": 1,
+/// The good file with a table over the preload beside these laws.
+fn over_preload(laws: &str, preloads: &str, nominal: f64) -> Result<JointFile, String> {
+    let table = format!(
+        r#""friction": [{laws}], "over_preload": {{ "preload": {preloads}, "nominal": {nominal},
            "stiffness": [[[1, 0], [0, 1]], [[1, 0], [0, 1]]], "damping": [[[1, 0], [0, 1]], [[1, 0], [0, 1]]] }},
            "stiffness""#
-        ),
     );
-    assert!(
-        message.contains("joint.friction: found beside joint.over_preload")
-            && message.contains("take one of them out"),
-        "{message}"
-    );
+    let text = GOOD.replacen("\"stiffness\"", &table, 1);
+    JointFile::from_json(&text, "m10.joint.json").map_err(|refused| refused.to_string())
+}
+
+#[test]
+fn over_the_preload_stands_only_what_follows_it() {
+    let file = over_preload(ON_Y, "[1, 2]", 1.0).unwrap();
+    // h = h₀ p/p₀
+    let at = file.at_preload(Some(2.0)).unwrap();
+    let law = at.joint.law::<2>().unwrap();
+    assert_eq!(law.on[0].jenkins().slip_force, 600.0);
+    for law in [IWAN, VALANIS, DAHL, LUGRE, BOUC_WEN] {
+        let message = over_preload(&format!("{{ {law} }}"), "[1, 2]", 1.0).unwrap_err();
+        let expected = [
+            "joint.friction[0].law: found \"",
+            "beside joint.over_preload, expected \"jenkins\"",
+            "take one of the two out",
+        ];
+        assert!(
+            expected.iter().all(|part| message.contains(part)),
+            "{message}"
+        );
+    }
+    let message = over_preload(ON_Y, "[0, 2]", 0.0).unwrap_err();
+    let expected =
+        "joint.over_preload.nominal: found 0 beside joint.friction, expected a preload above 0";
+    assert!(message.contains(expected), "{message}");
 }

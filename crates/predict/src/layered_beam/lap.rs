@@ -92,9 +92,9 @@ impl EquivalentLap {
     ) -> Result<DrySlider, LayeredBeamError> {
         let (from, to) = (self.relative(range.from_m()), self.relative(range.to_m()));
         let relative = AmplitudeRange::new("motion.amplitude", from, to)?;
-        // c_eq R is the same at every amplitude
+        // c_eq R is the same at every amplitude; all of it is the joint's, or else it would not be in proportion to the torque
         let at_largest = damping.viscous_damping_n_s_per_m(range.to_m());
-        let coulomb = self.joint_damping_n_s_per_m(at_largest) * to;
+        let coulomb = at_largest / (1.0 - self.mount_share).powi(2) * to;
         let omega = damping.mode.angular_frequency;
         Ok(DrySlider::following(coulomb, omega, &relative))
     }

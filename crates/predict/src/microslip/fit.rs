@@ -164,12 +164,33 @@ mod tests {
         assert_eq!(found.law.stiffness, patches.stiffness());
     }
 
-    /// Patches spread over their slip displacements: the law is closer to them than to one contact.
+    /// Patches spread over their slip displacements: the worst heat is closer than with one contact.
+    ///
+    /// Reference: SciPy's `least_squares` from three starts gives χ = −0.4491, β → 0, 6.78 % r.m.s. and 9.92 % of heat, 4.07 %
+    /// of load.
     #[test]
-    fn a_spread_field_is_fitted_closely() {
+    fn a_spread_field_is_fitted_as_scipy_does() {
         let patches = of_density(-0.3, 4000);
         let found = MicroslipLaw::of(&patches, Amplitudes::of(&patches));
-        assert!(found.heat_error < 0.03, "{found:?}");
+        let MicroslipLaw {
+            law,
+            heat_error,
+            worst_heat_error,
+            worst_load_error,
+            ..
+        } = &found;
+        for (own, of_scipy, tolerance) in [
+            (law.exponent, -0.4491, 1e-3),
+            (law.ratio, 0.0, 1e-4),
+            (*heat_error, 0.0678, 3e-4),
+            (*worst_heat_error, 0.0992, 3e-4),
+            (*worst_load_error, 0.0407, 3e-4),
+        ] {
+            assert!(
+                (own - of_scipy).abs() < tolerance,
+                "{own} {of_scipy}: {found:?}"
+            );
+        }
         assert!(found.law.outside().is_none());
         // the law's own curve is what its functions say
         let [heat, load] = found.heat_and_load(found.amplitudes.to);

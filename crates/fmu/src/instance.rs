@@ -23,6 +23,7 @@ use crate::{
     pace::Pace,
     refusal::{Active, Refusal, Warning},
     start_file::StartFile,
+    values::StartValues,
     version::{Abi, Words},
 };
 use intermediate::Access;
@@ -32,7 +33,7 @@ pub(crate) struct Instance {
     identity: Arc<Identity>,
     roles: [Roles; REFERENCE_COUNT],
     model: Box<dyn Model>,
-    start: Values,
+    start: StartValues,
     values: Values,
     inputs: InputCourse,
     mode: Mode,
@@ -74,7 +75,7 @@ impl Instance {
             }),
             roles: variables.roles(),
             model: models::model(variables, table),
-            start: values.clone(),
+            start: StartValues::of(&values),
             values,
             inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
@@ -162,7 +163,7 @@ impl Instance {
 
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
-        self.values.clone_from(&self.start);
+        self.start.restore(&mut self.values);
         self.inputs = InputCourse::HELD;
         self.mode = Mode::Instantiated;
         self.stop_s = None;

@@ -113,6 +113,32 @@ impl Values {
     }
 }
 
+/// The values of an instance at its start, in short: most of those that there are belong to other joints, and are zero.
+#[derive(Clone, Debug)]
+pub(crate) struct StartValues(Box<[(u32, f64)]>);
+
+impl StartValues {
+    /// Those of a joint that has not moved yet.
+    pub(crate) fn of(values: &Values) -> Self {
+        let numbers = (0..).zip(values.iter().copied());
+        // what is not all zero bits, so that −0 stays what it is
+        Self(
+            numbers
+                .filter(|(_, number)| number.to_bits() != 0)
+                .collect(),
+        )
+    }
+
+    /// Puts them in the place of `values`, which are of the same FMU.
+    pub(crate) fn restore(&self, values: &mut Values) {
+        values.numbers = [0.0; VALUE_COUNT];
+        for &(place, number) in &self.0 {
+            values.numbers[place as usize] = number;
+        }
+        values.joint.fill(DOF_AT_REST);
+    }
+}
+
 /// Number of numbers that the joint of an FMU with these variables remembers.
 pub(crate) fn remembered_count(variables: Variables) -> usize {
     remembering_dofs(variables) * DOF_MEMORY_COUNT

@@ -46,6 +46,14 @@ fn disagreement(from: &str, to: &str) -> InterfaceProblem {
     }
 }
 
+/// The element of lap.xml for the initial unknown with this value reference.
+fn initial_unknown(reference: u32) -> String {
+    let start = format!(r#"<InitialUnknown valueReference="{reference}" "#);
+    let from = LAP.find(&start).unwrap();
+    let length = LAP[from..].find("/>").unwrap() + 2;
+    LAP[from..from + length].to_owned()
+}
+
 macro_rules! refused {
     ($name:ident: $xml:ident, $from:expr => $to:expr, $pattern:pat $(if $guard:expr)?) => {
         #[test]
@@ -153,7 +161,7 @@ refused!(output_missing: LAP, r#"<Output valueReference="1" dependencies="1" dep
     InterfaceProblem::MissingUnknown { element: "Output", variable } if variable == "a.y");
 refused!(output_is_input: LAP, r#"<Output valueReference="1" "# => r#"<Output valueReference="9" "#,
     InterfaceProblem::UnexpectedUnknown { element: "Output", variable } if variable == "a.F");
-refused!(initial_unknown_missing: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61 64 65 66 67 68 69 70 71 74 75 76 77 78 79 80 81 84 85 86 87 90 91 92 93 94 95 96 97 98 99 100 101 104 105 106 107 108 109 110 111 112 113"/>"# => "",
+refused!(initial_unknown_missing: LAP, &initial_unknown(16) => "",
     InterfaceProblem::MissingUnknown { element: "InitialUnknown", variable } if variable == "power.dissipated");
 refused!(initial_unknown_is_known: LAP, r#"<InitialUnknown valueReference="16" "# => r#"<InitialUnknown valueReference="1" "#,
     InterfaceProblem::UnexpectedUnknown { element: "InitialUnknown", variable } if variable == "a.y");
@@ -169,7 +177,7 @@ refused!(dependency_twice: LAP, r#"<Output valueReference="1" dependencies="1" d
     InterfaceProblem::DuplicateDependency { element: "Output", variable, dependency } if variable == "a.y" && dependency == "a.F");
 refused!(kind_count: LAP, r#"dependenciesKind="constant""# => r#"dependenciesKind="constant constant""#,
     InterfaceProblem::KindCount { element: "Output", variable, dependencies: 1, kinds: 2 } if variable == "a.y");
-refused!(kind_of_initial_unknown: LAP, r#"<InitialUnknown valueReference="16" dependencies="1 2 3 4 5 6 7 8 20 21 22 29 30 35 36 46 47 48 49 52 58 59 60 61 64 65 66 67 68 69 70 71 74 75 76 77 78 79 80 81 84 85 86 87 90 91 92 93 94 95 96 97 98 99 100 101 104 105 106 107 108 109 110 111 112 113"/>"#
+refused!(kind_of_initial_unknown: LAP, &initial_unknown(16)
     => r#"<InitialUnknown valueReference="16" dependencies="3" dependenciesKind="tunable"/>"#,
     InterfaceProblem::InitialKind { variable } if variable == "power.dissipated");
 
@@ -232,7 +240,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="116""#,
+        r#"name="step_size_max" valueReference="415""#,
     );
     assert_eq!(problem, InterfaceProblem::Gap { reference: 37 });
     // swap two numbers that occur in declarations only
@@ -300,9 +308,9 @@ fn shared_definitions_are_equal() {
 #[test]
 fn intact_descriptions_are_accepted() {
     let interfaces = Interfaces::present().unwrap();
-    assert_eq!(interfaces.element.variables.len(), 96);
-    assert_eq!(interfaces.lap.variables.len(), 116);
-    assert_eq!(interfaces.reference_count(), 116);
+    assert_eq!(interfaces.element.variables.len(), 351);
+    assert_eq!(interfaces.lap.variables.len(), 415);
+    assert_eq!(interfaces.reference_count(), 415);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
@@ -313,10 +321,10 @@ fn intact_descriptions_are_accepted() {
     );
     assert_eq!(role(&interfaces.lap, "preload"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "energy.supplied"), Some(Role::State));
-    assert_eq!(
-        interfaces.input_references(),
-        [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 52]
-    );
+    let inputs = interfaces.input_references();
+    assert_eq!(inputs[..13], [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 52]);
+    // in space, motion, rate and load of six DOFs on two sides; y is there already
+    assert_eq!(inputs.len(), 13 + 2 * (3 * 6 - 1));
     assert_eq!(
         role(&interfaces.lap, "a.acceleration"),
         Some(Role::Derivative)
@@ -328,8 +336,14 @@ fn intact_descriptions_are_accepted() {
             .collect::<Vec<_>>()
     };
     assert_eq!(states(&interfaces.element), []);
+    let states_of_lap = states(&interfaces.lap);
+    let in_plane: Vec<_> = (states_of_lap.iter().copied())
+        .filter(|&(state, derivative)| state < 116 && derivative < 116)
+        .collect();
+    // y is a state in a plane and in space, with another rate
+    assert_eq!(states_of_lap.len(), in_plane.len() + 2 * 2 * 6);
     assert_eq!(
-        states(&interfaces.lap),
+        in_plane,
         [
             (1, 3),
             (2, 4),
@@ -343,20 +357,28 @@ fn intact_descriptions_are_accepted() {
             (56, 16)
         ]
     );
-    let rotational = |place: usize| {
+    let of = |place: usize, rows: &[usize]| {
         let description = &DESCRIPTIONS[place];
         let interface = [&interfaces.element, &interfaces.lap][place];
-        let without_rotation = |name| {
+        let is_there = |name| {
             let scope = description.scope(name).unwrap();
-            scope.includes(Rows::of(&[0]), Joints::ANY)
+            let mut joints = [Joints::CONSTANT, Joints::OVER_PRELOAD, Joints::MEMORY].into_iter();
+            joints.any(|joint| scope.includes(Rows::of(rows), joint))
         };
         let variables = interface.variables.iter();
         variables
-            .filter(|variable| !without_rotation(&variable.name))
+            .filter(|variable| is_there(&variable.name))
             .count()
     };
-    // θ, ω, M of both sides, M of the joint, joint parameters, what laws remember, the escape amplitude; J, k_θ, c_θ, α of both
-    // bodies
-    assert_eq!(rotational(0), 6 + 1 + 32 + 6 + 1);
-    assert_eq!(rotational(1), 6 + 1 + 32 + 6 + 1 + 6 + 2);
+    // θ brings θ, ω, M of both sides, M of the joint, k and c of its own and with y, the laws' parameters, what laws remember, the
+    // escape amplitude; J, k_θ, c_θ, α of both bodies
+    let [sides, laws, bodies] = [6 + 1 + 1, 28 + 6, 6 + 2];
+    for (place, bodies) in [(0, 0), (1, bodies)] {
+        let alone = of(place, &[0]);
+        let with_theta = alone + sides + 4 + laws + bodies;
+        assert_eq!(of(place, &[0, 1]), with_theta);
+        // likewise each of six, with 21 entries of K and of C in place of one
+        let in_space = alone + 5 * (sides + laws + bodies) + 2 * 20;
+        assert_eq!(of(place, &[2, 3, 4, 5, 6, 7]), in_space);
+    }
 }

@@ -326,7 +326,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     let joint = first_value + 8 * values as usize;
     // this joint remembers nothing
     let inputs = joint + 4;
-    assert_eq!(inputs + 3 + 8 * 3 * 13 + 8, bytes.len());
+    assert_eq!(inputs + 9 + 8 * 3 * 47 + 8, bytes.len());
     let step_size_max = first_value + 8 * vr::STEP_SIZE_MAX as usize;
     let loaded = instance.deserialize(&forge(step_size_max, &1e-6_f64.to_le_bytes()));
     instance.free_state(loaded.unwrap());
@@ -345,10 +345,14 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     refused(steps_in_a_row, &[u8::MAX], step);
     // derivatives of what is no input, for no known step, of inputs that are held, or that are no numbers
     let course = "its course of the inputs is impossible";
-    refused(inputs, &[0x00, 0x80], course);
-    refused(inputs + 2, &[3], course);
-    refused(inputs + 3 + 8, &1.0_f64.to_le_bytes(), course);
-    refused(inputs, &[&[0, 0, 1], &nan[..]].concat(), course);
+    refused(inputs + 6, &[0x00, 0x80], course);
+    refused(inputs + 8, &[3], course);
+    refused(inputs + 9 + 8, &1.0_f64.to_le_bytes(), course);
+    refused(
+        inputs,
+        &[&[0, 0, 0, 0, 0, 0, 0, 0, 1], &nan[..]].concat(),
+        course,
+    );
     // more or fewer numbers than this build remembers
     for found in [values + 1, values - 1, 0, u32::MAX] {
         let expected = format!(

@@ -60,7 +60,9 @@ fn start_files_that_are_not_text_or_too_long_are_refused() {
 const FAULTS: &str = r#"
     bolted-joint-start/1 | bolted-joint-start/2 | 1 | found "bolted-joint-start/2", expected the header
     model lap | model beam | 2 | found "model beam", expected "model element" or "model lap"
-    dofs 2    | dofs 3     | 3 | found "dofs 3", expected "dofs 1" or "dofs 2"
+    dofs 2    | dofs 3     | 3 | found "dofs 3", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz
+    dofs 2    | dofs z x   | 3 | found "dofs z x", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz
+    dofs 2    | dofs x x   | 3 | found "dofs x x", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz
     token {   | tocken {   | 4 | found "tocken {7f0c-4a} ##1", expected "token" and the instantiation token
     joint.k_yy 4000000   | joint.k_yy | 5 | found "joint.k_yy", expected the name of a parameter, a space and a number
     joint.k_yy 4000000   |                       | 5 | found "", expected the name of a parameter

@@ -11,7 +11,7 @@ use std::{
     ptr,
 };
 
-pub(crate) use start::start_text;
+pub(crate) use start::{SPACE, start_text};
 
 pub(crate) use bolted_joint_importer::FmiVersion::{self, Three as Fmi3, Two as Fmi2};
 use bolted_joint_importer::header::{OK, fmi2::*, fmi3::*};

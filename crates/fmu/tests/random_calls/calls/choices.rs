@@ -57,9 +57,13 @@ impl<'a> Choices<'a> {
         }
     }
 
-    /// A number from zero to below `limit`, which is at most 256.
+    /// A number from zero to below `limit`, which is at most 65,536.
     pub(crate) fn below(&mut self, limit: usize) -> usize {
-        assert!((1..=256).contains(&limit));
+        assert!((1..=65_536).contains(&limit));
+        if limit > 256 {
+            let both = u16::from_le_bytes([self.byte(), self.byte()]);
+            return usize::from(both) * limit / 65_536;
+        }
         usize::from(self.byte()) * limit / 256
     }
 

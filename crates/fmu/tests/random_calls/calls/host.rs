@@ -9,7 +9,7 @@ use std::{
 
 use bolted_joint_importer::header::{OK, WARNING};
 
-use crate::raw::{Fmi3, Raw, start_text};
+use crate::raw::{Fmi3, Raw, SPACE, start_text};
 
 /// Token of all FMUs here.
 pub(crate) const TOKEN: &CStr = c"{random calls}";
@@ -78,7 +78,7 @@ const ALL_FRICTION: [Friction; 6] = [
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
 /// friction, and over the preload.
-pub(crate) const MODELS: [Model; 15] = [
+pub(crate) const MODELS: [Model; 20] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -94,6 +94,11 @@ pub(crate) const MODELS: [Model; 15] = [
     Model::new(true, 2, 0.0).loosening(),
     Model::new(false, 2, 0.0).slipping(&[JENKINS]).loosening(),
     Model::new(true, 1, 0.0).slipping(&[JENKINS]).loosening(),
+    Model::new(false, 6, 1e12),
+    Model::new(true, 6, -2e12),
+    Model::new(false, 6, 0.0).slipping(&ALL_FRICTION),
+    Model::new(true, 6, 0.0).slipping(&[IWAN]),
+    Model::new(false, 6, 0.0).slipping(&[JENKINS]).loosening(),
 ];
 
 impl Model {
@@ -125,17 +130,27 @@ impl Model {
 
     /// Number of continuous states.
     pub(crate) fn states(self) -> usize {
-        if self.lap {
-            4 * usize::from(self.dofs)
-        } else {
-            0
+        if !self.lap {
+            return 0;
         }
+        // motion, and what is counted: heat of a joint that remembers, and work besides of one over the preload
+        let counted = match (self.is_over_preload, self.friction) {
+            (true, _) => 2,
+            (false, []) => 0,
+            (false, _) => 1,
+        };
+        4 * usize::from(self.dofs) + counted
     }
 
     /// Value references of the inputs.
     pub(crate) fn inputs(self) -> &'static [u32] {
         match (self.lap, self.dofs) {
             (true, 1) => &[9, 11],
+            (true, 6) => &[138, 139, 140, 141, 142, 143, 144, 145, 146, 147, 148, 149],
+            (false, 6) => &[
+                1, 5, 116, 117, 118, 119, 120, 121, 122, 123, 124, 125, 126, 127, 128, 129, 130,
+                131, 132, 133, 134, 135, 136, 137,
+            ],
             (true, _) => &[9, 10, 11, 12],
             (false, 1) => &[1, 3, 5, 7],
             (false, _) => &[1, 2, 3, 4, 5, 6, 7, 8],
@@ -146,6 +161,11 @@ impl Model {
     pub(crate) fn outputs(self) -> &'static [u32] {
         match (self.lap, self.dofs) {
             (true, 1) => &[13, 15, 16],
+            (true, 6) => &[15, 16, 150, 151, 152, 153, 154, 155],
+            (false, 6) => &[
+                15, 16, 138, 139, 140, 141, 142, 143, 144, 145, 146, 147, 148, 149, 150, 151, 152,
+                153, 154, 155,
+            ],
             (true, _) => &[13, 14, 15, 16],
             (false, 1) => &[9, 11, 13, 15, 16],
             (false, _) => &[9, 10, 11, 12, 13, 14, 15, 16],
@@ -171,7 +191,12 @@ impl Model {
         let first = first + text[first..].find('\n').expect("its line") + 1;
         text.insert_str(first, &format!("laws {}\n", names.join(" ")));
         for (symbol, value) in self.friction.iter().flat_map(|(_, parameters)| *parameters) {
-            for dof in ["y", "theta"].iter().take(self.dofs.into()) {
+            let dofs: &[&str] = match self.dofs {
+                1 => &["y"],
+                2 => &["y", "theta"],
+                _ => &SPACE,
+            };
+            for dof in dofs {
                 text += &format!("joint.{symbol}_{dof} {value}\n");
             }
         }
@@ -188,6 +213,17 @@ impl Model {
             let (k, c) = (4e6 * share, 8.0 * share);
             match self.dofs {
                 1 => format!("{preload} {k} {c} 1e12"),
+                6 => {
+                    let diagonal = |own: f64| {
+                        let entry = |i: usize, j: usize| if i == j { own } else { 0.0 };
+                        let upper = (0..6).flat_map(|i| (i..6).map(move |j| (i, j)));
+                        upper
+                            .map(|(i, j)| entry(i, j).to_string())
+                            .collect::<Vec<_>>()
+                            .join(" ")
+                    };
+                    format!("{preload} {} {} 1e12 0 0 0 0 0", diagonal(k), diagonal(c))
+                }
                 _ => format!("{preload} {k} 1e4 2e3 {c} 0.1 0.25 1e12 0"),
             }
         };
@@ -204,9 +240,12 @@ impl Model {
     /// One more than the largest value reference that is tried.
     pub(crate) const fn references(self) -> u32 {
         if self.friction.is_empty() && !self.is_over_preload {
-            45
+            match self.dofs {
+                6 => 420,
+                _ => 45,
+            }
         } else {
-            120
+            420
         }
     }
 }

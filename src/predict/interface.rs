@@ -130,15 +130,10 @@ fn summary(found: &Prediction<'_>) -> String {
         number(roughness_m, 4),
         study.pressure,
     );
-    let theta = study
-        .planar
-        .rotation()
-        .map(|rotation| format!(", theta about {rotation}"))
-        .unwrap_or_default();
     let _ = writeln!(
         text,
-        "y along {}{theta}, at x = {x} m, y = {y} m, z = {z} m; damping at {} Hz",
-        study.planar.translation(),
+        "{}, at x = {x} m, y = {y} m, z = {z} m; damping at {} Hz",
+        study.motions.described(),
         study.frequency_hz
     );
     for state in &found.states {

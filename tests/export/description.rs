@@ -107,8 +107,10 @@ fn start_values_lie_within_their_bounds_and_bounds_around_what_the_library_takes
             assert!(bound("max").is_none_or(|max| start <= max), "{name}");
             bounded += usize::from(bound("min").is_some());
             // Zero is refused by the library, so it must not lie within the bounds.
-            let must_be_positive =
-                name.ends_with(".m") || name.ends_with(".J") || name == "step_size_max";
+            let of_body = name.strip_prefix("a.").or_else(|| name.strip_prefix("b."));
+            let is_inertia =
+                |own: &str| ["m", "J"].contains(&own.split('_').next().unwrap_or_default());
+            let must_be_positive = of_body.is_some_and(is_inertia) || name == "step_size_max";
             // Without a law of friction, its parameters are zero.
             let may_be_zero = dof_parameters().any(|(law, parameter)| {
                 let is_it = name.starts_with(&format!("joint.{}_", parameter.symbol));

@@ -2,7 +2,7 @@
 
 use bolted_joint::export::{ExportOptions, Interface, fmu_bytes};
 use bolted_joint::joint::JointFile;
-use bolted_joint_interface::{Expanded, Interface as Declared, Joints};
+use bolted_joint_interface::{Expanded, Interface as Declared, Joints, Rows};
 
 use crate::{data, declared, export, options, text};
 
@@ -27,7 +27,7 @@ fn a_joint_with_rotation_keeps_every_variable_and_gets_its_values() {
         variables
             .filter(|variable| {
                 let scope = template.scope(&variable.name).unwrap();
-                scope.includes_joint(Joints::CONSTANT)
+                scope.includes(Rows::of(&[0, 1]), Joints::CONSTANT)
             })
             .map(|variable| (variable.name.clone(), variable.reference))
             .collect()

@@ -2,7 +2,7 @@
 
 use bolted_joint::joint::{JointFile, JointProblem};
 
-use crate::{GOOD, refusal};
+use crate::GOOD;
 
 const DAMPING: &str = "\"damping\": [[10.83, -0.83], [-0.83, 0.083]]\n";
 
@@ -58,7 +58,17 @@ fn laws_that_do_not_fit_are_refused_by_their_key() {
         ),
         (
             r#"[{ "dof": "z", "law": "jenkins", "stiffness": 1e6, "slip_force": 300 }]"#,
-            ["joint.friction[0].dof", "`z`, expected `y` or `theta`"],
+            [
+                "joint.friction[0].dof: found \"z\"",
+                "expected one of joint.dofs = [\"y\", \"theta\"]",
+            ],
+        ),
+        (
+            r#"[{ "dof": "w", "law": "jenkins", "stiffness": 1e6, "slip_force": 300 }]"#,
+            [
+                "joint.friction[0].dof",
+                "`w`, expected one of `y`, `theta`, `x`",
+            ],
         ),
         (
             r#"[{ "dof": "y", "law": "jenkins", "stifness": 1e6, "slip_force": 300 }]"#,

@@ -2,7 +2,7 @@
 
 use bolted_joint::joint::DofSet;
 use bolted_joint::predict::patch::{
-    Contact, InterfaceJoint, LossFactor, Matrix6, NormalDamping, Planar, SignedAxis, matrix27,
+    Contact, InterfaceJoint, LossFactor, Matrix6, Motions, NormalDamping, SignedAxis, matrix27,
     table,
 };
 use bolted_joint::predict::pressure::Element;
@@ -187,7 +187,7 @@ fn the_planar_part_has_the_signs_of_its_axes() {
     let found = joint(&parts, [0.0; 3]);
     let axis = |text| SignedAxis::parse(text).unwrap();
     let k = found.stiffness;
-    let slope = Planar::new(axis("z"), Some(axis("-y"))).unwrap();
+    let slope = Motions::in_plane(axis("z"), Some(axis("-y"))).unwrap();
     assert_eq!(slope.dofs(), DofSet::TRANSLATION_ROTATION);
     let part = slope.part(&k);
     // A deflection w(x) = w0 + θ x of side a, θ = dw/dx: F = Σ k_n ΔA (w0 + θ x) and M = Σ k_n ΔA x (w0 + θ x).
@@ -200,12 +200,12 @@ fn the_planar_part_has_the_signs_of_its_axes() {
         assert!((part[i][j] / expected - 1.0).abs() < 1e-12, "{i} {j}");
     }
     assert!((part[1][1] / sums[2] - 1.0).abs() < 1e-12);
-    let reversed = Planar::new(axis("-z"), Some(axis("y"))).unwrap();
+    let reversed = Motions::in_plane(axis("-z"), Some(axis("y"))).unwrap();
     assert_eq!(reversed.part(&k), slope.part(&k));
-    let one = Planar::new(axis("x"), None).unwrap();
+    let one = Motions::in_plane(axis("x"), None).unwrap();
     assert_eq!(one.dofs(), DofSet::TRANSLATION);
     assert_eq!(one.part(&k), [[k[0][0]]]);
-    let message = Planar::new(axis("z"), Some(axis("-z")))
+    let message = Motions::in_plane(axis("z"), Some(axis("-z")))
         .unwrap_err()
         .to_string();
     has(&message, &["about the axis of the translation, -z"]);

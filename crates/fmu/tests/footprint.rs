@@ -21,7 +21,7 @@ mod raw;
 use raw::{request::Request, start_text};
 
 /// Bytes that an instance may hold, of a joint in a plane and of one in space.
-const LIMITS: [isize; 2] = [8 << 10, 40 << 10];
+const LIMITS: [isize; 2] = [8 << 10, 16 << 10];
 
 /// Counts the bytes that this thread holds. The library is linked into this program and allocates here too.
 struct Counting;

@@ -3,6 +3,7 @@
 mod bad;
 mod good;
 mod microslip;
+mod space;
 
 use crate::bench::Bench;
 use serde_json::Value;

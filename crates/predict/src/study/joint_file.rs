@@ -1,5 +1,6 @@
-//! The joint file of a prediction: the planar part of the interface, its intervals, and what it rests on.
+//! The joint file of a prediction: the part of the interface, its intervals, and what it rests on.
 
+use crate::patch::Motions;
 use crate::uncertain::{Estimate, Outcome};
 use bolted_joint_joint::{
     Correlation, DofSet, Format, Friction, Intervals, Joint, JointFile, OverPreload, Provenance,
@@ -18,9 +19,9 @@ impl Prediction<'_> {
     #[must_use]
     pub fn joint_file(&self) -> JointFile {
         let nominal = self.nominal();
-        let dofs = self.study.planar.dofs();
-        let planar = &nominal.planar;
-        let mut joint = Joint::linear(dofs, planar.stiffness.clone(), planar.damping.clone());
+        let dofs = self.study.motions.dofs();
+        let part = &nominal.part;
+        let mut joint = Joint::linear(dofs, part.stiffness.clone(), part.damping.clone());
         let slips = nominal.slips.iter();
         let laws = slips.filter_map(|slip| Friction::of(slip.dof, &slip.fitted.law));
         joint.friction.extend(laws);
@@ -53,9 +54,9 @@ impl Prediction<'_> {
                 nominal: nominal_n_m,
                 stiffness: states
                     .clone()
-                    .map(|state| state.planar.stiffness.clone())
+                    .map(|state| state.part.stiffness.clone())
                     .collect(),
-                damping: states.map(|state| state.planar.damping.clone()).collect(),
+                damping: states.map(|state| state.part.damping.clone()).collect(),
                 cubic: Vec::new(),
             }),
             ..constant
@@ -63,7 +64,7 @@ impl Prediction<'_> {
     }
 
     fn uncertainty(&self, outcome: &Outcome) -> Uncertainty {
-        let dofs = self.study.planar.dofs();
+        let dofs = self.study.motions.dofs();
         let nominal = self.nominal().torque_n_m;
         let refused = match outcome.of.draws - outcome.accepted {
             0 => String::new(),
@@ -107,7 +108,8 @@ impl Prediction<'_> {
                         ..UncertaintyAtPreload::default()
                     })
                     .collect(),
-                correlation: Some(Correlation {
+                // in space it would be longer than all the rest together
+                correlation: (!dofs.is_in_space()).then(|| Correlation {
                     matrix: correlation(outcome, &at_all),
                     unknowns: at_all,
                 }),
@@ -190,14 +192,6 @@ impl Prediction<'_> {
     fn provenance(&self) -> Provenance {
         let study = self.study;
         let [x, y, z] = study.reference_m;
-        let motions = match study.planar.rotation() {
-            Some(rotation) => format!(
-                "y is the translation along {}, theta the rotation about {}",
-                study.planar.translation(),
-                rotation
-            ),
-            None => format!("y is the translation along {}", study.planar.translation()),
-        };
         let mut notes = vec![
             format!(
                 "Computed from surfaces, materials and bolts, not measured: {}.",
@@ -205,7 +199,9 @@ impl Prediction<'_> {
             ),
             CONTACT_ALONE.to_owned(),
             format!(
-                "{motions} of the interface (normal z) at x = {x} m, y = {y} m, z = {z} m; the other relative motions are held at zero."
+                "Motions of the interface (normal z): {}, at x = {x} m, y = {y} m, z = {z} m{}.",
+                study.motions.described(),
+                others_are_held(study.motions)
             ),
             format!(
                 "Hysteretic damping is viscous as at {} Hz.",
@@ -214,11 +210,19 @@ impl Prediction<'_> {
         ];
         notes.extend(self.nominal().slips.iter().map(|slip| self.slip_note(slip)));
         notes.extend(study.notes.iter().cloned());
-        let model = match study.planar.rotation() {
-            None => "translation",
-            Some(_) => "full",
+        let model = match study.motions.dofs().count() {
+            1 => "translation",
+            _ => "full",
         };
         provenance(study.method, model, study.files.clone(), notes)
+    }
+}
+
+/// What is said of the motions that the joint file leaves out, if it leaves out any.
+fn others_are_held(motions: Motions) -> &'static str {
+    match motions.dofs() == DofSet::SPACE {
+        true => "",
+        false => "; the other relative motions are held at zero",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::fractal::{FractalContact, Friction, PerArea};
 use crate::microslip::Patches;
-use crate::patch::{Contact, InterfaceJoint, PlanarJoint};
+use crate::patch::{Contact, InterfaceJoint, PartOfInterface};
 use crate::pressure::{Balance, Bolt, Element, PressureField};
 use crate::surface::Roughness;
 use crate::uncertain::{Drawn as Values, InputPlace};
@@ -38,7 +38,7 @@ pub struct State {
     /// The joint.
     pub interface: InterfaceJoint,
     /// The part of it in the joint file's matrices: all, or what does not slip.
-    pub planar: PlanarJoint,
+    pub part: PartOfInterface,
     /// The friction of each relative DOF of the joint that slips, where the study asks for it.
     pub slips: Vec<Slip>,
 }
@@ -47,7 +47,7 @@ pub struct State {
 #[derive(Debug, Clone)]
 pub(super) struct Drawn {
     pub(super) interface: InterfaceJoint,
-    pub(super) planar: PlanarJoint,
+    pub(super) part: PartOfInterface,
     pub(super) slips: Vec<SlipSums>,
 }
 
@@ -167,9 +167,9 @@ impl InterfaceStudy {
         let parts = elements
             .zip(&contacts)
             .map(|(element, contact)| (element, element.pressure_pa, *contact));
-        let (interface, planar, patches) = self.joint(values, parts)?;
+        let (interface, part, patches) = self.joint(values, parts)?;
         let slips = match self.microslip {
-            Some(microslip) => slip::fitted(patches, self.planar, microslip),
+            Some(microslip) => slip::fitted(patches, self.motions, microslip),
             None => Vec::new(),
         };
         Ok(State {
@@ -181,7 +181,7 @@ impl InterfaceStudy {
             per_area,
             layer,
             interface,
-            planar,
+            part,
             slips,
         })
     }
@@ -203,16 +203,16 @@ impl InterfaceStudy {
             .zip(contacts)
             .map(|((element, &pressure_pa), contact)| (element, pressure_pa, contact));
         let parts: Vec<_> = parts.collect();
-        let (interface, planar, patches) = self.joint(values, parts.iter().copied())?;
+        let (interface, part, patches) = self.joint(values, parts.iter().copied())?;
         let slips = match self.microslip {
-            Some(_) => slip::slipping(self.planar, self.reference_m)
+            Some(_) => slip::slipping(self.motions, self.reference_m)
                 .map(|index| SlipSums::of(patches.get(index)))
                 .collect(),
             None => Vec::new(),
         };
         Ok(Drawn {
             interface,
-            planar,
+            part,
             slips,
         })
     }
@@ -223,7 +223,7 @@ impl InterfaceStudy {
         &self,
         values: &Values,
         parts: impl Iterator<Item = (&'e Element, f64, Contact)> + Clone,
-    ) -> Result<(InterfaceJoint, PlanarJoint, Vec<Option<Patches>>), ModelError> {
+    ) -> Result<(InterfaceJoint, PartOfInterface, Vec<Option<Patches>>), ModelError> {
         let of = |slips: bool| {
             let parts = parts.clone().map(move |(element, _, contact)| {
                 let contact = if slips {
@@ -237,20 +237,20 @@ impl InterfaceStudy {
                 .map_err(ModelError::Damping)
         };
         let interface = of(false)?;
-        let planar = |interface: &InterfaceJoint| {
-            let planar = self.planar.of(interface, self.frequency_hz);
-            planar.map_err(ModelError::Damping)
+        let part = |interface: &InterfaceJoint| {
+            let part = self.motions.of(interface, self.frequency_hz);
+            part.map_err(ModelError::Damping)
         };
         match (self.microslip, &self.contact) {
             (Some(_), ContactInputs::Fractal { friction, .. }) => {
                 let coefficient = values.of(*friction);
-                let patches = slip::patches(parts.clone(), &interface, self.planar, coefficient)?;
+                let patches = slip::patches(parts.clone(), &interface, self.motions, coefficient)?;
                 // what slips is the law's, stiffness and heat
-                Ok((interface, planar(&of(true)?)?, patches))
+                Ok((interface, part(&of(true)?)?, patches))
             }
             _ => {
-                let planar = planar(&interface)?;
-                Ok((interface, planar, Vec::new()))
+                let part = part(&interface)?;
+                Ok((interface, part, Vec::new()))
             }
         }
     }
@@ -260,8 +260,8 @@ impl InterfaceStudy {
         if self.microslip.is_none() {
             return Vec::new();
         }
-        slip::slipping(self.planar, self.reference_m)
-            .map(|index| self.planar.dofs().row(index))
+        slip::slipping(self.motions, self.reference_m)
+            .map(|index| self.motions.dofs().row(index))
             .collect()
     }
 }

@@ -46,7 +46,7 @@ impl<'s> Prediction<'s> {
             .map(|&torque| study.state(&nominal, &law, torque))
             .collect::<Result<Vec<_>, _>>()
             .map_err(refused)?;
-        let dofs = study.planar.dofs();
+        let dofs = study.motions.dofs();
         let names: Vec<String> = torques
             .iter()
             .flat_map(|&torque| results::names(dofs, &study.slipping_dofs(), torque))

@@ -10,7 +10,7 @@ use bolted_joint_dynamics::{
 };
 use bolted_joint_joint::DofSet;
 
-/// Names of the unknowns of a planar joint's stiffness, and of its damping, with the place of each in its matrix.
+/// Names of the unknowns of a joint's stiffness, and of its damping, with the place of each in its matrix.
 pub(super) fn unknowns(dofs: DofSet) -> Vec<(String, bool, [usize; 2])> {
     let name = |symbol, [i, j]: [usize; 2]| {
         let (row, column) = (dofs.row(i).name, dofs.row(j).name);
@@ -37,7 +37,7 @@ pub(super) fn names(
     slipping: &[&'static Dof],
     torque_n_m: Option<f64>,
 ) -> Vec<String> {
-    let planar = unknowns(dofs)
+    let part = unknowns(dofs)
         .into_iter()
         .map(|(name, ..)| at(&name, torque_n_m));
     let diagonal = DOFS
@@ -46,20 +46,20 @@ pub(super) fn names(
     let loss = ["eta_n", "eta_t"].map(|name| at(name, torque_n_m));
     let slips = slipping.iter().flat_map(|dof| sum_names(dof));
     let slips = slips.map(|name| at(&name, torque_n_m));
-    planar.chain(diagonal).chain(loss).chain(slips).collect()
+    part.chain(diagonal).chain(loss).chain(slips).collect()
 }
 
 /// The results themselves.
 pub(super) fn values(dofs: DofSet, drawn: &Drawn) -> Vec<f64> {
     let Drawn {
         interface,
-        planar,
+        part,
         slips,
     } = drawn;
-    let of_planar = unknowns(dofs).into_iter().map(|(_, is_stiffness, [i, j])| {
+    let of_part = unknowns(dofs).into_iter().map(|(_, is_stiffness, [i, j])| {
         let matrix = match is_stiffness {
-            true => &planar.stiffness,
-            false => &planar.damping,
+            true => &part.stiffness,
+            false => &part.damping,
         };
         matrix[i][j]
     });
@@ -71,7 +71,7 @@ pub(super) fn values(dofs: DofSet, drawn: &Drawn) -> Vec<f64> {
     let slips = slips
         .iter()
         .flat_map(|sums| [sums.slip_force, sums.stiffness]);
-    of_planar.chain(diagonal).chain(loss).chain(slips).collect()
+    of_part.chain(diagonal).chain(loss).chain(slips).collect()
 }
 
 /// A number of the joint file.
@@ -86,16 +86,19 @@ pub struct Unknown {
 }
 
 impl Prediction<'_> {
-    /// The numbers of the joint file at one of the states.
+    /// The numbers of the joint file at one of the states; in space without those that are zero whatever the inputs are.
     #[must_use]
     pub fn unknowns(&self, state: &State) -> Vec<Unknown> {
-        let dofs = self.study.planar.dofs();
+        let dofs = self.study.motions.dofs();
         let valued = unknowns(dofs)
             .into_iter()
+            .filter(|(name, is_stiffness, place)| {
+                !dofs.is_in_space() || !self.is_nothing(name, *is_stiffness, *place)
+            })
             .map(|(name, is_stiffness, place)| {
                 let (matrix, row) = match is_stiffness {
-                    true => (&state.planar.stiffness, STIFFNESS),
-                    false => (&state.planar.damping, DAMPING),
+                    true => (&state.part.stiffness, STIFFNESS),
+                    false => (&state.part.damping, DAMPING),
                 };
                 Unknown {
                     name,
@@ -106,6 +109,19 @@ impl Prediction<'_> {
         valued
             .chain(state.slips.iter().flat_map(Slip::unknowns))
             .collect()
+    }
+
+    /// Whether an entry of the matrices is zero at every torque and in every draw, by the symmetry of the interface.
+    fn is_nothing(&self, name: &str, is_stiffness: bool, [row, column]: [usize; 2]) -> bool {
+        self.states.iter().all(|state| {
+            let matrix = match is_stiffness {
+                true => &state.part.stiffness,
+                false => &state.part.damping,
+            };
+            let scatter = self.estimate(name, state.torque_n_m);
+            let scatters = scatter.is_some_and(|estimate| estimate.standard_deviation != 0.0);
+            matrix[row][column] == 0.0 && !scatters
+        })
     }
 
     /// Inputs that account for `at_least` this share of the scatter of a result, the largest first.

@@ -1,7 +1,7 @@
 //! What the interface's patches do under the motion of each relative DOF of the joint, where they slip.
 
 use bolted_joint_dynamics::{
-    Dof,
+    Dof, DofKind,
     law::{Iwan, Law, Parameter},
 };
 use bolted_joint_joint::unit;
@@ -9,7 +9,7 @@ use bolted_joint_joint::unit;
 use super::error::ModelError;
 use super::results::Unknown;
 use crate::microslip::{Amplitudes, MicroslipLaw, Patch, Patches};
-use crate::patch::{Axis, Contact, InterfaceJoint, Planar, SignedAxis};
+use crate::patch::{Axis, Contact, InterfaceJoint, Motion, Motions};
 use crate::pressure::Element;
 
 /// How much of its own stiffness a motion may share with another one's slip.
@@ -51,14 +51,16 @@ impl SlipSums {
 }
 
 /// Which relative DOFs of a joint slide patches along the interface, about a reference point at this place (m).
-pub(super) fn slipping(planar: Planar, reference_m: [f64; 3]) -> impl Iterator<Item = usize> {
-    let slides = planar.translation().axis != Axis::Z;
-    let turns = |axis: SignedAxis| axis.axis == Axis::Z || reference_m[2] != 0.0;
-    let turns = planar.rotation().is_some_and(turns);
-    [slides, turns]
-        .into_iter()
-        .enumerate()
-        .filter_map(|(index, slips)| slips.then_some(index))
+pub(super) fn slipping(motions: Motions, reference_m: [f64; 3]) -> impl Iterator<Item = usize> {
+    (0..motions.dofs().count()).filter(move |&index| slides(&motions.each()[index], reference_m))
+}
+
+/// Whether a motion about a reference point at this place (m) slides patches along the interface.
+fn slides(motion: &Motion, reference_m: [f64; 3]) -> bool {
+    match motion.kind {
+        DofKind::Translation => motion.axis.axis != Axis::Z,
+        DofKind::Rotation => motion.axis.axis == Axis::Z || reference_m[2] != 0.0,
+    }
 }
 
 /// The patches of each relative DOF that slips: `None` of one along which nothing does.
@@ -70,16 +72,15 @@ pub(super) fn slipping(planar: Planar, reference_m: [f64; 3]) -> impl Iterator<I
 pub(super) fn patches<'e>(
     parts: impl Iterator<Item = (&'e Element, f64, Contact)> + Clone,
     interface: &InterfaceJoint,
-    planar: Planar,
+    motions: Motions,
     friction: f64,
 ) -> Result<Vec<Option<Patches>>, ModelError> {
-    let motions = || {
-        let rotation = planar.rotation().map(|axis| (axis, true));
-        std::iter::once((planar.translation(), false)).chain(rotation)
+    let arm = |element: &Element, motion: &Motion| {
+        interface.tangential_arm(element, motion.axis.axis, motion.kind == DofKind::Rotation)
     };
-    let along = |(axis, is_rotation): (SignedAxis, bool)| {
-        let parts = parts.clone().map(move |(element, pressure_pa, contact)| {
-            let arm = interface.tangential_arm(element, axis.axis, is_rotation);
+    let along = |motion: &Motion| {
+        let parts = parts.clone().map(|(element, pressure_pa, contact)| {
+            let arm = arm(element, motion);
             let length = arm[0].hypot(arm[1]);
             Patch {
                 // what it resists with at a unit of the motion: k_t |t|² ΔA and μ p |t| ΔA, t its tangential displacement
@@ -92,21 +93,27 @@ pub(super) fn patches<'e>(
         });
         Patches::new(parts)
     };
-    let found: Vec<Option<Patches>> = motions().map(along).collect();
-    if let [Some(first), Some(second)] = found.as_slice()
-        && let Some((rotation, _)) = motions().nth(1)
-    {
-        let shared: f64 = parts
-            .map(|(element, _, contact)| {
-                let [a, b] = [(planar.translation(), false), (rotation, true)]
-                    .map(|(axis, turns)| interface.tangential_arm(element, axis.axis, turns));
-                let density = contact.tangential_stiffness_n_per_m3 * element.area_m2;
-                density * (a[0] * b[0] + a[1] * b[1])
-            })
-            .sum();
-        let part = shared.abs() / (first.stiffness() * second.stiffness()).sqrt();
-        if part > COUPLED {
-            return Err(ModelError::CoupledSlip { part });
+    let found: Vec<Option<Patches>> = motions.each().iter().map(along).collect();
+    let slipping: Vec<(&Motion, &Patches)> = motions
+        .each()
+        .iter()
+        .zip(&found)
+        .filter_map(|(motion, patches)| Some((motion, patches.as_ref()?)))
+        .collect();
+    for (place, (one, first)) in slipping.iter().enumerate() {
+        for (other, second) in &slipping[..place] {
+            let shared: f64 = parts
+                .clone()
+                .map(|(element, _, contact)| {
+                    let [a, b] = [one, other].map(|motion| arm(element, motion));
+                    let density = contact.tangential_stiffness_n_per_m3 * element.area_m2;
+                    density * (a[0] * b[0] + a[1] * b[1])
+                })
+                .sum();
+            let part = shared.abs() / (first.stiffness() * second.stiffness()).sqrt();
+            if part > COUPLED {
+                return Err(ModelError::CoupledSlip { part });
+            }
         }
     }
     Ok(found)
@@ -115,15 +122,18 @@ pub(super) fn patches<'e>(
 /// The law of each DOF that slips.
 pub(super) fn fitted(
     patches: Vec<Option<Patches>>,
-    planar: Planar,
+    motions: Motions,
     microslip: Microslip,
 ) -> Vec<Slip> {
-    let dofs = planar.dofs();
-    let slides = planar.translation().axis != Axis::Z;
+    let dofs = motions.dofs();
+    let is_translation = |index: usize| motions.each()[index].kind == DofKind::Translation;
+    let translates =
+        (0..patches.len()).any(|index| is_translation(index) && patches[index].is_some());
     let of = |(index, patches): (usize, Option<Patches>)| {
         let patches = patches?;
-        // amplitudes of a study are those of the translation, unless the rotation slips alone
-        let given = microslip.amplitudes.filter(|_| index == 0 || !slides);
+        // amplitudes of a study are those of translations, unless rotations slip alone
+        let of_study = is_translation(index) || !translates;
+        let given = microslip.amplitudes.filter(|_| of_study);
         let amplitudes = given.unwrap_or_else(|| Amplitudes::of(&patches));
         Some(Slip {
             dof: dofs.row(index),

@@ -215,8 +215,9 @@ pub(super) enum ScatterWord {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct JointTable {
-    pub(super) translation: SignedAxis,
+    pub(super) translation: Option<SignedAxis>,
     pub(super) rotation: Option<SignedAxis>,
+    pub(super) dofs: Option<Vec<String>>,
     /// m.
     pub(super) reference: Option<Vec<f64>>,
 }

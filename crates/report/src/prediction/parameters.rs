@@ -4,7 +4,7 @@ use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::super::lap::figure;
 use super::symbol;
 use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, spread, table};
-use bolted_joint_joint::with_symbols;
+use bolted_joint_joint::{DofSet, with_symbols};
 use bolted_joint_predict::study::{Prediction, State, Unknown};
 
 /// Shares below this are not worth a row.
@@ -33,11 +33,10 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
 fn motions(found: &Prediction<'_>) -> String {
     let study = found.study;
     let [x, y, z] = study.reference_m.map(number);
-    let rotation = study
-        .planar
-        .rotation()
-        .map(|axis| format!(", <i>θ</i> about {axis}"))
-        .unwrap_or_default();
+    let others = match study.motions.dofs() == DofSet::SPACE {
+        true => "",
+        false => " The other relative motions are held at zero.",
+    };
     let basis = match &found.outcome {
         Some(outcome) => format!(
             " Standard deviations and intervals are those of {} draws of the uncertain inputs (seed {}, {} refused); the model's own error is not in \
@@ -49,9 +48,9 @@ fn motions(found: &Prediction<'_>) -> String {
         None => " No input is uncertain, so that there are no intervals.".to_owned(),
     };
     format!(
-        "<i>y</i> along {}{rotation}, at <i>x</i> = {x} m, <i>y</i> = {y} m, <i>z</i> = {z} m of the interface, whose normal is <i>z</i>. The other \
-         relative motions are held at zero. Damping is viscous as at {} Hz.{basis}",
-        study.planar.translation(),
+        "{}, at <i>x</i> = {x} m, <i>y</i> = {y} m, <i>z</i> = {z} m of the interface, whose normal is <i>z</i>.{others} \
+         Damping is viscous as at {} Hz.{basis}",
+        with_symbols(&study.motions.described()),
         number(study.frequency_hz),
     )
 }

@@ -1,11 +1,12 @@
 //! The interface of a study, how the pressure is spread over it, and which of its motions become the joint.
 
 use super::{Checked, Checker, ELEMENTS};
-use crate::patch::Planar;
+use crate::patch::Motions;
 use crate::pressure::{Cone, PressureField, Rectangle, ThicknessRatio, Zone};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
 use crate::study::tables::{InterfaceTable, JointTable, PressureModel, PressureTable, StudyFile};
+use bolted_joint_joint::DofSet;
 use bolted_joint_study::{StudyError, input_file};
 use std::path::Path;
 
@@ -142,15 +143,36 @@ impl Checker<'_> {
         }
     }
 
+    /// The interface's own motions that the joint file has.
+    fn in_space(&self, names: &[String]) -> Checked<Motions> {
+        match DofSet::try_from(names.to_vec()) {
+            Ok(dofs) if dofs.is_in_space() => Ok(Motions::in_space(dofs)),
+            _ => self
+                .study
+                .refuse("joint.dofs", format!("{names:?}"), MOTIONS),
+        }
+    }
+
     pub(super) fn joint(
         &self,
         table: &JointTable,
         geometry: &Geometry,
-    ) -> Checked<(Planar, [f64; 3])> {
-        let planar = self.model(
-            "joint.rotation",
-            Planar::new(table.translation, table.rotation),
-        )?;
+    ) -> Checked<(Motions, [f64; 3])> {
+        let motions = match (&table.dofs, table.translation) {
+            (Some(dofs), None) if table.rotation.is_none() => self.in_space(dofs)?,
+            (None, Some(translation)) => self.model(
+                "joint.rotation",
+                Motions::in_plane(translation, table.rotation),
+            )?,
+            (None, None) => {
+                let found = "neither joint.translation nor joint.dofs";
+                return self.study.refuse("joint", found, MOTIONS);
+            }
+            _ => {
+                let found = "joint.dofs beside joint.translation or joint.rotation";
+                return self.study.refuse("joint.dofs", found, MOTIONS);
+            }
+        };
         let reference_m = match table.reference.as_deref() {
             None => {
                 let [x_m, y_m] = geometry.centroid_m();
@@ -176,9 +198,12 @@ impl Checker<'_> {
         let found = format!("{reference_m:?}");
         self.study
             .ensure(good, "joint.reference", found, "finite lengths in m")?;
-        Ok((planar, reference_m))
+        Ok((motions, reference_m))
     }
 }
+
+const MOTIONS: &str = "translation = \"z\", and rotation = \"-y\" if there is one, for a joint in a plane; or for one in space dofs, some \
+                       of [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"] in this order";
 
 pub(super) fn pressure_in_words(file: &StudyFile) -> String {
     if let Some(field) = &file.interface.field {

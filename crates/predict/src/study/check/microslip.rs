@@ -2,7 +2,7 @@
 
 use super::{Checked, Checker};
 use crate::microslip::Amplitudes;
-use crate::patch::Planar;
+use crate::patch::Motions;
 use crate::study::slip::{Microslip, slipping};
 use crate::study::tables::StudyFile;
 use bolted_joint_study::Method;
@@ -12,7 +12,7 @@ impl Checker<'_> {
     pub(super) fn microslip(
         &self,
         file: &StudyFile,
-        planar: Planar,
+        motions: Motions,
         reference_m: [f64; 3],
         has_table: bool,
     ) -> Checked<Option<Microslip>> {
@@ -23,7 +23,7 @@ impl Checker<'_> {
         let expected = "method \"fractal-contact\", whose contacts slip bit by bit";
         let good = file.method == Method::FractalContact;
         study.ensure(good, "microslip", "a table", expected)?;
-        let slips = slipping(planar, reference_m).next().is_some();
+        let slips = slipping(motions, reference_m).next().is_some();
         let expected = "\"x\" or \"y\", along the interface, or a rotation about \"z\": along the normal nothing slips";
         study.ensure(slips, "joint.translation", "\"z\"", expected)?;
         let expected = "one tightness, as preload or torque of each bolt: what slips remembers, which a table over the torque cannot";

@@ -7,7 +7,7 @@ mod surfaces;
 mod tightening;
 
 use crate::fractal::StoredEnergy;
-use crate::patch::{LossFactor, NormalDamping, Planar};
+use crate::patch::{LossFactor, Motions, NormalDamping};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
 use crate::study::slip::Microslip;
@@ -46,7 +46,7 @@ pub struct InterfaceStudy {
     /// The torque at the start of a simulation, N·m: one of the torques.
     pub nominal_n_m: Option<f64>,
     /// Which motions become the joint file's.
-    pub planar: Planar,
+    pub motions: Motions,
     /// Where they are taken, m.
     pub reference_m: [f64; 3],
     /// Frequency at which hysteretic damping is converted, Hz.
@@ -161,7 +161,7 @@ impl Checker<'_> {
         let (torques_n_m, nominal_n_m) = self.torques(file.tightening.as_ref())?;
         let clamping = self.clamping(&file, !torques_n_m.is_empty())?;
         let geometry = self.geometry(&file, &clamping, nominal_n_m)?;
-        let (planar, reference_m) = self.joint(&file.joint, &geometry)?;
+        let (motions, reference_m) = self.joint(&file.joint, &geometry)?;
         let frequency_hz = study.positive(
             "damping.frequency",
             file.damping.frequency,
@@ -185,7 +185,7 @@ impl Checker<'_> {
                 return study.refuse("damping.mass", mass, expected);
             }
         };
-        let microslip = self.microslip(&file, planar, reference_m, !torques_n_m.is_empty())?;
+        let microslip = self.microslip(&file, motions, reference_m, !torques_n_m.is_empty())?;
         let monte_carlo = self.monte_carlo(file.uncertainty.as_ref())?;
         Ok(InterfaceStudy {
             path: study.path().to_owned(),
@@ -198,7 +198,7 @@ impl Checker<'_> {
             fits: self.fits,
             torques_n_m,
             nominal_n_m,
-            planar,
+            motions,
             reference_m,
             frequency_hz,
             loss_factor: file.damping.loss_factor.unwrap_or_default(),

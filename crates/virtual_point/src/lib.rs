@@ -1,0 +1,27 @@
+//! The six motions and loads of an interface from sensors and hammer impacts near it.
+#![forbid(unsafe_code)]
+
+mod conditioning;
+mod error;
+mod place;
+mod places;
+mod point;
+mod projection;
+mod setup;
+mod unseen;
+mod weights;
+mod words;
+
+pub use conditioning::{Advice, Conditioning};
+pub use error::VirtualPointError;
+pub use place::{Change, Impact, Place, Role, Sensor};
+pub use places::{Parameter, Places};
+pub use point::VirtualPoint;
+pub use setup::SetUp;
+pub use unseen::UnseenMotion;
+pub use weights::Weights;
+
+#[cfg(test)]
+mod samples;
+#[cfg(test)]
+mod tests;

@@ -52,6 +52,12 @@ pub enum VirtualPointError {
         /// The impact, counted from 0.
         impact: usize,
     },
+    /// There is nothing to judge.
+    #[error("{what}: found none, expected one or more")]
+    Nothing {
+        /// What there is none of.
+        what: &'static str,
+    },
     /// Six motions or loads need six places.
     #[error("{role}s: found {found}, expected {least} or more: add some, 9 to 12 are good")]
     TooFew {

@@ -2,18 +2,25 @@
 #![forbid(unsafe_code)]
 
 mod conditioning;
+mod consistency;
+mod covariance;
 mod error;
+mod noise;
 mod place;
 mod places;
 mod point;
 mod projection;
+mod sensitivity;
 mod setup;
 mod unseen;
 mod weights;
 mod words;
 
 pub use conditioning::{Advice, Conditioning};
+pub use consistency::Consistency;
+pub use covariance::{Covariance, Tolerance, Tolerances};
 pub use error::VirtualPointError;
+pub use noise::{Noise, NoiseTest};
 pub use place::{Change, Impact, Place, Role, Sensor};
 pub use places::{Parameter, Places};
 pub use point::VirtualPoint;

@@ -80,7 +80,8 @@ impl VirtualPoint {
         functions: &DMatrix<Complex64>,
     ) -> Result<Matrix6<Complex64>, VirtualPointError> {
         self.checked(0, functions)?;
-        Ok(self.sandwich(self.motions.inverse(), functions, self.loads.inverse()))
+        let product = self.motions(&self.responses(functions)?)?;
+        Ok(Matrix6::from_fn(|i, j| product[(i, j)]))
     }
 
     /// [`Self::receptance`] at each line.
@@ -130,6 +131,15 @@ impl VirtualPoint {
         Ok(functions * complex(self.loads.inverse()).transpose())
     }
 
+    /// Y T_f of functions that are checked.
+    pub(crate) fn responses_checked(
+        &self,
+        functions: &DMatrix<Complex64>,
+    ) -> Result<DMatrix<Complex64>, VirtualPointError> {
+        self.checked(0, functions)?;
+        self.responses(functions)
+    }
+
     /// The least squares of one role.
     pub(crate) fn projection(&self, role: Role) -> &Projection {
         match role {
@@ -140,17 +150,6 @@ impl VirtualPoint {
 
     pub(crate) fn count(&self, role: Role) -> usize {
         self.set_up.places(role).count()
-    }
-
-    /// A Y Bᵀ with A and B 6 × n.
-    pub(crate) fn sandwich(
-        &self,
-        left: &DMatrix<f64>,
-        functions: &DMatrix<Complex64>,
-        right: &DMatrix<f64>,
-    ) -> Matrix6<Complex64> {
-        let product = complex(left) * functions * complex(right).transpose();
-        Matrix6::from_fn(|i, j| product[(i, j)])
     }
 
     pub(crate) fn all_checked(

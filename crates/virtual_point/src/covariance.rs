@@ -183,3 +183,149 @@ impl VirtualPoint {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use bolted_joint_testing::{close, near};
+
+    use super::*;
+    use crate::Weights;
+    use crate::samples::*;
+
+    /// The whole matrix against draws, in shares of the deviations; 36 variances within 5 %.
+    fn agree(covariance: &Covariance, draws: &[Matrix6<Complex64>]) {
+        let count = Complex64::from(draws.len() as f64);
+        let mut hermitian = DMatrix::<Complex64>::zeros(36, 36);
+        let mut complementary = DMatrix::<Complex64>::zeros(36, 36);
+        for draw in draws {
+            let column = DMatrix::from_column_slice(36, 1, draw.as_slice());
+            hermitian += &column * column.adjoint() / count;
+            complementary += &column * column.transpose() / count;
+        }
+        let deviations = covariance.deviations();
+        for i in 0..36 {
+            let expected = deviations[i].powi(2);
+            close(hermitian[(i, i)].re, expected, 0.05);
+            for j in 0..36 {
+                let scale = deviations[i] * deviations[j];
+                let error = (hermitian[(i, j)] - covariance.hermitian[(i, j)]).norm();
+                near(error / scale, 0.0, 0.06);
+                let error = (complementary[(i, j)] - covariance.complementary[(i, j)]).norm();
+                near(error / scale, 0.0, 0.06);
+            }
+        }
+    }
+
+    #[test]
+    fn noise_of_each_function_spreads_the_receptance_as_draws_do() {
+        let mut mixed = Mixed(3_000_000);
+        let weights = [mixed.definite(9), mixed.definite(7)].map(Weights::Full);
+        let point = VirtualPoint::new(check_set_up(), &weights[0], &weights[1]).unwrap();
+        let each = DMatrix::from_fn(9, 7, |_, _| 1.0 + 0.9 * mixed.next());
+        let draws: Vec<_> = (0..10_000)
+            .map(|_| mixed.noise(9, 7).component_mul(&each.map(Complex64::from)))
+            .map(|noise| point.receptance(&noise).unwrap())
+            .collect();
+        agree(&point.noise_covariance(&Noise::Each(each)).unwrap(), &draws);
+    }
+
+    /// var Y_kl = σ² (T_u T_uᵀ)_kk (T_fᵀ T_f)_ll
+    #[test]
+    fn white_noise_has_the_short_formula() {
+        let point = equal(check_set_up());
+        let deviations = point
+            .noise_covariance(&Noise::White(0.3))
+            .unwrap()
+            .deviations();
+        let (t_u, t_f) = (point.motions_of_channels(), point.forces_of_loads());
+        for k in 0..6 {
+            for l in 0..6 {
+                let expected = 0.3 * t_u.row(k).norm() * t_f.column(l).norm();
+                close(deviations[(k, l)], expected, 1e-12);
+            }
+        }
+    }
+
+    /// Functions of a set-up that is displaced at random, transformed as if it were not.
+    #[test]
+    fn errors_of_the_set_up_spread_the_receptance_as_draws_do() {
+        let set_up = check_set_up();
+        let receptance = full_receptance(8);
+        let point = equal(set_up.clone());
+        // a tenth of the typical ones, so that what is of second order stays below 5 %
+        let tolerance = Tolerance {
+            position_m: 1e-4,
+            rotation_rad: 1e-3,
+            gain: 1e-3,
+        };
+        let tolerances = Tolerances {
+            sensors: tolerance,
+            impacts: tolerance,
+        };
+        let functions = set_up.functions(&receptance);
+        let covariance = point.set_up_covariance(&functions, &tolerances).unwrap();
+        let parameters = set_up.parameters();
+        let mut mixed = Mixed(6_000_000);
+        let draws: Vec<_> = (0..10_000)
+            .map(|_| {
+                let errors: Vec<_> = parameters
+                    .iter()
+                    .map(|p| {
+                        let normal = mixed.normal().re * std::f64::consts::SQRT_2;
+                        normal * tolerances.of(p.place, p.change)
+                    })
+                    .collect();
+                let measured = set_up.displaced(&errors).unwrap().functions(&receptance);
+                point.receptance(&measured).unwrap() - receptance
+            })
+            .collect();
+        agree(&covariance, &draws);
+        let typical = point
+            .set_up_covariance(&functions, &Tolerances::TYPICAL)
+            .unwrap();
+        let tenfold = typical.deviations() - covariance.deviations() * 10.0;
+        assert!(tenfold.norm() < 1e-12 * typical.deviations().norm());
+    }
+
+    #[test]
+    fn parts_add_up() {
+        let point = equal(check_set_up());
+        let set_up = point
+            .set_up_covariance(&check_functions(), &Tolerances::TYPICAL)
+            .unwrap();
+        let noise = point.noise_covariance(&Noise::White(1e-8)).unwrap();
+        let both = set_up + noise;
+        let parts = both.of_parts();
+        assert!((&parts - parts.transpose()).norm() < 1e-14 * parts.norm());
+        let deviations = both.deviations();
+        for i in 0..36 {
+            close(
+                parts[(i, i)] + parts[(i + 36, i + 36)],
+                deviations[i].powi(2),
+                1e-12,
+            );
+            // E ab of one number is half the imaginary part of E δ²
+            let crossed = parts[(i, i + 36)];
+            near(
+                crossed,
+                both.complementary[(i, i)].im / 2.0,
+                1e-14 * deviations[i].powi(2),
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_tolerance_is_refused() {
+        let point = equal(check_set_up());
+        for wrong in [-1.0, f64::NAN] {
+            let mut tolerances = Tolerances::TYPICAL;
+            tolerances.impacts.gain = wrong;
+            let found = point.set_up_covariance(&check_functions(), &tolerances);
+            let error = found.unwrap_err();
+            assert!(
+                error.to_string().starts_with("tolerance of gains: found "),
+                "{error}"
+            );
+        }
+    }
+}

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use bolted_joint_space::Dof;
 use nalgebra::DMatrix;
 
 use crate::place::Body;
@@ -127,6 +128,26 @@ impl Places {
             })
         })
         .collect()
+    }
+
+    /// dR of some rows of one sensor or impact by its pose, each 6 columns.
+    pub(crate) fn pose_derivatives(&self, rows: &[usize]) -> [DMatrix<f64>; 6] {
+        let each = self.bodies.iter().zip(&self.first_rows);
+        let mut own = each.filter(|&(body, &first)| {
+            let of_body = first..first + body.count();
+            rows.iter().all(|row| of_body.contains(row))
+        });
+        let own = own.next();
+        Dof::ALL.map(|dof| {
+            let mut derivative = DMatrix::zeros(rows.len(), 6);
+            if let Some((body, first)) = own {
+                let all: Vec<_> = body.derivatives(Change::Pose(dof)).collect();
+                for (at, row) in rows.iter().enumerate() {
+                    derivative.row_mut(at).copy_from(&all[row - first]);
+                }
+            }
+            derivative
+        })
     }
 
     /// The places with errors η of [`Self::parameters`]: shifted, turned by a rotation vector, with gains changed. What

@@ -13,6 +13,7 @@ use bolted_joint::export::{DateError, ExportError};
 use bolted_joint::frf::FrfError;
 use bolted_joint::identify::IdentifyError;
 use bolted_joint::identify::lap::LapError;
+use bolted_joint::identify::space::SpatialError;
 use bolted_joint::joint::{JointFileError, LawError};
 use bolted_joint::reproduce::ReproduceError;
 use bolted_joint::respond::RespondError;
@@ -70,6 +71,7 @@ from_the_library!(
     LapError,
     ReproduceError,
     RespondError,
+    SpatialError,
     StudyError
 );
 

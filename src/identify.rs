@@ -2,6 +2,7 @@
 
 mod budget;
 mod lap;
+mod space;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -70,11 +71,13 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let study = StudyText::read(&arguments.study)?;
     match study.method()? {
         Method::FrfDecoupling => {}
+        Method::FrfSpace => return space::run(arguments, &study),
         Method::LapUpdate => return lap::update(arguments, &study),
         Method::LapResponse => return lap::response(arguments, &study),
         other => {
             let methods = [
                 Method::FrfDecoupling,
+                Method::FrfSpace,
                 Method::LapUpdate,
                 Method::LapResponse,
             ];

@@ -64,4 +64,5 @@ pub use bolted_joint_study as study;
 pub mod identify {
     pub use bolted_joint_identify::*;
     pub use bolted_joint_lap as lap;
+    pub use bolted_joint_spatial as space;
 }

@@ -1,7 +1,7 @@
 //! The records of the joint file, format "bolted-joint/1", as plain data.
 
 #[cfg(test)]
-use bolted_joint_dynamics::DOF_COUNT;
+use bolted_joint_dynamics::SPACE_COUNT;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -73,15 +73,15 @@ pub struct Joint {
     pub dofs: DofSet,
     /// K, symmetric: N/m, N/rad; N·m/m, N·m/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT))))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT), inner(length(min = 1, max = SPACE_COUNT))))]
     pub stiffness: Vec<Vec<f64>>,
     /// C, symmetric: N·s/m, N·s/rad; N·m·s/m, N·m·s/rad.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(length(min = 1, max = DOF_COUNT))))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT), inner(length(min = 1, max = SPACE_COUNT))))]
     pub damping: Vec<Vec<f64>>,
     /// k3 on each relative DOF, N/m³ and N·m/rad³: positive hardens, negative softens. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT)))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT)))]
     pub cubic: Vec<f64>,
     /// Terms of higher order on each relative DOF. Left out, there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -123,10 +123,10 @@ pub struct OverPreload {
     #[cfg_attr(test, schemars(range(min = 0)))]
     pub nominal: f64,
     /// K at each preload, in the units of the joint's own.
-    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT))))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = SPACE_COUNT))))]
     pub stiffness: Vec<Vec<Vec<f64>>>,
     /// C at each preload, in the units of the joint's own.
-    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = DOF_COUNT))))]
+    #[cfg_attr(test, schemars(length(min = 2), inner(length(min = 1, max = SPACE_COUNT))))]
     pub damping: Vec<Vec<Vec<f64>>>,
     /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -150,13 +150,13 @@ pub struct Bodies {
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Mass in kg, moment of inertia in kg·m²; greater than zero.
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), transform = entries_above_zero))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT), transform = entries_above_zero))]
     pub inertia: Vec<f64>,
     /// Support stiffness in N/m, N·m/rad; zero for a free body.
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0))))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT), inner(range(min = 0))))]
     pub stiffness: Vec<f64>,
     /// Support damping in N·s/m, N·m·s/rad.
-    #[cfg_attr(test, schemars(length(min = 1, max = DOF_COUNT), inner(range(min = 0))))]
+    #[cfg_attr(test, schemars(length(min = 1, max = SPACE_COUNT), inner(range(min = 0))))]
     pub damping: Vec<f64>,
 }
 
@@ -320,14 +320,14 @@ pub struct BootstrapRecord {
 pub struct StandardDeviation {
     /// Of K, in its units.
     #[cfg_attr(test, schemars(
-        length(min = 1, max = DOF_COUNT),
-        inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
+        length(min = 1, max = SPACE_COUNT),
+        inner(length(min = 1, max = SPACE_COUNT), inner(range(min = 0)))
     ))]
     pub stiffness: Vec<Vec<f64>>,
     /// Of C, in its units.
     #[cfg_attr(test, schemars(
-        length(min = 1, max = DOF_COUNT),
-        inner(length(min = 1, max = DOF_COUNT), inner(range(min = 0)))
+        length(min = 1, max = SPACE_COUNT),
+        inner(length(min = 1, max = SPACE_COUNT), inner(range(min = 0)))
     ))]
     pub damping: Vec<Vec<f64>>,
 }

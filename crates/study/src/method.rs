@@ -10,6 +10,8 @@ use serde::Deserialize;
 pub enum Method {
     /// The joint from frequency response functions of substructures and assembly.
     FrfDecoupling,
+    /// The joint in space from functions near its interface.
+    FrfSpace,
     /// The lap model from natural frequencies.
     LapUpdate,
     /// The lap model from responses at several levels.
@@ -30,6 +32,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::FrfDecoupling => "frf-decoupling",
+            Self::FrfSpace => "frf-space",
             Self::LapUpdate => "lap-update",
             Self::LapResponse => "lap-response",
             Self::FractalContact => "fractal-contact",
@@ -43,7 +46,9 @@ impl Method {
     #[must_use]
     pub fn command(self) -> &'static str {
         match self {
-            Self::FrfDecoupling | Self::LapUpdate | Self::LapResponse => "identify",
+            Self::FrfDecoupling | Self::FrfSpace | Self::LapUpdate | Self::LapResponse => {
+                "identify"
+            }
             Self::FractalContact | Self::VirtualMaterial | Self::LayeredBeam => "predict",
             Self::Respond => "respond",
         }

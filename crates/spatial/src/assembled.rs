@@ -1,0 +1,209 @@
+//! The functions that an assembly with a joint would have, and how they change with every unknown.
+
+use bolted_joint_space::{Coupled, Selection};
+use nalgebra::{DMatrix, Matrix6};
+use num_complex::Complex64;
+
+use crate::error::SpatialError;
+use crate::problem::{Problem, Unknowns, block_diagonal};
+use crate::side::{MOTIONS, Transformations};
+
+/// The model at one set of unknowns.
+pub(crate) struct Assembled<'p> {
+    problem: &'p Problem,
+    transformations: [Transformations; 2],
+    selections: [Selection; 2],
+    stiffness: Matrix6<f64>,
+    damping: Matrix6<f64>,
+}
+
+/// Functions of the assembly at one line, and their derivatives by each unknown (observed × unknowns).
+pub(crate) struct Line {
+    pub(crate) functions: Vec<Complex64>,
+    pub(crate) derivatives: DMatrix<Complex64>,
+}
+
+impl<'p> Assembled<'p> {
+    pub(crate) fn new(problem: &'p Problem, unknowns: &Unknowns) -> Result<Self, SpatialError> {
+        let [stiffness, damping] = problem.matrices(unknowns)?;
+        let errors = problem.errors(unknowns);
+        let of = |side: usize| {
+            let transformations = problem.sides[side].transformations(&errors[side]);
+            transformations.map_err(|source| SpatialError::VirtualPoint {
+                side: ["a", "b"][side],
+                source,
+            })
+        };
+        Ok(Self {
+            problem,
+            transformations: [of(0)?, of(1)?],
+            selections: problem.selections()?,
+            stiffness,
+            damping,
+        })
+    }
+
+    fn extended(&self, line: usize) -> [DMatrix<Complex64>; 2] {
+        let sides = [0, 1];
+        sides.map(|side| {
+            let functions = &self.problem.sides[side].lines[line];
+            self.transformations[side].extended(functions)
+        })
+    }
+
+    fn coupled(
+        &self,
+        line: usize,
+        extended: &[DMatrix<Complex64>; 2],
+    ) -> Result<Coupled, SpatialError> {
+        let [a, b] = extended;
+        let receptances = block_diagonal([a, b]);
+        let [motions, loads] = &self.selections;
+        let dynamic = self.dynamic(line);
+        let dynamic = DMatrix::from_fn(MOTIONS, MOTIONS, |i, j| dynamic[(i, j)]);
+        Ok(Coupled::between(
+            &receptances,
+            [motions, loads],
+            &dynamic,
+            self.problem.length_m,
+        )?)
+    }
+
+    /// D = K + jωC
+    fn dynamic(&self, line: usize) -> Matrix6<Complex64> {
+        let omega = self.problem.omega(line);
+        Matrix6::from_fn(|i, j| {
+            Complex64::new(self.stiffness[(i, j)], omega * self.damping[(i, j)])
+        })
+    }
+
+    /// H = S Y Sᵀ of a line: the receptance that the joint sees.
+    pub(crate) fn seen_by_joint(&self, line: usize) -> Matrix6<Complex64> {
+        let [a, b] = self.extended(line);
+        let corner = |all: &DMatrix<Complex64>| {
+            let (p, q) = (all.nrows() - MOTIONS, all.ncols() - MOTIONS);
+            Matrix6::from_fn(|i, j| all[(p + i, q + j)])
+        };
+        corner(&a) + corner(&b)
+    }
+
+    /// Y Sᵀ and S Y of a line, for the observed rows and columns, without a joint.
+    pub(crate) fn reach(&self, line: usize) -> [DMatrix<Complex64>; 3] {
+        let [a, b] = self.extended(line);
+        let receptances = block_diagonal([&a, &b]);
+        let [motions, loads] = &self.selections;
+        let complex = |selection: &Selection| selection.matrix().map(Complex64::from);
+        [
+            &receptances * complex(loads).transpose(),
+            complex(motions) * &receptances,
+            receptances,
+        ]
+    }
+
+    /// The observed functions of a line.
+    pub(crate) fn functions(&self, line: usize) -> Result<Vec<Complex64>, SpatialError> {
+        let coupled = self.coupled(line, &self.extended(line))?;
+        let observed = self.problem.observed.iter();
+        Ok(observed
+            .map(|one| coupled.receptance()[(one.at[0], one.at[1])])
+            .collect())
+    }
+
+    /// The observed functions of a line with their derivatives.
+    pub(crate) fn line(&self, line: usize) -> Result<Line, SpatialError> {
+        let extended = self.extended(line);
+        let coupled = self.coupled(line, &extended)?;
+        let observed = &self.problem.observed;
+        let functions = observed
+            .iter()
+            .map(|one| coupled.receptance()[(one.at[0], one.at[1])])
+            .collect();
+        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
+        let j_omega = Complex64::new(0.0, self.problem.omega(line));
+        let (a, b) = (coupled.by_joint_loads(), coupled.joint_motions());
+        let count = self.problem.model.count();
+        for (n, basis) in self.problem.model.bases().iter().enumerate() {
+            // ∂Y_C = −a ∂D b
+            let left = a * basis.map(Complex64::from);
+            for (row, one) in observed.iter().enumerate() {
+                let [o, i] = one.at;
+                let sum: Complex64 = (0..MOTIONS).map(|m| left[(o, m)] * b[(m, i)]).sum();
+                derivatives[(row, n)] = -sum;
+                derivatives[(row, count + n)] = -j_omega * sum;
+            }
+        }
+        if self.problem.tolerances.is_some() {
+            self.by_errors(line, &extended, &coupled, &mut derivatives);
+        }
+        Ok(Line {
+            functions,
+            derivatives,
+        })
+    }
+
+    /// dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b, for each error of a set-up, which changes the interface's rows and columns
+    /// of Y alone.
+    fn by_errors(
+        &self,
+        line: usize,
+        extended: &[DMatrix<Complex64>; 2],
+        coupled: &Coupled,
+        derivatives: &mut DMatrix<Complex64>,
+    ) {
+        let dynamic = self.dynamic(line);
+        let [a, b] = [coupled.by_joint_loads(), coupled.joint_motions()];
+        let (a_d, d_b) = (a * dynamic, dynamic * b);
+        let observed = &self.problem.observed;
+        let mut column = self.problem.joint_count();
+        let (mut first_row, mut first_column) = (0, 0);
+        for (side, (own, all)) in self.transformations.iter().zip(extended).enumerate() {
+            let sign = if side == 0 { 1.0 } else { -1.0 };
+            let (p, q) = (all.nrows() - MOTIONS, all.ncols() - MOTIONS);
+            // L to the interface's rows of this side, and to all of its rows: −a D S there, beside the identity
+            let left = |o: usize, m: usize| {
+                let unit = if o == first_row + p + m { 1.0 } else { 0.0 };
+                Complex64::from(unit) - a_d[(o, m)] * sign
+            };
+            let right = |m: usize, i: usize| {
+                let unit = if i == first_column + q + m { 1.0 } else { 0.0 };
+                Complex64::from(unit) - d_b[(m, i)] * sign
+            };
+            let functions = &self.problem.sides[side].lines[line];
+            // Y R: what the columns of this side come to, for each column of the assembly
+            let by_columns = DMatrix::from_fn(q, d_b.ncols(), |j, i| {
+                let unit = if i == first_column + j { 1.0 } else { 0.0 };
+                let loads: Complex64 = (0..MOTIONS).map(|m| own.loads[(j, m)] * right(m, i)).sum();
+                loads + unit
+            });
+            let y_r = functions * by_columns;
+            for change in &own.motions_changes {
+                let moved = change * &y_r;
+                for (row, one) in observed.iter().enumerate() {
+                    let [o, i] = one.at;
+                    derivatives[(row, column)] =
+                        (0..MOTIONS).map(|m| left(o, m) * moved[(m, i)]).sum();
+                }
+                column += 1;
+            }
+            // L Y likewise
+            let by_rows = DMatrix::from_fn(a_d.nrows(), p, |o, r| {
+                let unit = if o == first_row + r { 1.0 } else { 0.0 };
+                let motions: Complex64 =
+                    (0..MOTIONS).map(|m| left(o, m) * own.motions[(m, r)]).sum();
+                motions + unit
+            });
+            let l_y = by_rows * functions;
+            for change in &own.loads_changes {
+                let loaded = &l_y * change;
+                for (row, one) in observed.iter().enumerate() {
+                    let [o, i] = one.at;
+                    derivatives[(row, column)] =
+                        (0..MOTIONS).map(|m| loaded[(o, m)] * right(m, i)).sum();
+                }
+                column += 1;
+            }
+            first_row += all.nrows();
+            first_column += all.ncols();
+        }
+    }
+}

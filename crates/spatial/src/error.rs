@@ -1,0 +1,46 @@
+//! Why no joint can be identified from functions that were read.
+
+use bolted_joint_space::SpaceError;
+use bolted_joint_virtual_point::VirtualPointError;
+use thiserror::Error;
+
+/// Why no joint can be identified.
+#[derive(Debug, Error)]
+pub enum SpatialError {
+    /// The virtual point of a substructure.
+    #[error("{side}: {source}")]
+    VirtualPoint {
+        /// `a` or `b`.
+        side: &'static str,
+        /// What is wrong with it.
+        source: VirtualPointError,
+    },
+    /// The joint's matrices.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
+    /// Too few numbers for the unknowns.
+    #[error(
+        "found {found} functions of the assembly at {lines} lines, {} numbers, expected more than the {unknowns} unknowns of the joint; \
+         measure more, or take a model with fewer unknowns (joint.model)",
+        2 * found * lines
+    )]
+    TooFewFunctions {
+        /// Functions of the assembly.
+        found: usize,
+        /// Lines.
+        lines: usize,
+        /// Unknowns of the joint.
+        unknowns: usize,
+    },
+    /// No start leads anywhere.
+    #[error(
+        "no start of the search gives finite functions of the assembly; check the units of the files and the interface's length"
+    )]
+    NoStart,
+    /// The information matrix cannot be inverted.
+    #[error(
+        "the functions of the assembly do not tell the unknowns of the joint apart; measure with sensors on both sides, or take a model \
+         with fewer unknowns (joint.model)"
+    )]
+    NotDetermined,
+}

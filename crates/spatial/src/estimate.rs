@@ -1,0 +1,367 @@
+//! The estimate: searches from several starts, the level of the noise, the covariance, and what speaks against the result.
+
+use bolted_joint_space::{Part, semidefinite};
+use bolted_joint_virtual_point::Change;
+use nalgebra::{DMatrix, DVector, Matrix6};
+
+use crate::assembled::Assembled;
+use crate::error::SpatialError;
+use crate::fit::{Fit, covariance};
+use crate::normal::{Deviations, Normal};
+use crate::problem::{Level, Problem, Unknowns};
+use crate::starts::starts;
+use crate::study::SpatialStudy;
+
+/// Rounds in which the level of the noise follows the residuals.
+const ROUNDS: usize = 5;
+
+/// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
+const LEAST_LEVEL: f64 = 1e-12;
+
+/// A search that has come as low as the lowest, up to this part.
+const AS_LOW: f64 = 1e-6;
+
+/// 97.5 % quantile of the normal distribution.
+const QUANTILE: f64 = 1.959_963_984_540_054;
+
+/// χ² over degrees of freedom beyond which stated noise does not explain the residuals.
+const MISFIT: f64 = 1.5;
+
+/// Residual over computed functions, r.m.s., beyond which the model is not that of the data.
+const RESIDUAL_MAX: f64 = 0.5;
+
+/// Negative eigenvalues of a scaled matrix that noise does not excuse.
+const NOT_PASSIVE: f64 = 1e-9;
+
+/// One number of the joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Its name in the model's axes, such as `k_x` or `c_x_ry`.
+    pub name: String,
+    /// SI units.
+    pub value: f64,
+    /// Standard deviation, with the errors of the set-up.
+    pub deviation: f64,
+    /// That of noise alone.
+    pub deviation_by_noise: f64,
+    /// Whether the functions determine it: its deviation is smaller than what couples its motions at most.
+    pub is_determined: bool,
+}
+
+impl Unknown {
+    /// Interval of 95 %.
+    #[must_use]
+    pub fn interval_95(&self) -> [f64; 2] {
+        [-1.0, 1.0].map(|sign| self.value + sign * QUANTILE * self.deviation)
+    }
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct SpatialIdentification {
+    /// The unknowns of stiffness, then those of damping.
+    pub unknowns: Vec<Unknown>,
+    /// K, N/m, N/rad, N·m/rad.
+    pub stiffness: Matrix6<f64>,
+    /// C, in the units of K times s.
+    pub damping: Matrix6<f64>,
+    /// Standard deviations of the entries of K and of C.
+    pub deviations: [Matrix6<f64>; 2],
+    /// Those of noise alone.
+    pub deviations_by_noise: [Matrix6<f64>; 2],
+    /// Correlation of the unknowns.
+    pub correlation: DMatrix<f64>,
+    /// Root mean square of |measured − computed|/|computed|'s r.m.s. of each function.
+    pub relative_rms: f64,
+    /// Functions of the assembly and lines that were compared.
+    pub functions: usize,
+    /// Lines.
+    pub lines: usize,
+    /// χ² over degrees of freedom where the noise is stated.
+    pub reduced_chi_squared: Option<f64>,
+    /// Starts of the search, and how many came to the same minimum.
+    pub starts: [usize; 2],
+    /// Errors of the set-up, in parts of their deviations before the test: the largest with what it is of.
+    pub largest_error: Option<(String, f64)>,
+    /// Why the result is not to be relied on.
+    pub reasons_against: Vec<String>,
+}
+
+impl SpatialStudy {
+    /// The joint.
+    ///
+    /// # Errors
+    /// [`SpatialError`] where the functions do not determine one.
+    pub fn identify(&self) -> Result<SpatialIdentification, SpatialError> {
+        let problem = &self.problem;
+        let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
+        if 2 * functions * lines <= problem.joint_count() {
+            return Err(SpatialError::TooFewFunctions {
+                found: functions,
+                lines,
+                unknowns: problem.joint_count(),
+            });
+        }
+        let rms: Deviations = problem
+            .observed
+            .iter()
+            .map(|one| root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
+            .collect();
+        let mut level: Deviations = match self.level {
+            Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
+            Level::OfResiduals => rms.clone(),
+        };
+        // the joint first, with set-ups taken as exact
+        let exact = Problem {
+            tolerances: None,
+            ..problem.clone()
+        };
+        let (mut best, tried, agreeing) = searched(&exact, &level)?;
+        if let Level::OfResiduals = self.level {
+            for _ in 0..ROUNDS {
+                level = of_residuals(&exact, &best.unknowns, &rms)?;
+                best = Fit::from(&exact, best.unknowns, &level)?;
+            }
+        }
+        if problem.tolerances.is_some() {
+            let mut start = DVector::zeros(problem.count());
+            start
+                .rows_mut(0, problem.joint_count())
+                .copy_from(&best.unknowns.0);
+            best = Fit::from(problem, Unknowns(start), &level)?;
+            if let Level::OfResiduals = self.level {
+                for _ in 0..ROUNDS {
+                    level = of_residuals(problem, &best.unknowns, &rms)?;
+                    best = Fit::from(problem, best.unknowns, &level)?;
+                }
+            }
+        }
+        self.result(&best, &level, [tried, agreeing])
+    }
+
+    fn result(
+        &self,
+        best: &Fit,
+        level: &Deviations,
+        starts: [usize; 2],
+    ) -> Result<SpatialIdentification, SpatialError> {
+        let problem = &self.problem;
+        let normal = Normal::of(problem, &best.unknowns, level)?;
+        let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
+        let count = problem.joint_count();
+        let joint = all.view((0, 0), (count, count)).into_owned();
+        let alone = normal.information.view((0, 0), (count, count)).into_owned();
+        let by_noise = covariance(&alone).ok_or(SpatialError::NotDetermined)?;
+        let [stiffness, damping] = problem.matrices(&best.unknowns)?;
+        let model = &problem.model;
+        let entries = |covariance: &DMatrix<f64>| -> [Matrix6<f64>; 2] {
+            [0, 1].map(|part| {
+                let first = part * model.count();
+                Matrix6::from_fn(|i, j| {
+                    let bases = model.bases();
+                    let mut variance = 0.0;
+                    for (m, one) in bases.iter().enumerate() {
+                        for (n, other) in bases.iter().enumerate() {
+                            variance +=
+                                one[(i, j)] * other[(i, j)] * covariance[(first + m, first + n)];
+                        }
+                    }
+                    f64::max(variance, 0.0).sqrt()
+                })
+            })
+        };
+        let deviations = entries(&joint);
+        let names = [Part::Stiffness, Part::Damping].map(|part| model.names(part));
+        let unknowns: Vec<Unknown> = names
+            .concat()
+            .into_iter()
+            .enumerate()
+            .map(|(n, name)| {
+                let entry = model.entries()[n % model.count()];
+                let matrix = if n < model.count() {
+                    &stiffness
+                } else {
+                    &damping
+                };
+                let [own, other] =
+                    [entry.row, entry.column].map(|dof| matrix[(dof as usize, dof as usize)]);
+                let deviation = joint[(n, n)].sqrt();
+                Unknown {
+                    name,
+                    value: best.unknowns.0[n],
+                    deviation,
+                    deviation_by_noise: by_noise[(n, n)].sqrt(),
+                    is_determined: QUANTILE * deviation < (own * other).abs().sqrt(),
+                }
+            })
+            .collect();
+        let correlation = DMatrix::from_fn(count, count, |i, j| {
+            joint[(i, j)] / (joint[(i, i)] * joint[(j, j)]).sqrt()
+        });
+        let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
+        let freedom = (2 * functions * lines - count) as f64;
+        let reduced_chi_squared =
+            matches!(self.level, Level::Relative(_)).then_some(normal.cost / freedom);
+        let mut found = SpatialIdentification {
+            unknowns,
+            stiffness,
+            damping,
+            deviations,
+            deviations_by_noise: entries(&by_noise),
+            correlation,
+            relative_rms: relative_rms(problem, &best.unknowns)?,
+            functions,
+            lines,
+            reduced_chi_squared,
+            starts,
+            largest_error: self.largest_error(&best.unknowns),
+            reasons_against: Vec::new(),
+        };
+        found.reasons_against = found.reasons(best.has_converged);
+        Ok(found)
+    }
+
+    /// The error of the set-up that is largest beside what it was known to.
+    fn largest_error(&self, unknowns: &Unknowns) -> Option<(String, f64)> {
+        let problem = &self.problem;
+        let errors = unknowns.0.as_slice().get(problem.joint_count()..)?;
+        let deviations = problem.error_deviations();
+        let sides = ["a", "b"].into_iter().zip(&problem.sides);
+        let names = sides.flat_map(|(name, side)| {
+            let parameters = side.parameters().into_iter();
+            parameters.map(move |parameter| {
+                format!(
+                    "{} of {name}: {}",
+                    parameter.place,
+                    change(parameter.change)
+                )
+            })
+        });
+        let parts = errors
+            .iter()
+            .zip(deviations)
+            .map(|(error, own)| error / own);
+        names
+            .zip(parts)
+            .max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()))
+    }
+}
+
+/// What is wrong with a sensor or an impact.
+fn change(change: Change) -> String {
+    match change {
+        Change::Pose(dof) if dof.is_rotation() => format!("orientation {dof}"),
+        Change::Pose(dof) => format!("position {dof}"),
+        Change::Gain(channel) => format!("gain of channel {}", channel + 1),
+    }
+}
+
+impl SpatialIdentification {
+    fn reasons(&self, has_converged: bool) -> Vec<String> {
+        let mut reasons = Vec::new();
+        if !has_converged {
+            reasons.push("the search has not converged".to_owned());
+        }
+        if self.relative_rms > RESIDUAL_MAX {
+            reasons.push(format!(
+                "the residual is {:.0} % of the functions: the model is not that of the data; check units, directions and signs",
+                100.0 * self.relative_rms
+            ));
+        }
+        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
+            reasons.push(format!(
+                "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
+            ));
+        }
+        for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
+            if let Err(refused) = semidefinite(matrix)
+                && !is_excused(matrix)
+            {
+                reasons.push(format!("joint.{name} is not passive: {refused}"));
+            }
+        }
+        reasons
+    }
+}
+
+/// Whether a negative eigenvalue is rounding.
+fn is_excused(matrix: &Matrix6<f64>) -> bool {
+    let scale = matrix.diagonal().map(|own| own.abs().sqrt());
+    let scaled = Matrix6::from_fn(|i, j| {
+        let size = scale[i] * scale[j];
+        if size > 0.0 {
+            matrix[(i, j)] / size
+        } else {
+            0.0
+        }
+    });
+    scaled.symmetric_eigenvalues().min() > -NOT_PASSIVE
+}
+
+/// The lowest of the searches, how many starts there were and how many came as low.
+fn searched(problem: &Problem, level: &Deviations) -> Result<(Fit, usize, usize), SpatialError> {
+    let starts = starts(problem)?;
+    let tried = starts.len();
+    let fits: Vec<Fit> = starts
+        .into_iter()
+        .filter_map(|start| Fit::from(problem, start, level).ok())
+        .collect();
+    let lowest = fits
+        .iter()
+        .map(|fit| fit.cost)
+        .fold(f64::INFINITY, f64::min);
+    let slack = 2.0 * (problem.observed.len() * problem.frequency_hz.len()) as f64;
+    let agreeing = fits
+        .iter()
+        .filter(|fit| fit.cost - lowest <= AS_LOW * (lowest + slack))
+        .count();
+    let best = fits
+        .into_iter()
+        .min_by(|one, other| one.cost.total_cmp(&other.cost))
+        .ok_or(SpatialError::NoStart)?;
+    Ok((best, tried, agreeing))
+}
+
+/// The level of each function's noise, by its residuals.
+fn of_residuals(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    rms: &Deviations,
+) -> Result<Deviations, SpatialError> {
+    let squares = squares(problem, unknowns)?;
+    // each function's share of the unknowns is spent
+    let lines = problem.frequency_hz.len() as f64;
+    let spent = problem.joint_count() as f64 / (2 * problem.observed.len()) as f64;
+    let freedom = (lines - spent).max(1.0);
+    let levels = squares.iter().zip(rms);
+    Ok(levels
+        .map(|([residual, _], rms)| (residual / freedom).sqrt().max(LEAST_LEVEL * rms))
+        .collect())
+}
+
+/// Σ |measured − computed|² and Σ |computed|² of each function.
+fn squares(problem: &Problem, unknowns: &Unknowns) -> Result<Vec<[f64; 2]>, SpatialError> {
+    let assembled = Assembled::new(problem, unknowns)?;
+    let mut sums = vec![[0.0; 2]; problem.observed.len()];
+    for line in 0..problem.frequency_hz.len() {
+        let functions = assembled.functions(line)?;
+        for ((sum, one), function) in sums.iter_mut().zip(&problem.observed).zip(functions) {
+            sum[0] += (one.values[line] - function).norm_sqr();
+            sum[1] += function.norm_sqr();
+        }
+    }
+    Ok(sums)
+}
+
+fn relative_rms(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+    let squares = squares(problem, unknowns)?;
+    let parts = squares
+        .iter()
+        .map(|[residual, computed]| residual / computed);
+    Ok(root_mean_square(parts))
+}
+
+fn root_mean_square(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = squares.len().max(1) as f64;
+    (squares.sum::<f64>() / count).sqrt()
+}

@@ -1,0 +1,110 @@
+//! Damped Gauss–Newton (Levenberg and Marquardt): plain steps diverge from a stiffness 10 % off.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::SpatialError;
+use crate::normal::{Deviations, Normal, cost};
+use crate::problem::{Problem, Unknowns};
+
+/// Steps after which a search has not converged.
+const STEPS_MAX: usize = 150;
+
+/// A step that lowers the cost by less than this part of it, and this much, was the last one.
+const SETTLED: f64 = 1e-12;
+
+/// Damping that no step can be helped with.
+const DAMPING_MAX: f64 = 1e12;
+
+/// Where a search has come to.
+pub(crate) struct Fit {
+    pub(crate) unknowns: Unknowns,
+    pub(crate) cost: f64,
+    pub(crate) has_converged: bool,
+}
+
+impl Fit {
+    /// From these unknowns downhill.
+    pub(crate) fn from(
+        problem: &Problem,
+        start: Unknowns,
+        deviations: &Deviations,
+    ) -> Result<Self, SpatialError> {
+        let mut normal = Normal::of(problem, &start, deviations)?;
+        let mut unknowns = start;
+        let mut damping = 1e-3;
+        for _ in 0..STEPS_MAX {
+            let mut moved = None;
+            while damping < DAMPING_MAX {
+                if let Some(step) = step(&normal, damping) {
+                    let trial = Unknowns(&unknowns.0 + step);
+                    let found = cost(problem, &trial, deviations).unwrap_or(f64::INFINITY);
+                    if found <= normal.cost {
+                        moved = Some((trial, found));
+                        damping = (0.1 * damping).max(1e-12);
+                        break;
+                    }
+                }
+                damping *= 10.0;
+            }
+            let Some((trial, found)) = moved else {
+                break;
+            };
+            let gain = normal.cost - found;
+            unknowns = trial;
+            if gain <= SETTLED * (1.0 + found) {
+                return Ok(Self {
+                    unknowns,
+                    cost: found,
+                    has_converged: true,
+                });
+            }
+            normal = Normal::of(problem, &unknowns, deviations)?;
+        }
+        // no step helps: at the bottom as far as rounding lets it be seen
+        let has_converged = damping >= DAMPING_MAX;
+        Ok(Self {
+            unknowns,
+            cost: normal.cost,
+            has_converged,
+        })
+    }
+}
+
+/// (F + λ diag F)⁻¹ g, F scaled to a unit diagonal.
+fn step(normal: &Normal, damping: f64) -> Option<DVector<f64>> {
+    let scale = scale(&normal.information);
+    let mut scaled = scaled(&normal.information, &scale);
+    for place in 0..scale.len() {
+        scaled[(place, place)] += damping;
+    }
+    let right = normal.descent.component_mul(&scale);
+    let step = scaled.cholesky()?.solve(&right).component_mul(&scale);
+    step.iter().all(|x| x.is_finite()).then_some(step)
+}
+
+/// 1/√F_ii; of what nothing tells, 1.
+fn scale(information: &DMatrix<f64>) -> DVector<f64> {
+    information.diagonal().map(|own| match own > 0.0 {
+        true => own.sqrt().recip(),
+        false => 1.0,
+    })
+}
+
+fn scaled(information: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(information.nrows(), information.ncols(), |i, j| {
+        information[(i, j)] * scale[i] * scale[j]
+    })
+}
+
+/// F⁻¹: the covariance of all unknowns.
+pub(crate) fn covariance(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let scale = scale(information);
+    let inverse = scaled(information, &scale).cholesky()?.inverse();
+    let covariance = DMatrix::from_fn(inverse.nrows(), inverse.ncols(), |i, j| {
+        inverse[(i, j)] * scale[i] * scale[j]
+    });
+    covariance
+        .iter()
+        .all(|x| x.is_finite())
+        .then_some(covariance)
+}

@@ -1,0 +1,26 @@
+//! Identification of joints in space: six relative motions, from functions of two substructures and their assembly.
+//!
+//! The functions of a substructure are measured by sensors and hammer impacts near the interface, which make a virtual point
+//! ([`bolted_joint_virtual_point`]), or are those of a node with six DOFs, as a finite-element program gives them. Whatever
+//! functions of the assembly were measured between the same sensors and impacts are data.
+//!
+//! [`SpatialStudy`] is what a study of method `frf-space` says, [`SpatialStudy::identify`] estimates the joint by maximum
+//! likelihood with errors of the set-up as nuisances, [`SpatialIdentification`] is what was found.
+#![forbid(unsafe_code)]
+
+mod assembled;
+mod error;
+mod estimate;
+mod fit;
+mod joint_file;
+mod normal;
+mod problem;
+mod side;
+mod starts;
+mod study;
+mod tables;
+
+pub use error::SpatialError;
+pub use estimate::{SpatialIdentification, Unknown};
+pub use problem::Level;
+pub use study::SpatialStudy;

@@ -1,0 +1,136 @@
+//! What is given and what is asked: two substructures, the functions of their assembly, and the joint's unknowns.
+
+use std::f64::consts::TAU;
+
+use bolted_joint_space::{Connection, Parametrisation, Selection, SpaceError};
+use bolted_joint_virtual_point::Tolerances;
+use nalgebra::{DMatrix, DVector, Matrix6};
+use num_complex::Complex64;
+
+use crate::side::{MOTIONS, Side};
+
+/// How large the noise of the assembly's functions is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Level {
+    /// This part of each function's r.m.s.
+    Relative(f64),
+    /// As large as the residuals of each function.
+    OfResiduals,
+}
+
+/// One measured function of the assembly.
+#[derive(Clone, Debug)]
+pub(crate) struct Observed {
+    /// Its row and its column among those of both substructures with their interfaces.
+    pub(crate) at: [usize; 2],
+    /// Receptance at each line.
+    pub(crate) values: Vec<Complex64>,
+}
+
+/// Two substructures, their assembly, the joint.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    pub(crate) sides: [Side; 2],
+    pub(crate) frequency_hz: Vec<f64>,
+    pub(crate) observed: Vec<Observed>,
+    /// That of K and of C alike.
+    pub(crate) model: Parametrisation,
+    /// Scales rotations, m.
+    pub(crate) length_m: f64,
+    /// Of the set-ups; `None` where they are exact.
+    pub(crate) tolerances: Option<Tolerances>,
+}
+
+/// Unknowns: of stiffness, of damping, and errors of the set-up of a and of b.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Unknowns(pub(crate) DVector<f64>);
+
+impl Problem {
+    /// Unknowns of the joint.
+    pub(crate) fn joint_count(&self) -> usize {
+        2 * self.model.count()
+    }
+
+    /// Errors of the set-up that are unknown: of a and of b.
+    pub(crate) fn error_counts(&self) -> [usize; 2] {
+        let count = |side: &Side| side.parameters().len();
+        match self.tolerances {
+            None => [0; 2],
+            Some(_) => [&self.sides[0], &self.sides[1]].map(count),
+        }
+    }
+
+    /// All unknowns.
+    pub(crate) fn count(&self) -> usize {
+        self.joint_count() + self.error_counts().iter().sum::<usize>()
+    }
+
+    /// Standard deviations of the errors of the set-up before anything is measured.
+    pub(crate) fn error_deviations(&self) -> Vec<f64> {
+        let Some(tolerances) = &self.tolerances else {
+            return Vec::new();
+        };
+        let of = |side: &Side| side.deviations(tolerances);
+        self.sides.iter().flat_map(of).collect()
+    }
+
+    pub(crate) fn omega(&self, line: usize) -> f64 {
+        TAU * self.frequency_hz[line]
+    }
+
+    /// K and C.
+    pub(crate) fn matrices(&self, unknowns: &Unknowns) -> Result<[Matrix6<f64>; 2], SpaceError> {
+        let count = self.model.count();
+        let values = unknowns.0.as_slice();
+        Ok([
+            self.model.matrix(&values[..count])?,
+            self.model.matrix(&values[count..2 * count])?,
+        ])
+    }
+
+    /// Errors of the set-ups; zero where they are exact.
+    pub(crate) fn errors(&self, unknowns: &Unknowns) -> [Vec<f64>; 2] {
+        let mut start = self.joint_count();
+        let counts = self.error_counts();
+        let sides = [0, 1];
+        sides.map(|side| {
+            let own = match counts[side] {
+                0 => vec![0.0; self.sides[side].parameters().len()],
+                count => unknowns.0.as_slice()[start..start + count].to_vec(),
+            };
+            start += counts[side];
+            own
+        })
+    }
+
+    /// S of the rows, and of the columns.
+    pub(crate) fn selections(&self) -> Result<[Selection; 2], SpaceError> {
+        let [a, b] = &self.sides;
+        let joint = |a_first: usize, b_first: usize| Connection {
+            a: std::array::from_fn(|dof| a_first + dof),
+            b: std::array::from_fn(|dof| b_first + dof),
+        };
+        Ok([
+            Selection::relative(
+                a.rows() + b.rows(),
+                &[joint(a.rows() - MOTIONS, a.rows() + b.rows() - MOTIONS)],
+            )?,
+            Selection::relative(
+                a.columns() + b.columns(),
+                &[joint(
+                    a.columns() - MOTIONS,
+                    a.columns() + b.columns() - MOTIONS,
+                )],
+            )?,
+        ])
+    }
+}
+
+/// Two matrices on a diagonal.
+pub(crate) fn block_diagonal(blocks: [&DMatrix<Complex64>; 2]) -> DMatrix<Complex64> {
+    let [a, b] = blocks;
+    let mut all = DMatrix::zeros(a.nrows() + b.nrows(), a.ncols() + b.ncols());
+    all.view_mut((0, 0), a.shape()).copy_from(a);
+    all.view_mut(a.shape(), b.shape()).copy_from(b);
+    all
+}

@@ -1,0 +1,122 @@
+//! `identify` with method `frf-space`: the joint in space from functions near its interface.
+
+use std::fmt::Write as _;
+
+use serde_json::json;
+
+use bolted_joint::identify::space::{SpatialIdentification, SpatialStudy, Unknown};
+use bolted_joint::study::StudyText;
+
+use super::super::error::CliError;
+use super::super::output::{Outputs, check_output, print};
+use super::super::table::{Table, number};
+use super::IdentifyArguments;
+
+pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<(), CliError> {
+    for (option, is_given) in [
+        ("--report", arguments.report.is_some()),
+        ("--figure", arguments.figure.is_some()),
+        ("--bootstrap", arguments.bootstrap.is_some()),
+        ("--no-rivals", arguments.no_rivals),
+    ] {
+        if is_given {
+            let expected = "a study of method \"frf-decoupling\"; of a joint in space, take --json";
+            return Err(CliError::option(option, "it", expected));
+        }
+    }
+    let study = SpatialStudy::of(study)?;
+    check_output(&arguments.output, &[&arguments.study])?;
+    let found = study.identify()?;
+    let file = found.joint_file(&study);
+    let text = file.to_json()?;
+    let mut outputs = Outputs::new();
+    outputs.add(Some(&arguments.output), || text);
+    outputs.write()?;
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&as_json(
+            &found, &file, arguments,
+        ))?)?;
+    } else {
+        print(&(summary(&study, &found) + &outputs.written()))?;
+    }
+    CliError::unless_usable(&arguments.output, &found.reasons_against)
+}
+
+fn as_json(
+    found: &SpatialIdentification,
+    file: &bolted_joint::joint::JointFile,
+    arguments: &IdentifyArguments,
+) -> serde_json::Value {
+    let unknown = |unknown: &Unknown| {
+        json!({
+            "name": unknown.name,
+            "value": unknown.value,
+            "standard_deviation": unknown.deviation,
+            "by_noise_alone": unknown.deviation_by_noise,
+            "interval_95": unknown.interval_95(),
+            "is_determined": unknown.is_determined,
+        })
+    };
+    json!({
+        "output": arguments.output.display().to_string(),
+        "joint_file": file,
+        "unknowns": found.unknowns.iter().map(unknown).collect::<Vec<_>>(),
+        "functions": found.functions,
+        "lines": found.lines,
+        "relative_rms": found.relative_rms,
+        "reduced_chi_squared": found.reduced_chi_squared,
+        "starts": { "tried": found.starts[0], "agreeing": found.starts[1] },
+        "largest_error": found.largest_error.as_ref().map(|(of, part)| json!({ "of": of, "deviations": part })),
+        "usable": found.reasons_against.is_empty(),
+        "reasons_against": found.reasons_against,
+    })
+}
+
+/// The result for people.
+fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
+    let mut text = format!(
+        "{}\njoint in space, model {}, from {} functions of the assembly at {} lines\n",
+        study.name, study.model, found.functions, found.lines
+    );
+    let mut table = Table::new(&[
+        "",
+        "identified",
+        "± std. dev.",
+        "of noise alone",
+        "95 % interval",
+        "",
+    ]);
+    for unknown in &found.unknowns {
+        let [low, high] = unknown.interval_95();
+        table.row(vec![
+            unknown.name.clone(),
+            number(unknown.value, 5),
+            number(unknown.deviation, 2),
+            number(unknown.deviation_by_noise, 2),
+            format!("{} … {}", number(low, 4), number(high, 4)),
+            match unknown.is_determined {
+                true => String::new(),
+                false => "not determined".to_owned(),
+            },
+        ]);
+    }
+    text += &table.render();
+    let _ = writeln!(
+        text,
+        "residual {} % of the functions; {} of {} starts came to the same minimum",
+        number(100.0 * found.relative_rms, 3),
+        found.starts[1],
+        found.starts[0]
+    );
+    if let Some(chi) = found.reduced_chi_squared {
+        let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
+    }
+    if let Some((of, part)) = &found.largest_error {
+        let _ = writeln!(
+            text,
+            "largest error of the set-up: {of}, {} of its standard deviations",
+            number(*part, 2)
+        );
+    }
+    text
+}

@@ -309,6 +309,19 @@ mod tests {
     }
 
     #[test]
+    fn a_misplaced_impact_is_named() {
+        for impact in 0..12 {
+            // a hit that is 5 mm beside its place, across its direction
+            let place = Place::Impact(impact);
+            let lines = measured(&[
+                (place, Change::Pose(Dof::X), 0.003),
+                (place, Change::Pose(Dof::Y), -0.004),
+            ]);
+            assert_eq!(suspects(Role::Impact, &lines).bad, Some(place));
+        }
+    }
+
+    #[test]
     fn a_turned_sensor_is_named() {
         let place = Place::Sensor(2);
         let lines = measured(&[(place, Change::Pose(Dof::Ry), 0.1)]);

@@ -195,8 +195,8 @@ mod tests {
         has(
             &error.to_string(),
             &[
-                "channels: found rank 5, expected 6: no channel sees the rotation about the line through (0.02, 0, 0.03) m \
-                 along (0, 1, 0)",
+                "channels: found rank 5, expected 6: no channel sees the rotation about the line through (0.02, 0, \
+                 0.03) m along (0, 1, 0)",
                 "add one that moves with it",
             ],
         );
@@ -260,7 +260,8 @@ mod tests {
         );
     }
 
-    /// Lines of action in one linear complex: d · (h z + z × r) = 0 is a screw of pitch h about z, and nothing drives it.
+    /// Lines of action in one linear complex: d · (h z + z × r) = 0 is a screw of pitch h about z, and nothing drives
+    /// it.
     #[test]
     fn impacts_of_one_linear_complex_do_not_drive_its_screw() {
         let pitch_m = 0.013;

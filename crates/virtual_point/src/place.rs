@@ -203,8 +203,8 @@ impl Body {
         })
     }
 
-    /// The body after changes in the order of [`Self::changes`]: shifted, turned by a rotation vector, with other gains.
-    /// None for changes that are not as many.
+    /// The body after changes in the order of [`Self::changes`]: shifted, turned by a rotation vector, with other
+    /// gains. None for changes that are not as many.
     pub(crate) fn changed(&self, by: &[f64]) -> Option<Self> {
         let (&[x, y, z, rx, ry, rz], gains) = by.split_first_chunk::<6>()?;
         if gains.len() != self.gains.len() {
@@ -275,7 +275,7 @@ mod tests {
             assert_eq!(error, VirtualPointError::NotFinite { what });
         }
         // a direction of a few digits is made one
-        let nearly = Sensor::uniaxial(position, Vector3::new(0.707_106_8, 0.707_106_8, 0.0), 1.0);
+        let nearly = Sensor::uniaxial(position, Vector3::new(0.600_000_2, 0.8, 0.0), 1.0);
         assert!((nearly.unwrap().0.directions[0].norm() - 1.0).abs() < 1e-15);
     }
 }

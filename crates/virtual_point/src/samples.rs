@@ -1,4 +1,5 @@
-//! Numbers that tests share: the set-up of the check values, and numbers without a pattern that are the same in each run.
+//! Numbers that tests share: the set-up of the check values, and numbers without a pattern that are the same in each
+//! run.
 
 use bolted_joint_space::Axes;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};

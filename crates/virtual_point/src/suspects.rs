@@ -311,12 +311,13 @@ mod tests {
     #[test]
     fn a_misplaced_impact_is_named() {
         for impact in 0..12 {
-            // a hit that is 5 mm beside its place, across its direction
+            // 5 mm beside its place; along its own direction it would do nothing
             let place = Place::Impact(impact);
-            let lines = measured(&[
-                (place, Change::Pose(Dof::X), 0.003),
-                (place, Change::Pose(Dof::Y), -0.004),
-            ]);
+            let row = good().impacts().matrix().row(impact).into_owned();
+            let direction = Vector3::new(row[0], row[1], row[2]);
+            let aside = direction.cross(&Vector3::z()).normalize() * 0.005;
+            let shift = [(Dof::X, aside.x), (Dof::Y, aside.y), (Dof::Z, aside.z)];
+            let lines = measured(&shift.map(|(dof, by)| (place, Change::Pose(dof), by)));
             assert_eq!(suspects(Role::Impact, &lines).bad, Some(place));
         }
     }

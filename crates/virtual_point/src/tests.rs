@@ -49,8 +49,8 @@ fn bad_lines() -> (SetUp, Vec<DMatrix<Complex64>>) {
     (set_up, lines.to_vec())
 }
 
-/// pyFBS 1.0.7 (`VPT`, `apply_vpt`, `consistency`) on the same functions. Its `wf` is the inverse of these weights; with
-/// it, its consistency of the impacts is that of another projection, and is left out.
+/// pyFBS 1.0.7 (`VPT`, `apply_vpt`, `consistency`) on the same functions. Its `wf` is the inverse of these
+/// weights; with it, its consistency of the impacts is that of another projection, and is left out.
 #[test]
 fn as_pyfbs() {
     let (set_up, lines) = bad_lines();

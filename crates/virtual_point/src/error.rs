@@ -90,7 +90,8 @@ pub enum VirtualPointError {
     },
     /// Weights that are not symmetric.
     #[error(
-        "weights of the {role}s: found {found} at ({row}, {column}) and {mirrored} across the diagonal, expected the same"
+        "weights of the {role}s: found {found} at ({row}, {column}) and {mirrored} across the diagonal, expected the \
+         same: take the mean of both if they differ by rounding"
     )]
     NotSymmetric {
         /// Channels or impacts.

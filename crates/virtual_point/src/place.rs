@@ -203,8 +203,8 @@ impl Body {
         })
     }
 
-    /// The body after changes in the order of [`Self::changes`]: shifted, turned by a rotation vector, with other gains.
-    /// None for changes that are not as many.
+    /// The body after changes in the order of [`Self::changes`]: shifted, turned by a rotation vector, with other
+    /// gains. None for changes that are not as many.
     pub(crate) fn changed(&self, by: &[f64]) -> Option<Self> {
         let (&[x, y, z, rx, ry, rz], gains) = by.split_first_chunk::<6>()?;
         if gains.len() != self.gains.len() {
@@ -236,4 +236,46 @@ fn row(translation: &Vector3<f64>, rotation: &Vector3<f64>) -> RowVector6<f64> {
 /// e_k of the axis along which or about which a motion goes.
 fn unit_vector(dof: Dof) -> Vector3<f64> {
     Vector3::ith(dof.index() % 3, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use bolted_joint_testing::has;
+
+    use super::*;
+
+    #[test]
+    fn what_is_no_place_is_refused() {
+        let position = Vector3::new(0.01, 0.02, 0.03);
+        let long = Impact::new(position, Vector3::new(0.6, 0.1, 0.8), 1.0).unwrap_err();
+        has(
+            &long.to_string(),
+            &[
+                "found (0.6, 0.1, 0.8) of length 1.00498",
+                "expected a unit vector",
+            ],
+        );
+        for direction in [Vector3::zeros(), Vector3::x() * 1.00001] {
+            let error = Sensor::uniaxial(position, direction, 1.0).unwrap_err();
+            assert!(matches!(error, VirtualPointError::NotUnit { .. }));
+        }
+        for gain in [0.0, f64::NAN, f64::INFINITY] {
+            let error = Sensor::triaxial(position, &Axes::identity(), [1.0, gain, 1.0]);
+            assert!(
+                matches!(error, Err(VirtualPointError::Gain { .. })),
+                "{error:?}"
+            );
+        }
+        let nowhere = Vector3::new(0.0, f64::NAN, 0.0);
+        for (position, direction, what) in [
+            (nowhere, Vector3::x(), "position"),
+            (position, nowhere, "direction"),
+        ] {
+            let error = Sensor::uniaxial(position, direction, 1.0).unwrap_err();
+            assert_eq!(error, VirtualPointError::NotFinite { what });
+        }
+        // a direction of a few digits is made one
+        let nearly = Sensor::uniaxial(position, Vector3::new(0.600_000_2, 0.8, 0.0), 1.0);
+        assert!((nearly.unwrap().0.directions[0].norm() - 1.0).abs() < 1e-15);
+    }
 }

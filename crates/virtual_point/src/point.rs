@@ -222,3 +222,35 @@ pub(crate) fn sized(
 pub(crate) fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
     matrix.map(Complex64::from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::*;
+
+    #[test]
+    fn functions_that_do_not_belong_here_are_refused() {
+        let point = equal(check_set_up());
+        let size = |error: VirtualPointError| matches!(error, VirtualPointError::Size { .. });
+        assert!(size(point.receptance(&DMatrix::zeros(8, 7)).unwrap_err()));
+        assert!(size(point.derivatives(&DMatrix::zeros(9, 6)).unwrap_err()));
+        assert!(size(point.motions(&DMatrix::zeros(7, 7)).unwrap_err()));
+        assert!(size(point.responses(&DMatrix::zeros(7, 9)).unwrap_err()));
+        let mut broken = check_functions();
+        broken[(3, 1)].im = f64::NAN;
+        let lines = [check_functions(), broken];
+        let error = point.receptances(&lines).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "functions: found a value that is not finite in line 2, channel 4, impact 2: leave that line out"
+        );
+        for role in [Role::Channel, Role::Impact] {
+            assert_eq!(point.consistency(role, &lines), Err(error.clone()));
+            assert_eq!(point.suspects(role, &lines), Err(error.clone()));
+            let none = VirtualPointError::Nothing { what: "lines" };
+            assert_eq!(point.consistency(role, &[]), Err(none.clone()));
+            assert_eq!(point.suspects(role, &[]), Err(none.clone()));
+            assert_eq!(point.noise_test(role, &[], &[]), Err(none));
+        }
+    }
+}

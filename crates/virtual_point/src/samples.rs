@@ -1,4 +1,5 @@
-//! Numbers that tests share: the set-up of the check values, and numbers without a pattern that are the same in each run.
+//! Numbers that tests share: the set-up of the check values, and numbers without a pattern that are the same in each
+//! run.
 
 use bolted_joint_space::Axes;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
@@ -154,4 +155,13 @@ pub(crate) fn same(found: Complex64, expected: Complex64, tolerance: f64) {
 pub(crate) fn apart(found: &DMatrix<Complex64>, expected: &DMatrix<Complex64>) -> f64 {
     let largest = |matrix: &DMatrix<Complex64>| matrix.iter().map(|v| v.norm()).fold(0.0, f64::max);
     largest(&(found - expected)) / largest(expected)
+}
+
+/// S Sᵀ + I of sines of the indices: a matrix of weights that another program can build as well.
+pub(crate) fn sine_weights(count: usize, phase: f64) -> Weights {
+    let root = DMatrix::from_fn(count, count, |i, j| {
+        let (i, j) = (i as f64, j as f64);
+        (i * i + std::f64::consts::SQRT_2 * i * j + j + phase).sin()
+    });
+    Weights::Full(&root * root.transpose() + DMatrix::identity(count, count))
 }

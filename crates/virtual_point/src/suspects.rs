@@ -309,6 +309,20 @@ mod tests {
     }
 
     #[test]
+    fn a_misplaced_impact_is_named() {
+        for impact in 0..12 {
+            // 5 mm beside its place; along its own direction it would do nothing
+            let place = Place::Impact(impact);
+            let row = good().impacts().matrix().row(impact).into_owned();
+            let direction = Vector3::new(row[0], row[1], row[2]);
+            let aside = direction.cross(&Vector3::z()).normalize() * 0.005;
+            let shift = [(Dof::X, aside.x), (Dof::Y, aside.y), (Dof::Z, aside.z)];
+            let lines = measured(&shift.map(|(dof, by)| (place, Change::Pose(dof), by)));
+            assert_eq!(suspects(Role::Impact, &lines).bad, Some(place));
+        }
+    }
+
+    #[test]
     fn a_turned_sensor_is_named() {
         let place = Place::Sensor(2);
         let lines = measured(&[(place, Change::Pose(Dof::Ry), 0.1)]);

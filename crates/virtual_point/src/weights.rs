@@ -103,3 +103,50 @@ fn definite(role: Role, weights: &DMatrix<f64>) -> Result<(), VirtualPointError>
         expected,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use bolted_joint_testing::has;
+
+    use super::*;
+
+    #[test]
+    fn what_is_no_weight_is_refused() {
+        let refused = |weights: Weights| weights.matrix(Role::Impact, 3).unwrap_err();
+        let short = Weights::Diagonal(vec![1.0; 2]);
+        has(
+            &refused(short).to_string(),
+            &["weights of the impacts: found 2, expected 3"],
+        );
+        for (weight, words) in [
+            (0.0, "found 0, expected positive"),
+            (f64::NAN, "not finite"),
+        ] {
+            let error = refused(Weights::Diagonal(vec![1.0, weight, 1.0]));
+            has(
+                &error.to_string(),
+                &["weights of the impacts: found", words],
+            );
+        }
+        let flat = refused(Weights::Full(DMatrix::identity(3, 2)));
+        assert!(matches!(flat, VirtualPointError::Size { found: 2, .. }));
+        let mut full = DMatrix::<f64>::identity(3, 3);
+        full[(2, 0)] = 0.5;
+        has(
+            &refused(Weights::Full(full.clone())).to_string(),
+            &["found 0.5 at (2, 0) and 0 across the diagonal"],
+        );
+        full[(0, 2)] = 2.0;
+        full[(2, 0)] = 2.0;
+        let error = refused(Weights::Full(full.clone()));
+        has(
+            &error.to_string(),
+            &["found -1", "expected a positive definite matrix"],
+        );
+        full[(0, 0)] = f64::INFINITY;
+        assert!(matches!(
+            refused(Weights::Full(full)),
+            VirtualPointError::NotFinite { .. }
+        ));
+    }
+}

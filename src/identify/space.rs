@@ -51,6 +51,7 @@ fn as_json(
         json!({
             "name": unknown.name,
             "value": unknown.value,
+            "free": unknown.free,
             "standard_deviation": unknown.deviation,
             "by_noise_alone": unknown.deviation_by_noise,
             "interval_95": unknown.interval_95(),
@@ -108,6 +109,9 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
         found.starts[1],
         found.starts[0]
     );
+    if found.free.is_some() {
+        text += "the passive joint that is nearest to the free estimate, which would feed energy; the intervals are about that one\n";
+    }
     if let Some(chi) = found.reduced_chi_squared {
         let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
     }

@@ -8,6 +8,7 @@ use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::fit::{Fit, covariance};
 use crate::normal::{Deviations, Normal};
+use crate::passive::{is_passive, nearest};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::starts::starts;
 use crate::study::SpatialStudy;
@@ -18,11 +19,14 @@ const ROUNDS: usize = 5;
 /// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
 const LEAST_LEVEL: f64 = 1e-12;
 
+/// Lines that are searched from several starts; all are used from where these lead.
+const SEARCHED: usize = 60;
+
 /// A search that has come as low as the lowest, up to this part.
 const AS_LOW: f64 = 1e-6;
 
 /// 97.5 % quantile of the normal distribution.
-const QUANTILE: f64 = 1.959_963_984_540_054;
+pub(crate) const QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// χ² over degrees of freedom beyond which stated noise does not explain the residuals.
 const MISFIT: f64 = 1.5;
@@ -38,8 +42,10 @@ const NOT_PASSIVE: f64 = 1e-9;
 pub struct Unknown {
     /// Its name in the model's axes, such as `k_x` or `c_x_ry`.
     pub name: String,
-    /// SI units.
+    /// SI units, of a passive joint.
     pub value: f64,
+    /// Without that constraint.
+    pub free: f64,
     /// Standard deviation, with the errors of the set-up.
     pub deviation: f64,
     /// That of noise alone.
@@ -49,10 +55,11 @@ pub struct Unknown {
 }
 
 impl Unknown {
-    /// Interval of 95 %.
+    /// Interval of 95 %, about the free estimate and with the passive one in it.
     #[must_use]
     pub fn interval_95(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|sign| self.value + sign * QUANTILE * self.deviation)
+        let [low, high] = [-1.0, 1.0].map(|sign| self.free + sign * QUANTILE * self.deviation);
+        [low.min(self.value), high.max(self.value)]
     }
 }
 
@@ -65,6 +72,8 @@ pub struct SpatialIdentification {
     pub stiffness: Matrix6<f64>,
     /// C, in the units of K times s.
     pub damping: Matrix6<f64>,
+    /// K and C without the constraint that the joint be passive, where that is another estimate.
+    pub free: Option<[Matrix6<f64>; 2]>,
     /// Standard deviations of the entries of K and of C.
     pub deviations: [Matrix6<f64>; 2],
     /// Those of noise alone.
@@ -116,7 +125,8 @@ impl SpatialStudy {
             tolerances: None,
             ..problem.clone()
         };
-        let (mut best, tried, agreeing) = searched(&exact, &level)?;
+        let (found, tried, agreeing) = searched(&exact.thinned(SEARCHED), &level)?;
+        let mut best = Fit::from(&exact, found.unknowns, &level)?;
         if let Level::OfResiduals = self.level {
             for _ in 0..ROUNDS {
                 level = of_residuals(&exact, &best.unknowns, &rms)?;
@@ -152,8 +162,18 @@ impl SpatialStudy {
         let joint = all.view((0, 0), (count, count)).into_owned();
         let alone = normal.information.view((0, 0), (count, count)).into_owned();
         let by_noise = covariance(&alone).ok_or(SpatialError::NotDetermined)?;
-        let [stiffness, damping] = problem.matrices(&best.unknowns)?;
         let model = &problem.model;
+        let free = best.unknowns.0.rows(0, count).into_owned();
+        let passive = match is_passive(model, &free) {
+            true => free.clone(),
+            false => {
+                let information = covariance(&joint).ok_or(SpatialError::NotDetermined)?;
+                nearest(model, &free, &information, problem.length_m)
+                    .unwrap_or_else(|| free.clone())
+            }
+        };
+        let matrices = |unknowns: &DVector<f64>| problem.matrices(&Unknowns(unknowns.clone()));
+        let [stiffness, damping] = matrices(&passive)?;
         let entries = |covariance: &DMatrix<f64>| -> [Matrix6<f64>; 2] {
             [0, 1].map(|part| {
                 let first = part * model.count();
@@ -188,7 +208,8 @@ impl SpatialStudy {
                 let deviation = joint[(n, n)].sqrt();
                 Unknown {
                     name,
-                    value: best.unknowns.0[n],
+                    value: passive[n],
+                    free: free[n],
                     deviation,
                     deviation_by_noise: by_noise[(n, n)].sqrt(),
                     is_determined: QUANTILE * deviation < (own * other).abs().sqrt(),
@@ -206,6 +227,10 @@ impl SpatialStudy {
             unknowns,
             stiffness,
             damping,
+            free: match passive == free {
+                true => None,
+                false => Some(matrices(&free)?),
+            },
             deviations,
             deviations_by_noise: entries(&by_noise),
             correlation,
@@ -298,28 +323,32 @@ fn is_excused(matrix: &Matrix6<f64>) -> bool {
     scaled.symmetric_eigenvalues().min() > -NOT_PASSIVE
 }
 
-/// The lowest of the searches, how many starts there were and how many came as low.
+/// The lowest of the searches, how many starts were tried and how many came as low. When a second one has, the others are not
+/// tried.
 fn searched(problem: &Problem, level: &Deviations) -> Result<(Fit, usize, usize), SpatialError> {
-    let starts = starts(problem)?;
-    let tried = starts.len();
-    let fits: Vec<Fit> = starts
-        .into_iter()
-        .filter_map(|start| Fit::from(problem, start, level).ok())
-        .collect();
-    let lowest = fits
-        .iter()
-        .map(|fit| fit.cost)
-        .fold(f64::INFINITY, f64::min);
     let slack = 2.0 * (problem.observed.len() * problem.frequency_hz.len()) as f64;
-    let agreeing = fits
-        .iter()
-        .filter(|fit| fit.cost - lowest <= AS_LOW * (lowest + slack))
-        .count();
-    let best = fits
-        .into_iter()
-        .min_by(|one, other| one.cost.total_cmp(&other.cost))
-        .ok_or(SpatialError::NoStart)?;
-    Ok((best, tried, agreeing))
+    let mut best: Option<Fit> = None;
+    let (mut tried, mut agreeing) = (0, 0);
+    for start in starts(problem)? {
+        tried += 1;
+        let Ok(fit) = Fit::from(problem, start, level) else {
+            continue;
+        };
+        let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
+        let as_low = AS_LOW * (lowest.min(fit.cost) + slack);
+        agreeing = match fit.cost - lowest {
+            above if above > as_low => agreeing,
+            above if above >= -as_low => agreeing + 1,
+            _ => 1,
+        };
+        if fit.cost < lowest {
+            best = Some(fit);
+        }
+        if agreeing > 1 {
+            break;
+        }
+    }
+    Ok((best.ok_or(SpatialError::NoStart)?, tried, agreeing))
 }
 
 /// The level of each function's noise, by its residuals.

@@ -1,14 +1,14 @@
 //! The joint file of what was found.
 
 use bolted_joint_joint::{
-    BudgetRecord, Correlation, DofSet, Format, Intervals, Joint, JointFile, Residual,
+    BudgetRecord, Correlation, DofSet, Format, FreeEstimate, Intervals, Joint, JointFile, Residual,
     StandardDeviation, Status, Uncertainty, Validity,
 };
 use bolted_joint_study::{Method, provenance};
 use nalgebra::Matrix6;
 
 use crate::SpatialStudy;
-use crate::estimate::SpatialIdentification;
+use crate::estimate::{QUANTILE, SpatialIdentification};
 use crate::problem::Level;
 
 impl SpatialIdentification {
@@ -22,14 +22,21 @@ impl SpatialIdentification {
             .collect();
         let part = |matrix: &Matrix6<f64>| lists(&rows, |i, j| matrix[(i, j)]);
         let [of_stiffness, of_damping] = &self.deviations;
+        let [free_stiffness, free_damping] = match &self.free {
+            Some([stiffness, damping]) => [stiffness, damping],
+            None => [&self.stiffness, &self.damping],
+        };
         let deviation = |[stiffness, damping]: &[Matrix6<f64>; 2]| StandardDeviation {
             stiffness: part(stiffness),
             damping: part(damping),
         };
-        let interval = |matrix: &Matrix6<f64>, deviation: &Matrix6<f64>| {
+        let interval = |matrix: &Matrix6<f64>, free: &Matrix6<f64>, deviation: &Matrix6<f64>| {
             lists(&rows, |i, j| {
-                [-1.0, 1.0]
-                    .map(|sign| matrix[(i, j)] + sign * 1.959_963_984_540_054 * deviation[(i, j)])
+                [-1.0, 1.0].map(|sign| {
+                    let end = free[(i, j)] + sign * QUANTILE * deviation[(i, j)];
+                    // with the passive estimate in it
+                    sign * (sign * end).max(sign * matrix[(i, j)])
+                })
             })
         };
         let problem = &study.problem;
@@ -67,8 +74,8 @@ impl SpatialIdentification {
                         .collect(),
                 }),
                 interval_95: Some(Intervals {
-                    stiffness: interval(&self.stiffness, of_stiffness),
-                    damping: interval(&self.damping, of_damping),
+                    stiffness: interval(&self.stiffness, free_stiffness, of_stiffness),
+                    damping: interval(&self.damping, free_damping, of_damping),
                 }),
                 budget: problem.tolerances.map(|_| BudgetRecord {
                     noise_alone: deviation(&self.deviations_by_noise),
@@ -81,6 +88,10 @@ impl SpatialIdentification {
                     .filter(|unknown| !unknown.is_determined)
                     .map(|unknown| unknown.name.clone())
                     .collect(),
+                free_estimate: self.free.as_ref().map(|[stiffness, damping]| FreeEstimate {
+                    stiffness: part(stiffness),
+                    damping: part(damping),
+                }),
                 ..Uncertainty::default()
             }),
             validity: frequency

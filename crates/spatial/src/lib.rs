@@ -14,6 +14,7 @@ mod estimate;
 mod fit;
 mod joint_file;
 mod normal;
+mod passive;
 mod problem;
 mod side;
 mod starts;

@@ -46,6 +46,24 @@ pub(crate) struct Problem {
 pub(crate) struct Unknowns(pub(crate) DVector<f64>);
 
 impl Problem {
+    /// With so many lines at most, spread over all.
+    pub(crate) fn thinned(&self, most: usize) -> Self {
+        let lines = self.frequency_hz.len();
+        if lines <= most {
+            return self.clone();
+        }
+        let kept: Vec<usize> = (0..most).map(|n| n * (lines - 1) / (most - 1)).collect();
+        let mut own = self.clone();
+        own.frequency_hz = kept.iter().map(|&line| self.frequency_hz[line]).collect();
+        for (side, all) in own.sides.iter_mut().zip(&self.sides) {
+            side.lines = kept.iter().map(|&line| all.lines[line].clone()).collect();
+        }
+        for (one, all) in own.observed.iter_mut().zip(&self.observed) {
+            one.values = kept.iter().map(|&line| all.values[line]).collect();
+        }
+        own
+    }
+
     /// Unknowns of the joint.
     pub(crate) fn joint_count(&self) -> usize {
         2 * self.model.count()

@@ -14,6 +14,9 @@ const LINES: usize = 60;
 /// Stiffnesses of the starts, in parts of what balances the structures.
 const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
 
+/// The joint line by line, and in these parts of it.
+const BESIDE: [f64; 3] = [1.0, 1.5, 0.7];
+
 /// Loss factor of a start.
 const LOSS: f64 = 0.02;
 
@@ -29,7 +32,9 @@ pub(crate) fn starts(problem: &Problem) -> Result<Vec<Unknowns>, SpatialError> {
     let looked_at: Vec<usize> = (0..lines).step_by(step).collect();
     let mut starts = Vec::new();
     if let Some(matrices) = line_by_line(problem, &assembled, &looked_at) {
-        starts.extend(of_matrices(problem, matrices)?);
+        for part in BESIDE {
+            starts.extend(of_matrices(problem, matrices.map(|matrix| part * matrix))?);
+        }
     }
     // k = 1/|H_ii|, where joint and structures are alike
     let seen: Vec<Matrix6<Complex64>> = looked_at
@@ -78,11 +83,11 @@ fn line_by_line(
     let length = |i: usize| if i < 3 { 1.0 } else { problem.length_m };
     for &line in lines {
         let [by_loads, motions, alone] = assembled.reach(line);
-        // vec Z = (b ⊗ a) vec X over the observed pairs; rotations as lengths
+        // vec Z = (b ⊗ a) vec X over the observed pairs; rotations as lengths, K = ℓ K′ ℓ
         let design = DMatrix::from_fn(problem.observed.len(), 36, |row, column| {
             let [o, i] = problem.observed[row].at;
             let (m, n) = (column % 6, column / 6);
-            by_loads[(o, m)] * motions[(n, i)] / Complex64::from(length(m) * length(n))
+            by_loads[(o, m)] * motions[(n, i)] * Complex64::from(length(m) * length(n))
         });
         let right = DVector::from_fn(problem.observed.len(), |row, _| {
             let one = &problem.observed[row];
@@ -94,7 +99,7 @@ fn line_by_line(
             return None;
         }
         let x = svd.solve(&right, 0.0).ok()?;
-        let x = Matrix6::from_fn(|m, n| x[6 * n + m] / Complex64::from(length(m) * length(n)));
+        let x = Matrix6::from_fn(|m, n| x[6 * n + m] * Complex64::from(length(m) * length(n)));
         let h = assembled.seen_by_joint(line);
         let inverse = (Matrix6::<Complex64>::identity() - h * x).try_inverse()?;
         let d = x * inverse;

@@ -67,7 +67,7 @@ fn as_json(
         "relative_rms": found.relative_rms,
         "reduced_chi_squared": found.reduced_chi_squared,
         "starts": { "tried": found.starts[0], "agreeing": found.starts[1] },
-        "largest_error": found.largest_error.as_ref().map(|(of, part)| json!({ "of": of, "deviations": part })),
+        "budget": found.groups.iter().map(|group| json!({ "group": group.name, "largest_share": group.largest_share })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
     })
@@ -115,11 +115,12 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
     if let Some(chi) = found.reduced_chi_squared {
         let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
     }
-    if let Some((of, part)) = &found.largest_error {
+    for group in &found.groups {
         let _ = writeln!(
             text,
-            "largest error of the set-up: {of}, {} of its standard deviations",
-            number(*part, 2)
+            "errors of the {} make up to {} % of a variance",
+            group.name,
+            number(100.0 * group.largest_share, 2)
         );
     }
     text

@@ -207,3 +207,123 @@ impl<'p> Assembled<'p> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use bolted_joint_frf::{Direction, Dof, Sign};
+    use bolted_joint_space::{Axes, JointModel};
+    use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerances};
+    use nalgebra::{DVector, Vector3};
+
+    use super::*;
+    use crate::problem::Observed;
+    use crate::side::{Interface, Side};
+
+    /// Numbers that look random, from −1 to 1.
+    fn number(seed: &mut u32) -> f64 {
+        *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(*seed >> 8) / f64::from(1 << 23) - 1.0
+    }
+
+    fn vector(seed: &mut u32) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| number(seed))
+    }
+
+    /// A side with three triaxial sensors and eight impacts, whose interface is not quite rigid, and one more response.
+    fn side(seed: &mut u32) -> Side {
+        let sensors: Vec<Sensor> = (0..3)
+            .map(|_| Sensor::triaxial(0.03 * vector(seed), &Axes::identity(), [1.0; 3]).unwrap())
+            .collect();
+        let impacts: Vec<Impact> = (0..8)
+            .map(|_| Impact::new(0.03 * vector(seed), vector(seed).normalize(), 1.0).unwrap())
+            .collect();
+        let dof = Dof::new(1, Direction::X, Sign::Plus);
+        let lines = (0..2)
+            .map(|_| {
+                DMatrix::from_fn(10, 8, |_, _| {
+                    Complex64::new(number(seed), number(seed)) * 1e-7
+                })
+            })
+            .collect();
+        Side {
+            responses: vec![dof; 10],
+            references: vec![dof; 8],
+            lines,
+            interface: Interface::Points(SetUp::new(&sensors, &impacts).unwrap()),
+        }
+    }
+
+    fn problem() -> Problem {
+        let mut seed = 5;
+        let sides = [side(&mut seed), side(&mut seed)];
+        let rows = [0, 4, 9, 16, 20, 25];
+        let columns = [0, 7, 14, 21];
+        let pairs = rows
+            .iter()
+            .flat_map(|&row| columns.map(|column| [row, column]));
+        let observed = pairs.map(|at| Observed {
+            at,
+            values: vec![Complex64::from(0.0); 2],
+        });
+        Problem {
+            observed: observed.collect(),
+            sides,
+            frequency_hz: vec![100.0, 130.0],
+            model: JointModel::Full.parametrisation().unwrap(),
+            length_m: 0.03,
+            tolerances: Some(Tolerances::TYPICAL),
+        }
+    }
+
+    /// Reference: central differences of the model's functions.
+    #[test]
+    fn derivatives_are_differences_by_every_unknown() {
+        let problem = problem();
+        let mut seed = 9;
+        let mut at = DVector::zeros(problem.count());
+        let count = problem.model.count();
+        for (n, entry) in problem.model.entries().iter().enumerate() {
+            let size =
+                [entry.row, entry.column].map(|dof| if dof.is_rotation() { 0.03 } else { 1.0 });
+            let own = if entry.row == entry.column {
+                1.0
+            } else {
+                0.2 * number(&mut seed)
+            };
+            at[n] = 2e6 * size[0] * size[1] * own;
+            at[count + n] = 300.0 * size[0] * size[1] * own;
+        }
+        let line = Assembled::new(&problem, &Unknowns(at.clone()))
+            .unwrap()
+            .line(1)
+            .unwrap();
+        let scale = line.functions.iter().map(|y| y.norm()).fold(0.0, f64::max);
+        for unknown in 0..problem.count() {
+            let step = match unknown < 2 * count {
+                true => 1e-4 * at[unknown].abs().max(1.0),
+                false => 1e-6,
+            };
+            let [above, below] = [step, -step].map(|step| {
+                let mut moved = at.clone();
+                moved[unknown] += step;
+                let assembled = Assembled::new(&problem, &Unknowns(moved)).unwrap();
+                assembled.functions(1).unwrap()
+            });
+            let size = line
+                .derivatives
+                .column(unknown)
+                .iter()
+                .map(|d| d.norm())
+                .fold(0.0, f64::max);
+            for (row, (above, below)) in above.iter().zip(&below).enumerate() {
+                let difference = (above - below) / (2.0 * step);
+                let error = (difference - line.derivatives[(row, unknown)]).norm();
+                assert!(
+                    error <= 1e-6 * size + 1e-10 * scale / step,
+                    "{unknown} {row}: {difference} {}",
+                    line.derivatives[(row, unknown)]
+                );
+            }
+        }
+    }
+}

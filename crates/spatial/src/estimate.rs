@@ -1,7 +1,7 @@
 //! The estimate: searches from several starts, the level of the noise, the covariance, and what speaks against the result.
 
 use bolted_joint_space::{Part, semidefinite};
-use bolted_joint_virtual_point::Change;
+use bolted_joint_virtual_point::Place;
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::assembled::Assembled;
@@ -63,6 +63,17 @@ impl Unknown {
     }
 }
 
+/// What one kind of errors of the set-up adds.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// `sensors of a` and so on.
+    pub name: String,
+    /// Standard deviations of the entries of K and of C that it makes by itself.
+    pub deviations: [Matrix6<f64>; 2],
+    /// Largest part of an unknown's variance that is its.
+    pub largest_share: f64,
+}
+
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct SpatialIdentification {
@@ -90,8 +101,8 @@ pub struct SpatialIdentification {
     pub reduced_chi_squared: Option<f64>,
     /// Starts of the search, and how many came to the same minimum.
     pub starts: [usize; 2],
-    /// Errors of the set-up, in parts of their deviations before the test: the largest with what it is of.
-    pub largest_error: Option<(String, f64)>,
+    /// What errors of the set-up add to the deviations: of sensors and of impacts of each side, where they take part.
+    pub groups: Vec<Group>,
     /// Why the result is not to be relied on.
     pub reasons_against: Vec<String>,
 }
@@ -133,19 +144,6 @@ impl SpatialStudy {
                 best = Fit::from(&exact, best.unknowns, &level)?;
             }
         }
-        if problem.tolerances.is_some() {
-            let mut start = DVector::zeros(problem.count());
-            start
-                .rows_mut(0, problem.joint_count())
-                .copy_from(&best.unknowns.0);
-            best = Fit::from(problem, Unknowns(start), &level)?;
-            if let Level::OfResiduals = self.level {
-                for _ in 0..ROUNDS {
-                    level = of_residuals(problem, &best.unknowns, &rms)?;
-                    best = Fit::from(problem, best.unknowns, &level)?;
-                }
-            }
-        }
         self.result(&best, &level, [tried, agreeing])
     }
 
@@ -156,12 +154,24 @@ impl SpatialStudy {
         starts: [usize; 2],
     ) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
-        let normal = Normal::of(problem, &best.unknowns, level)?;
-        let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
         let count = problem.joint_count();
-        let joint = all.view((0, 0), (count, count)).into_owned();
+        // the joint was found with a set-up that is taken as exact; what its errors η do to it is
+        // dθ = −F_θθ⁻¹ F_θη η
+        let mut at = DVector::zeros(problem.count());
+        at.rows_mut(0, count).copy_from(&best.unknowns.0);
+        let at = Unknowns(at);
+        let normal = Normal::of(problem, &at, level)?;
         let alone = normal.information.view((0, 0), (count, count)).into_owned();
         let by_noise = covariance(&alone).ok_or(SpatialError::NotDetermined)?;
+        let mut moved = &by_noise
+            * normal
+                .information
+                .columns(count, problem.count() - count)
+                .rows(0, count);
+        for (mut column, deviation) in moved.column_iter_mut().zip(problem.error_deviations()) {
+            column *= deviation;
+        }
+        let joint = &by_noise + &moved * moved.transpose();
         let model = &problem.model;
         let free = best.unknowns.0.rows(0, count).into_owned();
         let passive = match is_passive(model, &free) {
@@ -220,9 +230,23 @@ impl SpatialStudy {
             joint[(i, j)] / (joint[(i, i)] * joint[(j, j)]).sqrt()
         });
         let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
+        let groups = self
+            .groups()
+            .into_iter()
+            .map(|(name, columns)| {
+                let own = moved.select_columns(&columns);
+                let own = &own * own.transpose();
+                let share = |n: usize| own[(n, n)] / joint[(n, n)];
+                Group {
+                    name,
+                    deviations: entries(&own),
+                    largest_share: (0..count).map(share).fold(0.0, f64::max),
+                }
+            })
+            .collect();
         let freedom = (2 * functions * lines - count) as f64;
         let reduced_chi_squared =
-            matches!(self.level, Level::Relative(_)).then_some(normal.cost / freedom);
+            matches!(self.level, Level::Relative(_)).then_some(best.cost / freedom);
         let mut found = SpatialIdentification {
             unknowns,
             stiffness,
@@ -234,55 +258,44 @@ impl SpatialStudy {
             deviations,
             deviations_by_noise: entries(&by_noise),
             correlation,
-            relative_rms: relative_rms(problem, &best.unknowns)?,
+            relative_rms: relative_rms(problem, &at)?,
             functions,
             lines,
             reduced_chi_squared,
             starts,
-            largest_error: self.largest_error(&best.unknowns),
+            groups,
             reasons_against: Vec::new(),
         };
-        found.reasons_against = found.reasons(best.has_converged);
+        found.reasons_against = found.reasons(best.has_converged, problem.tolerances.is_some());
         Ok(found)
     }
 
-    /// The error of the set-up that is largest beside what it was known to.
-    fn largest_error(&self, unknowns: &Unknowns) -> Option<(String, f64)> {
-        let problem = &self.problem;
-        let errors = unknowns.0.as_slice().get(problem.joint_count()..)?;
-        let deviations = problem.error_deviations();
-        let sides = ["a", "b"].into_iter().zip(&problem.sides);
-        let names = sides.flat_map(|(name, side)| {
+    /// Sensors and impacts of each side, with the places of their errors.
+    fn groups(&self) -> Vec<(String, Vec<usize>)> {
+        if self.problem.tolerances.is_none() {
+            return Vec::new();
+        }
+        let sides = ["a", "b"].into_iter().zip(&self.problem.sides);
+        let kinds = sides.flat_map(|(name, side)| {
             let parameters = side.parameters().into_iter();
-            parameters.map(move |parameter| {
-                format!(
-                    "{} of {name}: {}",
-                    parameter.place,
-                    change(parameter.change)
-                )
+            parameters.map(move |parameter| match parameter.place {
+                Place::Sensor(_) | Place::Channel(_) => format!("sensors of {name}"),
+                Place::Impact(_) => format!("impacts of {name}"),
             })
         });
-        let parts = errors
-            .iter()
-            .zip(deviations)
-            .map(|(error, own)| error / own);
-        names
-            .zip(parts)
-            .max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()))
-    }
-}
-
-/// What is wrong with a sensor or an impact.
-fn change(change: Change) -> String {
-    match change {
-        Change::Pose(dof) if dof.is_rotation() => format!("orientation {dof}"),
-        Change::Pose(dof) => format!("position {dof}"),
-        Change::Gain(channel) => format!("gain of channel {}", channel + 1),
+        let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+        for (place, kind) in kinds.enumerate() {
+            match groups.iter_mut().find(|(name, _)| *name == kind) {
+                Some((_, places)) => places.push(place),
+                None => groups.push((kind, vec![place])),
+            }
+        }
+        groups
     }
 }
 
 impl SpatialIdentification {
-    fn reasons(&self, has_converged: bool) -> Vec<String> {
+    fn reasons(&self, has_converged: bool, has_budget: bool) -> Vec<String> {
         let mut reasons = Vec::new();
         if !has_converged {
             reasons.push("the search has not converged".to_owned());
@@ -293,7 +306,11 @@ impl SpatialIdentification {
                 100.0 * self.relative_rms
             ));
         }
-        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
+        // errors of the set-up that the budget holds leave residuals beyond noise
+        if let Some(chi) = self
+            .reduced_chi_squared
+            .filter(|&chi| chi > MISFIT && !has_budget)
+        {
             reasons.push(format!(
                 "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
             ));

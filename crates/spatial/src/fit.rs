@@ -10,7 +10,7 @@ use crate::problem::{Problem, Unknowns};
 const STEPS_MAX: usize = 150;
 
 /// A step that lowers the cost by less than this part of it, and this much, was the last one.
-const SETTLED: f64 = 1e-12;
+const SETTLED: f64 = 1e-8;
 
 /// Damping that no step can be helped with.
 const DAMPING_MAX: f64 = 1e12;

@@ -1,8 +1,8 @@
 //! The joint file of what was found.
 
 use bolted_joint_joint::{
-    BudgetRecord, Correlation, DofSet, Format, FreeEstimate, Intervals, Joint, JointFile, Residual,
-    StandardDeviation, Status, Uncertainty, Validity,
+    BudgetRecord, Correlation, DofSet, Format, FreeEstimate, GroupRecord, Intervals, Joint,
+    JointFile, Residual, StandardDeviation, Status, Uncertainty, Validity,
 };
 use bolted_joint_study::{Method, provenance};
 use nalgebra::Matrix6;
@@ -48,7 +48,7 @@ impl SpatialIdentification {
         };
         let errors = match problem.tolerances {
             None => "the set-up taken as exact",
-            Some(_) => "errors of sensors and impacts as nuisances with priors",
+            Some(_) => "with what errors of sensors and impacts do to the estimate, to first order",
         };
         let count = self.unknowns.len();
         let frequency = &problem.frequency_hz;
@@ -79,7 +79,15 @@ impl SpatialIdentification {
                 }),
                 budget: problem.tolerances.map(|_| BudgetRecord {
                     noise_alone: deviation(&self.deviations_by_noise),
-                    groups: Vec::new(),
+                    groups: self
+                        .groups
+                        .iter()
+                        .map(|group| GroupRecord {
+                            group: group.name.clone(),
+                            stiffness: part(&group.deviations[0]),
+                            damping: part(&group.deviations[1]),
+                        })
+                        .collect(),
                     contradicted: Vec::new(),
                 }),
                 not_identified: self

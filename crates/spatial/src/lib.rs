@@ -5,7 +5,7 @@
 //! functions of the assembly were measured between the same sensors and impacts are data.
 //!
 //! [`SpatialStudy`] is what a study of method `frf-space` says, [`SpatialStudy::identify`] estimates the joint by maximum
-//! likelihood with errors of the set-up as nuisances, [`SpatialIdentification`] is what was found.
+//! likelihood and carries the errors of the set-up into its deviations, [`SpatialIdentification`] is what was found.
 #![forbid(unsafe_code)]
 
 mod assembled;
@@ -22,6 +22,6 @@ mod study;
 mod tables;
 
 pub use error::SpatialError;
-pub use estimate::{SpatialIdentification, Unknown};
+pub use estimate::{Group, SpatialIdentification, Unknown};
 pub use problem::Level;
 pub use study::SpatialStudy;

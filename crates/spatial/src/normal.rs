@@ -75,7 +75,8 @@ impl Normal {
                     real[(2 * row + 1, column)] = weight * derivative.im;
                 }
             }
-            normal.information.gemm_tr(1.0, &real, &real, 1.0);
+            // transposed first: the product of matrices as they lie is the fast one
+            normal.information.gemm(1.0, &real.transpose(), &real, 1.0);
             normal.descent.gemv_tr(1.0, &real, &errors, 1.0);
             normal.cost += errors.norm_squared();
         }

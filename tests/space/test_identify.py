@@ -1,0 +1,140 @@
+"""Joints in space, identified from functions that an independent generator makes: exact, with noise, with wrong set-ups."""
+
+import json
+
+import numpy as np
+import pytest
+from frames import Rig
+
+LENGTHS = np.array([1, 1, 1, 0.03, 0.03, 0.03])
+UPPER = np.triu_indices(6)
+FREQUENCIES = np.linspace(60, 1800, 60)
+EXACT = 'budget = "none"\n'
+
+
+def definite(seed, size):
+    mixed = np.eye(6) + 0.3 * np.random.default_rng(seed).normal(size=(6, 6))
+    return mixed @ mixed.T * np.outer(LENGTHS, LENGTHS) * size
+
+
+K, C = definite(1, 2e7), definite(2, 300.0)
+TRUTH = np.concatenate([K[UPPER], C[UPPER]])
+
+
+def identified(run, folder, expect=0):
+    done = run("identify", folder / "study.toml", "-o", folder / "j.joint.json", "--json", expect=expect)
+    return json.loads(done.stdout)
+
+
+def apart(found, expected):
+    """Largest difference beside what couples two motions at most."""
+    scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+    return (np.abs(np.array(found) - expected) / scale).max()
+
+
+def test_exact_functions_give_all_42_numbers(run, tmp_path):
+    Rig(K, C).write(tmp_path, FREQUENCIES, more=EXACT)
+    found = identified(run, tmp_path)
+    joint = found["joint_file"]["joint"]
+    assert joint["dofs"] == ["x", "y", "z", "rx", "ry", "rz"]
+    assert apart(joint["stiffness"], K) < 1e-7 and apart(joint["damping"], C) < 1e-7
+    # and the FMU has them
+    run("export", tmp_path / "j.joint.json", "-o", tmp_path / "j.fmu")
+    assert "no problem found" in run("check", tmp_path / "j.fmu").stdout
+
+
+def test_a_bolt_has_five_numbers(run, tmp_path):
+    k, z, t, r, c = 2e7, 5e7, 6e3, 9e3, 1e5
+    stiffness = np.diag([k, k, z, t, t, r])
+    stiffness[0, 4] = stiffness[4, 0] = c
+    stiffness[1, 3] = stiffness[3, 1] = -c
+    rig = Rig(stiffness, 2e-5 * stiffness, sensors=3, impacts=9)
+    rig.write(tmp_path, FREQUENCIES[::3], more=EXACT, model='model = "bolt"')
+    found = identified(run, tmp_path)
+    assert [u["name"] for u in found["unknowns"][:5]] == ["k_x", "k_z", "k_rx", "k_rz", "k_x_ry"]
+    assert [u["value"] for u in found["unknowns"][:5]] == pytest.approx([k, z, t, r, c], rel=1e-7)
+    assert apart(found["joint_file"]["joint"]["stiffness"], stiffness) < 1e-7
+
+
+def test_an_interface_can_be_a_node(run, tmp_path):
+    """Functions of a node with six motions, as finite elements give them, in place of sensors and impacts."""
+    rig = Rig(K, C)
+    six = np.eye(6)
+    functions = rig.functions(FREQUENCIES[::2], [(six, six), (six, six)])
+    axes = ["+X", "+Y", "+Z", "+RX", "+RY", "+RZ"]
+    names = [[f"{node}:{axis}" for axis in axes] for node in (1, 2)]
+    names.append(names[0] + names[1])
+    for file, frf, dofs in zip("abc", functions, names):
+        np.savez(tmp_path / f"{file}.npz", frequency=FREQUENCIES[::2], frf=frf, response=dofs, reference=dofs,
+                 quantity="receptance", axes="response,reference,frequency")
+    (tmp_path / "study.toml").write_text(
+        'method = "frf-space"\nname = "nodes"\n[a]\nfrf = "a.npz"\ninterface = 1\n[b]\nfrf = "b.npz"\ninterface = 2\n'
+        '[assembly]\nfrf = "c.npz"\n[joint]\nmodel = "full"\nlength = 0.03\n'
+    )
+    joint = identified(run, tmp_path)["joint_file"]["joint"]
+    assert apart(joint["stiffness"], K) < 1e-7 and apart(joint["damping"], C) < 1e-7
+
+
+def scatter(run, folder, draws, write):
+    """Errors of all unknowns in standard deviations, and passive matrices."""
+    errors = []
+    for draw in range(draws):
+        write(np.random.default_rng(100 + draw))
+        found = identified(run, folder)
+        errors.append([(u["free"] - t) / u["standard_deviation"] for u, t in zip(found["unknowns"], TRUTH)])
+        for key in ("stiffness", "damping"):
+            matrix = np.array(found["joint_file"]["joint"][key])
+            assert np.linalg.eigvalsh(matrix / np.outer(LENGTHS, LENGTHS))[0] >= 0
+    return np.array(errors)
+
+
+def test_with_noise_the_errors_are_those_that_are_stated(run, tmp_path):
+    """42 unknowns × 12 tests: r.m.s. of the errors and coverage, pooled."""
+    rig = Rig(K, C)
+    errors = scatter(run, tmp_path, 12, lambda rng: rig.write(tmp_path, FREQUENCIES, noise=0.01, rng=rng, more=EXACT))
+    assert 0.85 < np.sqrt(np.mean(errors**2)) < 1.15
+    assert 0.92 <= np.mean(np.abs(errors) < 1.96) <= 0.98
+
+
+def test_small_errors_of_the_set_up_are_in_the_intervals(run, tmp_path):
+    """Sensors and impacts 0.1 mm and 1 mrad off, gains by 0.1 %: a hundred times the error of the noise, and stated."""
+    rig = Rig(K, C)
+    budget = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
+
+    def write(rng):
+        rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
+        rig.write(tmp_path, FREQUENCIES[::2], noise=0.002, rng=rng, rows=rows, more=budget)
+
+    errors = scatter(run, tmp_path, 8, write)
+    assert np.mean(np.abs(errors) < 1.96) >= 0.9
+    assert np.sqrt(np.mean(errors**2)) > 0.6
+
+
+@pytest.mark.parametrize(
+    "old, new, fragments",
+    [
+        ("direction = [", "direction = [2.0, 0.0, 0.0] # [", ["a.impacts[0]", "unit"]),
+        ("[[a.sensors]]\nnode = 100", "[[a.sensors]]\naxes = [[1,0,0],[0,1,0],[0,0,-1]]\nnode = 100", ["a.sensors[0]"]),
+        ("[[a.sensors]]\nnode = 100", "[[a.sensors]]\nnode = 990", ["990:+X"]),
+        ("length = 0.03", "length = -1", ["joint.length", "found -1", "size of the interface"]),
+        ('model = "full"', 'model = "two-bolts"', ["joint.line", "direction from one bolt"]),
+        ('model = "full"', 'model = "spring"', ["spring", "full"]),
+        ('budget = "none"', "budget = { gain = 0 }", ["budget.gain", "found 0", "none"]),
+        ('[a]\nfrf = "a.npz"', '[a]\nfrf = "a.npz"\ninterface = 3', ["a.interface", "beside sensors or impacts"]),
+    ],
+)
+def test_what_is_wrong_is_told_by_its_key(run, tmp_path, old, new, fragments):
+    Rig(K, C).write(tmp_path, FREQUENCIES[:5], more=EXACT)
+    study = tmp_path / "study.toml"
+    text = study.read_text()
+    assert old in text
+    study.write_text(text.replace(old, new, 1))
+    told = run("identify", study, "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert all(fragment in told for fragment in fragments), told
+    assert not (tmp_path / "j.joint.json").exists()
+
+
+def test_two_sensors_do_not_see_a_rotation(run, tmp_path):
+    Rig(K, C, sensors=2).write(tmp_path, FREQUENCIES[:5], more=EXACT)
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert "rotation" in told and "line through" in told, told

@@ -106,6 +106,7 @@ def test_small_errors_of_the_set_up_are_in_the_intervals(run, tmp_path):
         rig.write(tmp_path, FREQUENCIES[::2], noise=0.002, rng=rng, rows=rows, more=budget)
 
     errors = scatter(run, tmp_path, 8, write)
+    assert "no problem found" in run("check", tmp_path / "j.joint.json").stdout
     assert np.mean(np.abs(errors) < 1.96) >= 0.9
     assert np.sqrt(np.mean(errors**2)) > 0.6
 

@@ -39,6 +39,13 @@ impl SpatialIdentification {
                 })
             })
         };
+        // part of each entry's variance
+        let share = |own: &Matrix6<f64>, all: &Matrix6<f64>| {
+            lists(&rows, |i, j| match all[(i, j)] {
+                0.0 => 0.0,
+                all => (own[(i, j)] / all).powi(2).min(1.0),
+            })
+        };
         let problem = &study.problem;
         let level = match study.level {
             Level::Relative(part) => {
@@ -84,8 +91,8 @@ impl SpatialIdentification {
                         .iter()
                         .map(|group| GroupRecord {
                             group: group.name.clone(),
-                            stiffness: part(&group.deviations[0]),
-                            damping: part(&group.deviations[1]),
+                            stiffness: share(&group.deviations[0], of_stiffness),
+                            damping: share(&group.deviations[1], of_damping),
                         })
                         .collect(),
                     contradicted: Vec::new(),

@@ -209,7 +209,7 @@ fn the_readme_is_read_in_three_minutes() {
     }
 }
 
-/// Crates of the project among the dependencies that a manifest states.
+/// Crates of the project among the dependencies that a manifest states, by the names of their folders.
 fn uses(manifest: &str) -> BTreeSet<String> {
     manifest
         .lines()
@@ -218,7 +218,7 @@ fn uses(manifest: &str) -> BTreeSet<String> {
         .take_while(|line| !line.starts_with('['))
         .filter_map(|line| line.strip_prefix("bolted-joint-"))
         .filter_map(|rest| rest.split(['.', ' ', '=']).next())
-        .map(str::to_owned)
+        .map(|name| name.replace('-', "_"))
         .collect()
 }
 

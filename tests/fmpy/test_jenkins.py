@@ -211,7 +211,7 @@ def test_model_exchange_commits_completed_steps_alone(slave, model):
     "entry, message",
     [
         ({"law": "coulomb"}, "jenkins"),
-        ({"dof": "z"}, "theta"),
+        ({"dof": "z"}, "joint.dofs"),
         ({"slip_force": -1.0}, "slip_force"),
         ({"stiffness": None}, "stiffness"),
         ({"exponent": 0.5}, "exponent"),

@@ -68,25 +68,36 @@ const SLIDER: Declaration = Declaration {
 };
 
 /// The project's DOFs, another translation, and one with the displacement's name of the first but another rate and load.
-const DOFS: [Dof; 4] = [
-    Filling::PRESENT.dofs[0],
-    Filling::PRESENT.dofs[1],
-    Dof {
-        name: "z",
-        symbol: "z",
-        rate: "vz",
-        acceleration: "az",
-        load: "Fz",
-        inertia: "mz",
+fn dofs() -> Vec<Dof> {
+    let mut dofs = Filling::PRESENT.dofs.to_vec();
+    dofs.push(Dof {
+        name: "w",
+        symbol: "w",
+        rate: "vw",
+        acceleration: "aw",
+        load: "Fw",
+        inertia: "mw",
         kind: DofKind::Translation,
-    },
-    Dof {
-        rate: "vy",
-        acceleration: "ay",
-        load: "Fy",
+    });
+    dofs.push(Dof {
+        rate: "vs",
+        acceleration: "as",
+        load: "Fs",
         ..Filling::PRESENT.dofs[0]
-    },
-];
+    });
+    dofs
+}
+
+/// Where the first and the second of these stand.
+const W: usize = Filling::PRESENT.dofs.len();
+const TWIN: usize = W + 1;
+
+/// The project's sets of DOFs and another.
+fn and_set(own: &'static [usize]) -> Vec<&'static [usize]> {
+    let mut sets = Filling::PRESENT.dof_sets.to_vec();
+    sets.push(own);
+    sets
+}
 
 /// What the project has and the above, as far as `dofs` go.
 fn with_more<T>(dofs: &[Dof], sets: &[&[usize]], test: impl FnOnce(&Filling<'_>) -> T) -> T {
@@ -99,9 +110,9 @@ fn with_more<T>(dofs: &[Dof], sets: &[&[usize]], test: impl FnOnce(&Filling<'_>)
     })
 }
 
-/// Whether the variable is of the third row or of the law.
+/// Whether the variable is of the row or of the law.
 fn is_new(name: &str) -> bool {
-    name.ends_with('z') || name.contains("slip") || name.contains(".q_")
+    name.ends_with('w') || name.contains("slip") || name.contains(".q_")
 }
 
 fn names(interface: &Interface, expanded: &Expanded, rows: Rows, joint: Joints) -> Vec<String> {
@@ -117,8 +128,7 @@ fn names(interface: &Interface, expanded: &Expanded, rows: Rows, joint: Joints) 
 
 #[test]
 fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
-    let sets: &[&[usize]] = &[&[0], &[0, 1], &[0, 1, 2]];
-    with_more(&DOFS[..3], sets, |filling| {
+    with_more(&dofs()[..=W], &and_set(&[0, 1, W]), |filling| {
         let interfaces = Interfaces::new(&Frames::PRESENT, filling).unwrap();
         let [element, lap] = Expanded::new(&Frames::PRESENT, filling).unwrap();
         // what there was keeps its reference
@@ -132,7 +142,7 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
             }
         }
         // an element that has them
-        let all = Rows::of(&[0, 1, 2]);
+        let all = Rows::of(&[0, 1, W]);
         let law = filling.laws.len() - 1;
         let new: Vec<String> = names(
             &interfaces.element,
@@ -143,11 +153,11 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
         .into_iter()
         .filter(|name| is_new(name))
         .collect();
-        let expected = "a.z a.vz b.z b.vz a.Fz b.Fz joint.Fz joint.k_yz joint.k_thetaz joint.k_zz joint.c_yz \
-                        joint.c_thetaz joint.c_zz joint.k3_z joint.k5_z joint.k7_z joint.c2_z joint.c4_z \
-                        joint.slip_force_y joint.slip_force_theta joint.slip_force_z joint.q_yy \
-                        joint.q_ytheta joint.q_yz joint.q_thetatheta joint.q_thetaz joint.q_zz \
-                        joint.escape_amplitude_z joint.slip_y joint.slip_theta joint.slip_z";
+        let expected = "a.w a.vw b.w b.vw a.Fw b.Fw joint.Fw joint.k_yw joint.k_thetaw joint.k_ww joint.c_yw \
+                        joint.c_thetaw joint.c_ww joint.k3_w joint.k5_w joint.k7_w joint.c2_w joint.c4_w \
+                        joint.slip_force_y joint.slip_force_theta joint.slip_force_w joint.q_yy \
+                        joint.q_ytheta joint.q_yw joint.q_thetatheta joint.q_thetaw joint.q_ww \
+                        joint.escape_amplitude_w joint.slip_y joint.slip_theta joint.slip_w";
         assert_eq!(new.join(" "), expected);
         // joints of other kinds have neither the law nor the row
         for (rows, joint) in [
@@ -166,7 +176,7 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
             ("joint.slip_force_theta", "N.m", 0.0),
             ("joint.q_yy", "N.s/m2", 1.0),
             ("joint.q_ytheta", "N.s/rad2", 0.5),
-            ("joint.q_thetaz", "N.s/rad2", 0.5),
+            ("joint.q_thetaw", "N.s/rad2", 0.5),
             ("joint.q_thetatheta", "N.m.s/rad2", 0.25),
         ] {
             let variable = interfaces.element.variable(name).unwrap();
@@ -186,12 +196,11 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
 
 #[test]
 fn a_load_depends_on_its_own_entries_and_every_motion() {
-    let sets: &[&[usize]] = &[&[0], &[0, 1], &[0, 1, 2]];
-    with_more(&DOFS[..3], sets, |filling| {
+    with_more(&dofs()[..=W], &and_set(&[0, 1, W]), |filling| {
         let interfaces = Interfaces::new(&Frames::PRESENT, filling).unwrap();
         let [element, _] = Expanded::new(&Frames::PRESENT, filling).unwrap();
         let reference = |name| interfaces.element.variable(name).unwrap().reference;
-        let line = format!("<Output valueReference=\"{}\"", reference("joint.Fz"));
+        let line = format!("<Output valueReference=\"{}\"", reference("joint.Fw"));
         let line = element.xml.lines().find(|text| text.contains(&line));
         let lists: Vec<&str> = line.unwrap().split('"').collect();
         let kinds: Vec<(u32, &str)> = lists[3]
@@ -205,14 +214,14 @@ fn a_load_depends_on_its_own_entries_and_every_motion() {
             found.map(|(_, kind)| *kind)
         };
         for (name, expected) in [
-            ("a.z", Some("dependent")),
-            ("b.vz", Some("dependent")),
+            ("a.w", Some("dependent")),
+            ("b.vw", Some("dependent")),
             ("a.y", Some("tunable")),
             ("b.omega", Some("tunable")),
-            ("joint.k_zz", Some("dependent")),
-            ("joint.k_thetaz", Some("dependent")),
-            ("joint.c2_z", Some("dependent")),
-            ("joint.slip_force_z", Some("dependent")),
+            ("joint.k_ww", Some("dependent")),
+            ("joint.k_thetaw", Some("dependent")),
+            ("joint.c2_w", Some("dependent")),
+            ("joint.slip_force_w", Some("dependent")),
             ("preload", Some("dependent")),
             ("joint.k_yy", None),
             ("joint.slip_force_y", None),
@@ -225,23 +234,22 @@ fn a_load_depends_on_its_own_entries_and_every_motion() {
 
 #[test]
 fn a_name_of_two_rows_is_one_variable_of_both() {
-    let sets: &[&[usize]] = &[&[0], &[0, 1], &[2, 3]];
-    with_more(&DOFS, sets, |filling| {
+    with_more(&dofs(), &and_set(&[W, TWIN]), |filling| {
         let interfaces = Interfaces::new(&Frames::PRESENT, filling).unwrap();
         let [_, lap] = Expanded::new(&Frames::PRESENT, filling).unwrap();
         let scope = lap.scope("a.y").unwrap();
-        for (rows, has) in [(&[0][..], true), (&[2, 3], true), (&[2], false)] {
+        for (rows, has) in [(&[0][..], true), (&[W, TWIN], true), (&[W], false)] {
             assert_eq!(scope.includes(Rows::of(rows), Joints::CONSTANT), has);
         }
         let joint = names(
             &interfaces.lap,
             &lap,
-            Rows::of(&[2, 3]),
+            Rows::of(&[W, TWIN]),
             Joints::OVER_PRELOAD,
         );
-        assert!(joint.contains(&"a.vy".to_owned()) && !joint.contains(&"a.v".to_owned()));
+        assert!(joint.contains(&"a.vs".to_owned()) && !joint.contains(&"a.v".to_owned()));
         // no joint has them at the same time
-        assert_eq!(lap.scope("joint.k_thetaz"), None);
+        assert_eq!(lap.scope("joint.k_thetaw"), None);
     });
 }
 

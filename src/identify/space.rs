@@ -67,6 +67,7 @@ fn as_json(
         "relative_rms": found.relative_rms,
         "reduced_chi_squared": found.reduced_chi_squared,
         "starts": { "tried": found.starts[0], "agreeing": found.starts[1] },
+        "budget_used": found.budget_used,
         "budget": found.groups.iter().map(|group| json!({ "group": group.name, "largest_share": group.largest_share })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
@@ -114,6 +115,13 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
     }
     if let Some(chi) = found.reduced_chi_squared {
         let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
+    }
+    if let Some(used) = found.budget_used {
+        let _ = writeln!(
+            text,
+            "errors of the set-up that were found: {} of what the budget says, r.m.s.",
+            number(used.sqrt(), 2)
+        );
     }
     for group in &found.groups {
         let _ = writeln!(

@@ -111,6 +111,40 @@ def test_small_errors_of_the_set_up_are_in_the_intervals(run, tmp_path):
     assert np.sqrt(np.mean(errors**2)) > 0.6
 
 
+def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_path):
+    """And gains by 1 %: with an exact set-up the search would find nothing; stiffness to 1 % is what is left."""
+    rig = Rig(K, C)
+    budget = "budget = { position = 1e-3, rotation = 0.01745, gain = 0.01 }\n"
+
+    def write(rng):
+        rows = [rig.rows(side, (rng, 1e-3, 0.01745, 0.01)) for side in range(2)]
+        rig.write(tmp_path, FREQUENCIES[::2], noise=0.002, rng=rng, rows=rows, more=budget)
+
+    errors = scatter(run, tmp_path, 4, write)
+    assert np.mean(np.abs(errors) < 1.96) >= 0.9
+    assert np.sqrt(np.mean(errors**2)) > 0.6
+    found = identified(run, tmp_path)
+    deviations = [u["standard_deviation"] for u in found["unknowns"][:21]]
+    assert np.median(deviations / np.sqrt(np.outer(np.diag(K), np.diag(K)))[UPPER]) < 0.02
+    assert found["budget_used"] < 1.5
+
+
+def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
+    """A start leads to a minimum whose residuals are a tenth beyond the noise, and its stiffness 70 % off."""
+    Rig(K, C).write(tmp_path, FREQUENCIES[::2], noise=0.01, rng=np.random.default_rng(5))
+    assert apart(identified(run, tmp_path)["joint_file"]["joint"]["stiffness"], K) < 0.1
+
+
+def test_errors_beyond_the_budget_are_told(run, tmp_path):
+    """Positions 3 mm off where 0.1 mm is stated, and the like."""
+    rig, rng = Rig(K, C), np.random.default_rng(6)
+    rows = [rig.rows(side, (rng, 3e-3, 0.05, 0.03)) for side in range(2)]
+    budget = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
+    rig.write(tmp_path, FREQUENCIES[::3], noise=0.002, rng=rng, rows=rows, more=budget)
+    reasons = " ".join(identified(run, tmp_path, expect=3)["reasons_against"])
+    assert "state larger ones in budget" in reasons or "does not explain the residuals" in reasons, reasons
+
+
 @pytest.mark.parametrize(
     "old, new, fragments",
     [

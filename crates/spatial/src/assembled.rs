@@ -29,10 +29,7 @@ impl<'p> Assembled<'p> {
         let errors = problem.errors(unknowns);
         let of = |side: usize| {
             let transformations = problem.sides[side].transformations(&errors[side]);
-            transformations.map_err(|source| SpatialError::VirtualPoint {
-                side: ["a", "b"][side],
-                source,
-            })
+            transformations.map_err(|source| SpatialError::of_side(side, source))
         };
         Ok(Self {
             problem,
@@ -292,6 +289,9 @@ mod tests {
             };
             at[n] = 2e6 * size[0] * size[1] * own;
             at[count + n] = 300.0 * size[0] * size[1] * own;
+        }
+        for error in &mut at.as_mut_slice()[2 * count..] {
+            *error = 0.01 * number(&mut seed);
         }
         let line = Assembled::new(&problem, &Unknowns(at.clone()))
             .unwrap()

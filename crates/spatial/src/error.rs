@@ -4,6 +4,16 @@ use bolted_joint_space::SpaceError;
 use bolted_joint_virtual_point::VirtualPointError;
 use thiserror::Error;
 
+impl SpatialError {
+    /// Of the virtual point of a, 0, or of b, 1.
+    pub(crate) fn of_side(side: usize, source: VirtualPointError) -> Self {
+        Self::VirtualPoint {
+            side: ["a", "b"][side],
+            source,
+        }
+    }
+}
+
 /// Why no joint can be identified.
 #[derive(Debug, Error)]
 pub enum SpatialError {

@@ -7,11 +7,12 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::fit::{Fit, covariance};
-use crate::normal::{Deviations, Normal};
+use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::passive::{is_passive, nearest};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::starts::starts;
 use crate::study::SpatialStudy;
+use crate::together::{LINES_MAX, together};
 
 /// Rounds in which the level of the noise follows the residuals.
 const ROUNDS: usize = 5;
@@ -19,8 +20,20 @@ const ROUNDS: usize = 5;
 /// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
 const LEAST_LEVEL: f64 = 1e-12;
 
+/// Likewise where errors of the set-up are estimated: nobody measures better, and beside less the budget would be lost.
+const LEAST_MEASURED: f64 = 1e-4;
+
+/// Squares of the errors of the set-up over those of the budget beyond which it does not hold.
+const BEYOND_BUDGET: f64 = 2.0;
+
 /// Lines that are searched from several starts; all are used from where these lead.
 const SEARCHED: usize = 60;
+
+/// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
+const NOISE: f64 = 0.01;
+
+/// Information on an error of the set-up that is known, in parts of what there is.
+const KNOWN: f64 = 1e9;
 
 /// A search that has come as low as the lowest, up to this part.
 const AS_LOW: f64 = 1e-6;
@@ -99,6 +112,8 @@ pub struct SpatialIdentification {
     pub lines: usize,
     /// χ² over degrees of freedom where the noise is stated.
     pub reduced_chi_squared: Option<f64>,
+    /// Squares of the errors of the set-up that were found, over those of the budget; `None` without errors.
+    pub budget_used: Option<f64>,
     /// Starts of the search, and how many came to the same minimum.
     pub starts: [usize; 2],
     /// What errors of the set-up add to the deviations: of sensors and of impacts of each side, where they take part.
@@ -127,53 +142,67 @@ impl SpatialStudy {
             .iter()
             .map(|one| root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
             .collect();
-        let mut level: Deviations = match self.level {
-            Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
-            Level::OfResiduals => rms.clone(),
+        let mut level: Deviations = match (self.level, problem.error_count()) {
+            (Level::Relative(part), _) => rms.iter().map(|rms| part * rms).collect(),
+            (Level::OfResiduals, 0) => rms.clone(),
+            (Level::OfResiduals, _) => rms.iter().map(|rms| NOISE * rms).collect(),
         };
-        // the joint first, with set-ups taken as exact
-        let exact = Problem {
-            tolerances: None,
-            ..problem.clone()
+        let (mut best, tried, agreeing) = match problem.error_count() {
+            0 => {
+                let (found, tried, agreeing) = searched(&problem.thinned(SEARCHED), &level)?;
+                (Fit::from(problem, found.unknowns, &level)?, tried, agreeing)
+            }
+            _ => together(problem, &level, matches!(self.level, Level::Relative(_)))?,
         };
-        let (found, tried, agreeing) = searched(&exact.thinned(SEARCHED), &level)?;
-        let mut best = Fit::from(&exact, found.unknowns, &level)?;
+        let estimated = match problem.error_count() {
+            0 => problem.clone(),
+            _ => problem.thinned(LINES_MAX),
+        };
         if let Level::OfResiduals = self.level {
             for _ in 0..ROUNDS {
-                level = of_residuals(&exact, &best.unknowns, &rms)?;
-                best = Fit::from(&exact, best.unknowns, &level)?;
+                level = of_residuals(problem, &best.unknowns, &rms)?;
+                best = Fit::from(&estimated, best.unknowns, &level)?;
             }
         }
-        self.result(&best, &level, [tried, agreeing])
+        self.result(&estimated, &best, &level, [tried, agreeing])
     }
 
     fn result(
         &self,
+        estimated: &Problem,
         best: &Fit,
         level: &Deviations,
         starts: [usize; 2],
     ) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
         let count = problem.joint_count();
-        // the joint was found with a set-up that is taken as exact; what its errors η do to it is
-        // dθ = −F_θθ⁻¹ F_θη η
-        let mut at = DVector::zeros(problem.count());
-        at.rows_mut(0, count).copy_from(&best.unknowns.0);
-        let at = Unknowns(at);
-        let normal = Normal::of(problem, &at, level)?;
-        let alone = normal.information.view((0, 0), (count, count)).into_owned();
-        let by_noise = covariance(&alone).ok_or(SpatialError::NotDetermined)?;
-        let mut moved = &by_noise
-            * normal
-                .information
-                .columns(count, problem.count() - count)
-                .rows(0, count);
-        for (mut column, deviation) in moved.column_iter_mut().zip(problem.error_deviations()) {
-            column *= deviation;
-        }
-        let joint = &by_noise + &moved * moved.transpose();
+        let errors = problem.error_count();
+        let normal = Normal::of(estimated, &best.unknowns, level)?;
+        let of_errors = normal.information.view((0, count), (count, errors));
+        let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
+        // all lines, with the errors of the set-up as they were found
+        let exact = problem.displaced(&best.unknowns)?;
+        let start = Unknowns(best.unknowns.0.rows(0, count).into_owned());
+        let refined = match problem.frequency_hz.len() > estimated.frequency_hz.len() {
+            true => Fit::from(&exact, start, level)?.unknowns,
+            false => start,
+        };
+        let alone = Normal::of(&exact, &refined, level)?;
+        let by_noise = covariance(&alone.information).ok_or(SpatialError::NotDetermined)?;
+        // θ follows η by −F_θθ⁻¹ F_θη
+        let follows = {
+            let own = normal.information.view((0, 0), (count, count)).into_owned();
+            covariance(&own).ok_or(SpatialError::NotDetermined)? * of_errors
+        };
+        let with = |all: &DMatrix<f64>| {
+            let moved = &follows * all.view((count, count), (errors, errors));
+            &by_noise + moved * follows.transpose()
+        };
+        let joint = with(&all);
+        let mut at = best.unknowns.clone();
+        at.0.rows_mut(0, count).copy_from(&refined.0);
         let model = &problem.model;
-        let free = best.unknowns.0.rows(0, count).into_owned();
+        let free = refined.0.clone();
         let passive = match is_passive(model, &free) {
             true => free.clone(),
             false => {
@@ -234,8 +263,14 @@ impl SpatialStudy {
             .groups()
             .into_iter()
             .map(|(name, columns)| {
-                let own = moved.select_columns(&columns);
-                let own = &own * own.transpose();
+                // what is known of it no longer adds
+                let mut known = normal.information.clone();
+                for column in columns {
+                    let place = count + column;
+                    known[(place, place)] += KNOWN * known[(place, place)];
+                }
+                let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
+                let own = &joint - without;
                 let share = |n: usize| own[(n, n)] / joint[(n, n)];
                 Group {
                     name,
@@ -244,9 +279,10 @@ impl SpatialStudy {
                 }
             })
             .collect();
+        let squares = cost(problem, &at, level)?;
         let freedom = (2 * functions * lines - count) as f64;
         let reduced_chi_squared =
-            matches!(self.level, Level::Relative(_)).then_some(best.cost / freedom);
+            matches!(self.level, Level::Relative(_)).then_some(squares / freedom);
         let mut found = SpatialIdentification {
             unknowns,
             stiffness,
@@ -262,11 +298,13 @@ impl SpatialStudy {
             functions,
             lines,
             reduced_chi_squared,
+            budget_used: (errors > 0)
+                .then(|| squares_of_errors(problem, &best.unknowns) / errors as f64),
             starts,
             groups,
             reasons_against: Vec::new(),
         };
-        found.reasons_against = found.reasons(best.has_converged, problem.tolerances.is_some());
+        found.reasons_against = found.reasons(best.has_converged);
         Ok(found)
     }
 
@@ -295,10 +333,12 @@ impl SpatialStudy {
 }
 
 impl SpatialIdentification {
-    fn reasons(&self, has_converged: bool, has_budget: bool) -> Vec<String> {
+    fn reasons(&self, has_converged: bool) -> Vec<String> {
         let mut reasons = Vec::new();
         if !has_converged {
-            reasons.push("the search has not converged".to_owned());
+            reasons.push(
+                "the search has not converged, or its starts lead to different minima".to_owned(),
+            );
         }
         if self.relative_rms > RESIDUAL_MAX {
             reasons.push(format!(
@@ -306,11 +346,14 @@ impl SpatialIdentification {
                 100.0 * self.relative_rms
             ));
         }
-        // errors of the set-up that the budget holds leave residuals beyond noise
-        if let Some(chi) = self
-            .reduced_chi_squared
-            .filter(|&chi| chi > MISFIT && !has_budget)
-        {
+        if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
+            reasons.push(format!(
+                "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
+                 of sensors and impacts, or state larger ones in budget",
+                used.sqrt()
+            ));
+        }
+        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
             reasons.push(format!(
                 "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
             ));
@@ -379,9 +422,13 @@ fn of_residuals(
     let lines = problem.frequency_hz.len() as f64;
     let spent = problem.joint_count() as f64 / (2 * problem.observed.len()) as f64;
     let freedom = (lines - spent).max(1.0);
+    let least = match problem.error_count() {
+        0 => LEAST_LEVEL,
+        _ => LEAST_MEASURED,
+    };
     let levels = squares.iter().zip(rms);
     Ok(levels
-        .map(|([residual, _], rms)| (residual / freedom).sqrt().max(LEAST_LEVEL * rms))
+        .map(|([residual, _], rms)| (residual / freedom).sqrt().max(least * rms))
         .collect())
 }
 

@@ -12,6 +12,19 @@ const STEPS_MAX: usize = 150;
 /// A step that lowers the cost by less than this part of it, and this much, was the last one.
 const SETTLED: f64 = 1e-8;
 
+/// Likewise, of a search that another one goes on from, and its steps at most.
+const NEARLY_SETTLED: f64 = 1e-2;
+const FEW_STEPS: usize = 8;
+
+/// How far a search goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// To where another one goes on from.
+    Coarse,
+    /// To the bottom.
+    Full,
+}
+
 /// Damping that no step can be helped with.
 const DAMPING_MAX: f64 = 1e12;
 
@@ -23,24 +36,40 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// From these unknowns downhill.
+    /// From these unknowns downhill, to the bottom.
     pub(crate) fn from(
         problem: &Problem,
         start: Unknowns,
         deviations: &Deviations,
     ) -> Result<Self, SpatialError> {
+        Self::of(problem, start, deviations, Effort::Full)
+    }
+
+    /// From these unknowns downhill.
+    pub(crate) fn of(
+        problem: &Problem,
+        start: Unknowns,
+        deviations: &Deviations,
+        effort: Effort,
+    ) -> Result<Self, SpatialError> {
+        let (steps_max, settled) = match effort {
+            Effort::Coarse => (FEW_STEPS, NEARLY_SETTLED),
+            Effort::Full => (STEPS_MAX, SETTLED),
+        };
         let mut normal = Normal::of(problem, &start, deviations)?;
         let mut unknowns = start;
-        let mut damping = 1e-3;
-        for _ in 0..STEPS_MAX {
+        let trust = Trust::of(problem);
+        let mut damping = trust.first();
+        for _ in 0..steps_max {
             let mut moved = None;
             while damping < DAMPING_MAX {
-                if let Some(step) = step(&normal, damping) {
+                if let Some(step) = trust.step(problem, &unknowns, &normal, damping) {
                     let trial = Unknowns(&unknowns.0 + step);
                     let found = cost(problem, &trial, deviations).unwrap_or(f64::INFINITY);
                     if found <= normal.cost {
                         moved = Some((trial, found));
                         damping = (0.1 * damping).max(1e-12);
+
                         break;
                     }
                 }
@@ -51,7 +80,7 @@ impl Fit {
             };
             let gain = normal.cost - found;
             unknowns = trial;
-            if gain <= SETTLED * (1.0 + found) {
+            if gain <= settled * (1.0 + found) {
                 return Ok(Self {
                     unknowns,
                     cost: found,
@@ -70,16 +99,54 @@ impl Fit {
     }
 }
 
-/// (F + λ diag F)⁻¹ g, F scaled to a unit diagonal.
-fn step(normal: &Normal, damping: f64) -> Option<DVector<f64>> {
-    let scale = scale(&normal.information);
-    let mut scaled = scaled(&normal.information, &scale);
-    for place in 0..scale.len() {
-        scaled[(place, place)] += damping;
+/// In which metric a step is bounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trust {
+    /// That of the information: (F + λ diag F)⁻¹ g.
+    Information,
+    /// That of what is expected: errors of the set-up in their deviations, the joint in what couples its motions at most.
+    /// The functions determine some of the errors a million times better than others, which λ diag F would hold fast.
+    Expectation,
+}
+
+impl Trust {
+    fn of(problem: &Problem) -> Self {
+        match problem.tolerances {
+            None => Self::Information,
+            Some(_) => Self::Expectation,
+        }
     }
-    let right = normal.descent.component_mul(&scale);
-    let step = scaled.cholesky()?.solve(&right).component_mul(&scale);
-    step.iter().all(|x| x.is_finite()).then_some(step)
+
+    fn first(self) -> f64 {
+        match self {
+            Self::Information => 1e-3,
+            Self::Expectation => 1.0,
+        }
+    }
+
+    fn step(
+        self,
+        problem: &Problem,
+        unknowns: &Unknowns,
+        normal: &Normal,
+        damping: f64,
+    ) -> Option<DVector<f64>> {
+        let scale = scale(&normal.information);
+        let mut scaled = scaled(&normal.information, &scale);
+        let expected = match self {
+            Self::Information => DVector::repeat(scale.len(), 1.0),
+            Self::Expectation => problem
+                .expected(unknowns)
+                .ok()?
+                .zip_map(&scale, |expected, scale| (scale / expected).powi(2)),
+        };
+        for place in 0..scale.len() {
+            scaled[(place, place)] += damping * expected[place];
+        }
+        let right = normal.descent.component_mul(&scale);
+        let step = scaled.cholesky()?.solve(&right).component_mul(&scale);
+        step.iter().all(|x| x.is_finite()).then_some(step)
+    }
 }
 
 /// 1/√F_ii; of what nothing tells, 1.

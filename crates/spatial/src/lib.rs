@@ -20,6 +20,7 @@ mod side;
 mod starts;
 mod study;
 mod tables;
+mod together;
 
 pub use error::SpatialError;
 pub use estimate::{Group, SpatialIdentification, Unknown};

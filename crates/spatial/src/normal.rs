@@ -26,9 +26,7 @@ pub(crate) fn cost(
     deviations: &Deviations,
 ) -> Result<f64, SpatialError> {
     let assembled = Assembled::new(problem, unknowns)?;
-    let mut sum = priors(problem, unknowns)
-        .map(|[error, deviation]| (error / deviation).powi(2))
-        .sum();
+    let mut sum = squares_of_errors(problem, unknowns);
     for line in 0..problem.frequency_hz.len() {
         let functions = assembled.functions(line)?;
         for ((one, function), deviation) in problem.observed.iter().zip(functions).zip(deviations) {
@@ -36,6 +34,13 @@ pub(crate) fn cost(
         }
     }
     Ok(sum)
+}
+
+/// Σ (η/σ)² of the errors of the set-up: about as many as there are, or fewer, where the budget holds.
+pub(crate) fn squares_of_errors(problem: &Problem, unknowns: &Unknowns) -> f64 {
+    priors(problem, unknowns)
+        .map(|[error, deviation]| (error / deviation).powi(2))
+        .sum()
 }
 
 /// Each error of the set-up with its deviation.

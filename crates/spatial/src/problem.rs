@@ -7,6 +7,7 @@ use bolted_joint_virtual_point::Tolerances;
 use nalgebra::{DMatrix, DVector, Matrix6};
 use num_complex::Complex64;
 
+use crate::error::SpatialError;
 use crate::side::{MOTIONS, Side};
 
 /// How large the noise of the assembly's functions is.
@@ -78,9 +79,26 @@ impl Problem {
         }
     }
 
+    /// Of both.
+    pub(crate) fn error_count(&self) -> usize {
+        self.error_counts().iter().sum()
+    }
+
     /// All unknowns.
     pub(crate) fn count(&self) -> usize {
-        self.joint_count() + self.error_counts().iter().sum::<usize>()
+        self.joint_count() + self.error_count()
+    }
+
+    /// With set-ups that have these errors, and are exact so.
+    pub(crate) fn displaced(&self, unknowns: &Unknowns) -> Result<Self, SpatialError> {
+        let mut own = self.clone();
+        own.tolerances = None;
+        let errors = self.errors(unknowns);
+        for (n, (side, errors)) in own.sides.iter_mut().zip(&errors).enumerate() {
+            let displaced = side.interface.displaced(errors);
+            side.interface = displaced.map_err(|source| SpatialError::of_side(n, source))?;
+        }
+        Ok(own)
     }
 
     /// Standard deviations of the errors of the set-up before anything is measured.
@@ -94,6 +112,21 @@ impl Problem {
 
     pub(crate) fn omega(&self, line: usize) -> f64 {
         TAU * self.frequency_hz[line]
+    }
+
+    /// How far unknowns are expected to be off: those of the joint by what couples their motions at most, errors of the
+    /// set-up by their deviations.
+    pub(crate) fn expected(&self, unknowns: &Unknowns) -> Result<DVector<f64>, SpaceError> {
+        let matrices = self.matrices(unknowns)?;
+        let entries = self.model.entries();
+        let of_joint = matrices.iter().flat_map(|matrix| {
+            entries.iter().map(|entry| {
+                let own = [entry.row, entry.column].map(|dof| matrix[(dof as usize, dof as usize)]);
+                (own[0] * own[1]).abs().sqrt()
+            })
+        });
+        let all: Vec<f64> = of_joint.chain(self.error_deviations()).collect();
+        Ok(DVector::from_vec(all))
     }
 
     /// K and C.

@@ -1,10 +1,11 @@
 //! One substructure: its functions, and how its interface's motions and loads follow from them.
 
 use bolted_joint_frf::Dof;
+use bolted_joint_space::Dof as Motion;
 use bolted_joint_virtual_point::{
-    Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
+    Change, Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
 };
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use num_complex::Complex64;
 
 /// Motions of an interface.
@@ -29,6 +30,16 @@ pub(crate) enum Interface {
     Node,
     /// By sensors and impacts near it.
     Points(SetUp),
+}
+
+impl Interface {
+    /// With errors of the set-up.
+    pub(crate) fn displaced(&self, errors: &[f64]) -> Result<Self, VirtualPointError> {
+        Ok(match self {
+            Self::Node => Self::Node,
+            Self::Points(set_up) => Self::Points(set_up.displaced(errors)?),
+        })
+    }
 }
 
 /// T_u (6 × responses) and T_f (references × 6), and how they change with each error of the set-up: of sensors, then of
@@ -91,22 +102,54 @@ impl Side {
             Interface::Points(set_up) => set_up.displaced(errors)?,
         };
         let point = VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal)?;
-        let changes = |role, count| {
-            let changes = point.transformation_derivatives(role);
-            changes
-                .iter()
-                .map(|change| wide(change, count))
-                .collect::<Vec<_>>()
-        };
+        let mut by_channels = point.transformation_derivatives(Role::Channel);
+        let mut by_impacts = point.transformation_derivatives(Role::Impact);
+        let parameters = self.parameters();
+        let own = by_channels.len();
+        by_rotation_vectors(&mut by_channels, &parameters[..own], &errors[..own]);
+        by_rotation_vectors(&mut by_impacts, &parameters[own..], &errors[own..]);
         Ok(Transformations {
             motions: wide(point.motions_of_channels(), rows),
             loads: wide(&point.forces_of_loads().transpose(), columns).transpose(),
-            motions_changes: changes(Role::Channel, rows),
-            loads_changes: changes(Role::Impact, columns)
-                .into_iter()
-                .map(|change| change.transpose())
+            motions_changes: by_channels.iter().map(|by| wide(by, rows)).collect(),
+            loads_changes: by_impacts
+                .iter()
+                .map(|by| wide(by, columns).transpose())
                 .collect(),
         })
+    }
+}
+
+/// Makes derivatives by further turns those by the rotation vectors themselves: exp(φ + dφ) = exp(J dφ) exp(φ) with
+/// J = I + (1 − cos θ)/θ² [φ]× + (θ − sin θ)/θ³ [φ]×², θ = |φ|. Without it a search crawls: what weakly determined unknowns
+/// may do depends on how exactly the others follow.
+fn by_rotation_vectors(changes: &mut [DMatrix<f64>], parameters: &[Parameter], errors: &[f64]) {
+    for first in 0..parameters.len() {
+        if parameters[first].change != Change::Pose(Motion::Rx) {
+            continue;
+        }
+        let vector = Vector3::from_row_slice(&errors[first..first + 3]);
+        let cross = vector.cross_matrix();
+        let angle = vector.norm();
+        // series where the difference would be lost
+        let [of_one, of_two] = if angle < 1e-3 {
+            [
+                0.5 - angle * angle / 24.0,
+                1.0 / 6.0 - angle * angle / 120.0,
+            ]
+        } else {
+            [
+                (1.0 - angle.cos()) / angle.powi(2),
+                (angle - angle.sin()) / angle.powi(3),
+            ]
+        };
+        let jacobian = Matrix3::identity() + of_one * cross + of_two * cross * cross;
+        let by_turns: [DMatrix<f64>; 3] = std::array::from_fn(|n| changes[first + n].clone());
+        for (k, change) in changes[first..first + 3].iter_mut().enumerate() {
+            *change = (0..3).fold(by_turns[0].clone() * 0.0, |sum, m| {
+                sum + &by_turns[m] * jacobian[(m, k)]
+            });
+        }
     }
 }
 

@@ -15,7 +15,7 @@ const LINES: usize = 60;
 const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
 
 /// The joint line by line, and in these parts of it.
-const BESIDE: [f64; 3] = [1.0, 1.5, 0.7];
+const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
 
 /// Loss factor of a start.
 const LOSS: f64 = 0.02;

@@ -69,7 +69,6 @@ impl Fit {
                     if found <= normal.cost {
                         moved = Some((trial, found));
                         damping = (0.1 * damping).max(1e-12);
-
                         break;
                     }
                 }
@@ -111,9 +110,9 @@ enum Trust {
 
 impl Trust {
     fn of(problem: &Problem) -> Self {
-        match problem.tolerances {
-            None => Self::Information,
-            Some(_) => Self::Expectation,
+        match problem.error_count() {
+            0 => Self::Information,
+            _ => Self::Expectation,
         }
     }
 

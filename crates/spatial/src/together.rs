@@ -33,8 +33,7 @@ const EXPECTED: f64 = 1.3;
 const AS_LOW: f64 = 1e-3;
 
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many starts were tried and how many came to the same
-/// minimum. None is tried after one that noise
-/// explains, where its level is stated, or after two that agree.
+/// minimum. None is tried after one that noise explains, where its level is stated, or after two that agree.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,

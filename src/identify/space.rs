@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
-use bolted_joint::identify::space::{SpatialIdentification, SpatialStudy, Unknown};
+use bolted_joint::identify::space::{Misfit, SpatialIdentification, SpatialStudy, Unknown};
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
-use super::super::output::{Outputs, check_output, print};
+use super::super::output::{Outputs, check_output, print, warn};
 use super::super::table::{Table, number};
 use super::IdentifyArguments;
 
@@ -26,6 +26,8 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     }
     let study = SpatialStudy::of(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
+    let misfits = study.misfits()?;
+    warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let found = study.identify()?;
     let file = found.joint_file(&study);
     let text = file.to_json()?;
@@ -34,7 +36,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     outputs.write()?;
     if arguments.json {
         print(&serde_json::to_string_pretty(&as_json(
-            &found, &file, arguments,
+            &found, &file, &misfits, arguments,
         ))?)?;
     } else {
         print(&(summary(&study, &found) + &outputs.written()))?;
@@ -45,6 +47,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
 fn as_json(
     found: &SpatialIdentification,
     file: &bolted_joint::joint::JointFile,
+    misfits: &[Misfit],
     arguments: &IdentifyArguments,
 ) -> serde_json::Value {
     let unknown = |unknown: &Unknown| {
@@ -69,6 +72,12 @@ fn as_json(
         "starts": { "tried": found.starts[0], "agreeing": found.starts[1] },
         "budget_used": found.budget_used,
         "budget": found.groups.iter().map(|group| json!({ "group": group.name, "largest_share": group.largest_share })).collect::<Vec<_>>(),
+        "misfits": misfits.iter().map(|misfit| json!({
+            "key": misfit.key,
+            "dofs": misfit.dofs.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "ratio": misfit.ratio,
+            "text": misfit.to_string(),
+        })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
     })

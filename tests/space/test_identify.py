@@ -1,10 +1,11 @@
 """Joints in space, identified from functions that an independent generator makes: exact, with noise, with wrong set-ups."""
 
 import json
+import subprocess
 
 import numpy as np
 import pytest
-from frames import Rig
+from frames import Rig, row
 
 LENGTHS = np.array([1, 1, 1, 0.03, 0.03, 0.03])
 UPPER = np.triu_indices(6)
@@ -35,6 +36,7 @@ def apart(found, expected):
 def test_exact_functions_give_all_42_numbers(run, tmp_path):
     Rig(K, C).write(tmp_path, FREQUENCIES, more=EXACT)
     found = identified(run, tmp_path)
+    assert found["misfits"] == []
     joint = found["joint_file"]["joint"]
     assert joint["dofs"] == ["x", "y", "z", "rx", "ry", "rz"]
     assert apart(joint["stiffness"], K) < 1e-7 and apart(joint["damping"], C) < 1e-7
@@ -126,7 +128,7 @@ def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_pat
     found = identified(run, tmp_path)
     deviations = [u["standard_deviation"] for u in found["unknowns"][:21]]
     assert np.median(deviations / np.sqrt(np.outer(np.diag(K), np.diag(K)))[UPPER]) < 0.02
-    assert found["budget_used"] < 1.5
+    assert found["budget_used"] < 1.5 and found["misfits"] == []
 
 
 def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
@@ -143,6 +145,35 @@ def test_errors_beyond_the_budget_are_told(run, tmp_path):
     rig.write(tmp_path, FREQUENCIES[::3], noise=0.002, rng=rng, rows=rows, more=budget)
     reasons = " ".join(identified(run, tmp_path, expect=3)["reasons_against"])
     assert "state larger ones in budget" in reasons or "does not explain the residuals" in reasons, reasons
+
+
+@pytest.mark.parametrize(
+    "side, of_impacts, places, factor, key, dofs, says",
+    [
+        (0, False, slice(3, 6), None, "a.sensors[1]", "101:+X, 101:+Y, 101:+Z", "shifted by"),
+        (1, False, 4, -1, "b.sensors[1]", "201:+Y", "gain were -1 times"),
+        (1, True, 7, -1, "b.impacts[7]", "257:+X", "gain were -1 times"),
+    ],
+)
+def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impacts, places, factor, key, dofs, says):
+    """A sensor 20 mm from where it is said to be, a channel and a hit with the wrong sign; the same in all files."""
+    rig = Rig(K, C)
+    rows = [rig.rows(0), rig.rows(1)]
+    bad = rows[side][of_impacts]
+    if factor is None:
+        bad[places] = [row(rig.sides[side][0][1] + [0, 0.02, 0], axis) for axis in np.eye(3)]
+    else:
+        bad[places] *= factor
+    rig.write(tmp_path, FREQUENCIES[::6], noise=0.002, rng=np.random.default_rng(7), rows=rows, more=EXACT)
+    command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    # named whether or not anything is found with it
+    assert done.returncode in (1, 3), done.stderr
+    (warning,) = [line for line in done.stderr.splitlines() if line.startswith("warning: ")]
+    assert warning.startswith(f"warning: {key} ({dofs}) does not fit the others") and says in warning
+    if done.stdout:
+        (misfit,) = json.loads(done.stdout)["misfits"]
+        assert misfit["key"] == key and ", ".join(misfit["dofs"]) == dofs
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ mod problem;
 mod side;
 mod starts;
 mod study;
+mod suspects;
 mod tables;
 mod together;
 
@@ -26,3 +27,4 @@ pub use error::SpatialError;
 pub use estimate::{Group, SpatialIdentification, Unknown};
 pub use problem::Level;
 pub use study::SpatialStudy;
+pub use suspects::Misfit;

@@ -4,10 +4,10 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::Places;
 use crate::projection::Projection;
 use crate::suspects::Spread;
 use crate::words::{short, triple};
+use crate::{Places, Tolerance};
 
 /// Singular values of the normal equations below this share of the largest entry are left out: a channel tells nothing
 /// of a shift along itself.
@@ -31,25 +31,61 @@ pub struct Diagnosis {
     pub left_by_rotation: f64,
 }
 
+/// What may be wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cause {
+    Gains,
+    Shift,
+    Rotation,
+}
+
+impl Diagnosis {
+    /// The cause that leaves least.
+    fn cause(&self) -> Cause {
+        let least = self.left_by_shift.min(self.left_by_rotation);
+        if self.left_by_gains <= least {
+            Cause::Gains
+        } else if self.left_by_shift <= least {
+            Cause::Shift
+        } else {
+            Cause::Rotation
+        }
+    }
+
+    /// Size of the cause that leaves least, in standard deviations of what was known before: of the gain that is most
+    /// off, or of the length of the shift or of the rotation vector.
+    #[must_use]
+    pub fn deviations(&self, tolerance: &Tolerance) -> f64 {
+        let length = |of: &[f64; 3]| of.iter().map(|part| part * part).sum::<f64>().sqrt();
+        match self.cause() {
+            Cause::Gains => {
+                let off = self.gains.iter().map(|gain| (gain - 1.0).abs());
+                off.fold(0.0, f64::max) / tolerance.gain
+            }
+            Cause::Shift => length(&self.shift_m) / tolerance.position_m,
+            Cause::Rotation => length(&self.rotation_rad) / tolerance.rotation_rad,
+        }
+    }
+}
+
 impl fmt::Display for Diagnosis {
     /// The cause that leaves least.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let least = self.left_by_shift.min(self.left_by_rotation);
-        if self.left_by_gains <= least {
-            let gains: Vec<_> = self.gains.iter().map(|gain| short(*gain)).collect();
-            write!(
-                f,
-                "as if the gain were {} times what it was told to be",
-                gains.join(", ")
-            )
-        } else if self.left_by_shift <= least {
-            write!(f, "as if it were shifted by {} m", triple(&self.shift_m))
-        } else {
-            write!(
+        match self.cause() {
+            Cause::Gains => {
+                let gains: Vec<_> = self.gains.iter().map(|gain| short(*gain)).collect();
+                write!(
+                    f,
+                    "as if the gain were {} times what it was told to be",
+                    gains.join(", ")
+                )
+            }
+            Cause::Shift => write!(f, "as if it were shifted by {} m", triple(&self.shift_m)),
+            Cause::Rotation => write!(
                 f,
                 "as if it were rotated by {} rad",
                 triple(&self.rotation_rad)
-            )
+            ),
         }
     }
 }

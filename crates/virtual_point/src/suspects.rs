@@ -188,6 +188,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::Tolerance;
     use crate::samples::*;
     use crate::{Change, Impact, Parameter, Sensor, SetUp, Weights};
 
@@ -304,6 +305,9 @@ mod tests {
                     &found.ranked[0].diagnosis.to_string(),
                     &["as if it were shifted by"],
                 );
+                // 5 mm where 1 mm is expected
+                let deviations = found.ranked[0].diagnosis.deviations(&Tolerance::TYPICAL);
+                near(deviations, 5.0, 0.5);
             }
         }
     }

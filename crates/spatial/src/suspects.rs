@@ -1,0 +1,124 @@
+//! Which sensor or impact does not fit the others, told before the joint is sought: a sign or a place that is wrong would spoil
+//! the estimate, and the estimate would not say which it was.
+
+use std::fmt;
+
+use bolted_joint_frf::Dof;
+use bolted_joint_virtual_point::{Diagnosis, Place, Role, SetUp, Tolerance, VirtualPoint, Weights};
+
+use crate::error::SpatialError;
+use crate::problem::Problem;
+use crate::side::{Interface, Side};
+use crate::study::SpatialStudy;
+
+/// Deviations of the budget within which an error is one that the budget speaks of. The others have errors too: of rigs without
+/// mistakes one in four would have somebody named from four deviations on, and three of forty have from eight on.
+const WITHIN_BUDGET: f64 = 8.0;
+
+/// A sensor, one of its channels or an impact that does not fit the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// Its key in the study, such as `a.sensors[0]`.
+    pub key: String,
+    /// Its DOFs in the functions.
+    pub dofs: Vec<Dof>,
+    /// What does not fit that goes with it, over what stays, each by its degrees of freedom: about 1 for noise.
+    pub ratio: f64,
+    /// By which gain, shift or rotation it would fit.
+    pub diagnosis: Diagnosis,
+}
+
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let dofs: Vec<String> = self.dofs.iter().map(Dof::to_string).collect();
+        write!(
+            f,
+            "{} ({}) does not fit the others, {}: check its direction, sign, position and gain",
+            self.key,
+            dofs.join(", "),
+            self.diagnosis
+        )
+    }
+}
+
+impl SpatialStudy {
+    /// The sensors and impacts that stand out from the others of their side by more than the budget allows; one for each
+    /// kind and side at most, as more would hide each other. Fewer than eight channels or impacts cannot be judged.
+    ///
+    /// # Errors
+    /// [`SpatialError::VirtualPoint`] for functions that cannot be used.
+    pub fn misfits(&self) -> Result<Vec<Misfit>, SpatialError> {
+        let Problem {
+            sides, tolerances, ..
+        } = &self.problem;
+        let mut misfits = Vec::new();
+        for (n, (name, side)) in ["a", "b"].into_iter().zip(sides).enumerate() {
+            let Interface::Points(set_up) = &side.interface else {
+                continue;
+            };
+            for role in [Role::Channel, Role::Impact] {
+                let tolerance = tolerances.as_ref().map(|tolerances| match role {
+                    Role::Channel => &tolerances.sensors,
+                    Role::Impact => &tolerances.impacts,
+                });
+                let found = misfit(name, side, set_up, role, tolerance);
+                misfits.extend(found.map_err(|source| SpatialError::of_side(n, source))?);
+            }
+        }
+        Ok(misfits)
+    }
+}
+
+fn misfit(
+    name: &str,
+    side: &Side,
+    set_up: &SetUp,
+    role: Role,
+    tolerance: Option<&Tolerance>,
+) -> Result<Option<Misfit>, bolted_joint_virtual_point::VirtualPointError> {
+    let near = [set_up.channels().count(), set_up.impacts().count()];
+    let lines: Vec<_> = side
+        .lines
+        .iter()
+        .map(|line| line.view((0, 0), (near[0], near[1])).into_owned())
+        .collect();
+    let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)?;
+    let Some(suspects) = point.suspects(role, &lines)? else {
+        return Ok(None);
+    };
+    let bad = suspects.ranked.into_iter().find(|suspect| {
+        let is_beyond = |tolerance| suspect.diagnosis.deviations(tolerance) > WITHIN_BUDGET;
+        Some(suspect.place) == suspects.bad && tolerance.is_none_or(is_beyond)
+    });
+    Ok(bad.map(|suspect| {
+        let (key, dofs) = named(name, side, set_up, suspect.place);
+        Misfit {
+            key,
+            dofs,
+            ratio: suspect.ratio,
+            diagnosis: suspect.diagnosis,
+        }
+    }))
+}
+
+/// As the study and the functions have it.
+fn named(name: &str, side: &Side, set_up: &SetUp, place: Place) -> (String, Vec<Dof>) {
+    let of_sensors = set_up.channels().rows_of_each();
+    match place {
+        Place::Sensor(number) => (
+            format!("{name}.sensors[{number}]"),
+            side.responses[of_sensors[number].clone()].to_vec(),
+        ),
+        Place::Channel(row) => {
+            let number = of_sensors.iter().position(|rows| rows.contains(&row));
+            (
+                format!("{name}.sensors[{}]", number.unwrap_or_default()),
+                vec![side.responses[row]],
+            )
+        }
+        Place::Impact(number) => (
+            format!("{name}.impacts[{number}]"),
+            vec![side.references[number]],
+        ),
+    }
+}

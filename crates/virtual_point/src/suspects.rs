@@ -188,9 +188,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::Tolerance;
     use crate::samples::*;
-    use crate::{Change, Impact, Parameter, Sensor, SetUp, Weights};
+    use crate::{Change, Impact, Parameter, Sensor, SetUp, Tolerance, Weights};
 
     /// Four triaxial sensors and twelve impacts.
     fn good() -> SetUp {

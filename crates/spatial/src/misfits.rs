@@ -4,7 +4,9 @@
 use std::fmt;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_virtual_point::{Diagnosis, Place, Role, SetUp, Tolerance, VirtualPoint, Weights};
+use bolted_joint_virtual_point::{
+    Diagnosis, Place, Role, SetUp, Tolerance, VirtualPoint, VirtualPointError, Weights,
+};
 
 use crate::error::SpatialError;
 use crate::problem::Problem;
@@ -12,7 +14,7 @@ use crate::side::{Interface, Side};
 use crate::study::SpatialStudy;
 
 /// Deviations of the budget within which an error is one that the budget speaks of. The others have errors too: of rigs without
-/// mistakes one in four would have somebody named from four deviations on, and three of forty have from eight on.
+/// mistakes 5 of 25 have somebody named from four deviations on, and 3 of 40 from eight on.
 const WITHIN_BUDGET: f64 = 8.0;
 
 /// A sensor, one of its channels or an impact that does not fit the others.
@@ -75,7 +77,7 @@ fn misfit(
     set_up: &SetUp,
     role: Role,
     tolerance: Option<&Tolerance>,
-) -> Result<Option<Misfit>, bolted_joint_virtual_point::VirtualPointError> {
+) -> Result<Option<Misfit>, VirtualPointError> {
     let near = [set_up.channels().count(), set_up.impacts().count()];
     let lines: Vec<_> = side
         .lines

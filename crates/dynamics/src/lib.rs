@@ -5,6 +5,7 @@
 //! kind of number, real ones or [`Dual`] ones that carry their changes.
 #![forbid(unsafe_code)]
 
+pub mod assembly;
 mod condensation;
 mod counted;
 mod definiteness;

@@ -1,0 +1,98 @@
+//! Everything that steps of one length need, and of its halves: prepared once, so that a step allocates nothing.
+
+use super::{
+    matrix::Matrix,
+    propagator::{Blocks, POWERS},
+    system::System,
+};
+
+/// How often a step is halved where the joints ask for it.
+pub(super) const HALVINGS: usize = 8;
+
+/// One length of step.
+#[derive(Clone, Debug)]
+pub(super) struct Rung {
+    pub(super) length_s: f64,
+    /// Over the whole step.
+    pub(super) whole: Blocks,
+    /// What Krogstad's scheme has in its middle; nothing where no joint has a law beside the linear one.
+    pub(super) middle: Option<Middle>,
+}
+
+/// The condensed scheme: its stages need relative motions alone. With j_k = hφ_kJ at the end and i_k the same at half the length:
+/// r at half the step, and how the forces of the stages before act on the relative motion of each stage.
+#[derive(Clone, Debug)]
+pub(super) struct Middle {
+    /// Relative motion at half the step by the state at its beginning, 2d × 2n.
+    pub(super) by_state: Matrix,
+    /// … by the loads at its beginning and by how far they have come at half the step, 2d × m.
+    pub(super) by_loads: [Matrix; 2],
+    /// i₁, i₁ − 2 i₂ and 2 i₂ as relative motions, 2d × d.
+    pub(super) of_half: [Matrix; 3],
+    /// j₁ − 2 j₂ and 2 j₂ as relative motions, 2d × d.
+    pub(super) of_whole: [Matrix; 2],
+}
+
+/// The lengths h, h/2, h/4 …
+#[derive(Clone, Debug)]
+pub(super) struct Ladder {
+    pub(super) rungs: Vec<Rung>,
+}
+
+impl Ladder {
+    /// For steps of `length_s` (s); `None` where the exponential is not finite.
+    pub(super) fn new(system: &System, length_s: f64) -> Option<Self> {
+        if system.laws.is_empty() {
+            let whole = Blocks::new(system, length_s)?;
+            let rung = Rung {
+                length_s,
+                whole,
+                middle: None,
+            };
+            return Some(Self { rungs: vec![rung] });
+        }
+        let length = |level: usize| length_s * 0.5_f64.powi(level as i32);
+        let mut rungs = Vec::with_capacity(HALVINGS + 1);
+        let mut whole = Blocks::new(system, length_s)?;
+        for level in 0..=HALVINGS {
+            let half = Blocks::new(system, length(level + 1))?;
+            rungs.push(Rung {
+                length_s: length(level),
+                middle: Some(Middle::of(system, &whole, &half)),
+                whole,
+            });
+            whole = half;
+        }
+        Some(Self { rungs })
+    }
+}
+
+impl Middle {
+    fn of(system: &System, whole: &Blocks, half: &Blocks) -> Self {
+        let (m, d) = (system.loads, system.laws.len());
+        let rows = relative_rows(system);
+        let size = 2 * system.size;
+        let of_loads = |block: &Matrix| rows.product(&block.block([0, 0], size, m));
+        let of_forces =
+            |blocks: &Blocks, power: usize| rows.product(&blocks.by[power].block([0, m], size, d));
+        let [i1, i2] = [0, 1].map(|power| of_forces(half, power));
+        let [j1, j2] = [0, 1].map(|power| of_forces(whole, power));
+        Self {
+            by_state: rows.product(&half.state),
+            by_loads: [of_loads(&half.by[0]), of_loads(&half.by[1])],
+            of_half: [i1.clone(), i1.plus(-2.0, &i2), i2.times(2.0)],
+            of_whole: [j1.plus(-2.0, &j2), j2.times(2.0)],
+        }
+    }
+}
+
+/// (S, 0; 0, S): relative displacements and their rates by q and q̇.
+fn relative_rows(system: &System) -> Matrix {
+    let (n, d) = (system.size, system.laws.len());
+    let mut rows = Matrix::zeros(2 * d, 2 * n);
+    rows.set_block([0, 0], &system.rows);
+    rows.set_block([d, n], &system.rows);
+    rows
+}
+
+const _: () = assert!(POWERS == 3, "the scheme's forces are quadratic in time");

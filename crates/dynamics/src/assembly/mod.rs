@@ -1,0 +1,17 @@
+//! Whole assemblies in time: structures of many coordinates, and joints of any law between them.
+//!
+//! The linear part is propagated exactly, at any length of step; only the joints' own frequency limits the step, and that only
+//! where their laws are not linear.
+
+mod exponential;
+mod ladder;
+mod matrix;
+mod propagator;
+mod steps;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use matrix::Matrix;
+pub use steps::{AssemblyState, AssemblySteps};
+pub use system::{Assembly, AssemblyJoint};

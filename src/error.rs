@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use bolted_joint::assembly::AssemblyError;
 use bolted_joint::check::CheckError;
 use bolted_joint::cosimulation::CouplingError;
 use bolted_joint::export::{DateError, ExportError};
@@ -62,6 +63,7 @@ macro_rules! from_the_library {
 }
 
 from_the_library!(
+    AssemblyError,
     DateError,
     ExportError,
     FrfError,

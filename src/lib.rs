@@ -46,6 +46,7 @@
 //! Each of these is a crate of its own; this one gives them one name.
 #![forbid(unsafe_code)]
 
+pub use bolted_joint_assembly as assembly;
 pub use bolted_joint_check as check;
 pub use bolted_joint_cosimulation as cosimulation;
 pub use bolted_joint_export as export;

@@ -1,6 +1,8 @@
 //! `respond`: what a test of a study's assembly would measure if its joint were the given one.
 
+mod assembly;
 mod lap;
+mod picture;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,6 +11,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use nalgebra::DMatrix;
 use serde_json::json;
 
+use bolted_joint::assembly::AssemblyModel;
 use bolted_joint::frf::write_uff58;
 use bolted_joint::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
 use bolted_joint::joint::JointFile;
@@ -24,7 +27,7 @@ use super::progress::Progress;
 #[derive(Debug, Args)]
 pub(super) struct RespondArguments {
     /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, or of method `respond`, which names
-    /// laps and what is done to them
+    /// laps and what is done to them; or an assembly file
     study: PathBuf,
     /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
@@ -94,6 +97,9 @@ const STEP_HZ: f64 = 0.25;
 
 pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let text = StudyText::read(&arguments.study)?;
+    if AssemblyModel::is_one(&text) {
+        return assembly::run(arguments, &text);
+    }
     let method = text.method()?;
     text.check_method(method, &[Method::Respond, Method::FrfDecoupling])?;
     if method == Method::Respond {

@@ -1,23 +1,15 @@
 //! `respond` with a study of method `respond`: how laps answer, as a table and a picture.
 
-use std::path::Path;
-
 use serde_json::json;
 
 use bolted_joint::respond::{RespondStudy, ResponseTable};
 use bolted_joint::study::StudyText;
-use bolted_joint_figures::html;
 
 use super::super::error::CliError;
 use super::super::output::{check_output, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
-
-#[derive(Clone, Copy)]
-enum Picture {
-    Svg,
-    Html,
-}
+use super::picture::{Picture, has_extension};
 
 pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(), CliError> {
     if let Some(joint) = &arguments.joint {
@@ -41,35 +33,12 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         ));
     }
     check_output(&arguments.output, &[&arguments.study])?;
-    let picture = match &arguments.report {
-        None => None,
-        Some(path) => {
-            let picture = if has_extension(path, "svg") {
-                Picture::Svg
-            } else if has_extension(path, "html") {
-                Picture::Html
-            } else {
-                let expected = "a name that ends in .svg or .html";
-                return Err(CliError::option("--report", path.display(), expected));
-            };
-            check_output(path, &[&arguments.study, &arguments.output])?;
-            Some((path, picture))
-        }
-    };
+    let picture = Picture::asked(arguments)?;
     let study = RespondStudy::of(study)?;
     let progress = Progress::of_share("responding");
     let table = study.run(&|share| progress.reached(share))?;
     drop(progress);
-    let drawing = match picture {
-        None => None,
-        Some((path, picture)) => match study.figure(&table) {
-            None => {
-                let expected = "a response that can be drawn: all amplitudes are zero";
-                return Err(CliError::option("--report", path.display(), expected));
-            }
-            Some(svg) => Some((path, drawn(picture, &study, &svg))),
-        },
-    };
+    let drawing = Picture::drawn(picture, &study.name, || study.figure(&table))?;
     write_file(&arguments.output, table.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
@@ -112,23 +81,4 @@ fn summary(table: &ResponseTable) -> Vec<serde_json::Value> {
         })
     };
     table.series.iter().map(of).collect()
-}
-
-fn drawn(picture: Picture, study: &RespondStudy, svg: &str) -> String {
-    match picture {
-        Picture::Svg => svg.to_owned(),
-        Picture::Html => {
-            let name = html::escaped(&study.name);
-            format!(
-                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>\n{}</style>\n\
-                 </head>\n<body>\n<main>\n{svg}</main>\n</body>\n</html>\n",
-                html::STYLE
-            )
-        }
-    }
-}
-
-fn has_extension(path: &Path, wanted: &str) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }

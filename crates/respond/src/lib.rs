@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod answer;
+mod assembly;
 mod error;
 mod figure;
 mod histories;
@@ -14,6 +15,7 @@ mod run;
 mod study;
 mod table;
 
+pub use assembly::AssemblyAnswer;
 pub use error::RespondError;
 pub use hysteresis::{HysteresisLoop, LoopPoint};
 pub use measured::{to_csv, with_noise};

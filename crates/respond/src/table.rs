@@ -59,15 +59,8 @@ impl ResponseTable {
         if has_level {
             let _ = write!(text, ",level [{}]", self.level_unit);
         }
-        for Column { name, unit, .. } in &self.columns {
-            match *unit {
-                "" => {
-                    let _ = write!(text, ",{name}");
-                }
-                unit => {
-                    let _ = write!(text, ",{name} [{unit}]");
-                }
-            }
+        for column in &self.columns {
+            let _ = write!(text, ",{}", column.heading());
         }
         text.push('\n');
         for series in &self.series {
@@ -87,6 +80,36 @@ impl ResponseTable {
         }
         text
     }
+}
+
+impl Column {
+    /// Its name, with its unit in brackets.
+    fn heading(&self) -> String {
+        match self.unit {
+            "" => self.name.clone(),
+            unit => format!("{} [{unit}]", self.name),
+        }
+    }
+}
+
+/// Rows under these columns as CSV.
+pub(super) fn csv(columns: &[Column], rows: &[Vec<f64>]) -> String {
+    let headings: Vec<String> = columns
+        .iter()
+        .map(|column| quoted(&column.heading()))
+        .collect();
+    let mut text = headings.join(",");
+    text.push('\n');
+    for row in rows {
+        for (place, &number) in row.iter().enumerate() {
+            if place > 0 {
+                text.push(',');
+            }
+            push(number, &mut text);
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// A number in the fewest digits that give it back; nothing where there is none.

@@ -98,6 +98,33 @@ impl<F: ArrayFile> Members<'_, F> {
         Ok(dofs)
     }
 
+    /// Degrees of freedom of coordinates, each once; none where the text is empty.
+    pub(super) fn points(&mut self, name: &str) -> Result<Vec<Option<Dof>>, TableProblem> {
+        let array = self.array(name)?;
+        one_axis(name, &array)?;
+        let mut points: Vec<Option<Dof>> = Vec::new();
+        texts::<F>(name, array, |text| {
+            let dof = match text.is_empty() {
+                true => None,
+                false => Some(text.parse().map_err(|source| TableProblem::Dof {
+                    at: format!("array {name}, entry {}", points.len() + 1),
+                    source,
+                })?),
+            };
+            let is_known = |dof: Dof| {
+                let mut named = points.iter().flatten();
+                named.any(|&other| other == dof || other == dof.flipped())
+            };
+            if dof.is_some_and(is_known) {
+                let found = format!("\"{text}\" twice");
+                return Err(value(name, found, "every degree of freedom once"));
+            }
+            points.push(dof);
+            Ok(())
+        })?;
+        Ok(points)
+    }
+
     /// An array of numbers.
     pub(super) fn numbers(&mut self, name: &str) -> Result<F::Array<'_>, TableProblem> {
         let array = self.array(name)?;

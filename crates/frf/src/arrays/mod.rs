@@ -5,6 +5,7 @@
 
 mod axes;
 mod functions;
+mod matrices;
 mod matrix;
 mod members;
 
@@ -13,6 +14,7 @@ use num_complex::Complex64;
 use crate::{FileFormat, TableProblem};
 
 pub(crate) use functions::functions;
+pub(crate) use matrices::matrices;
 
 /// What the elements of an array are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,8 +10,9 @@ use std::path::Path;
 use flate2::bufread::ZlibDecoder;
 use num_complex::Complex64;
 
-use crate::arrays::{Array, ArrayFile, Element, Kind, functions};
+use crate::arrays::{Array, ArrayFile, Element, Kind, functions, matrices};
 use crate::read::opened;
+use crate::structure::{NamedMatrices, StructureError};
 use crate::{FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
 
 use element::{COMPRESSED, Elements, MATRIX, UTF8, invalid};
@@ -46,6 +47,14 @@ pub fn read_mat_from(
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
     functions(MatFile::open(reader), name.as_ref(), options)
+}
+
+/// The matrices of a structure in a file.
+pub(crate) fn matrices_from(
+    reader: impl Read + Seek,
+    name: &Path,
+) -> Result<NamedMatrices, StructureError> {
+    matrices(MatFile::open(reader), name)
 }
 
 /// The arrays of a file, by name.

@@ -6,8 +6,9 @@ mod array;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-use crate::arrays::functions;
+use crate::arrays::{functions, matrices};
 use crate::read::opened;
+use crate::structure::{NamedMatrices, StructureError};
 use crate::{FrfError, FrfReading, ReadOptions};
 
 use archive::Archive;
@@ -36,4 +37,12 @@ pub fn read_npz_from(
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
     functions(Archive::open(reader), name.as_ref(), options)
+}
+
+/// The matrices of a structure in an archive.
+pub(crate) fn matrices_from(
+    reader: impl Read + Seek,
+    name: &Path,
+) -> Result<NamedMatrices, StructureError> {
+    matrices(Archive::open(reader), name)
 }

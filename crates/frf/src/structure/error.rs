@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::Dof;
+use crate::{Dof, TableProblem};
 use bolted_joint_files::text_file::TextFileError;
 
 /// Why a structure cannot be built, read or computed.
@@ -71,6 +71,14 @@ pub enum StructureError {
         path: PathBuf,
         /// What is wrong, with line and column.
         message: String,
+    },
+    /// A file of arrays whose matrices cannot be used.
+    #[error("{}: {problem}", path.display())]
+    Arrays {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        problem: Box<TableProblem>,
     },
     /// Modes that are not complete, or not physical.
     #[error("{}: {found}, expected {expected}", path.display())]

@@ -3,6 +3,7 @@
 mod beam;
 mod coupling;
 mod error;
+mod matrices;
 mod modal;
 mod rotation;
 mod section;
@@ -11,7 +12,8 @@ mod spatial;
 pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, ModalBeam, Motion, Theory};
 pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple, transmission};
 pub use error::StructureError;
-pub use modal::ModalModel;
+pub use matrices::NamedMatrices;
+pub use modal::{ModalModel, Mode};
 pub use rotation::{Difference, FiniteDifference, Order};
 pub use section::Section;
 pub use spatial::{Modes, SpatialModel};

@@ -81,6 +81,27 @@ impl SpatialModel {
             })
     }
 
+    /// Number of coordinates.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.mass.nrows()
+    }
+
+    /// φᵀCφ of mass-normalised shapes: damping between the modes, 1/s.
+    #[must_use]
+    pub fn modal_damping(&self, modes: &Modes) -> DMatrix<f64> {
+        modes.shapes.transpose() * &self.damping * &modes.shapes
+    }
+
+    /// φᵀKφ of each mode, rad²/s²; below zero where the stiffness is not positive semidefinite.
+    #[must_use]
+    pub fn modal_stiffness(&self, modes: &Modes) -> DVector<f64> {
+        let product = &self.stiffness * &modes.shapes;
+        DVector::from_fn(product.ncols(), |r, _| {
+            modes.shapes.column(r).dot(&product.column(r))
+        })
+    }
+
     /// Undamped natural frequencies and mass-normalised shapes.
     ///
     /// # Errors

@@ -24,13 +24,16 @@ struct File {
     residuals: Vec<Residual>,
 }
 
+/// One mode of a [`ModalModel`].
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Mode {
-    frequency_hz: f64,
-    damping_ratio: f64,
+pub struct Mode {
+    /// Natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
     /// Mass normalised, real and imaginary part at each point, 1/√kg.
-    shape: Vec<[f64; 2]>,
+    pub shape: Vec<[f64; 2]>,
 }
 
 /// Residuals of the receptances of all points for a load at `reference`.
@@ -101,6 +104,24 @@ impl ModalModel {
         &self.points
     }
 
+    /// The modes.
+    #[must_use]
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    /// UA (m/N) and LA (m/(N·s²)) between two of the points, by their places, where the file has them for this pair or the
+    /// transposed one.
+    #[must_use]
+    pub fn residual(&self, p: usize, q: usize) -> Option<(f64, f64)> {
+        let own = |response: usize, reference: usize| {
+            let mut all = self.residuals.iter();
+            all.find(|residual| residual.reference == self.points[reference])
+                .map(|residual| (residual.upper[response], residual.lower[response]))
+        };
+        own(p, q).or_else(|| own(q, p))
+    }
+
     /// Receptance of `response` for a load at `reference`, one value for each frequency.
     ///
     /// Residuals are added where the file has them for this pair or, by reciprocity, for the transposed one.
@@ -144,17 +165,6 @@ impl ModalModel {
                 path: self.path.clone(),
                 dof,
                 present: self.points.clone(),
-            })
-    }
-
-    fn residual(&self, p: usize, q: usize) -> Option<(f64, f64)> {
-        [(p, q), (q, p)]
-            .into_iter()
-            .find_map(|(response, reference)| {
-                self.residuals
-                    .iter()
-                    .find(|residual| residual.reference == self.points[reference])
-                    .map(|residual| (residual.upper[response], residual.lower[response]))
             })
     }
 

@@ -1,0 +1,172 @@
+//! The linear assembly: its receptances and its modes.
+
+use std::f64::consts::TAU;
+
+use bolted_joint_dynamics::with_dofs;
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use crate::error::AssemblyError;
+use crate::model::AssemblyModel;
+
+/// A mode of the linear assembly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AssemblyMode {
+    /// |λ|/2π, Hz.
+    pub frequency_hz: f64,
+    /// −Re λ/|λ|; below zero where the mode grows.
+    pub damping_ratio: f64,
+}
+
+/// K and C of all joints of small motion about rest, on the diagonal of blocks, and their relative motions.
+struct Joints {
+    stiffness: DMatrix<f64>,
+    damping: DMatrix<f64>,
+    relative: DMatrix<f64>,
+}
+
+impl AssemblyModel {
+    /// Receptances of the linear assembly, joints of small motion about rest: outputs × inputs at each frequency, m/N and so on.
+    ///
+    /// # Errors
+    /// [`AssemblyError::Resonance`] at an undamped resonance, [`AssemblyError::Law`] where a joint gives no law.
+    pub fn receptances(
+        &self,
+        frequency_hz: &[f64],
+    ) -> Result<Vec<DMatrix<Complex64>>, AssemblyError> {
+        let joints = self.joints_of_small_motion()?;
+        let (inputs, outputs) = (self.input_rows().transpose(), self.output_rows());
+        let lines = frequency_hz.iter().map(|&frequency_hz| {
+            let found = self.receptance(TAU * frequency_hz, &joints, &inputs, &outputs);
+            let is_finite = |found: &DMatrix<Complex64>| found.iter().all(|h| h.is_finite());
+            found
+                .filter(is_finite)
+                .ok_or(AssemblyError::Resonance { frequency_hz })
+        });
+        lines.collect()
+    }
+
+    /// H = L G B − L G Sᵀ D (I + S G Sᵀ D)⁻¹ S G B with G of the structures alone and D = K + jωC: D may be singular or zero.
+    fn receptance(
+        &self,
+        omega: f64,
+        joints: &Joints,
+        inputs: &DMatrix<f64>,
+        outputs: &DMatrix<f64>,
+    ) -> Option<DMatrix<Complex64>> {
+        let complex = |matrix: &DMatrix<f64>| matrix.map(Complex64::from);
+        let relative = complex(&joints.relative);
+        let outputs = complex(outputs);
+        let by_inputs = self.motion(omega, &complex(inputs))?;
+        let by_joints = self.motion(omega, &relative.transpose())?;
+        let dynamic = DMatrix::from_fn(
+            joints.stiffness.nrows(),
+            joints.stiffness.ncols(),
+            |i, j| Complex64::new(joints.stiffness[(i, j)], omega * joints.damping[(i, j)]),
+        );
+        let own = &relative * &by_joints;
+        let size = own.nrows();
+        let closed = DMatrix::identity(size, size) + own * &dynamic;
+        let loads = dynamic * closed.lu().solve(&(&relative * &by_inputs))?;
+        Some(&outputs * by_inputs - &outputs * by_joints * loads)
+    }
+
+    /// (Ω² + jωC − ω²)⁻¹ of each structure times its part of loads on all coordinates.
+    fn motion(&self, omega: f64, loads: &DMatrix<Complex64>) -> Option<DMatrix<Complex64>> {
+        let mut motion = DMatrix::zeros(loads.nrows(), loads.ncols());
+        let mut first = 0;
+        for structure in &self.structures {
+            let count = structure.form.size();
+            let own = loads.rows(first, count).into_owned();
+            motion
+                .rows_mut(first, count)
+                .copy_from(&structure.form.motion(omega, &own)?);
+            first += count;
+        }
+        Some(motion)
+    }
+
+    /// Modes of the linear assembly, joints of small motion about rest, ascending; motions of a free assembly have 0 Hz.
+    ///
+    /// # Errors
+    /// [`AssemblyError::Law`] where a joint gives no law.
+    pub fn modes(&self) -> Result<Vec<AssemblyMode>, AssemblyError> {
+        let joints = self.joints_of_small_motion()?;
+        let size = self.size();
+        let around =
+            |matrix: &DMatrix<f64>| joints.relative.transpose() * matrix * &joints.relative;
+        let (mut stiffness, mut damping) = (around(&joints.stiffness), around(&joints.damping));
+        let mut first = 0;
+        for structure in &self.structures {
+            let form = &structure.form;
+            for i in 0..form.size() {
+                stiffness[(first + i, first + i)] += form.frequency_rad_per_s[i].powi(2);
+                for j in 0..form.size() {
+                    damping[(first + i, first + j)] += form.damping_per_s[(i, j)];
+                }
+            }
+            first += form.size();
+        }
+        // in (ω_ref q, q̇), so that rates and displacements are alike
+        let scale = (0..size)
+            .map(|i| stiffness[(i, i)].abs().sqrt())
+            .fold(1.0, f64::max);
+        let mut system = DMatrix::zeros(2 * size, 2 * size);
+        for i in 0..size {
+            system[(i, size + i)] = scale;
+            for j in 0..size {
+                system[(size + i, j)] = -stiffness[(i, j)] / scale;
+                system[(size + i, size + j)] = -damping[(i, j)];
+            }
+        }
+        let mut modes: Vec<AssemblyMode> = system
+            .complex_eigenvalues()
+            .iter()
+            // one of each pair, and every one that does not oscillate
+            .filter(|value| value.im >= 0.0)
+            .map(|value| AssemblyMode {
+                frequency_hz: value.norm() / TAU,
+                damping_ratio: match value.norm() {
+                    0.0 => 0.0,
+                    size => -value.re / size,
+                },
+            })
+            .collect();
+        modes.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
+        Ok(modes)
+    }
+
+    fn joints_of_small_motion(&self) -> Result<Joints, AssemblyError> {
+        let counts = self
+            .joints
+            .iter()
+            .map(|joint| joint.file.joint.dofs.count());
+        let total = counts.sum();
+        let mut all = Joints {
+            stiffness: DMatrix::zeros(total, total),
+            damping: DMatrix::zeros(total, total),
+            relative: DMatrix::zeros(total, self.size()),
+        };
+        let mut first = 0;
+        for joint in &self.joints {
+            let relative = self.relative_rows(joint);
+            let count = relative.nrows();
+            all.relative.rows_mut(first, count).copy_from(&relative);
+            with_dofs!(joint.file.joint.dofs.size(), D => {
+                let law = joint.file.joint.law::<D>().map_err(|source| AssemblyError::Law {
+                    path: joint.path.display().to_string(),
+                    source,
+                })?;
+                let linear = law.linearised_about(&[0.0; D]).linear;
+                for i in 0..D {
+                    for j in 0..D {
+                        all.stiffness[(first + i, first + j)] = linear.stiffness[i][j];
+                        all.damping[(first + i, first + j)] = linear.damping[i][j];
+                    }
+                }
+            });
+            first += count;
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,33 @@
+//! Where loads act and where motions are seen: `b/12:+Y`.
+
+use bolted_joint_dynamics::DofKind;
+use bolted_joint_frf::Dof;
+
+/// A degree of freedom of one of the structures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Place of the structure among those of the assembly.
+    pub structure: usize,
+    /// Its degree of freedom.
+    pub dof: Dof,
+}
+
+/// A load or a motion that has a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub place: Place,
+}
+
+impl Channel {
+    /// Translation or rotation.
+    #[must_use]
+    pub fn kind(&self) -> DofKind {
+        match self.place.dof.direction().is_rotation() {
+            true => DofKind::Rotation,
+            false => DofKind::Translation,
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! Reading an assembly file: names become structures, joints and places, or are refused with those that there are.
+
+use std::collections::BTreeMap;
+
+use bolted_joint_frf::Dof;
+use bolted_joint_joint::JointFile;
+use bolted_joint_study::{StudyError, StudyText};
+
+use crate::error::AssemblyError;
+use crate::model::{AssemblyModel, NamedStructure, PlacedJoint};
+use crate::place::{Channel, Place};
+use crate::response::Response;
+use crate::structure::structure;
+use crate::tables::{AssemblyTables, JointTable};
+
+impl AssemblyModel {
+    /// Whether a text is an assembly file: it has `structures`, which no study has.
+    #[must_use]
+    pub fn is_one(text: &StudyText) -> bool {
+        #[derive(serde::Deserialize)]
+        struct Structures {
+            #[serde(rename = "structures")]
+            _there: BTreeMap<String, serde::de::IgnoredAny>,
+        }
+        text.tables::<Structures>().is_ok()
+    }
+
+    /// An assembly from its text, with the files that it names.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] that names the file and the key.
+    pub fn of(text: &StudyText) -> Result<Self, AssemblyError> {
+        let tables: AssemblyTables = text.tables()?;
+        text.check_name("name", &tables.name)?;
+        let mut warnings = Vec::new();
+        let mut structures = Vec::new();
+        for (name, table) in tables.structures {
+            let key = format!("structures.{name}");
+            text.check_name(&key, &name)?;
+            text.ensure(
+                !name.contains('/'),
+                key,
+                "a name with a slash",
+                "a name without: a slash stands between structure and point",
+            )?;
+            let (form, told) = structure(text, &name, table)?;
+            warnings.extend(told);
+            structures.push(NamedStructure { name, form });
+        }
+        text.ensure(
+            !structures.is_empty(),
+            "structures",
+            "none",
+            "a table for each structure, such as [structures.a]",
+        )?;
+        let reader = Reader { text, structures };
+        let joints = tables.joints.into_iter().enumerate();
+        let joints = joints.map(|(place, table)| reader.joint(place, table));
+        let joints: Vec<PlacedJoint> = joints.collect::<Result<_, _>>()?;
+        for (place, joint) in joints.iter().enumerate() {
+            let before = joints.iter().take(place);
+            text.ensure(
+                before.clone().all(|other| other.name != joint.name),
+                format_args!("joints.{place}.name"),
+                format_args!("{:?} a second time", joint.name),
+                "a `name` of its own for each joint",
+            )?;
+        }
+        let inputs = reader.channels("inputs", tables.inputs)?;
+        let outputs = reader.channels("outputs", tables.outputs)?;
+        let response = tables
+            .response
+            .map(|table| Response::of(text, table, &inputs));
+        Ok(Self {
+            path: text.path().to_owned(),
+            name: tables.name,
+            response: response.transpose()?,
+            structures: reader.structures,
+            joints,
+            inputs,
+            outputs,
+            warnings,
+        })
+    }
+}
+
+struct Reader<'t> {
+    text: &'t StudyText,
+    structures: Vec<NamedStructure>,
+}
+
+impl Reader<'_> {
+    fn joint(&self, place: usize, table: JointTable) -> Result<PlacedJoint, AssemblyError> {
+        let text = self.text;
+        let key = format!("joints.{place}");
+        let path = text.resolved(&table.file);
+        let file = JointFile::read(&path)?;
+        let file = match (&file.joint.over_preload, table.preload) {
+            (None, None) => file,
+            _ => file
+                .at_preload(table.preload)
+                .map_err(|source| AssemblyError::Law {
+                    path: path.display().to_string(),
+                    source,
+                })?,
+        };
+        let name = table.name.unwrap_or_else(|| format!("joint{}", place + 1));
+        text.check_name(&format!("{key}.name"), &name)?;
+        let dofs = file.joint.dofs;
+        let side = |side: &str, mut own: BTreeMap<String, String>| {
+            let key = format!("{key}.{side}");
+            let structure = text.needed(
+                format_args!("{key}.structure"),
+                own.remove("structure"),
+                format_args!("one of {}", self.names()),
+            )?;
+            let structure = self.structure(&format!("{key}.structure"), &structure)?;
+            let places = dofs.rows().map(|dof| {
+                let key = format!("{key}.{}", dof.name);
+                let point = text.needed(
+                    &key,
+                    own.remove(dof.name),
+                    "a point of the structure such as \"2:+Y\": the joint has this degree of freedom",
+                )?;
+                let place = self.place(&key, structure, &point)?;
+                let is_rotation = dof.kind == bolted_joint_dynamics::DofKind::Rotation;
+                text.ensure(
+                    place.dof.direction().is_rotation() == is_rotation,
+                    &key,
+                    format_args!("{point}"),
+                    if is_rotation { "a rotation, such as \"2:+RZ\"" } else { "a translation, such as \"2:+Y\"" },
+                )?;
+                Ok(place)
+            });
+            let places = places.collect::<Result<Vec<_>, StudyError>>()?;
+            if let Some((other, _)) = own.first_key_value() {
+                let names: Vec<&str> = dofs.rows().map(|dof| dof.name).collect();
+                return text.refuse(
+                    format_args!("{key}.{other}"),
+                    "it",
+                    format_args!(
+                        "`structure` and the joint's degrees of freedom: {}",
+                        names.join(", ")
+                    ),
+                );
+            }
+            Ok((structure, places))
+        };
+        let ((on_a, a), (on_b, b)) = (side("a", table.a)?, side("b", table.b)?);
+        text.ensure(
+            on_a != on_b || a != b,
+            &key,
+            "a joint between a place and itself",
+            "different places on sides a and b",
+        )?;
+        Ok(PlacedJoint {
+            name,
+            path,
+            file,
+            places: [a, b],
+        })
+    }
+
+    fn channels(
+        &self,
+        table: &str,
+        channels: BTreeMap<String, String>,
+    ) -> Result<Vec<Channel>, StudyError> {
+        let channel = |(name, place): (String, String)| {
+            let key = format!("{table}.{name}");
+            self.text.check_name(&key, &name)?;
+            let (structure, point) = self.text.needed(
+                &key,
+                place.split_once('/'),
+                "a structure, a slash and a point, such as \"b/12:+Y\"",
+            )?;
+            let structure = self.structure(&key, structure)?;
+            let place = self.place(&key, structure, point)?;
+            Ok(Channel { name, place })
+        };
+        channels.into_iter().map(channel).collect()
+    }
+
+    fn structure(&self, key: &str, name: &str) -> Result<usize, StudyError> {
+        let place = self.structures.iter().position(|own| own.name == name);
+        place.ok_or_else(|| {
+            let expected = format!("one of the structures: {}", self.names());
+            self.text.refusal(key, format_args!("{name:?}"), expected)
+        })
+    }
+
+    fn place(&self, key: &str, structure: usize, point: &str) -> Result<Place, StudyError> {
+        let own = &self.structures[structure];
+        let there = || {
+            let points: Vec<String> = own.form.points.iter().map(Dof::to_string).collect();
+            format!("a point of structure {}: {}", own.name, points.join(", "))
+        };
+        let dof: Dof = point
+            .parse()
+            .map_err(|_| self.text.refusal(key, format_args!("{point:?}"), there()))?;
+        if own.form.row(dof).is_none() {
+            return self.text.refuse(key, point, there());
+        }
+        Ok(Place { structure, dof })
+    }
+
+    fn names(&self) -> String {
+        let names: Vec<&str> = self
+            .structures
+            .iter()
+            .map(|own| own.name.as_str())
+            .collect();
+        names.join(", ")
+    }
+}

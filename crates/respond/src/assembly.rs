@@ -1,0 +1,210 @@
+//! How a whole assembly answers: its receptances, its modes, or its motion under loads, as a table and a picture.
+
+use bolted_joint_assembly::{AssemblyError, AssemblyMode, AssemblyModel, Channel, Response};
+use bolted_joint_dynamics::DofKind;
+use bolted_joint_figures::{ResponseCurve, ResponseFigure, ResponsePanel, Scale};
+
+use super::table::{Column, Role, csv};
+
+/// What was computed.
+#[derive(Clone, Debug)]
+pub struct AssemblyAnswer {
+    /// Columns of the rows.
+    pub columns: Vec<Column>,
+    /// Numbers, one for each column.
+    pub rows: Vec<Vec<f64>>,
+    /// Modes of the linear assembly, of small motion about rest.
+    pub modes: Vec<AssemblyMode>,
+    panels: Vec<Panel>,
+}
+
+/// What is drawn together: columns with names, or pairs of real and imaginary parts by their modulus.
+#[derive(Clone, Debug)]
+struct Panel {
+    up: String,
+    is_complex: bool,
+    curves: Vec<(String, usize)>,
+}
+
+impl AssemblyAnswer {
+    /// Computes what the assembly file asks for. `progress` is told again and again which part of the work is done.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] that names the frequency, the time or the joint.
+    pub fn of(
+        model: &AssemblyModel,
+        response: &Response,
+        progress: &dyn Fn(f64),
+    ) -> Result<Self, AssemblyError> {
+        let modes = model.modes()?;
+        match response {
+            Response::Modes => Ok(Self::of_modes(modes)),
+            Response::Linear(span) => {
+                let frequency_hz = span.frequency_hz();
+                let receptances = model.receptances(&frequency_hz)?;
+                let rows = frequency_hz.iter().zip(&receptances);
+                let rows = rows.map(|(&hz, receptance)| {
+                    // row by row: all inputs of an output
+                    let parts = receptance.transpose();
+                    let parts = parts.iter().flat_map(|value| [value.re, value.im]);
+                    std::iter::once(hz).chain(parts).collect()
+                });
+                let (columns, panels) = Self::functions(model);
+                Ok(Self {
+                    columns,
+                    rows: rows.collect(),
+                    modes,
+                    panels,
+                })
+            }
+            Response::History {
+                duration_s,
+                step_s,
+                loads,
+            } => {
+                let rows = model.history(*duration_s, *step_s, loads, progress)?;
+                let (columns, panels) = Self::motions(model);
+                Ok(Self {
+                    columns,
+                    rows,
+                    modes,
+                    panels,
+                })
+            }
+        }
+    }
+
+    fn of_modes(modes: Vec<AssemblyMode>) -> Self {
+        let row = |mode: &AssemblyMode| vec![mode.frequency_hz, mode.damping_ratio];
+        Self {
+            columns: vec![
+                column("frequency", "Hz", Role::Across),
+                column("damping ratio", "", Role::Up),
+            ],
+            rows: modes.iter().map(row).collect(),
+            modes,
+            panels: Vec::new(),
+        }
+    }
+
+    fn functions(model: &AssemblyModel) -> (Vec<Column>, Vec<Panel>) {
+        let mut columns = vec![column("frequency", "Hz", Role::Across)];
+        let mut panels = Vec::new();
+        for output in &model.outputs {
+            let mut curves = Vec::new();
+            for input in &model.inputs {
+                let unit = receptance_unit(output, input);
+                curves.push((input.name.clone(), columns.len()));
+                for part in ["real", "imaginary"] {
+                    let name = format!("{}/{} receptance {part}", output.name, input.name);
+                    columns.push(column(name, unit, Role::Up));
+                }
+            }
+            panels.push(Panel {
+                up: format!("receptance of {}", output.name),
+                is_complex: true,
+                curves,
+            });
+        }
+        (columns, panels)
+    }
+
+    fn motions(model: &AssemblyModel) -> (Vec<Column>, Vec<Panel>) {
+        let mut columns = vec![column("time", "s", Role::Across)];
+        for input in &model.inputs {
+            let unit = match input.kind() {
+                DofKind::Translation => "N",
+                DofKind::Rotation => "N·m",
+            };
+            columns.push(column(&input.name, unit, Role::Aside));
+        }
+        let mut panels = Vec::new();
+        for output in &model.outputs {
+            let [displacement, velocity] = match output.kind() {
+                DofKind::Translation => ["m", "m/s"],
+                DofKind::Rotation => ["rad", "rad/s"],
+            };
+            panels.push(Panel {
+                up: format!("{}, {displacement}", output.name),
+                is_complex: false,
+                curves: vec![(String::new(), columns.len())],
+            });
+            columns.push(column(&output.name, displacement, Role::Up));
+            columns.push(column(
+                format!("{} rate", output.name),
+                velocity,
+                Role::Aside,
+            ));
+        }
+        for name in ["energy stored", "energy supplied", "energy dissipated"] {
+            columns.push(column(name, "J", Role::Aside));
+        }
+        (columns, panels)
+    }
+
+    /// As CSV.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        csv(&self.columns, &self.rows)
+    }
+
+    /// As a picture (SVG); `None` if there is nothing that can be drawn.
+    #[must_use]
+    pub fn figure(&self, title: &str) -> Option<String> {
+        let across = self.columns.first()?;
+        let panel = |panel: &Panel| ResponsePanel {
+            title: String::new(),
+            across: (format!("{}, {}", across.name, across.unit), Scale::Linear),
+            up: (
+                panel.up.clone(),
+                if panel.is_complex {
+                    Scale::Logarithmic
+                } else {
+                    Scale::Linear
+                },
+            ),
+            curves: panel
+                .curves
+                .iter()
+                .map(|(name, place)| ResponseCurve {
+                    name: name.clone(),
+                    points: self
+                        .rows
+                        .iter()
+                        .map(|row| {
+                            let up = match panel.is_complex {
+                                true => row[*place].hypot(row[place + 1]),
+                                false => row[*place],
+                            };
+                            (row[0], up)
+                        })
+                        .collect(),
+                    is_dashed: Vec::new(),
+                })
+                .collect(),
+        };
+        ResponseFigure {
+            title,
+            note: None,
+            panels: self.panels.iter().map(panel).collect(),
+        }
+        .to_svg()
+    }
+}
+
+fn receptance_unit(output: &Channel, input: &Channel) -> &'static str {
+    match (output.kind(), input.kind()) {
+        (DofKind::Translation, DofKind::Translation) => "m/N",
+        (DofKind::Translation, DofKind::Rotation) => "m/(N·m)",
+        (DofKind::Rotation, DofKind::Translation) => "rad/N",
+        (DofKind::Rotation, DofKind::Rotation) => "rad/(N·m)",
+    }
+}
+
+fn column(name: impl Into<String>, unit: &'static str, role: Role) -> Column {
+    Column {
+        name: name.into(),
+        unit,
+        role,
+    }
+}

@@ -1,0 +1,123 @@
+//! `respond` with an assembly file: how structures answer that joints connect.
+
+use std::fmt::Write as _;
+
+use serde_json::json;
+
+use bolted_joint::assembly::AssemblyModel;
+use bolted_joint::respond::AssemblyAnswer;
+use bolted_joint::study::StudyText;
+
+use super::super::error::CliError;
+use super::super::output::{check_output, print, warn, write_file};
+use super::super::progress::Progress;
+use super::RespondArguments;
+use super::picture::{Picture, has_extension};
+
+/// Modes that are told; the table has all.
+const MODES_TOLD: usize = 12;
+
+pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), CliError> {
+    for (option, given) in [
+        ("--joint", arguments.joint.is_some()),
+        ("--step", arguments.step.is_some()),
+        ("noise", arguments.noise.is_some()),
+    ] {
+        if given {
+            let expected =
+                "none: an assembly file names its joints, and says in [response] what is computed";
+            return Err(CliError::option(option, "it", expected));
+        }
+    }
+    if !has_extension(&arguments.output, "csv") {
+        let expected = "a name that ends in .csv";
+        return Err(CliError::option(
+            "--output",
+            arguments.output.display(),
+            expected,
+        ));
+    }
+    check_output(&arguments.output, &[&arguments.study])?;
+    let picture = Picture::asked(arguments)?;
+    let model = AssemblyModel::of(text)?;
+    let Some(response) = &model.response else {
+        let expected = "a table such as [response] with kind = \"linear\", from = 5 and to = 2000";
+        return Err(text.refusal("response", "nothing", expected).into());
+    };
+    let progress = Progress::of_share("responding");
+    let answer = AssemblyAnswer::of(&model, response, &|share| progress.reached(share))?;
+    drop(progress);
+    let drawing = Picture::drawn(picture, &model.name, || answer.figure(&model.name))?;
+    write_file(&arguments.output, answer.to_csv().as_bytes())?;
+    if let Some((path, drawing)) = &drawing {
+        write_file(path, drawing.as_bytes())?;
+    }
+    warn(&model.warnings);
+    let output = arguments.output.display();
+    if arguments.json {
+        let modes = answer.modes.iter().map(|mode| json!({ "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio }));
+        let value = json!({
+            "output": output.to_string(),
+            "report": drawing.as_ref().map(|(path, _)| path.display().to_string()),
+            "rows": answer.rows.len(),
+            "structures": model.structures.iter().map(|own| json!({
+                "name": own.name, "modes": own.form.modes, "cut": own.form.cut, "coordinates": own.form.size(), "free": own.form.rigid(),
+            })).collect::<Vec<_>>(),
+            "modes": modes.collect::<Vec<_>>(),
+            "warnings": model.warnings,
+        });
+        print(&serde_json::to_string_pretty(&value)?)?;
+    } else {
+        print(&format!("{}wrote {output}", told(&model, &answer)))?;
+    }
+    judged(&model)
+}
+
+fn told(model: &AssemblyModel, answer: &AssemblyAnswer) -> String {
+    let mut text = format!("{}\n", model.name);
+    for own in &model.structures {
+        let form = &own.form;
+        let free = match form.rigid() {
+            0 => String::new(),
+            free => format!(", {free} of them free motions"),
+        };
+        let cut = match form.cut {
+            0 => String::new(),
+            cut => format!(
+                "; {} residual vectors for {cut} more",
+                form.size() - form.modes
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "  structure {}: {} modes{free}{cut}",
+            own.name, form.modes
+        );
+    }
+    for joint in &model.joints {
+        let _ = writeln!(text, "  joint {}: {}", joint.name, joint.file.name);
+    }
+    let _ = writeln!(text, "modes of small motion:");
+    for mode in answer.modes.iter().take(MODES_TOLD) {
+        let _ = writeln!(
+            text,
+            "  {:>10.3} Hz, damping ratio {:.3e}",
+            mode.frequency_hz, mode.damping_ratio
+        );
+    }
+    if let Some(more) = answer
+        .modes
+        .len()
+        .checked_sub(MODES_TOLD)
+        .filter(|&more| more > 0)
+    {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}
+
+/// Says of joints that are not to be relied on that they are not.
+fn judged(model: &AssemblyModel) -> Result<(), CliError> {
+    let mut joints = model.joints.iter();
+    joints.try_for_each(|joint| CliError::unless_usable(&joint.path, joint.file.reasons_against()))
+}

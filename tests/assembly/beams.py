@@ -1,7 +1,7 @@
-"""Two bent beams and a joint by finite elements of one global matrix, without any modes: the reference for whole assemblies.
+"""Two bent beams and a joint by finite elements of one global matrix: the reference for whole assemblies.
 
-Euler and Bernoulli's elements with consistent masses (w, θ at each node). Damping is modal in each beam, so that it is given to
-the global matrix as M Φ diag(2ζω) Φᵀ M of each beam alone.
+Euler and Bernoulli's elements with consistent masses (w, θ at each node). Damping is modal in each beam: the global
+matrix has M Φ diag(2ζω) Φᵀ M of each beam alone.
 """
 
 import numpy as np

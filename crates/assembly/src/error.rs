@@ -19,7 +19,7 @@ pub enum AssemblyError {
         /// Name of the structure.
         name: String,
         /// Why.
-        source: StructureError,
+        source: Box<StructureError>,
     },
     /// A joint file cannot be read.
     #[error(transparent)]
@@ -30,7 +30,7 @@ pub enum AssemblyError {
         /// The joint file.
         path: String,
         /// Why.
-        source: LawError,
+        source: Box<LawError>,
     },
     /// An undamped resonance.
     #[error(

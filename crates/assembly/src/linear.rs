@@ -155,7 +155,7 @@ impl AssemblyModel {
             with_dofs!(joint.file.joint.dofs.size(), D => {
                 let law = joint.file.joint.law::<D>().map_err(|source| AssemblyError::Law {
                     path: joint.path.display().to_string(),
-                    source,
+                    source: Box::new(source),
                 })?;
                 let linear = law.linearised_about(&[0.0; D]).linear;
                 for i in 0..D {

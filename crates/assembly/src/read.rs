@@ -101,7 +101,7 @@ impl Reader<'_> {
                 .at_preload(table.preload)
                 .map_err(|source| AssemblyError::Law {
                     path: path.display().to_string(),
-                    source,
+                    source: Box::new(source),
                 })?,
         };
         let name = table.name.unwrap_or_else(|| format!("joint{}", place + 1));

@@ -45,7 +45,7 @@ pub(crate) fn structure(
     let failed = |source: StructureError| AssemblyError::Structure {
         file: study.path().display().to_string(),
         name: name.to_owned(),
-        source,
+        source: Box::new(source),
     };
     let points_beside = |given: &str| {
         study.ensure(

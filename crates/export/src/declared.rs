@@ -1,6 +1,6 @@
 //! What the FMU of a joint must declare, for whoever looks into one.
 
-use bolted_joint_dynamics::law::DECLARATIONS;
+use bolted_joint_dynamics::law::{DECLARATIONS, Declaration};
 use bolted_joint_interface::{Interface as Declared, Joints};
 
 use super::description::Description;
@@ -27,6 +27,7 @@ pub fn declared(
 pub(super) fn kind(file: &JointFile) -> Joints {
     let of_laws = Joints::of_memory_laws(DECLARATIONS);
     let own = file.joint.laws_with_memory();
+    let own: Vec<String> = own.map(Declaration::numbered_name).collect();
     of_laws
         .into_iter()
         .filter(|(name, _)| own.contains(name))

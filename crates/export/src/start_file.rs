@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Interface;
+use bolted_joint_dynamics::law::Declaration;
 use bolted_joint_joint::{DofSet, Joint, JointFile};
 
 /// First line of the file.
@@ -20,7 +21,9 @@ pub fn parameter_lines(parameters: &[(String, f64)]) -> String {
 
 /// The line with the joint's laws that remember the motion; empty where there are none.
 pub fn laws_line(file: &JointFile) -> String {
-    match file.joint.laws_with_memory().as_slice() {
+    let laws = file.joint.laws_with_memory();
+    let names: Vec<String> = laws.map(Declaration::numbered_name).collect();
+    match names.as_slice() {
         [] => String::new(),
         names => format!("laws {}\n", names.join(" ")),
     }

@@ -10,12 +10,13 @@
 //! | 1 | FMI version: 2 or 3 |
 //! | 1 | kind: 0 element, 1 lap |
 //! | 1 | degrees of freedom: 1 and 2 in a plane; 128 and a bit for each of those in space |
-//! | 1 | joint: 0 constant, 1 over the preload |
+//! | 4 | joint: a bit each for constant, over the preload, and the laws that remember |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
-//! | 4 + 8 n | number of values, and all of them: by value reference, then what is remembered beside them |
+//! | 4 + 8 n | number of values, and all of them: by value reference, but for further laws of a kind where the joint has none; then
+//!   what is remembered beside them |
 //! | 4 + 8 l | number of numbers that the joint remembers, and these |
 //! | 9 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
@@ -29,12 +30,11 @@ use crate::{
     },
     mode::Mode,
     pace::Pace,
-    values::remembered_count,
     version::Abi,
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// An enumeration of which one byte is written.
 trait Numbered: Copy + 'static {
@@ -135,7 +135,7 @@ pub(crate) enum StateError {
     /// They are not those that were written.
     Checksum,
     /// They hold more or fewer values than an instance remembers: another build of the library wrote them.
-    Values { found: u32 },
+    Values { found: u32, expected: u32 },
     /// A field has a value that it cannot have.
     Field { name: &'static str },
     /// A variable is NaN or infinite.
@@ -176,9 +176,9 @@ impl fmt::Display for StateError {
                 write!(f, "it has {found} bytes, expected {expected}")
             }
             Self::Checksum => f.write_str("its checksum is wrong, the bytes were changed"),
-            Self::Values { found } => write!(
+            Self::Values { found, expected } => write!(
                 f,
-                "it has {found} values, this library remembers {VALUE_COUNT}: another build of the library wrote it"
+                "it has {found} values, this library remembers {expected}: another build of the library wrote it"
             ),
             Self::Field { name } => write!(f, "its {name} is impossible"),
             Self::Value { name } => write!(f, "its value of {name} is impossible"),
@@ -207,15 +207,16 @@ impl Snapshot {
             abi.number(),
             variables.kind.number(),
             variables.dofs.number(),
-            variables.dependence.number(),
-            interface_type.number(),
-            self.mode.number(),
         ]);
+        bytes.extend(variables.dependence.number().to_le_bytes());
+        bytes.extend([interface_type.number(), self.mode.number()]);
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
         bytes.extend(self.pace.to_bytes());
-        bytes.extend((self.values.len() as u32).to_le_bytes());
-        bytes.extend(self.values.iter().flat_map(|value| value.to_le_bytes()));
+        bytes.extend((self.values.indices().count() as u32).to_le_bytes());
+        for index in self.values.indices() {
+            bytes.extend(self.values[index].to_le_bytes());
+        }
         let remembered = self.values.remembered();
         bytes.extend((remembered.len() as u32).to_le_bytes());
         bytes.extend(remembered.iter().flat_map(|number| number.to_le_bytes()));
@@ -253,7 +254,7 @@ impl Snapshot {
             dofs: Dofs::from_number(reader.u8()?).ok_or(StateError::Field {
                 name: "degrees of freedom",
             })?,
-            dependence: Dependence::from_number(reader.u8()?)
+            dependence: Dependence::from_number(reader.u32()?)
                 .ok_or(StateError::Field { name: "joint" })?,
         };
         let found = Identity {
@@ -342,16 +343,25 @@ impl<'a> Reader<'a> {
             .ok_or(StateError::Field { name })
     }
 
+    /// The number of numbers that come next.
+    fn count(&mut self, expected: usize) -> Result<(), StateError> {
+        let found = self.u32()?;
+        if found as usize == expected {
+            return Ok(());
+        }
+        Err(StateError::Values {
+            found,
+            expected: expected as u32,
+        })
+    }
+
     /// Everything that an instance remembers as numbers: as many as this build of the library has.
     fn values(&mut self, variables: Variables) -> Result<Values, StateError> {
-        let found = self.u32()?;
-        if found as usize != VALUE_COUNT {
-            return Err(StateError::Values { found });
-        }
-        let mut values = Values::at_rest([0.0; VALUE_COUNT], variables);
-        for (place, value) in values.iter_mut().enumerate() {
-            *value = self.f64()?;
-            if !value.is_finite() {
+        let mut values = Values::at_rest(variables);
+        self.count(values.indices().count())?;
+        for place in values.indices() {
+            values[place] = self.f64()?;
+            if !values[place].is_finite() {
                 return Err(match place.checked_sub(REFERENCE_COUNT) {
                     Some(index) => StateError::Remembered { index },
                     None => StateError::Value {
@@ -360,10 +370,7 @@ impl<'a> Reader<'a> {
                 });
             }
         }
-        let found = self.u32()?;
-        if found as usize != remembered_count(variables) {
-            return Err(StateError::Values { found });
-        }
+        self.count(values.remembered().len())?;
         for (place, number) in values.remembered_mut().iter_mut().enumerate() {
             *number = self.f64()?;
             if !number.is_finite() {

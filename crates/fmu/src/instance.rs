@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::{
     fmu_state::Identity,
     input_course::InputCourse,
-    interface::{InterfaceType, REFERENCE_COUNT, Roles, Values, reference::TIME},
+    interface::{InterfaceType, Roles, Values, reference::TIME},
     mode::Mode,
     models::{self, Model},
     pace::Pace,
@@ -31,7 +31,7 @@ use intermediate::Access;
 /// One instance of an FMU.
 pub(crate) struct Instance {
     identity: Arc<Identity>,
-    roles: [Roles; REFERENCE_COUNT],
+    roles: Box<[Roles]>,
     model: Box<dyn Model>,
     start: StartValues,
     values: Values,

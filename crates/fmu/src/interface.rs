@@ -2,7 +2,10 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::{DOF_COUNT, DOFS, SPACE, SPACE_COUNT};
+use bolted_joint_dynamics::{
+    DOF_COUNT, DOFS, SPACE, SPACE_COUNT,
+    law::{DOF_PARAMETER_COUNT, FIRST_PARAMETER_COUNT, FIRST_REMEMBERED_COUNT, REMEMBERED_COUNT},
+};
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
@@ -47,10 +50,6 @@ pub(crate) enum Dependence {
     Memory(u32),
 }
 
-/// Kinds of joints that remember nothing: their bits are the lowest ones, and a byte takes those of the laws with memory, the
-/// first of which are the linear and the polynomial law, which have none.
-const KINDS_WITHOUT_MEMORY: u32 = 2;
-
 impl Dependence {
     /// The joint whose laws with memory have these names, separated by spaces.
     pub(crate) fn on_memory_of(names: &str) -> Option<Self> {
@@ -61,26 +60,24 @@ impl Dependence {
             .map(Self::Memory)
     }
 
-    /// As one number, for a state that is written down.
-    pub(crate) const fn number(self) -> u8 {
+    /// As one number, for a state that is written down: a bit for each kind of joints that it is of.
+    pub(crate) const fn number(self) -> u32 {
         match self {
-            Self::Constant => 0,
-            Self::OverPreload(laws) => 1 | (laws >> KINDS_WITHOUT_MEMORY) as u8,
-            Self::Memory(laws) => (laws >> KINDS_WITHOUT_MEMORY) as u8,
+            Self::Constant => CONSTANT_JOINTS,
+            Self::OverPreload(laws) => JOINTS_OVER_PRELOAD | laws,
+            Self::Memory(laws) => laws,
         }
     }
 
     /// The reverse of [`Dependence::number`].
-    pub(crate) fn from_number(number: u8) -> Option<Self> {
+    pub(crate) fn from_number(number: u32) -> Option<Self> {
         let known = MEMORY_LAWS.iter().fold(0, |all, (_, law)| all | law);
-        match number {
-            0 => Some(Self::Constant),
-            _ => Some(u32::from(number & !1) << KINDS_WITHOUT_MEMORY)
-                .filter(|laws| laws & !known == 0)
-                .map(|laws| match number & 1 {
-                    0 => Self::Memory(laws),
-                    _ => Self::OverPreload(laws),
-                }),
+        let laws = number & known;
+        match number & !known {
+            CONSTANT_JOINTS if laws == 0 => Some(Self::Constant),
+            JOINTS_OVER_PRELOAD => Some(Self::OverPreload(laws)),
+            0 if laws != 0 => Some(Self::Memory(laws)),
+            _ => None,
         }
     }
 
@@ -193,6 +190,47 @@ pub(crate) use crate::values::Values;
 
 /// Number of values, beside what the joint's laws remember.
 pub(crate) const VALUE_COUNT: usize = REFERENCE_COUNT + 6;
+
+/// Value references of laws that stand beside another of their kind: one after the other, and no others between.
+pub(crate) const FURTHER: std::ops::Range<usize> = {
+    let mut start = 0;
+    while !is_further(start) {
+        start += 1;
+    }
+    let mut end = start;
+    while end < REFERENCE_COUNT && is_further(end) {
+        end += 1;
+    }
+    let mut behind = end;
+    while behind < REFERENCE_COUNT {
+        assert!(!is_further(behind));
+        behind += 1;
+    }
+    start..end
+};
+
+/// Whether a value reference is that of a law that stands beside another of its kind.
+const fn is_further(index: usize) -> bool {
+    let mut row = 0;
+    while row < DOF_COUNT {
+        let mut place = FIRST_PARAMETER_COUNT;
+        while place < DOF_PARAMETER_COUNT {
+            if reference::LAW_PARAMETERS[row][place] == index {
+                return true;
+            }
+            place += 1;
+        }
+        place = FIRST_REMEMBERED_COUNT;
+        while place < REMEMBERED_COUNT {
+            if reference::LAW_MEMORY[row][place] == index {
+                return true;
+            }
+            place += 1;
+        }
+        row += 1;
+    }
+    false
+}
 
 /// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
 pub(crate) mod memory {
@@ -464,9 +502,10 @@ impl Variables {
             .map_or("(no variable)", |variable| variable.name)
     }
 
-    /// Role of each value reference.
-    pub(crate) fn roles(self) -> [Roles; REFERENCE_COUNT] {
-        std::array::from_fn(|index| {
+    /// Role of each value reference, up to the last that there is.
+    pub(crate) fn roles(self) -> Box<[Roles]> {
+        let count = self.iter().last().map_or(0, |(last, _)| last + 1);
+        let role = |index| {
             self.get(index).map_or(Roles::NONE, |variable| {
                 let role = Roles::of(&[variable.role]);
                 match index {
@@ -474,19 +513,22 @@ impl Variables {
                     _ => role,
                 }
             })
-        })
+        };
+        (0..count).map(role).collect()
     }
 
     /// Start values of the model description.
     pub(crate) fn start(self) -> Values {
-        let start = |reference| self.get(reference).map_or(0.0, |variable| variable.start);
-        let mut numbers = std::array::from_fn(start);
+        let mut values = Values::at_rest(self);
+        for (reference, variable) in self.iter() {
+            values[reference] = variable.start;
+        }
         // nothing moves these masses, but they are divided by
         for row in self.dofs.at_rest() {
             for side in [&reference::A_INERTIA, &reference::B_INERTIA] {
-                numbers[side[row]] = 1.0;
+                values[side[row]] = 1.0;
             }
         }
-        Values::at_rest(numbers, self)
+        values
     }
 }

@@ -1,64 +1,102 @@
 //! Everything that an instance holds as numbers: its variables, what it remembers beside them, and what its joint
 //! remembers.
 
-use std::ops::{Deref, DerefMut};
+use std::ops::{Index, IndexMut};
 
 use bolted_joint_dynamics::{
     DOF_AT_REST, DofMemory, JointLaw, JointMemory, Motion,
-    law::{DOF_MEMORY_COUNT, REMEMBERED_PLACES},
+    law::{FIRST_REMEMBERED_COUNT, REMEMBERED_PLACES},
 };
 
-use crate::interface::{VALUE_COUNT, Variables, first_row, reference::LAW_MEMORY};
+use crate::interface::{FURTHER, VALUE_COUNT, Variables, first_row, reference::LAW_MEMORY};
+
+/// Number of values that every FMU has room for.
+const COMMON_COUNT: usize = VALUE_COUNT - FURTHER_COUNT;
+
+/// Number of values of laws that stand beside another of their kind.
+const FURTHER_COUNT: usize = FURTHER.end - FURTHER.start;
 
 /// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
 ///
-/// What the laws of the joint remember stands apart, and only in FMUs whose joint remembers anything: it is long.
+/// What few joints need is long, and stands apart where the joint needs it: the variables of laws that stand beside another of
+/// their kind, and what the laws remember.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Values {
-    numbers: [f64; VALUE_COUNT],
+    numbers: [f64; COMMON_COUNT],
+    /// Of the references [`FURTHER`], or nothing.
+    further: Vec<f64>,
     /// Of each DOF of a joint with memory.
     joint: Vec<DofMemory>,
 }
 
-impl Deref for Values {
-    type Target = [f64; VALUE_COUNT];
+impl Index<usize> for Values {
+    type Output = f64;
 
     #[inline]
-    fn deref(&self) -> &Self::Target {
-        &self.numbers
+    fn index(&self, index: usize) -> &f64 {
+        match index {
+            _ if index < FURTHER.start => &self.numbers[index],
+            _ if index < FURTHER.end => &self.further[index - FURTHER.start],
+            _ => &self.numbers[index - FURTHER_COUNT],
+        }
     }
 }
 
-impl DerefMut for Values {
+impl IndexMut<usize> for Values {
     #[inline]
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.numbers
+    fn index_mut(&mut self, index: usize) -> &mut f64 {
+        match index {
+            _ if index < FURTHER.start => &mut self.numbers[index],
+            _ if index < FURTHER.end => &mut self.further[index - FURTHER.start],
+            _ => &mut self.numbers[index - FURTHER_COUNT],
+        }
     }
 }
 
 impl Values {
-    /// All zero, and no joint that remembers: a direction of change.
+    /// A direction of change of such values: all zero, and no joint that remembers.
     #[inline]
-    pub(crate) fn zero() -> Self {
+    pub(crate) fn change(&self) -> Self {
         Self {
-            numbers: [0.0; VALUE_COUNT],
+            numbers: [0.0; COMMON_COUNT],
+            further: vec![0.0; self.further.len()],
             joint: Vec::new(),
         }
     }
 
-    /// These values of an FMU with these variables, whose joint has not moved yet.
-    pub(crate) fn at_rest(numbers: [f64; VALUE_COUNT], variables: Variables) -> Self {
+    /// Zero, of an FMU with these variables, whose joint has not moved yet.
+    pub(crate) fn at_rest(variables: Variables) -> Self {
+        let has_further = FURTHER
+            .into_iter()
+            .any(|index| variables.get(index).is_some());
         Self {
-            numbers,
+            numbers: [0.0; COMMON_COUNT],
+            further: vec![0.0; if has_further { FURTHER_COUNT } else { 0 }],
             joint: vec![DOF_AT_REST; remembering_dofs(variables)],
         }
     }
 
-    /// The same joint with other values of the variables.
-    pub(crate) fn with(&self, numbers: [f64; VALUE_COUNT]) -> Self {
-        Self {
-            numbers,
-            joint: self.joint.clone(),
+    /// Whether there are laws that stand beside another of their kind.
+    #[inline]
+    pub(crate) fn has_further(&self) -> bool {
+        !self.further.is_empty()
+    }
+
+    /// The indices of all values that there are.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
+        let further = FURTHER.start..FURTHER.start + self.further.len();
+        (0..FURTHER.start)
+            .chain(further)
+            .chain(FURTHER.end..VALUE_COUNT)
+    }
+
+    /// The value of this index, if there is one.
+    #[inline]
+    pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            _ if index < FURTHER.start => self.numbers.get_mut(index),
+            _ if index < FURTHER.end => self.further.get_mut(index - FURTHER.start),
+            _ => self.numbers.get_mut(index - FURTHER_COUNT),
         }
     }
 
@@ -77,8 +115,15 @@ impl Values {
         let joint = self.joint.first_chunk_mut::<D>()?;
         let result = change(joint);
         for (references, own) in LAW_MEMORY[first_row::<D>()..].iter().zip(joint) {
-            for (&reference, place) in references.iter().zip(REMEMBERED_PLACES) {
+            let mut shown = references.iter().zip(REMEMBERED_PLACES);
+            for (&reference, place) in shown.by_ref().take(FIRST_REMEMBERED_COUNT) {
                 self.numbers[reference] = own[place];
+            }
+            if self.further.is_empty() {
+                continue;
+            }
+            for (&reference, place) in shown {
+                self.further[reference - FURTHER.start] = own[place];
             }
         }
         Some(result)
@@ -120,7 +165,7 @@ pub(crate) struct StartValues(Box<[(u32, f64)]>);
 impl StartValues {
     /// Those of a joint that has not moved yet.
     pub(crate) fn of(values: &Values) -> Self {
-        let numbers = (0..).zip(values.iter().copied());
+        let numbers = values.indices().map(|index| (index as u32, values[index]));
         // what is not all zero bits, so that −0 stays what it is
         Self(
             numbers
@@ -131,17 +176,13 @@ impl StartValues {
 
     /// Puts them in the place of `values`, which are of the same FMU.
     pub(crate) fn restore(&self, values: &mut Values) {
-        values.numbers = [0.0; VALUE_COUNT];
+        values.numbers.fill(0.0);
+        values.further.fill(0.0);
         for &(place, number) in &self.0 {
-            values.numbers[place as usize] = number;
+            values[place as usize] = number;
         }
         values.joint.fill(DOF_AT_REST);
     }
-}
-
-/// Number of numbers that the joint of an FMU with these variables remembers.
-pub(crate) fn remembered_count(variables: Variables) -> usize {
-    remembering_dofs(variables) * DOF_MEMORY_COUNT
 }
 
 fn remembering_dofs(variables: Variables) -> usize {

@@ -90,8 +90,8 @@ impl Remembering {
         way.period(&self.laws, &mut memory, &way.places);
         // Masing's laws have come to their loop. A load relaxes towards it, by Newton's method.
         let relaxing: Vec<usize> = remembered()
-            .filter(|(_, of)| of.quantity == RememberedAs::Load)
-            .map(|(place, _)| place)
+            .filter(|(_, _, of)| of.quantity == RememberedAs::Load)
+            .map(|(place, _, _)| place)
             .filter(|&place| memory[place] != 0.0)
             .collect();
         let mut lasting: Vec<(usize, f64)> = Vec::new();

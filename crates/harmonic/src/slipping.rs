@@ -23,7 +23,9 @@ impl<const D: usize> Slipping<D> {
         if !joint.has_memory() {
             return Ok(None);
         }
-        if joint.on.iter().any(|laws| laws.lugre() != LuGre::new(&[])) {
+        let rate_dependent = <LuGre as Law<f64>>::DECLARATION.name;
+        let mut laws = joint.on.iter().flat_map(DofLaws::present);
+        if laws.any(|law| law.name == rate_dependent) {
             return Err(HarmonicError::Rate);
         }
         let on = joint.on.map(|laws| {

@@ -124,7 +124,7 @@ pub struct Interfaces {
     pub(crate) expanded: [Expanded; 2],
     pub(crate) dof_count: usize,
     /// Names of the laws that remember the motion, with the kind of joints that has each.
-    pub(crate) memory_laws: Vec<(&'static str, Joints)>,
+    pub(crate) memory_laws: Vec<(String, Joints)>,
 }
 
 impl Interfaces {

@@ -81,11 +81,11 @@ impl Joints {
 
     /// The laws with memory, each with the joints that have it.
     #[must_use]
-    pub fn of_memory_laws(laws: &[Declaration]) -> Vec<(&'static str, Self)> {
+    pub fn of_memory_laws(laws: &[Declaration]) -> Vec<(String, Self)> {
         let places = laws.iter().enumerate();
         places
             .filter(|(_, law)| law.remembers())
-            .map(|(place, law)| (law.name, Self::with_memory_of(place)))
+            .map(|(place, law)| (law.numbered_name(), Self::with_memory_of(place)))
             .collect()
     }
 

@@ -65,6 +65,8 @@ const SLIDER: Declaration = Declaration {
         description: "Where the slider stands in {motion}",
     }],
     hidden_memory: 3,
+    at_most: 1,
+    number: 1,
 };
 
 /// The project's DOFs, another translation, and one with the displacement's name of the first but another rate and load.

@@ -34,8 +34,13 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// The laws that can stand there: all but those whose parameters are the joint's own lists and matrices.
+    /// The kinds of laws that can stand there: all but those whose parameters are the joint's own lists and matrices.
     pub fn laws() -> impl Iterator<Item = &'static Declaration> {
+        Self::all_laws().filter(|law| law.number == 1)
+    }
+
+    /// The laws that can stand there beside each other on a DOF, of some kinds several.
+    pub(super) fn all_laws() -> impl Iterator<Item = &'static Declaration> {
         let polynomial = <Polynomial as Law<f64>>::DECLARATION.name;
         // the linear one is the first
         let on_dofs = DECLARATIONS.iter().skip(1);
@@ -78,7 +83,7 @@ impl Friction {
     pub(super) fn outside(&self) -> Option<Outside> {
         let mut parameters = [0.0; DOF_PARAMETER_COUNT];
         for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
-            if law.name == self.law.name {
+            if law == self.law {
                 *own = self.value(parameter).unwrap_or(0.0);
             }
         }

@@ -136,21 +136,23 @@ impl Joint {
         }
     }
 
-    /// The law of this kind on a DOF, where `friction` has one.
+    /// The law that is this one of its kind on a DOF, where `friction` has so many, in its order.
     #[must_use]
     pub fn friction_on(&self, dof: &Dof, law: &Declaration) -> Option<&Friction> {
-        let mut all = self.friction.iter();
-        all.find(|own| own.dof.name == dof.name && own.law == law)
+        let all = self.friction.iter();
+        all.filter(|own| own.dof.name == dof.name && own.law.name == law.name)
+            .nth(law.number.checked_sub(1)?)
     }
 
-    /// Names of the joint's laws that remember the motion, in the order in which laws are declared.
-    #[must_use]
-    pub fn laws_with_memory(&self) -> Vec<&'static str> {
-        Friction::laws()
+    /// The joint's laws that remember the motion, in the order in which laws are declared: as many of each kind as the DOF has that
+    /// has most of them.
+    pub fn laws_with_memory(&self) -> impl Iterator<Item = &'static Declaration> {
+        Friction::all_laws()
             .filter(|law| law.remembers())
-            .filter(|law| self.friction.iter().any(|own| own.law.name == law.name))
-            .map(|law| law.name)
-            .collect()
+            .filter(|law| {
+                let mut dofs = self.dofs.rows();
+                dofs.any(|dof| self.friction_on(dof, law).is_some())
+            })
     }
 
     /// Whether there is nothing beside stiffness and damping, each constant.

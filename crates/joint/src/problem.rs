@@ -86,15 +86,20 @@ pub enum JointProblem {
     },
     /// A law that is already on the DOF.
     #[error(
-        "{path}: found a second \"{law}\" on \"{dof}\", expected each law once on a degree of freedom; take one of them out"
+        "{path}: found \"{law}\" number {found} on \"{dof}\", expected {at_most} of that kind at the most on a degree of freedom; \
+         take one of them out, or let fewer stand for all"
     )]
-    LawTwice {
+    TooManyLaws {
         /// Path of the law.
         path: String,
         /// Name of the law.
         law: &'static str,
         /// Name of the DOF.
         dof: &'static str,
+        /// Which of its kind it is there, from 1.
+        found: usize,
+        /// How many there can be.
+        at_most: usize,
     },
     /// A parameter that is outside of the range of its law, in which alone the law takes energy.
     #[error("{path}: found {found:?}, expected {expected}")]

@@ -143,11 +143,17 @@ impl Check {
                     dofs: self.dofs,
                 });
             }
-            let is_same = |other: &Friction| other.dof.name == own.dof.name && other.law == own.law;
-            if laws[..i].iter().any(is_same) {
-                let path = format!("{path}.law");
-                self.problems
-                    .push(JointProblem::LawTwice { path, law, dof });
+            let before = laws[..i].iter();
+            let same = before.filter(|other| other.dof.name == dof && other.law == own.law);
+            let (found, at_most) = (same.count() + 1, own.law.at_most);
+            if found > at_most {
+                self.problems.push(JointProblem::TooManyLaws {
+                    path: format!("{path}.law"),
+                    law,
+                    dof,
+                    found,
+                    at_most,
+                });
             }
             let before = self.problems.len();
             for (parameter, &found) in own.law.parameters.iter().zip(&own.parameters) {

@@ -174,6 +174,8 @@ impl<N: Number> Law<N> for BoucWen<N> {
             description: "{Load} of the joint's Bouc-Wen law in {motion}, as of the last step",
         }],
         hidden_memory: 2,
+        at_most: 2,
+        number: 1,
     };
 
     by_numbers!(stiffness, slip_force, exponent, beta, gamma);

@@ -92,6 +92,8 @@ impl<N: Number> Law<N> for Dahl<N> {
             description: "{Load} of the joint's Dahl law in {motion}, as of the last step",
         }],
         hidden_memory: HIDDEN,
+        at_most: 2,
+        number: 1,
     };
 
     by_numbers!(stiffness, slip_force);

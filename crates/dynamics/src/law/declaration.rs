@@ -14,6 +14,10 @@ pub struct Declaration {
     /// Number of numbers that it remembers behind those, and that are no variables: part of the state, and nothing that
     /// people would look at.
     pub hidden_memory: usize,
+    /// How many of its kind there can be on each DOF.
+    pub at_most: usize,
+    /// Which of them it is, from 1.
+    pub number: usize,
 }
 
 impl Declaration {
@@ -34,6 +38,31 @@ impl Declaration {
     #[must_use]
     pub const fn memory_count(&self) -> usize {
         self.memory.len() + self.hidden_memory
+    }
+
+    /// The law that is that one of its kind.
+    pub(super) const fn numbered(self, number: usize) -> Self {
+        Self { number, ..self }
+    }
+
+    /// Its name, behind which all but the first of a kind have their number.
+    #[must_use]
+    pub fn numbered_name(&self) -> String {
+        match self.number {
+            1 => self.name.to_owned(),
+            number => format!("{}_{number}", self.name),
+        }
+    }
+
+    /// Name of the variable with one of its symbols on a DOF: `joint.SYMBOL_DOF`, such as `joint.jenkins_k_y`. All but the first
+    /// of a kind have their number behind the kind: `joint.jenkins_2_k_y`.
+    #[must_use]
+    pub fn variable(&self, symbol: &str, dof: &str) -> String {
+        let kind = self.name.replace('-', "_");
+        match (self.number, symbol.strip_prefix(&kind)) {
+            (1, _) | (_, None) => format!("joint.{symbol}_{dof}"),
+            (number, Some(own)) => format!("joint.{kind}_{number}{own}_{dof}"),
+        }
     }
 
     /// Whether it remembers anything.

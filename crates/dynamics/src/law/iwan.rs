@@ -138,6 +138,8 @@ impl<N: Number> Law<N> for Iwan<N> {
             description: "Relative {motion} at which the joint turned last, zero before it has, as of the last step",
         }],
         hidden_memory: HIDDEN,
+        at_most: 2,
+        number: 1,
     };
 
     by_numbers!(slip_force, stiffness, exponent, ratio);

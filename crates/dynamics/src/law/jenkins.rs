@@ -111,6 +111,8 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }],
         // its slip force there
         hidden_memory: 1,
+        at_most: 4,
+        number: 1,
     };
 
     by_numbers!(stiffness, slip_force);

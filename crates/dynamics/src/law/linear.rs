@@ -55,6 +55,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
     ],
     memory: &[],
     hidden_memory: 0,
+    at_most: 1,
+    number: 1,
 };
 
 /// What it says of the stiffness.

@@ -194,6 +194,8 @@ impl<N: Number> Law<N> for LuGre<N> {
             description: "Deflection of the bristles in the joint's LuGre law in {motion}, as of the last step",
         }],
         hidden_memory: 2,
+        at_most: 2,
+        number: 1,
     };
 
     by_numbers!(

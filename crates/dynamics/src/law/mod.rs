@@ -126,6 +126,13 @@ struct Place {
 }
 
 impl Place {
+    /// Before all laws.
+    const FRONT: Self = Self {
+        bit: 0,
+        parameters: [0, 0],
+        memory: [0, 0],
+    };
+
     /// Whether the law there remembers anything.
     const fn has_memory(self) -> bool {
         self.memory[0] < self.memory[1]
@@ -140,45 +147,127 @@ impl Place {
             memory: [memory, memory + declaration.memory_count()],
         }
     }
+
+    /// The law there; the linear one, which is the first, has no place.
+    const fn law(self) -> &'static Declaration {
+        &DECLARATIONS[self.bit.trailing_zeros() as usize + 1]
+    }
 }
 
-/// Puts the laws that act on one relative DOF together, in this order.
+/// Number of laws that there can be, the linear one among them.
+const LAW_COUNT: usize = {
+    let (mut count, mut kind) = (0, 0);
+    while kind < KINDS.len() {
+        count += KINDS[kind].at_most;
+        kind += 1;
+    }
+    count
+};
+
+/// The laws in their order, each with its kind: first one of each kind, then the second of each that there can be two of, and so
+/// on. So those of which a kind has more cost nothing where it has one.
+const LAWS: [(usize, Declaration); LAW_COUNT] = {
+    let mut laws = [(0, KINDS[0]); LAW_COUNT];
+    let (mut law, mut number) = (0, 1);
+    while law < LAW_COUNT {
+        let mut kind = 0;
+        while kind < KINDS.len() {
+            if KINDS[kind].at_most >= number {
+                laws[law] = (kind, KINDS[kind].numbered(number));
+                law += 1;
+            }
+            kind += 1;
+        }
+        number += 1;
+    }
+    laws
+};
+
+/// What every law of a joint says of itself: first one of each kind, the linear one before all.
+pub const DECLARATIONS: &[Declaration] = &{
+    let mut declarations = [KINDS[0]; LAW_COUNT];
+    let mut law = 0;
+    while law < LAW_COUNT {
+        declarations[law] = LAWS[law].1;
+        law += 1;
+    }
+    declarations
+};
+
+/// The places of the laws on a DOF: of all but the linear one, in their order.
+const ALL: [Place; LAW_COUNT - 1] = {
+    let mut places = [Place::FRONT; LAW_COUNT - 1];
+    let mut place = Place::FRONT;
+    let mut law = 1;
+    while law < LAW_COUNT {
+        place = place.then(&LAWS[law].1);
+        places[law - 1] = place;
+        law += 1;
+    }
+    places
+};
+
+/// The places of a kind.
+const fn places_of<const COUNT: usize>(kind: usize) -> [Place; COUNT] {
+    let mut places = [Place::FRONT; COUNT];
+    let mut law = 1;
+    while law < LAW_COUNT {
+        if LAWS[law].0 == kind {
+            places[LAWS[law].1.number - 1] = ALL[law - 1];
+        }
+        law += 1;
+    }
+    places
+}
+
+/// The place of the last law that is the first of its kind.
+const LAST_FIRST: Place = ALL[KINDS.len() - 2];
+
+/// The bits of all laws that are not the first of their kind.
+const FURTHER: u32 = !((LAST_FIRST.bit << 1) - 1);
+
+/// The bits of the laws that remember.
+const REMEMBERING: u32 = {
+    let (mut bits, mut law) = (0, 0);
+    while law < ALL.len() {
+        if ALL[law].has_memory() {
+            bits |= ALL[law].bit;
+        }
+        law += 1;
+    }
+    bits
+};
+
+/// Puts the kinds of laws that act on one relative DOF together, in this order.
 macro_rules! dof_laws {
     ($($name:ident: $law:ident),+ $(,)?) => {
-        /// What every law of a joint says of itself, the linear one first.
-        pub const DECLARATIONS: &[Declaration] = &[
+        /// What the kinds of laws say of themselves, the linear one first.
+        const KINDS: &[Declaration] = &[
             linear::DECLARATION,
             $(<$law<f64> as Law<f64>>::DECLARATION,)+
         ];
 
-        /// The place of each law, and behind them all.
+        /// The places of each kind.
         struct Places {
-            $($name: Place,)+
-            end: Place,
+            $($name: [Place; <$law<f64> as Law<f64>>::DECLARATION.at_most],)+
         }
 
-        /// The places of all of them.
-        const ALL: &[Place] = &[$(PLACES.$name),+];
-
-        /// The bits of the laws that remember.
-        const REMEMBERING: u32 = $((if PLACES.$name.has_memory() { PLACES.$name.bit } else { 0 }) |)+ 0;
-
         const PLACES: Places = {
-            let end = Place { bit: 0, parameters: [0, 0], memory: [0, 0] };
+            let mut kind = 0;
             $(
-                let end = end.then(&<$law<f64> as Law<f64>>::DECLARATION);
-                let $name = end;
+                kind += 1;
+                let $name = places_of(kind);
             )+
-            Places { $($name,)+ end }
+            Places { $($name,)+ }
         };
 
         impl<N: Number> DofLaws<N> {
             $(
-                /// This law by itself.
+                /// This law by itself, or the first of its kind.
                 #[inline]
                 #[must_use]
                 pub fn $name(&self) -> $law<N> {
-                    $law::new(self.of(PLACES.$name))
+                    $law::new(self.of(PLACES.$name[0]))
                 }
             )+
 
@@ -187,8 +276,22 @@ macro_rules! dof_laws {
             #[must_use]
             pub fn load<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
-                $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().load(part(memory, PLACES.$name), r, velocity);
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().load(part(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_load(memory, r, velocity);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_load<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.load(part(memory, place), r, velocity);
                 })+
                 sum
             }
@@ -198,8 +301,22 @@ macro_rules! dof_laws {
             #[must_use]
             pub fn stored_energy<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N) -> N {
                 let mut sum = N::ZERO;
-                $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().stored_energy(part(memory, PLACES.$name), r);
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().stored_energy(part(memory, PLACES.$name[0]), r);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_stored_energy(memory, r);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_stored_energy<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.stored_energy(part(memory, place), r);
                 })+
                 sum
             }
@@ -209,8 +326,22 @@ macro_rules! dof_laws {
             #[must_use]
             pub fn dissipated_power<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
-                $(if self.has(PLACES.$name) {
-                    sum = sum + self.$name().dissipated_power(part(memory, PLACES.$name), r, velocity);
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().dissipated_power(part(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_dissipated_power(memory, r, velocity);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_dissipated_power<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.dissipated_power(part(memory, place), r, velocity);
                 })+
                 sum
             }
@@ -220,7 +351,7 @@ macro_rules! dof_laws {
             #[must_use]
             pub fn viscous_power(&self, r: N, velocity: N) -> N {
                 let mut sum = N::ZERO;
-                $(if !PLACES.$name.has_memory() && self.has(PLACES.$name) {
+                $(if !PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
                     sum = sum + self.$name().dissipated_power::<N>(&[], r, velocity);
                 })+
                 sum
@@ -230,8 +361,21 @@ macro_rules! dof_laws {
             /// J, beside that of dampers and without its changes.
             pub fn commit(&self, memory: &mut DofMemory<N>, r: N, velocity: N) -> f64 {
                 let mut heat = 0.0;
-                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
-                    heat += self.$name().commit(part_mut(memory, PLACES.$name), r, velocity);
+                $(if PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
+                    heat += self.$name().commit(part_mut(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    heat += self.further_commit(memory, r, velocity);
+                }
+                heat
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_commit(&self, memory: &mut DofMemory<N>, r: N, velocity: N) -> f64 {
+                let mut heat = 0.0;
+                $(for place in self.further(&PLACES.$name) {
+                    heat += $law::new(self.of(place)).commit(part_mut(memory, place), r, velocity);
                 })+
                 heat
             }
@@ -242,30 +386,26 @@ macro_rules! dof_laws {
             /// Tells where the load may not be smooth on the straight way from where the memory is to `to`; beside the way
             /// there may be others.
             pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(Corner)) {
-                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
-                    self.$name().corners(part(memory, PLACES.$name), to, tell);
+                $(for place in self.own(&PLACES.$name) {
+                    $law::new(self.of(place)).corners(part(memory, place), to, tell);
                 })+
             }
 
             /// Copies what the laws that are there remember, and nothing else.
             pub fn copy_memory(&self, from: &DofMemory, to: &mut DofMemory) {
-                $(if PLACES.$name.has_memory() && self.has(PLACES.$name) {
-                    part_mut(to, PLACES.$name).copy_from_slice(part(from, PLACES.$name));
-                })+
+                for place in self.own(&ALL) {
+                    part_mut(to, place).copy_from_slice(part(from, place));
+                }
             }
 
             /// The first parameter that is outside of the range of its law, if one is.
             #[must_use]
             pub fn outside(&self) -> Option<(&'static Declaration, Outside)> {
-                let mut laws = DECLARATIONS.iter().skip(1);
-                $(
-                    let declaration = laws.next()?;
-                    if self.has(PLACES.$name)
-                        && let Some(outside) = self.$name().outside()
-                    {
-                        return Some((declaration, outside));
+                $(for place in self.own(&PLACES.$name) {
+                    if let Some(outside) = $law::new(self.of(place)).outside() {
+                        return Some((place.law(), outside));
                     }
-                )+
+                })+
                 None
             }
 
@@ -273,8 +413,8 @@ macro_rules! dof_laws {
             /// and damping `c`; infinite where none is there.
             pub(crate) fn nonlinear_amplitude(&self, k: f64, c: f64) -> f64 {
                 let mut least = f64::INFINITY;
-                $(if self.has(PLACES.$name) {
-                    least = least.min(self.$name().nonlinear_amplitude(k, c));
+                $(for place in self.own(&PLACES.$name) {
+                    least = least.min($law::new(self.of(place)).nonlinear_amplitude(k, c));
                 })+
                 least
             }
@@ -285,7 +425,7 @@ macro_rules! dof_laws {
                 /// This law alone.
                 fn from(law: $law<N>) -> Self {
                     let mut parameters = Self::NONE.parameters;
-                    let [start, end] = PLACES.$name.parameters;
+                    let [start, end] = PLACES.$name[0].parameters;
                     law.write(&mut parameters[start..end]);
                     Self::new(parameters)
                 }
@@ -305,7 +445,10 @@ dof_laws! {
 }
 
 /// Number of parameters that the laws have on each DOF.
-pub const DOF_PARAMETER_COUNT: usize = PLACES.end.parameters[1];
+pub const DOF_PARAMETER_COUNT: usize = ALL[ALL.len() - 1].parameters[1];
+
+/// Number of the first of those, of the first law of each kind.
+pub const FIRST_PARAMETER_COUNT: usize = LAST_FIRST.parameters[1];
 
 /// Number of the first of those, of laws that remember nothing: they stand before all others.
 pub const FORGETFUL_PARAMETER_COUNT: usize = {
@@ -329,7 +472,7 @@ pub fn dof_parameters() -> impl Iterator<Item = (&'static Declaration, &'static 
 }
 
 /// Number of numbers that the laws remember on each DOF.
-pub const DOF_MEMORY_COUNT: usize = PLACES.end.memory[1];
+pub const DOF_MEMORY_COUNT: usize = ALL[ALL.len() - 1].memory[1];
 
 /// The laws on one relative DOF, by their parameters in the order of [`DECLARATIONS`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -355,6 +498,16 @@ pub const REMEMBERED_COUNT: usize = {
     count
 };
 
+/// Number of the first of those, of the first law of each kind.
+pub const FIRST_REMEMBERED_COUNT: usize = {
+    let (mut count, mut law) = (0, 0);
+    while law < KINDS.len() {
+        count += KINDS[law].memory.len();
+        law += 1;
+    }
+    count
+};
+
 /// Places in [`DofMemory`] of the numbers that are variables, in the order of [`DECLARATIONS`].
 pub const REMEMBERED_PLACES: [usize; REMEMBERED_COUNT] = {
     let mut places = [0; REMEMBERED_COUNT];
@@ -372,10 +525,12 @@ pub const REMEMBERED_PLACES: [usize; REMEMBERED_COUNT] = {
     places
 };
 
-/// The numbers in [`DofMemory`] that are variables: the place of each, with what is declared of it.
-pub fn remembered() -> impl Iterator<Item = (usize, &'static Remembered)> {
-    let declared = DECLARATIONS.iter().flat_map(|law| law.memory);
-    REMEMBERED_PLACES.into_iter().zip(declared)
+/// The numbers in [`DofMemory`] that are variables: the place of each, with its law and what that declares of it.
+pub fn remembered() -> impl Iterator<Item = (usize, &'static Declaration, &'static Remembered)> {
+    let laws = DECLARATIONS.iter();
+    let declared = laws.flat_map(|law| law.memory.iter().map(move |number| (law, number)));
+    let places = REMEMBERED_PLACES.into_iter().zip(declared);
+    places.map(|(place, (law, number))| (place, law, number))
 }
 
 #[inline]
@@ -390,6 +545,20 @@ fn part_mut<N>(memory: &mut DofMemory<N>, place: Place) -> &mut [N] {
     &mut memory[start..end]
 }
 
+/// The bits of those of these places at which a law is: one of its parameters is not zero.
+#[inline]
+fn present<'p, N: Number>(
+    places: impl Iterator<Item = &'p Place>,
+    parameters: &[N; DOF_PARAMETER_COUNT],
+) -> u32 {
+    places.fold(0, |present, place| {
+        let [start, end] = place.parameters;
+        let mut own = parameters[start..end].iter();
+        let is_there = own.any(|number| !number.is_zero());
+        present | if is_there { place.bit } else { 0 }
+    })
+}
+
 impl<N: Number> DofLaws<N> {
     /// No law there.
     pub const NONE: Self = Self {
@@ -401,17 +570,28 @@ impl<N: Number> DofLaws<N> {
     #[inline]
     #[must_use]
     pub fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
-        let present = ALL.iter().fold(0, |present, place| {
-            let [start, end] = place.parameters;
-            let is_there = parameters[start..end]
-                .iter()
-                .any(|number| !number.is_zero());
-            present | if is_there { place.bit } else { 0 }
-        });
         Self {
             parameters,
-            present,
+            present: present(ALL.iter(), &parameters),
         }
+    }
+
+    /// The laws with these parameters, of which none has another of its kind beside it.
+    #[inline]
+    #[must_use]
+    pub fn of_each_kind(first: &[N; FIRST_PARAMETER_COUNT]) -> Self {
+        let mut parameters = [N::ZERO; DOF_PARAMETER_COUNT];
+        parameters[..FIRST_PARAMETER_COUNT].copy_from_slice(first);
+        let firsts = ALL.iter().take(KINDS.len() - 1);
+        Self {
+            parameters,
+            present: present(firsts, &parameters),
+        }
+    }
+
+    /// The laws that are there.
+    pub fn present(&self) -> impl Iterator<Item = &'static Declaration> {
+        self.own(&ALL).map(Place::law)
     }
 
     /// Their parameters, in the order of [`DECLARATIONS`].
@@ -466,6 +646,24 @@ impl<N: Number> DofLaws<N> {
             parameters: std::array::from_fn(|n| self.parameters[n] + others.parameters[n]),
             present: self.present | others.present,
         }
+    }
+
+    /// Those of these places at which a law is.
+    #[inline]
+    fn own<'a>(&'a self, places: &'a [Place]) -> impl Iterator<Item = Place> + 'a {
+        places.iter().copied().filter(|&place| self.has(place))
+    }
+
+    /// The same without the first of a kind.
+    #[inline]
+    fn further<'a>(&'a self, places: &'a [Place]) -> impl Iterator<Item = Place> + 'a {
+        self.own(&places[1..])
+    }
+
+    /// Whether there is a law beside another of its kind.
+    #[inline]
+    const fn has_further(&self) -> bool {
+        self.present & FURTHER != 0
     }
 
     #[inline]

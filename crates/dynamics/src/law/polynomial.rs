@@ -246,6 +246,8 @@ impl<N: Number> Law<N> for Polynomial<N> {
         parameters: &PARAMETERS,
         memory: &[],
         hidden_memory: 0,
+        at_most: 1,
+        number: 1,
     };
 
     #[inline]

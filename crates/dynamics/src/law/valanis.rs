@@ -129,6 +129,8 @@ impl<N: Number> Law<N> for Valanis<N> {
             description: "{Load} of the slider in the joint's Valanis law in {motion}, as of the last step",
         }],
         hidden_memory: HIDDEN,
+        at_most: 2,
+        number: 1,
     };
 
     by_numbers!(stiffness, slip_stiffness, slip_force, kappa);

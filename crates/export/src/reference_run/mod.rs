@@ -197,8 +197,8 @@ const LOAD: NameOf = |dof| dof.load;
 /// What the joint remembers under `name`, or `None` if it is nothing of that.
 fn remembered<const D: usize>(name: &str, dofs: DofSet, memory: &JointMemory<D>) -> Option<f64> {
     dofs.rows().zip(memory).find_map(|(dof, own)| {
-        let (place, _) = remembered_by_laws()
-            .find(|(_, number)| name == format!("joint.{}_{}", number.symbol, dof.name))?;
+        let (place, _, _) = remembered_by_laws()
+            .find(|(_, law, number)| name == law.variable(number.symbol, dof.name))?;
         own.get(place).copied()
     })
 }

@@ -17,7 +17,7 @@ impl Instance {
         sensitivity: &mut [MaybeUninit<f64>],
     ) -> Result<(), Refusal> {
         self.check_derivative(unknowns, knowns)?;
-        let mut change = Values::zero();
+        let mut change = self.values.change();
         for (&known, &seed) in knowns.iter().zip(seed) {
             let (index, _) = self.known(known)?;
             self.check_seed(index, seed)?;
@@ -48,7 +48,7 @@ impl Instance {
         for (&known, sensitivity) in knowns.iter().zip(sensitivity) {
             let (known, _) = self.known(known)?;
             // one column of the Jacobian
-            let mut column = Values::zero();
+            let mut column = values.change();
             column[known] = 1.0;
             self.differentiate(&values, unknowns, &mut column)?;
             let mut sum = 0.0;

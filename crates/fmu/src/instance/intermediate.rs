@@ -14,10 +14,10 @@ use crate::{
 };
 
 /// What the importer may do with variables within a communication step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Access {
-    /// Variables that the importer has said it would use, by value reference.
-    required: [bool; REFERENCE_COUNT],
+    /// Variables that the importer has said it would use, by value reference; empty where it has said none.
+    required: Vec<bool>,
     /// The importer may read now.
     get: bool,
     /// The importer may set inputs now.
@@ -27,7 +27,7 @@ pub(super) struct Access {
 impl Access {
     /// Nothing required, nothing allowed.
     pub(super) const NONE: Self = Self {
-        required: [false; REFERENCE_COUNT],
+        required: Vec::new(),
         get: false,
         set: false,
     };
@@ -93,7 +93,9 @@ impl Instance {
         for &reference in references {
             let (index, _) = self.known(reference)?;
             self.check_offered(index)?;
-            if let Some(required) = self.access.required.get_mut(index) {
+            let required = &mut self.access.required;
+            required.resize(REFERENCE_COUNT, false);
+            if let Some(required) = required.get_mut(index) {
                 *required = true;
             }
         }
@@ -297,7 +299,7 @@ impl Instance {
                 return Some(NotIntermediate::NoGet);
             }
             // Importers that have named no variable read what is offered, as the FMI project's own example does.
-            let names_none = !self.access.required.contains(&true);
+            let names_none = self.access.required.is_empty();
             let readable = names_none || self.access.requires(index);
             (!readable).then_some(NotIntermediate::NotRequired)
         })

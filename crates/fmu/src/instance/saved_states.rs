@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fmu_state::{Snapshot, StateError},
-    interface::is_committed,
+    interface::{REFERENCE_COUNT, is_committed},
     refusal::Refusal,
 };
 
@@ -19,17 +19,19 @@ impl Instance {
         // stands beside the variables is remembered
         // nor is what a joint remembers before it has moved, which follows from the start values
         let begins = self.begins();
-        let mut values = self.values.with(std::array::from_fn(|index| {
-            let roles = self.roles.get(index).copied();
-            let is_kept = match roles {
-                None => !begins,
+        let mut values = self.values.clone();
+        for index in self.values.indices() {
+            let is_kept = match self.roles.get(index) {
+                _ if index >= REFERENCE_COUNT => !begins,
                 Some(roles) if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) => {
                     is_committed(index) && !begins
                 }
-                Some(_) => true,
+                _ => true,
             };
-            if is_kept { self.values[index] } else { 0.0 }
-        }));
+            if !is_kept {
+                values[index] = 0.0;
+            }
+        }
         if begins {
             values.remembered_mut().fill(0.0);
         }
@@ -66,7 +68,7 @@ impl Instance {
 mod tests {
     use super::Instance;
     use crate::{
-        interface::{InterfaceType, REFERENCE_COUNT},
+        interface::{InterfaceType, REFERENCE_COUNT, VALUE_COUNT, Values},
         mode::Mode,
         start_file::StartFile,
         version::Abi,
@@ -84,21 +86,25 @@ mod tests {
             .unwrap_or_else(|| unreachable!("the start file is right"))
     }
 
+    /// What stands beside the variables.
+    fn beside(values: &Values) -> Vec<f64> {
+        (REFERENCE_COUNT..VALUE_COUNT)
+            .map(|index| values[index])
+            .collect()
+    }
+
     #[test]
     fn all_that_stands_beside_the_variables_is_remembered() {
         let mut instance = instance();
         let fresh = instance.snapshot();
         instance.mode = Mode::Step;
         // whatever it is, and however many numbers it takes
-        for (index, number) in instance.values[REFERENCE_COUNT..].iter_mut().enumerate() {
-            *number = 1.5 + index as f64;
+        for index in REFERENCE_COUNT..VALUE_COUNT {
+            instance.values[index] = 1.5 + index as f64;
         }
         let remembered = instance.values.clone();
         let saved = instance.snapshot();
-        assert_eq!(
-            saved.values[REFERENCE_COUNT..],
-            remembered[REFERENCE_COUNT..]
-        );
+        assert_eq!(beside(&saved.values), beside(&remembered));
         let loaded = instance.deserialize(&saved.serialize());
         assert_eq!(loaded.as_ref(), Ok(&saved));
         instance.mode = Mode::Terminated;
@@ -106,14 +112,11 @@ mod tests {
         assert_eq!(instance.snapshot(), fresh);
         assert_eq!(loaded.and_then(|state| instance.restore(&state)), Ok(()));
         assert_eq!(instance.snapshot(), saved);
-        assert_eq!(
-            instance.values[REFERENCE_COUNT..],
-            remembered[REFERENCE_COUNT..]
-        );
+        assert_eq!(beside(&instance.values), beside(&remembered));
         // before the simulation has begun it follows from the start values
         instance.mode = Mode::Initialization;
         assert!(
-            instance.snapshot().values[REFERENCE_COUNT..]
+            beside(&instance.snapshot().values)
                 .iter()
                 .all(|&number| number == 0.0)
         );

@@ -90,7 +90,7 @@ impl Instance {
             self.model.calculate_outputs(&mut values);
         }
         // ẏ = ∂y/∂x ẋ + ∂y/∂u u̇
-        let mut rates = Values::zero();
+        let mut rates = values.change();
         self.model.rates(&values, &self.inputs, &mut rates);
         rates[PRELOAD] = self.preload_rate();
         rates[memory::PRELOAD_RATE] = self.inputs.acceleration(PRELOAD);

@@ -99,8 +99,11 @@ pub(super) fn joint_law<const D: usize>(values: &Values) -> JointLaw<D> {
     JointLaw {
         linear: joint_linear(values),
         on: std::array::from_fn(|dof| {
-            let references = vr::LAW_PARAMETERS[first_row::<D>() + dof];
-            DofLaws::new(references.map(|reference| values[reference]))
+            let references = &vr::LAW_PARAMETERS[first_row::<D>() + dof];
+            if values.has_further() {
+                return DofLaws::new(references.map(|reference| values[reference]));
+            }
+            DofLaws::of_each_kind(&std::array::from_fn(|place| values[references[place]]))
         }),
     }
 }
@@ -135,9 +138,11 @@ pub(super) fn check_laws<const D: usize>(law: &JointLaw<D>) -> Result<(), Refusa
         .get(outside.parameter)
         .map_or("", |parameter| parameter.symbol);
     let mut all = law.on[dof].parameters().iter().zip(dof_parameters());
-    let found = all.find(|(_, (_, parameter))| parameter.symbol == symbol);
+    let found = all.find(|(_, (law, parameter))| {
+        law.number == declaration.number && parameter.symbol == symbol
+    });
     Err(Refusal::OutsideLaw {
-        name: format!("joint.{symbol}_{}", DOFS[first_row::<D>() + dof].name),
+        name: declaration.variable(symbol, DOFS[first_row::<D>() + dof].name),
         found: found.map_or(f64::NAN, |(&value, _)| value),
         expected: outside.expected,
     })

@@ -227,9 +227,10 @@ impl Subject {
             force,
             displacement,
         } = self.expected;
-        // the layout of the bytes: header, version, length of the token, token, FMI version, kind, DOFs, joint, interface type, mode
+        // the layout of the bytes: header, version, length of the token, token, FMI version, kind, DOFs, joint (four bytes),
+        // interface type, mode
         let bytes = self.instance.state_bytes();
-        assert_eq!(bytes[8 + 4 + 4 + TOKEN.len() + 5], mode as u8);
+        assert_eq!(bytes[8 + 4 + 4 + TOKEN.len() + 8], mode as u8);
         if refused && mode == before {
             assert!(bytes == self.bytes, "a refused call changed the instance");
         }

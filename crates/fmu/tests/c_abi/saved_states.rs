@@ -318,7 +318,7 @@ fn impossible_values_are_refused_even_with_a_right_checksum() {
     };
     // mark, layout, length of the token, token, and what makes an FMU; mode, stop time, pace, values, what the
     // joint remembers, inputs, checksum
-    let mode = 8 + 4 + 4 + TOKEN.len() + 5;
+    let mode = 8 + 4 + 4 + TOKEN.len() + 8;
     let steps_in_a_row = mode + 1 + 1 + 8 + 8;
     let count = steps_in_a_row + 1;
     let first_value = count + 4;

@@ -82,10 +82,10 @@ impl Interfaces {
 }
 
 /// The laws that remember the motion, with the kind of joints that has each.
-fn memory_laws(source: &mut String, laws: &[(&'static str, Joints)]) {
+fn memory_laws(source: &mut String, laws: &[(String, Joints)]) {
     let with_memory: Vec<(&str, u32)> = laws
         .iter()
-        .map(|(name, joints)| (*name, joints.bits()))
+        .map(|(name, joints)| (name.as_str(), joints.bits()))
         .collect();
     line!(
         source,

@@ -3,7 +3,7 @@
 
 use bolted_joint_dynamics::{
     Dof, DofKind,
-    law::{ActsOn, Parameter, RememberedAs, Span},
+    law::{ActsOn, Declaration, Parameter, RememberedAs, Span},
 };
 
 use super::{
@@ -83,7 +83,7 @@ pub fn law_parameters(filling: &Filling<'_>) -> Vec<LawParameter> {
         for (parameter, declared) in declaration.parameters.iter().enumerate() {
             for at in places(declared.span, filling) {
                 all.push(LawParameter {
-                    name: parameter_name(declared, at, filling.dofs),
+                    name: parameter_name(declaration, declared, at, filling.dofs),
                     law,
                     parameter,
                     symbol: declared.symbol,
@@ -91,7 +91,7 @@ pub fn law_parameters(filling: &Filling<'_>) -> Vec<LawParameter> {
                     at,
                     acts_on: declared.acts_on,
                     start: declared.quantity.start[Place::of(at, filling.dofs) as usize],
-                    description: description(declared, at, filling.dofs),
+                    description: description(declared, at, filling.dofs) + &which(declaration),
                     declared_type: of_parameter(declared, Place::of(at, filling.dofs)),
                     scope: Scope {
                         rows: vec![at.rows()],
@@ -115,11 +115,12 @@ pub(super) fn law_memory(filling: &Filling<'_>) -> Vec<LawMemory> {
                     RememberedAs::Load => words::Quantity::Load,
                 };
                 all.push(LawMemory {
-                    name: format!("joint.{}_{}", remembered.symbol, dof.name),
+                    name: declaration.variable(remembered.symbol, dof.name),
                     law,
                     number,
                     row,
-                    description: with_words(remembered.description, dof.kind, None),
+                    description: with_words(remembered.description, dof.kind, None)
+                        + &which(declaration),
                     declared_type: of_memory(quantity, dof.kind),
                     scope: Scope {
                         rows: vec![Rows::of(&[row])],
@@ -167,11 +168,19 @@ fn places(span: Span, filling: &Filling<'_>) -> Vec<At> {
     }
 }
 
-fn parameter_name(declared: &Parameter, at: At, dofs: &[Dof]) -> String {
-    let symbol = declared.symbol;
-    match at {
-        At::Dof(row) => format!("joint.{symbol}_{}", dofs[row].name),
-        At::Pair(one, other) => format!("joint.{symbol}_{}{}", dofs[one].name, dofs[other].name),
+fn parameter_name(law: &Declaration, declared: &Parameter, at: At, dofs: &[Dof]) -> String {
+    let of_dof = match at {
+        At::Dof(row) => dofs[row].name.to_owned(),
+        At::Pair(one, other) => format!("{}{}", dofs[one].name, dofs[other].name),
+    };
+    law.variable(declared.symbol, &of_dof)
+}
+
+/// Behind a description, which of its kind a law is, where it is not the first.
+fn which(law: &Declaration) -> String {
+    match law.number {
+        1 => String::new(),
+        number => format!(", of number {number} of its kind"),
     }
 }
 

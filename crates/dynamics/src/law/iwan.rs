@@ -4,9 +4,10 @@
 //!
 //! It needs no sliders: the joint's motion is what it remembers, as the points at which it turned. Between them the
 //! load follows the curve of the first loading at twice its size (Masing's rule), and a loop that has closed is
-//! forgotten.
+//! forgotten. Where the strength of the sliders changes, as with the preload of a bolt, their elongations are remembered.
 
 mod curve;
+mod elongations;
 mod reversals;
 
 use super::{
@@ -18,6 +19,7 @@ use super::{
 };
 use crate::number::Number;
 use curve::{Curve, towards};
+use elongations::Strength;
 use reversals::{HIDDEN, Reversals};
 
 pub use reversals::REVERSALS_MAX;
@@ -43,7 +45,8 @@ const PARAMETER: Parameter = Parameter {
         dissipated_power: true,
         escape: false,
     },
-    grows_with_preload: false,
+    // μ times what presses, at each of them
+    grows_with_preload: true,
 };
 
 /// A continuum of sliders on one relative DOF, each a spring that slips at its own load: their density over the
@@ -104,6 +107,7 @@ impl<N: Number> Law<N> for Iwan<N> {
                     start: [0.0; 3],
                 },
                 description: "Stiffness of the joint's Iwan law in {motion} while all of it sticks",
+                grows_with_preload: false,
                 ..PARAMETER
             },
             Parameter {
@@ -117,6 +121,7 @@ impl<N: Number> Law<N> for Iwan<N> {
                     start: [0.0; 3],
                 },
                 description: "Exponent of the joint's Iwan law in {motion}: small cycles lose its power plus three of their amplitude",
+                grows_with_preload: false,
                 ..PARAMETER
             },
             Parameter {
@@ -129,6 +134,7 @@ impl<N: Number> Law<N> for Iwan<N> {
                     start: [0.0; 3],
                 },
                 description: "Stiffness of what slips last in {motion} to that of all that slips before in the joint's Iwan law",
+                grows_with_preload: false,
                 ..PARAMETER
             },
         ],
@@ -145,10 +151,13 @@ impl<N: Number> Law<N> for Iwan<N> {
     by_numbers!(slip_force, stiffness, exponent, ratio);
 
     fn load<M: Number + Into<N>>(&self, memory: &[M], r: N, _: N) -> N {
+        let reversals = Reversals::of(memory);
+        if let Some(sliders) = reversals.elongations(self) {
+            return Strength::of(self).load(&sliders, r - reversals.place().into());
+        }
         let Some(curve) = self.curve() else {
             return N::ZERO;
         };
-        let reversals = Reversals::of(memory);
         let branch = reversals.branch(r.value());
         let load = curve.load(&reversals.at(&branch, r, &curve));
         match reversals.tip(&branch, &curve) {
@@ -160,10 +169,14 @@ impl<N: Number> Law<N> for Iwan<N> {
     }
 
     fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
+        let reversals = Reversals::of(memory);
+        if let Some(sliders) = reversals.elongations(self) {
+            let stored = Strength::of(self).stored(&sliders, r - reversals.place().into());
+            return stored - reversals.owed().into();
+        }
         let Some(curve) = self.curve() else {
             return N::ZERO;
         };
-        let reversals = Reversals::of(memory);
         let branch = reversals.branch(r.value());
         let at = reversals.at(&branch, r, &curve);
         let stored = match reversals.tip(&branch, &curve) {
@@ -174,11 +187,16 @@ impl<N: Number> Law<N> for Iwan<N> {
     }
 
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
-        let (Some(curve), reversals) = (self.curve(), Reversals::of(memory)) else {
+        let reversals = Reversals::of(memory);
+        let rate = velocity.value();
+        if let Some(sliders) = reversals.elongations(self) {
+            let (way, sign) = (r - reversals.place().into(), rate.signum());
+            return Strength::of(self).slipping(&sliders, way, sign) * N::from(sign) * velocity;
+        }
+        let Some(curve) = self.curve() else {
             return N::ZERO;
         };
         let branch = reversals.branch(r.value());
-        let rate = velocity.value();
         if rate == 0.0 || branch.is_forward.is_some_and(|it| it != (rate > 0.0)) {
             // where it turns nothing slips yet
             return N::ZERO;
@@ -188,16 +206,23 @@ impl<N: Number> Law<N> for Iwan<N> {
     }
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
-        match self.curve() {
-            Some(curve) if r.is_finite() => reversals::commit(memory, &curve, r),
-            _ => 0.0,
+        if !r.is_finite() {
+            return 0.0;
         }
+        if let Some(sliders) = Reversals::of(memory).elongations(self) {
+            return elongations::commit(self, &sliders, memory, r);
+        }
+        self.curve()
+            .map_or(0.0, |curve| reversals::commit(memory, &curve, r))
     }
 
     fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
-        let values = self.parameters().map(Number::value);
-        if let Some(curve) = Iwan::<f64>::new(&values).curve() {
-            Reversals::of(memory).corners(to, curve.span, tell);
+        let law = Iwan::<f64>::new(&self.parameters().map(Number::value));
+        let reversals = Reversals::of(memory);
+        if let Some(sliders) = reversals.elongations(&law) {
+            sliders.corners(reversals.place(), to, Strength::of(&law).span, tell);
+        } else if let Some(curve) = law.curve() {
+            reversals.corners(to, curve.span, tell);
         }
     }
 

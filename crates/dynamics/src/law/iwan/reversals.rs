@@ -5,7 +5,11 @@
 //! are more than [`REVERSALS_MAX`] of them, as after many cycles of a slowly decaying vibration, two neighbours are
 //! forgotten before: those whose loss changes the load least.
 
-use super::curve::{At, Curve, towards};
+use super::{
+    Iwan,
+    curve::{At, Curve, towards},
+    elongations::{Elongations, Strength},
+};
 use crate::law::Corner;
 use crate::number::Number;
 
@@ -17,26 +21,28 @@ use crate::number::Number;
 pub const REVERSALS_MAX: usize = 64;
 
 /// Places of what is remembered.
-const TURN: usize = 0;
+pub(super) const TURN: usize = 0;
 /// Where the joint is.
-const PLACE: usize = 1;
-/// Number of reversal points.
-const COUNT: usize = 2;
+pub(super) const PLACE: usize = 1;
+/// Number of reversal points, or of the corners of the line of elongations.
+pub(super) const COUNT: usize = 2;
 /// Load and stored energy at the last of them.
 const LOAD: usize = 3;
 const STORED: usize = 4;
 /// Heat of the way from there.
 const HEAT: usize = 5;
 /// Energy that forgetting has put in, which later heat pays.
-const OWED: usize = 6;
+pub(super) const OWED: usize = 6;
 /// Parameters for which load, energy and heat hold.
-const PARAMETERS: usize = 7;
+pub(super) const PARAMETERS: usize = 7;
 /// By how much forgetting has changed the load since the joint was last on its first curve.
 const SHIFT: usize = 11;
 /// The power of the way from the last reversal, from which all follows at the present place.
 const BENT: usize = 12;
+/// Whether the elongations of the sliders are remembered in the place of reversal points, because their strength has changed.
+pub(super) const ELONGATED: usize = 13;
 /// The reversal points, oldest first.
-const POINTS: usize = 13;
+pub(super) const POINTS: usize = 14;
 
 /// Numbers that are no variables: all but the last reversal point.
 pub(super) const HIDDEN: usize = POINTS + REVERSALS_MAX - 1;
@@ -107,11 +113,40 @@ impl<'m, M: Number> Reversals<'m, M> {
         Self { numbers: memory }
     }
 
+    /// The sliders' elongations, where their strength has changed since the joint has moved: then points do not tell them.
+    #[inline]
+    pub(super) fn elongations<N: Number>(&self, law: &Iwan<N>) -> Option<Elongations<N>>
+    where
+        M: Into<N>,
+    {
+        let known: N = self.number(PARAMETERS).into();
+        let is_same = (law.slip_force - known).is_zero();
+        if is_same && self.number(ELONGATED).is_zero() {
+            return None;
+        }
+        self.changed_elongations(law, known)
+    }
+
+    #[cold]
+    fn changed_elongations<N: Number>(&self, law: &Iwan<N>, slip_force: N) -> Option<Elongations<N>>
+    where
+        M: Into<N>,
+    {
+        if !self.number(ELONGATED).is_zero() {
+            return Some(Elongations::remembered(self.numbers));
+        }
+        let has_moved = self.number(PLACE).value() != 0.0 || !self.points().is_empty();
+        let is_law = law.stiffness.value() > 0.0 && law.exponent.value() > -1.0;
+        let span = Strength::of(&Iwan { slip_force, ..*law }).span;
+        (has_moved && is_law && span.value() > 0.0)
+            .then(|| Elongations::of_points(self.points(), self.place(), span))
+    }
+
     fn number(&self, place: usize) -> M {
         self.numbers.get(place).copied().unwrap_or(M::ZERO)
     }
 
-    fn place(&self) -> M {
+    pub(super) fn place(&self) -> M {
         self.number(PLACE)
     }
 
@@ -348,7 +383,7 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
 }
 
 /// What is left of this heat when what is owed is paid.
-fn pay<N: Number>(memory: &mut [N], heat: N) -> N {
+pub(super) fn pay<N: Number>(memory: &mut [N], heat: N) -> N {
     let owed = memory[OWED];
     let paid = if heat.value() < owed.value() {
         heat

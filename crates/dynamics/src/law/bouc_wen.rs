@@ -11,6 +11,7 @@ use super::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
         UnitRule, is_positive,
     },
+    flow,
 };
 use crate::number::Number;
 use integral::{Branch, Way};
@@ -95,6 +96,25 @@ impl<N: Number> BoucWen<N> {
         stiffness > 0.0 && slip_force > 0.0 && exponent >= 1.0 && beta >= gamma.abs()
     }
 
+    /// (β+γ)^(−1/n), which |w| approaches; `None` where it has no limit.
+    fn limit(&self) -> Option<N> {
+        let sum = self.beta + self.gamma;
+        (sum.value() > 0.0).then(|| sum.powf(-(N::from(1.0) / self.exponent)))
+    }
+
+    /// What of w holds if the limit was lowered meanwhile.
+    fn held(&self, w: N) -> N {
+        // the limit is then 1 or more
+        if w.value().abs() <= 1.0 && (self.beta + self.gamma).value() <= 1.0 {
+            return w;
+        }
+        match self.limit() {
+            Some(limit) if w.value() > limit.value() => limit,
+            Some(limit) if w.value() < -limit.value() => -limit,
+            _ => w,
+        }
+    }
+
     fn branch(&self) -> Branch<N> {
         Branch {
             exponent: self.exponent,
@@ -115,7 +135,7 @@ impl<N: Number> BoucWen<N> {
         };
         let before = N::from(sign) * number(LOAD) / self.slip_force;
         let length = N::from(sign) * way * self.stiffness / self.slip_force;
-        (sign, self.branch().way(before, length))
+        (sign, self.branch().way(self.held(before), length))
     }
 }
 
@@ -138,6 +158,8 @@ impl<N: Number> Law<N> for BoucWen<N> {
                     start: [0.0; 3],
                 },
                 description: "Load at which the joint's Bouc-Wen law slips in {motion} where beta and gamma have the sum 1",
+                // what presses makes what slides
+                grows_with_preload: true,
                 ..PARAMETER
             },
             Parameter {
@@ -214,18 +236,24 @@ impl<N: Number> Law<N> for BoucWen<N> {
     }
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
-        if memory.len() <= DIRECTION || !self.is_there() || !r.is_finite() {
+        if memory.len() <= DIRECTION || !r.is_finite() {
             return 0.0;
         }
+        if !self.is_there() {
+            return flow::release_all(memory, self.stiffness, r);
+        }
+        let released = self.limit().map_or(0.0, |limit| {
+            flow::release(memory, self.slip_force * limit, self.stiffness)
+        });
         if r.value() == memory[PLACE].value() {
-            return 0.0;
+            return released;
         }
         let (sign, way) = self.way(memory, r);
         memory[LOAD] = N::from(sign) * self.slip_force * way.after;
         memory[PLACE] = r;
         memory[DIRECTION] = N::from(sign);
         let [stiffness, slip_force, ..] = self.parameters().map(Number::value);
-        slip_force * slip_force / stiffness * way.heat
+        released + slip_force * slip_force / stiffness * way.heat
     }
 
     fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {

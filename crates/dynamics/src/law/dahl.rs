@@ -6,7 +6,7 @@ use super::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
         UnitRule, is_positive,
     },
-    flow::{Flow, HIDDEN},
+    flow::{Flow, HIDDEN, release_all},
 };
 use crate::number::Number;
 
@@ -83,6 +83,8 @@ impl<N: Number> Law<N> for Dahl<N> {
                     start: [0.0; 3],
                 },
                 description: "Load at which the joint's Dahl law slips in {motion}",
+                // what presses makes what slides
+                grows_with_preload: true,
                 ..PARAMETER
             },
         ],
@@ -114,8 +116,9 @@ impl<N: Number> Law<N> for Dahl<N> {
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
         match self.flow() {
-            Some(flow) if r.is_finite() => flow.commit(memory, r),
-            _ => 0.0,
+            _ if !r.is_finite() => 0.0,
+            Some(flow) => flow.commit(memory, r),
+            None => release_all(memory, self.stiffness, r),
         }
     }
 

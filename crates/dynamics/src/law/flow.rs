@@ -143,10 +143,14 @@ impl<N: Number> Flow<N> {
         self.limit * (one - self.sharpness) * w * w / (one - self.sharpness * against) * speed
     }
 
-    /// Moves the memory on to r, and returns the heat of the way, J.
+    /// Moves the memory on to r, and returns the heat, J: of what a lower limit no longer holds, and of the way.
     pub(super) fn commit(&self, memory: &mut [N], r: N) -> f64 {
-        if memory.len() <= HIDDEN || r.value() == memory[PLACE].value() {
+        if memory.len() <= HIDDEN {
             return 0.0;
+        }
+        let released = release(memory, self.limit, self.stiffness);
+        if r.value() == memory[PLACE].value() {
+            return released;
         }
         let way = self.way(memory, r);
         let heat = self.limit * self.limit / self.stiffness * self.heat(&way);
@@ -154,7 +158,7 @@ impl<N: Number> Flow<N> {
         memory[PLACE] = r;
         memory[DIRECTION] = N::from(way.sign);
         // rounding apart, no way gives heat back
-        heat.value().max(0.0)
+        released + heat.value().max(0.0)
     }
 
     /// Heat of a way in p_m²/E₁.
@@ -171,6 +175,28 @@ impl<N: Number> Flow<N> {
         };
         (N::from(1.0) - self.sharpness) * integral
     }
+}
+
+/// Takes off the remembered load what a limit does not hold, in place, and returns its heat, J: what the spring of this
+/// stiffness gives up.
+pub(super) fn release<N: Number>(memory: &mut [N], limit: N, stiffness: N) -> f64 {
+    let load = memory[LOAD];
+    if load.value().abs() <= limit.value() {
+        return 0.0;
+    }
+    let held = N::from(load.value().signum()) * limit;
+    memory[LOAD] = held;
+    // (p² − p_m²)/(2 E₁)
+    (N::from(0.5) * (load - held) * (load + held) / stiffness).value()
+}
+
+/// The same where nothing presses any more: all goes, and the joint moves on to r without load.
+pub(super) fn release_all<N: Number>(memory: &mut [N], stiffness: N, r: N) -> f64 {
+    if memory.len() <= HIDDEN || stiffness.value() <= 0.0 {
+        return 0.0;
+    }
+    memory[PLACE] = r;
+    release(memory, N::ZERO, stiffness)
 }
 
 /// ℓ < 0 with c y (1 − e^ℓ) − (1−c) ℓ = ξ.

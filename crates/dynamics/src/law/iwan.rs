@@ -19,7 +19,7 @@ use super::{
 };
 use crate::number::Number;
 use curve::{Curve, towards};
-use elongations::Strength;
+use elongations::{Elongations, Strength};
 use reversals::{HIDDEN, Reversals};
 
 pub use reversals::REVERSALS_MAX;
@@ -79,8 +79,12 @@ pub struct Iwan<N = f64> {
 impl<N: Number> Iwan<N> {
     /// Its curve of first loading; `None` where it gives no load.
     fn curve(&self) -> Option<Curve<N>> {
-        let is_there = self.slip_force.value() > 0.0 && self.stiffness.value() > 0.0;
-        (is_there && self.exponent.value() > -1.0).then(|| Curve::new(self))
+        (self.is_there() && self.slip_force.value() > 0.0).then(|| Curve::new(self))
+    }
+
+    /// Whether it has sliders, be they pressed or not.
+    fn is_there(&self) -> bool {
+        self.stiffness.value() > 0.0 && self.exponent.value() > -1.0
     }
 
     fn parameters(&self) -> [N; 4] {
@@ -212,8 +216,13 @@ impl<N: Number> Law<N> for Iwan<N> {
         if let Some(sliders) = Reversals::of(memory).elongations(self) {
             return elongations::commit(self, &sliders, memory, r);
         }
-        self.curve()
-            .map_or(0.0, |curve| reversals::commit(memory, &curve, r))
+        match self.curve() {
+            Some(curve) => reversals::commit(memory, &curve, r),
+            None if self.is_there() => {
+                elongations::commit(self, &Elongations::at_rest(), memory, r)
+            }
+            None => 0.0,
+        }
     }
 
     fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {

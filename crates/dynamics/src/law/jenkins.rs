@@ -80,6 +80,26 @@ impl<N: Number> Jenkins<N> {
     }
 }
 
+impl<N: Number> Jenkins<N> {
+    /// Mean slip force from where it begins to slip on the way to r, on which slip force and motion change at the same pace.
+    /// Known are the slider's place before, the slip force then and where the joint was.
+    fn mean_slip_force(&self, known: Option<[f64; 3]>, r: f64, sign: f64) -> f64 {
+        let now = self.slip_force.value();
+        let has_moved = |known: &[f64; 3]| known.iter().any(|&number| number != 0.0);
+        let Some([slider, before, place]) = known.filter(has_moved) else {
+            return now;
+        };
+        if before == now {
+            return now;
+        }
+        // e₀ + t Δr = h/k with h = h₀ + t Δh
+        let load = |at: f64| sign * self.stiffness.value() * (at - slider);
+        let (short, beyond) = (before - load(place), load(r) - now);
+        let begins = (short / (short + beyond)).clamp(0.0, 1.0);
+        now - 0.5 * (1.0 - begins) * (now - before)
+    }
+}
+
 impl<N: Number> Law<N> for Jenkins<N> {
     const DECLARATION: Declaration = Declaration {
         name: "jenkins",
@@ -109,8 +129,8 @@ impl<N: Number> Law<N> for Jenkins<N> {
             quantity: RememberedAs::Displacement,
             description: "Relative {motion} at which the joint's elastic slider is without load, as of the last step",
         }],
-        // its slip force there
-        hidden_memory: 1,
+        // its slip force there, and where the joint was
+        hidden_memory: 2,
         at_most: 4,
         number: 1,
     };
@@ -150,22 +170,18 @@ impl<N: Number> Law<N> for Jenkins<N> {
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
         let bearing = self.bearing(memory, r);
-        let Some((slider, rest)) = memory.split_first_mut() else {
+        let known = memory.first_chunk().map(|known| known.map(Number::value));
+        if let Some([_, slip_force, place]) = memory.first_chunk_mut() {
+            (*slip_force, *place) = (self.slip_force, r);
+        }
+        let (Bearing::Slips(sign), Some(slider)) = (bearing, memory.first_mut()) else {
             return 0.0;
         };
-        let last = rest.first_mut();
-        let before = last.map(|last| std::mem::replace(last, self.slip_force).value());
-        let now = self.slip_force.value();
-        let before = before.filter(|&before| before > 0.0).unwrap_or(now);
-        let Bearing::Slips(sign) = bearing else {
-            return 0.0;
-        };
-        // x = r − h/k sgn e*, heat h |Δx|, of a slip force that changed on the way by its mean
+        // x = r − h/k sgn e*
         let place = r - N::from(sign) * self.slip_force / self.stiffness;
-        let mean = 0.5 * (before + now);
-        let heat = mean * (place - *slider).value().abs();
+        let slipped = (place - *slider).value().abs();
         *slider = place;
-        heat
+        self.mean_slip_force(known, r.value(), sign) * slipped
     }
 
     fn corners(&self, memory: &[f64], _: f64, tell: &mut dyn FnMut(Corner)) {
@@ -273,7 +289,7 @@ mod tests {
             stiffness: 2e6,
             slip_force,
         };
-        let mut memory = [0.0; 2];
+        let mut memory = [0.0; 3];
         let r = 1e-4;
         at(500.0).commit(&mut memory, r, 0.0);
         let load = at(500.0).load(&memory, r, 0.0);
@@ -282,6 +298,11 @@ mod tests {
         let heat: f64 = (0..=500)
             .map(|n| at(500.0 - f64::from(n)).commit(&mut memory, r, 0.0))
             .sum();
+        assert!((heat / stored - 1.0).abs() < 1e-12, "{heat} {stored}");
+        // in one go as well
+        let mut at_once = [0.0; 3];
+        at(500.0).commit(&mut at_once, r, 0.0);
+        let heat = at(0.0).commit(&mut at_once, r, 0.0);
         assert!((heat / stored - 1.0).abs() < 1e-12, "{heat} {stored}");
         assert_eq!(at(0.0).load(&memory, r, 0.0), 0.0);
         assert_eq!(at(500.0).commit(&mut memory, r, 0.0), 0.0);

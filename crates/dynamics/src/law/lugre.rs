@@ -69,6 +69,9 @@ const FORCE: Parameter = Parameter {
     ..PARAMETER
 };
 
+/// Part of the largest deflection of the bristles by which rounding may take them beyond it.
+const ROUNDING: f64 = 1e-12;
+
 /// Bristles on one relative DOF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LuGre<N = f64> {
@@ -120,6 +123,26 @@ impl<N: Number> LuGre<N> {
         self.slip_force + (self.static_force - self.slip_force) * (-(part * part)).exp()
     }
 
+    /// What the bristles can hold of a deflection: that of F_s/σ₀ at the most, if that was lowered meanwhile.
+    fn held(&self, deflection: N) -> N {
+        let limit = self.static_force / self.stiffness;
+        match deflection.value() {
+            z if z > limit.value() * (1.0 + ROUNDING) => limit,
+            z if z < -limit.value() * (1.0 + ROUNDING) => -limit,
+            _ => deflection,
+        }
+    }
+
+    /// Heat of what they can no longer hold, J: ½ σ₀ z² of before less that of now.
+    fn heat_of_release(&self, deflection: N) -> f64 {
+        let held = match self.is_there() {
+            true => self.held(deflection),
+            false => N::ZERO,
+        };
+        let half = N::from(0.5) * self.stiffness;
+        (half * (deflection - held) * (deflection + held)).value()
+    }
+
     /// The way from the memory's place to r, where this velocity is reached.
     fn way<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> Way<N> {
         let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
@@ -129,12 +152,13 @@ impl<N: Number> LuGre<N> {
         let slip_force = self.slip_force(mean);
         // dz/dx = 1 − s σ₀ z/g: with y = 1 − s σ₀ z/g, y' = y e^(−σ₀|Δx|/g)
         let steady = slip_force / self.stiffness;
-        let before = N::from(1.0) - sign * number(DEFLECTION) / steady;
+        let start = self.held(number(DEFLECTION));
+        let before = N::from(1.0) - sign * start / steady;
         let gone = -(before * (-(sign * way / steady)).exp_m1());
         Way {
             slip_force,
             missing: [before, before - gone],
-            deflection: number(DEFLECTION) + sign * steady * gone,
+            deflection: start + sign * steady * gone,
         }
     }
 
@@ -167,12 +191,16 @@ impl<N: Number> Law<N> for LuGre<N> {
                 symbol: "lugre_fc",
                 key: "slip_force",
                 description: "Load at which the bristles of the joint's LuGre law slip in fast {motion}",
+                // what presses makes what slides
+                grows_with_preload: true,
                 ..FORCE
             },
             Parameter {
                 symbol: "lugre_fs",
                 key: "static_force",
                 description: "Load at which the bristles of the joint's LuGre law slip in slow {motion}",
+                // what presses makes what slides
+                grows_with_preload: true,
                 ..FORCE
             },
             Parameter {
@@ -242,8 +270,14 @@ impl<N: Number> Law<N> for LuGre<N> {
     }
 
     fn commit(&self, memory: &mut [N], r: N, velocity: N) -> f64 {
-        if memory.len() <= VELOCITY || !self.is_there() || !(r + velocity).is_finite() {
+        if memory.len() <= VELOCITY || !(r + velocity).is_finite() {
             return 0.0;
+        }
+        let released = self.heat_of_release(memory[DEFLECTION]);
+        if !self.is_there() {
+            // nothing presses
+            memory.copy_from_slice(&[N::ZERO, r, velocity]);
+            return released;
         }
         let way = self.way(memory, r, velocity);
         let length = (r - memory[PLACE]).value().abs();
@@ -260,7 +294,7 @@ impl<N: Number> Law<N> for LuGre<N> {
         memory[PLACE] = r;
         memory[VELOCITY] = velocity;
         // rounding apart, no way gives heat back
-        (slipped + damped).max(0.0)
+        released + (slipped + damped).max(0.0)
     }
 
     fn outside(&self) -> Option<Outside> {

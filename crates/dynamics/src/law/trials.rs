@@ -219,3 +219,92 @@ pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(
         }
     }
 }
+
+/// A way on which the strength changes as well: of each point, the share of the preload and the place.
+pub(super) fn way_over_preload(
+    random: &mut Random,
+    count: usize,
+    amplitude: f64,
+) -> Vec<(f64, f64)> {
+    let mut share = 1.0;
+    way(random, count, amplitude)
+        .into_iter()
+        .enumerate()
+        .map(|(index, r)| {
+            // now and then it holds, and now and then nothing presses
+            share = match random.unit() {
+                draw if draw < 0.3 => share,
+                draw if draw > 0.97 => 0.0,
+                draw => 2.0 * draw,
+            };
+            (share, if index % 7 == 3 { 0.0 } else { r })
+        })
+        .collect()
+}
+
+/// With the preload going up and down at random, in place and on the way, nothing gives heat back; where it changes in
+/// place, what the springs give up is the heat; and on a way at one preload the work is what is stored and the heat. Returns
+/// the heat of the changes in place.
+pub(super) fn assert_balance_over_preload<L: Tried + std::fmt::Debug>(
+    law: &L,
+    way: &[(f64, f64)],
+    speed: f64,
+) -> f64 {
+    let at = |share: f64| {
+        let mut parameters = law.parameters();
+        for (own, declared) in parameters.iter_mut().zip(L::DECLARATION.parameters) {
+            if declared.grows_with_preload {
+                *own *= share;
+            }
+        }
+        L::new(&parameters)
+    };
+    let mut memory = L::at_rest();
+    let (mut r, mut share, mut heat, mut released) = (0.0, 1.0, 0.0, 0.0);
+    let mut most = 0.0_f64;
+    at(share).commit(&mut memory, r, 0.0);
+    for &(next, target) in way {
+        // the preload in place
+        let before = at(share).stored_energy(&memory, r);
+        let of_change = at(next).commit(&mut memory, r, 0.0);
+        let after = at(next).stored_energy(&memory, r);
+        assert!(of_change >= 0.0, "{law:?}: heat {of_change:e}");
+        most = most.max(before.abs());
+        let scale = most + heat;
+        let missing = before - after - of_change;
+        assert!(
+            missing.abs() <= 1e-12 * scale,
+            "{law:?} from {share} to {next} at {r:e}: {missing:e} of {scale:e}"
+        );
+        assert!(next < share || of_change <= 1e-14 * scale, "{of_change:e}");
+        (share, heat, released) = (next, heat + of_change, released + of_change);
+        // then the way
+        if target == r {
+            continue;
+        }
+        let own = at(share);
+        let velocity = speed * (target - r).signum();
+        heat += own.commit(&mut memory, r, velocity);
+        let mut stops = Vec::new();
+        own.corners(&memory, target, &mut |corner| stops.push(corner.place()));
+        stops.retain(|stop| (stop - r) * (target - stop) > 0.0);
+        stops.extend([r, target]);
+        stops.sort_by(f64::total_cmp);
+        let of_way: f64 = stops
+            .windows(2)
+            .map(|ends| integral(ends[0], ends[1], |at| own.load(&memory, at, velocity)))
+            .sum();
+        let before = own.stored_energy(&memory, r);
+        let of_step = own.commit(&mut memory, target, velocity);
+        assert!(of_step >= 0.0, "{law:?}: heat {of_step:e}");
+        r = target;
+        heat += of_step;
+        let missing =
+            of_way * velocity.signum() - of_step - (own.stored_energy(&memory, r) - before);
+        assert!(
+            missing.abs() <= 1e-12 * (heat + most + of_way.abs()),
+            "{law:?}: {missing:e} of heat {heat:e} and {most:e} at {r:e}"
+        );
+    }
+    released
+}

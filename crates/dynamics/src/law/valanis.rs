@@ -8,7 +8,7 @@ use super::{
         ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
         UnitRule, is_positive,
     },
-    flow::{Flow, HIDDEN},
+    flow::{Flow, HIDDEN, release_all},
 };
 use crate::number::Number;
 
@@ -108,6 +108,8 @@ impl<N: Number> Law<N> for Valanis<N> {
                     start: [0.0; 3],
                 },
                 description: "Load at which the joint's Valanis law turns from sticking to slipping in {motion}",
+                // what presses makes what slides
+                grows_with_preload: true,
                 ..PARAMETER
             },
             Parameter {
@@ -155,8 +157,9 @@ impl<N: Number> Law<N> for Valanis<N> {
 
     fn commit(&self, memory: &mut [N], r: N, _: N) -> f64 {
         match self.flow() {
-            Some(flow) if r.is_finite() => flow.commit(memory, r),
-            _ => 0.0,
+            _ if !r.is_finite() => 0.0,
+            Some(flow) => flow.commit(memory, r),
+            None => release_all(memory, self.stiffness - self.slip_stiffness, r),
         }
     }
 

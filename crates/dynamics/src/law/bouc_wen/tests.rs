@@ -1,7 +1,10 @@
 //! The Bouc–Wen law against the closed forms of its loop, its equation, and its energy.
 
 use super::{
-    super::trials::{Tried, assert_balance, assert_changes, integral, way},
+    super::trials::{
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, integral, way,
+        way_over_preload,
+    },
     *,
 };
 use crate::{number::Dual, random::Random};
@@ -145,4 +148,23 @@ fn an_active_law_is_refused_with_its_bound() {
         assert_eq!(law.outside().map(|outside| outside.parameter), parameter);
         assert!(law.load(&BoucWen::at_rest(), 0.3, 0.0).is_finite());
     }
+}
+
+#[test]
+fn what_a_lower_preload_no_longer_holds_is_heat() {
+    let mut random = Random(64);
+    let mut released = 0.0;
+    for _ in 0..30 {
+        let beta = 0.2 + random.unit();
+        let law = BoucWen {
+            stiffness: 1e5,
+            slip_force: 2.0,
+            exponent: 1.0 + 3.0 * random.unit(),
+            beta,
+            gamma: beta * (1.9 * random.unit() - 0.9),
+        };
+        let way = way_over_preload(&mut random, 25, 1e-4);
+        released += assert_balance_over_preload(&law, &way, 1.0);
+    }
+    assert!(released > 0.0);
 }

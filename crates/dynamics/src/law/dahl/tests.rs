@@ -1,7 +1,9 @@
 //! Dahl's law against its closed forms.
 
 use super::{
-    super::trials::{Tried, assert_balance, assert_changes, way},
+    super::trials::{
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, way, way_over_preload,
+    },
     *,
 };
 use crate::{number::Dual, random::Random};
@@ -64,4 +66,19 @@ fn parameters_out_of_range_are_named() {
         };
         assert_eq!(law.outside().map(|outside| outside.parameter), parameter);
     }
+}
+
+#[test]
+fn what_a_lower_preload_no_longer_holds_is_heat() {
+    let mut random = Random(62);
+    let mut released = 0.0;
+    for _ in 0..30 {
+        let law = Dahl {
+            stiffness: 1e5,
+            slip_force: 2.0 * (0.1 + random.unit()),
+        };
+        let way = way_over_preload(&mut random, 25, 1e-4);
+        released += assert_balance_over_preload(&law, &way, 1.0);
+    }
+    assert!(released > 0.0);
 }

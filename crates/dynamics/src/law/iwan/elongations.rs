@@ -9,7 +9,9 @@
 
 use super::{
     Iwan,
-    reversals::{COUNT, ELONGATED, OWED, PARAMETERS, PLACE, POINTS, REVERSALS_MAX, TURN, pay},
+    reversals::{
+        COUNT, ELONGATED, HIDDEN, OWED, PARAMETERS, PLACE, POINTS, REVERSALS_MAX, TURN, pay,
+    },
 };
 use crate::law::Corner;
 use crate::number::{Number, magnitude};
@@ -90,6 +92,16 @@ impl<N: Number> Elongations<N> {
         knots: [Knot::ORIGIN; ROOM],
         count: 0,
     };
+
+    /// Nothing is elongated.
+    pub(super) fn at_rest() -> Self {
+        let mut all = Self::NONE;
+        all.push(Knot {
+            share: N::from(1.0),
+            elongation: N::ZERO,
+        });
+        all
+    }
 
     /// The line after the joint has come over these points to `place`, if φ_max has always been `span`.
     pub(super) fn of_points<M: Number + Into<N>>(points: &[M], place: M, span: N) -> Self {
@@ -391,9 +403,10 @@ pub(super) fn commit<N: Number>(
     memory: &mut [N],
     r: N,
 ) -> f64 {
-    let Some(&place) = memory.get(PLACE) else {
+    if memory.len() <= HIDDEN {
         return 0.0;
-    };
+    }
+    let place = memory[PLACE];
     let (now, way) = (Strength::of(law), r - place);
     let before = Strength::of(&Iwan {
         slip_force: memory[PARAMETERS],
@@ -438,3 +451,6 @@ impl Elongations<f64> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

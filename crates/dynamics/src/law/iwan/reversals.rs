@@ -136,9 +136,8 @@ impl<'m, M: Number> Reversals<'m, M> {
             return Some(Elongations::remembered(self.numbers));
         }
         let has_moved = self.number(PLACE).value() != 0.0 || !self.points().is_empty();
-        let is_law = law.stiffness.value() > 0.0 && law.exponent.value() > -1.0;
         let span = Strength::of(&Iwan { slip_force, ..*law }).span;
-        (has_moved && is_law && span.value() > 0.0)
+        (has_moved && law.is_there() && span.value() > 0.0)
             .then(|| Elongations::of_points(self.points(), self.place(), span))
     }
 

@@ -1,7 +1,9 @@
 //! The Iwan law against closed forms, against many sliders, and against itself turned and turned again.
 
 use super::{
-    super::trials::{Tried, assert_balance, assert_changes, way},
+    super::trials::{
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, way, way_over_preload,
+    },
     *,
 };
 use crate::{number::Dual, random::Random};
@@ -333,4 +335,16 @@ fn parameters_out_of_range_are_named() {
             assert!(law.load(&Iwan::at_rest(), 0.3, 0.0).is_finite());
         }
     }
+}
+
+#[test]
+fn what_a_lower_preload_no_longer_holds_is_heat() {
+    let mut random = Random(65);
+    let mut released = 0.0;
+    for _ in 0..30 {
+        let law = random_law(&mut random);
+        let way = way_over_preload(&mut random, 25, 2.0 * span(&law));
+        released += assert_balance_over_preload(&law, &way, 1.0);
+    }
+    assert!(released > 0.0);
 }

@@ -1,7 +1,9 @@
 //! The LuGre law against steady sliding, its transient, and its energy.
 
 use super::{
-    super::trials::{Tried, assert_balance, assert_changes, way},
+    super::trials::{
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, way, way_over_preload,
+    },
     *,
 };
 use crate::{number::Dual, random::Random};
@@ -137,4 +139,16 @@ fn no_motion_takes_energy_out() {
             "{work} {heat} {stored}"
         );
     }
+}
+
+#[test]
+fn what_a_lower_preload_no_longer_holds_is_heat() {
+    let mut random = Random(63);
+    let mut released = 0.0;
+    for _ in 0..30 {
+        let law = random_law(&mut random);
+        let way = way_over_preload(&mut random, 25, 6.0);
+        released += assert_balance_over_preload(&law, &way, 1.0);
+    }
+    assert!(released > 0.0);
 }

@@ -1,7 +1,9 @@
 //! The law of Valanis against its closed forms and against the printed equation.
 
 use super::{
-    super::trials::{Tried, assert_balance, assert_changes, way},
+    super::trials::{
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, way, way_over_preload,
+    },
     *,
 };
 use crate::{number::Dual, random::Random};
@@ -138,4 +140,21 @@ fn parameters_out_of_range_are_named() {
         assert_eq!(law.outside().map(|outside| outside.parameter), parameter);
         assert!(law.load(&Valanis::at_rest(), 0.3, 0.0).is_finite());
     }
+}
+
+#[test]
+fn what_a_lower_preload_no_longer_holds_is_heat() {
+    let mut random = Random(61);
+    let mut released = 0.0;
+    for _ in 0..30 {
+        let law = Valanis {
+            stiffness: 1000.0,
+            slip_stiffness: 900.0 * random.unit(),
+            slip_force: 5.0 * (0.1 + random.unit()),
+            kappa: random.unit(),
+        };
+        let way = way_over_preload(&mut random, 25, 0.03);
+        released += assert_balance_over_preload(&law, &way, 1.0);
+    }
+    assert!(released > 0.0);
 }

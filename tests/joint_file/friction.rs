@@ -182,22 +182,32 @@ fn over_preload(laws: &str, preloads: &str, nominal: f64) -> Result<JointFile, S
 }
 
 #[test]
-fn over_the_preload_stands_only_what_follows_it() {
-    let file = over_preload(ON_Y, "[1, 2]", 1.0).unwrap();
-    // h = h₀ p/p₀
-    let at = file.at_preload(Some(2.0)).unwrap();
-    let law = at.joint.law::<2>().unwrap();
-    assert_eq!(law.on[0].jenkins().slip_force, 600.0);
-    for law in [IWAN, VALANIS, DAHL, LUGRE, BOUC_WEN] {
-        let message = over_preload(&format!("{{ {law} }}"), "[1, 2]", 1.0).unwrap_err();
-        let expected = [
-            "joint.friction[0].law: found \"",
-            "beside joint.over_preload, expected \"jenkins\"",
-            "take one of the two out",
-        ];
-        assert!(
-            expected.iter().all(|part| message.contains(part)),
-            "{message}"
+fn over_the_preload_all_slips_in_proportion_to_it() {
+    for (law, grows) in [
+        (IWAN, &["slip_force"][..]),
+        (VALANIS, &["slip_force"]),
+        (DAHL, &["slip_force"]),
+        (LUGRE, &["slip_force", "static_force"]),
+        (BOUC_WEN, &["slip_force"]),
+    ] {
+        let law = format!("{{ {law} }}, {ON_Y}");
+        let file = over_preload(&law, "[1, 2]", 1.0).unwrap();
+        // h = h₀ p/p₀, and stiffness and shape are what they were
+        let at = file.at_preload(Some(2.0)).unwrap();
+        for (before, after) in file.joint.friction.iter().zip(&at.joint.friction) {
+            for parameter in before.law.parameters {
+                let [before, after] = [before, after].map(|own| own.value(parameter).unwrap());
+                let factor = if grows.contains(&parameter.key) {
+                    2.0
+                } else {
+                    1.0
+                };
+                assert_eq!(after, factor * before, "{}", parameter.key);
+            }
+        }
+        assert_eq!(
+            at.joint.law::<2>().unwrap().on[0].jenkins().slip_force,
+            600.0
         );
     }
     let message = over_preload(ON_Y, "[0, 2]", 0.0).unwrap_err();

@@ -56,19 +56,6 @@ pub enum JointProblem {
         /// What stands there.
         what: &'static str,
     },
-    /// A law of friction that does not go with the preload, beside a table over it.
-    #[error(
-        "{path}: found \"{law}\" beside joint.over_preload, expected {expected}: what it remembers is that of one preload; take one of \
-         the two out, or take the joint at one preload"
-    )]
-    KeepsItsPreload {
-        /// Path of the law.
-        path: String,
-        /// Its name.
-        law: &'static str,
-        /// The laws that do.
-        expected: String,
-    },
     /// A joint with friction whose nominal preload is nothing.
     #[error(
         "joint.over_preload.nominal: found 0 beside joint.friction, expected a preload above 0: friction is in proportion to it"
@@ -84,7 +71,7 @@ pub enum JointProblem {
         /// DOFs of the joint.
         dofs: DofSet,
     },
-    /// A law that is already on the DOF.
+    /// One law more of a kind than there is room for on a DOF.
     #[error(
         "{path}: found \"{law}\" number {found} on \"{dof}\", expected {at_most} of that kind at the most on a degree of freedom; \
          take one of them out, or let fewer stand for all"

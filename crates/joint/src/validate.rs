@@ -178,16 +178,6 @@ impl Check {
     }
 
     fn friction_over_preload(&mut self, laws: &[Friction], table: &OverPreload) {
-        let keeps = |own: &&Friction| !own.law.follows_preload();
-        if let Some((i, own)) = laws.iter().enumerate().find(|(_, own)| keeps(own)) {
-            let follow = Friction::laws().filter(|law| law.follows_preload());
-            let follow: Vec<String> = follow.map(|law| format!("\"{}\"", law.name)).collect();
-            self.problems.push(JointProblem::KeepsItsPreload {
-                path: format!("joint.friction[{i}].law"),
-                law: own.law.name,
-                expected: follow.join(" or "),
-            });
-        }
         if !laws.is_empty() && table.nominal == 0.0 {
             self.problems.push(JointProblem::NothingPresses);
         }

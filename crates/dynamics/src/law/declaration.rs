@@ -21,19 +21,6 @@ pub struct Declaration {
 }
 
 impl Declaration {
-    /// Whether it goes with the preload of a bolt: by parameters that grow with it.
-    #[must_use]
-    pub const fn follows_preload(&self) -> bool {
-        let mut place = 0;
-        while place < self.parameters.len() {
-            if self.parameters[place].grows_with_preload {
-                return true;
-            }
-            place += 1;
-        }
-        false
-    }
-
     /// Number of numbers that it remembers.
     #[must_use]
     pub const fn memory_count(&self) -> usize {

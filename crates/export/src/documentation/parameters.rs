@@ -198,15 +198,23 @@ fn friction(joint: &Joint) -> String {
     let rows: Vec<String> = joint
         .friction
         .iter()
-        .flat_map(|own| {
+        .enumerate()
+        .flat_map(|(place, own)| {
             let kind = own.dof.kind;
+            let before = joint.friction[..place].iter();
+            let same =
+                before.filter(|other| other.dof.name == own.dof.name && other.law == own.law);
+            let name = match same.count() {
+                0 => own.law.name.to_owned(),
+                before => format!("{}, number {}", own.law.name, before + 1),
+            };
             let parameters = own.law.parameters.iter().zip(&own.parameters);
             parameters.map(move |(parameter, &value)| {
                 let unit = unit(parameter.unit, kind, kind);
                 format!(
                     "<th><i>{}</i></th>{}{}{}",
                     own.dof.load,
-                    cell(own.law.name),
+                    cell(&name),
                     number_cell(&format!("{} {unit}", number(value))),
                     cell(&description(parameter, &[kind]))
                 )

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::law::{BoucWen, Dahl, Iwan, Jenkins, Valanis};
+use bolted_joint_dynamics::law::{BoucWen, Dahl, Iwan, Jenkins, Valanis, dof_parameters};
 
 use super::super::{Harmonics, masing_fundamental};
 use super::*;
@@ -50,7 +50,25 @@ fn laws() -> Vec<DofLaws> {
     }
     let mut list = all.to_vec();
     list.push(DofLaws::new(together));
+    list.push(side_by_side());
     list
+}
+
+/// As many sliders as there can be on one DOF and two of Dahl's laws, each with numbers of its own.
+fn side_by_side() -> DofLaws {
+    let mut parameters = *DofLaws::<f64>::NONE.parameters();
+    for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
+        let number = law.number as f64;
+        *own = match (law.name, parameter.key) {
+            ("jenkins" | "dahl", "stiffness") => 2.0 / number,
+            ("jenkins", _) => 0.35 * number,
+            ("dahl", _) => 0.8 / number,
+            _ => 0.0,
+        };
+    }
+    let laws = DofLaws::new(parameters);
+    assert_eq!(laws.present().count(), 6);
+    laws
 }
 
 /// Motions with two and with many turns.

@@ -64,11 +64,11 @@ class Valanis(Dahl):
         return s * limit * (1 - after) if s else p
 
     def work(self, held, s, after, length, limit):
-        # heat p_m²/E₁ (1−c) ∫ w²/(1−w) dw
+        # heat p_m²/E₁ (1−c) ∫ w²/(1−w) dw, ∫ = −ℓ − Δw (1 + (w + w')/2), ℓ = ln(y'/y) = (c (y − y') − E₁|Δx|/p_m)/(1−c)
         c = self.KAPPA * STIFFNESS / (self.E0 - self.KAPPA * self.ET)
-        primitive = lambda w: -np.log1p(-w) - w - 0.5 * w**2  # noqa: E731
-        heat = (1 - c) * (primitive(s * after / limit) - primitive(s * held / limit)) * limit**2 / STIFFNESS if s else 0.0
-        return heat + 0.5 * (after**2 - held**2) / STIFFNESS
+        w, v, x = s * held / limit, s * after / limit, STIFFNESS * length / limit
+        heat = x - c * (v - w) - (1 - c) * (v - w) * (1 + 0.5 * (w + v)) if s else 0.0
+        return heat * limit**2 / STIFFNESS + 0.5 * (after**2 - held**2) / STIFFNESS
 
 
 class BoucWen(Dahl):
@@ -79,6 +79,8 @@ class BoucWen(Dahl):
     tolerance = 1e-9
 
     def flown(self, p, s, length, limit):
+        if s == 0:
+            return p
         w, x = s * p / limit, STIFFNESS * length / limit
         q, b = self.BETA + self.GAMMA, self.BETA - self.GAMMA
         if w < 0:
@@ -96,8 +98,8 @@ class BoucWen(Dahl):
         if w < 0:
             part = min(x, np.log1p(-b * w) / b)
             end = min(v, 0.0)
-            # w = 1/b' with b' = −b: ∫ w dx = (Δw − x)/b
-            work += ((end - w) - part) / b
+            # dw/dx = 1 − b w: ∫ w dx = (x − Δw)/b
+            work += (part - (end - w)) / b
             w, x = end, x - part
         work += (x - (v - w)) / q
         return work * limit**2 / STIFFNESS
@@ -106,10 +108,10 @@ class BoucWen(Dahl):
 class Iwan:
     """As many sliders as the law is derived from, followed one by one."""
 
-    CHI, BETA, COUNT = -0.4, 0.3, 20_000
+    CHI, BETA, COUNT = -0.4, 0.3, 4_000
     entry = {"law": "iwan", "slip_force": SLIP, "stiffness": STIFFNESS, "exponent": CHI, "ratio": BETA}
     spring = 0.0
-    tolerance = 3e-8
+    tolerance = 1e-6
 
     def __init__(self):
         p, edge = self.CHI + 1, np.linspace(0, 1, self.COUNT + 1) ** 3
@@ -228,7 +230,7 @@ def test_what_goes_in_place_is_what_the_springs_give_up(slave, fmi, entry):
         assert change == pytest.approx(held - after, abs=1e-12 * SLIP**2 / STIFFNESS)
         assert change >= 0 and (preload < lowest or change < 1e-15)
         lowest, held, heat, let_go = min(lowest, preload), after, heat_now, let_go + change
-    assert let_go > 1e-4
+    assert let_go > 1e-5
 
 
 @both_versions

@@ -13,10 +13,10 @@ H = 1e-4
 
 
 class Slider:
-    """Return mapping with a slip force in proportion to the preload; heat by the mean slip force of a way."""
+    """Return mapping with a slip force in proportion to the preload; on a way both change at the same pace."""
 
     def __init__(self, nominal):
-        self.nominal, self.place, self.heat, self.before = nominal, 0.0, 0.0, None
+        self.nominal, self.place, self.heat, self.before, self.at = nominal, 0.0, 0.0, None, 0.0
 
     def limit(self, preload):
         return SLIP * preload / self.nominal
@@ -31,8 +31,13 @@ class Slider:
         now = self.limit(preload)
         before = now if self.before is None else self.before
         place = r - self.load(r, preload) / STIFFNESS
-        self.heat += 0.5 * (before + now) * abs(place - self.place)
-        self.place, self.before = place, now
+        if place != self.place:
+            # from where k |e| = h on, which the slip force has until the end
+            s = np.sign(r - place)
+            first, last = before - STIFFNESS * s * (self.at - self.place), now - STIFFNESS * s * (r - self.place)
+            begins = first / (first - last)
+            self.heat += (now - 0.5 * (1 - begins) * (now - before)) * abs(place - self.place)
+        self.place, self.before, self.at = place, now, r
 
 
 @both_versions

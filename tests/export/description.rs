@@ -113,7 +113,7 @@ fn start_values_lie_within_their_bounds_and_bounds_around_what_the_library_takes
             let must_be_positive = of_body.is_some_and(is_inertia) || name == "step_size_max";
             // Without a law of friction, its parameters are zero.
             let may_be_zero = dof_parameters().any(|(law, parameter)| {
-                let is_it = name.starts_with(&format!("joint.{}_", parameter.symbol));
+                let is_it = name.starts_with(&law.variable(parameter.symbol, ""));
                 is_it && law.remembers() && parameter.range == Range::NotNegative
             });
             let least = if must_be_positive {

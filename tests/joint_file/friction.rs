@@ -1,6 +1,7 @@
 //! Laws with parameters of their own: read, written, refused where they do not fit.
 
 use bolted_joint::joint::{JointFile, JointProblem};
+use bolted_joint_dynamics::{JointLaw, law::DOF_AT_REST};
 
 use crate::GOOD;
 
@@ -147,13 +148,28 @@ fn a_law_outside_of_its_range_is_refused_by_key_value_and_bound() {
 }
 
 #[test]
-fn a_law_stands_once_on_a_dof_of_the_joint() {
-    let message = with(&format!("[{ON_Y}, {ON_Y}]")).unwrap_err();
-    assert!(
-        message.contains("joint.friction[1].law: found a second \"jenkins\" on \"y\"")
-            && message.contains("take one of them out"),
-        "{message}"
-    );
+fn a_dof_has_room_for_some_laws_of_a_kind() {
+    let dahl = format!("{{ {DAHL} }}");
+    for (law, name, at_most) in [(ON_Y, "jenkins", 4), (&dahl, "dahl", 2)] {
+        let some = with(&format!("[{}]", vec![law; at_most].join(", "))).unwrap();
+        let laws = some.joint.law::<2>().unwrap();
+        // each of them bears its part
+        let one = with(&format!("[{law}]")).unwrap().joint.law::<2>().unwrap();
+        let load = |laws: &JointLaw<2>| laws.on[0].load(&DOF_AT_REST, 1e-4, 0.0);
+        let ratio = load(&laws) / load(&one);
+        assert!((ratio - at_most as f64).abs() < 1e-12, "{name}: {ratio}");
+        let message = with(&format!("[{}]", vec![law; at_most + 1].join(", "))).unwrap_err();
+        for expected in [
+            format!(
+                "joint.friction[{at_most}].law: found \"{name}\" number {}",
+                at_most + 1
+            ),
+            format!("expected {at_most} of that kind at the most"),
+            "take one of them out".to_owned(),
+        ] {
+            assert!(message.contains(&expected), "{expected}: {message}");
+        }
+    }
     let on_theta = ON_Y.replace("\"y\"", "\"theta\"");
     assert!(with(&format!("[{ON_Y}, {on_theta}]")).is_ok());
     // laws of several kinds on one DOF are

@@ -372,7 +372,7 @@ fn intact_descriptions_are_accepted() {
     };
     // θ brings θ, ω, M of both sides, M of the joint, k and c of its own and with y, the laws' parameters, what laws remember, the
     // escape amplitude; J, k_θ, c_θ, α of both bodies
-    let [sides, laws, bodies] = [6 + 1 + 1, 28 + 6, 6 + 2];
+    let [sides, laws, bodies] = [6 + 1 + 1, 55 + 14, 6 + 2];
     for (place, bodies) in [(0, 0), (1, bodies)] {
         let alone = of(place, &[0]);
         let with_theta = alone + sides + 4 + laws + bodies;

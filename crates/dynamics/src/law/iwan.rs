@@ -9,6 +9,7 @@
 mod curve;
 mod elongations;
 mod reversals;
+mod strength;
 
 use super::{
     Corner, Law,
@@ -19,8 +20,9 @@ use super::{
 };
 use crate::number::Number;
 use curve::{Curve, towards};
-use elongations::{Elongations, Strength};
+use elongations::Elongations;
 use reversals::{HIDDEN, Reversals};
+use strength::Strength;
 
 pub use reversals::REVERSALS_MAX;
 
@@ -214,13 +216,11 @@ impl<N: Number> Law<N> for Iwan<N> {
             return 0.0;
         }
         if let Some(sliders) = Reversals::of(memory).elongations(self) {
-            return elongations::commit(self, &sliders, memory, r);
+            return strength::commit(self, &sliders, memory, r);
         }
         match self.curve() {
             Some(curve) => reversals::commit(memory, &curve, r),
-            None if self.is_there() => {
-                elongations::commit(self, &Elongations::at_rest(), memory, r)
-            }
+            None if self.is_there() => strength::commit(self, &Elongations::at_rest(), memory, r),
             None => 0.0,
         }
     }

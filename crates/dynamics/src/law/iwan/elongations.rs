@@ -9,9 +9,7 @@
 
 use super::{
     Iwan,
-    reversals::{
-        COUNT, ELONGATED, HIDDEN, OWED, PARAMETERS, PLACE, POINTS, REVERSALS_MAX, TURN, pay,
-    },
+    reversals::{COUNT, POINTS, REVERSALS_MAX},
 };
 use crate::law::Corner;
 use crate::number::{Number, magnitude};
@@ -30,30 +28,30 @@ const ROUNDING: f64 = 1e-13;
 
 /// A corner of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Knot<N> {
+pub(super) struct Knot<N> {
     /// θ from 0 to 1.
-    share: N,
+    pub(super) share: N,
     /// e: m, rad.
-    elongation: N,
+    pub(super) elongation: N,
 }
 
 /// The line e(θ): its corners behind that at θ = 0, the last one at θ = 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Elongations<N> {
     knots: [Knot<N>; ROOM],
-    count: usize,
+    pub(super) count: usize,
 }
 
 /// A straight piece of a line that was shifted and has still to be cut.
-struct Piece<N> {
-    ends: [Knot<N>; 2],
-    bearing: Bearing,
-    is_last: bool,
+pub(super) struct Piece<N> {
+    pub(super) ends: [Knot<N>; 2],
+    pub(super) bearing: Bearing,
+    pub(super) is_last: bool,
 }
 
 /// How the sliders of a piece bear it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Bearing {
+pub(super) enum Bearing {
     Sticks,
     /// Slips at the limit of this sign.
     Slips(f64),
@@ -163,7 +161,7 @@ impl<N: Number> Elongations<N> {
         all
     }
 
-    fn own(&self) -> &[Knot<N>] {
+    pub(super) fn own(&self) -> &[Knot<N>] {
         &self.knots[..self.count]
     }
 
@@ -178,7 +176,7 @@ impl<N: Number> Elongations<N> {
     }
 
     /// Tells the pieces of the line after the joint has moved on by `way`, where φ_max is `span`.
-    fn pieces(&self, way: N, span: N, mut tell: impl FnMut(&Piece<N>)) {
+    pub(super) fn pieces(&self, way: N, span: N, mut tell: impl FnMut(&Piece<N>)) {
         let mut from = Knot::ORIGIN.shifted(way);
         for (index, knot) in self.own().iter().enumerate() {
             let to = knot.shifted(way);
@@ -205,7 +203,7 @@ impl<N: Number> Elongations<N> {
     }
 
     /// The line after that.
-    fn moved(&self, way: N, span: N) -> Self {
+    pub(super) fn moved(&self, way: N, span: N) -> Self {
         let mut after = Self::NONE;
         let mut before = None;
         self.pieces(way, span, |piece| {
@@ -220,7 +218,7 @@ impl<N: Number> Elongations<N> {
     }
 
     /// Leaves corners out until so many are left that can be remembered.
-    fn shorten(&mut self, law: &Iwan<N>) {
+    pub(super) fn shorten(&mut self, law: &Iwan<N>) {
         while self.count > KNOTS_MAX {
             // by how much the load shifts without a corner: by the area between the line and its short cut
             let shift = |index: usize| {
@@ -265,7 +263,7 @@ impl<N: Number> Piece<N> {
     }
 
     /// Its ends after what slips has slipped.
-    fn cut(&self, span: N) -> [Knot<N>; 2] {
+    pub(super) fn cut(&self, span: N) -> [Knot<N>; 2] {
         self.ends.map(|knot| match self.bearing {
             Bearing::Sticks => knot,
             Bearing::Slips(sign) => Knot {
@@ -276,170 +274,9 @@ impl<N: Number> Piece<N> {
     }
 
     /// By how much it is beyond the limit at which it slips, at both ends.
-    fn beyond(&self, sign: f64, span: N) -> [N; 2] {
+    pub(super) fn beyond(&self, sign: f64, span: N) -> [N; 2] {
         self.ends.map(|knot| knot.beyond(sign, span))
     }
-}
-
-/// The law, with φ_max as it is now.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Strength<N> {
-    /// K_T/(1+β)
-    stiffness: N,
-    /// χ
-    exponent: N,
-    /// β
-    ratio: N,
-    /// φ_max, zero where nothing presses.
-    pub(super) span: N,
-}
-
-impl<N: Number> Strength<N> {
-    pub(super) fn of(law: &Iwan<N>) -> Self {
-        let one = N::from(1.0);
-        let below = law.ratio + (law.exponent + one) / (law.exponent + N::from(2.0));
-        let span = law.slip_force * (one + law.ratio) / (law.stiffness * below);
-        Self {
-            stiffness: law.stiffness / (one + law.ratio),
-            exponent: law.exponent,
-            ratio: law.ratio,
-            span: if span.value() > 0.0 { span } else { N::ZERO },
-        }
-    }
-
-    /// ∫ q r dk over a piece of the product of two functions that are straight there, by their values at both ends. The
-    /// stiffness of the sliders is dk = K_T/(1+β) ((χ+1) θ^χ dθ + β δ(θ−1) dθ).
-    fn integral(&self, piece: &Piece<N>, q: [N; 2], r: [N; 2]) -> N {
-        let [from, to] = piece.ends.map(|knot| knot.share);
-        let strongest = if piece.is_last {
-            self.ratio * q[1] * r[1]
-        } else {
-            N::ZERO
-        };
-        let width = to - from;
-        if width.value() <= 0.0 {
-            return self.stiffness * strongest;
-        }
-        let one = N::from(1.0);
-        let power = self.exponent + one;
-        // Pⱼ = (χ+1)/(χ+1+j) θ^(χ+1+j)
-        let [low, high] = [from, to].map(|share| share.powf(power));
-        let zeroth = high - low;
-        let first = power / (power + one) * (to * high - from * low);
-        let second = power / (power + N::from(2.0)) * (to * to * high - from * from * low);
-        let line = |[at_from, at_to]: [N; 2]| {
-            let slope = (at_to - at_from) / width;
-            [at_from - slope * from, slope]
-        };
-        let ([q0, q1], [r0, r1]) = (line(q), line(r));
-        let spread = q0 * r0 * zeroth + (q0 * r1 + q1 * r0) * first + q1 * r1 * second;
-        self.stiffness * (spread + strongest)
-    }
-
-    /// Load after a way from here: ∫ e dk.
-    pub(super) fn load(&self, sliders: &Elongations<N>, way: N) -> N {
-        let mut sum = N::ZERO;
-        sliders.pieces(way, self.span, |piece| {
-            let elongations = piece.cut(self.span).map(|knot| knot.elongation);
-            sum = sum + self.integral(piece, elongations, [N::from(1.0); 2]);
-        });
-        sum
-    }
-
-    /// Energy in the springs after it: ½ ∫ e² dk.
-    pub(super) fn stored(&self, sliders: &Elongations<N>, way: N) -> N {
-        let mut sum = N::ZERO;
-        sliders.pieces(way, self.span, |piece| {
-            let elongations = piece.cut(self.span).map(|knot| knot.elongation);
-            sum = sum + self.integral(piece, elongations, elongations);
-        });
-        N::from(0.5) * sum
-    }
-
-    /// Load of those that slip where the joint moves on in the direction of this sign, as a positive number.
-    pub(super) fn slipping(&self, sliders: &Elongations<N>, way: N, sign: f64) -> N {
-        let mut sum = N::ZERO;
-        sliders.pieces(way, self.span, |piece| {
-            if piece.bearing == Bearing::Slips(sign) {
-                let limits = piece.ends.map(|knot| self.span * knot.share);
-                sum = sum + self.integral(piece, limits, [N::from(1.0); 2]);
-            }
-        });
-        sum
-    }
-
-    /// Heat of a way at this strength: ∫ θ φ_max |Δx| dk of what slips.
-    fn heat_of_way(&self, sliders: &Elongations<N>, way: N) -> N {
-        let mut sum = N::ZERO;
-        sliders.pieces(way, self.span, |piece| {
-            if let Bearing::Slips(sign) = piece.bearing {
-                let limits = piece.ends.map(|knot| self.span * knot.share);
-                sum = sum + self.integral(piece, limits, piece.beyond(sign, self.span));
-            }
-        });
-        sum
-    }
-
-    /// Heat of what can no longer be held at this strength, in place: ½ ∫ (e² − θ² φ_max²) dk.
-    fn heat_of_release(&self, sliders: &Elongations<N>) -> N {
-        let mut sum = N::ZERO;
-        sliders.pieces(N::ZERO, self.span, |piece| {
-            if let Bearing::Slips(sign) = piece.bearing {
-                let sums = piece
-                    .ends
-                    .map(|knot| N::from(sign) * knot.elongation + self.span * knot.share);
-                sum = sum + self.integral(piece, piece.beyond(sign, self.span), sums);
-            }
-        });
-        N::from(0.5) * sum
-    }
-}
-
-/// Moves the memory on to r and to the law's present strength, and returns the heat, J: a strength that grows does so
-/// before the way, one that falls after it. So what slips is what slips where both change at the same pace.
-pub(super) fn commit<N: Number>(
-    law: &Iwan<N>,
-    sliders: &Elongations<N>,
-    memory: &mut [N],
-    r: N,
-) -> f64 {
-    if memory.len() <= HIDDEN {
-        return 0.0;
-    }
-    let place = memory[PLACE];
-    let (now, way) = (Strength::of(law), r - place);
-    let before = Strength::of(&Iwan {
-        slip_force: memory[PARAMETERS],
-        ..*law
-    });
-    let (mut after, heat) = if now.span.value() < before.span.value() {
-        let moved = sliders.moved(way, before.span);
-        let heat = before.heat_of_way(sliders, way) + now.heat_of_release(&moved);
-        (moved.moved(N::ZERO, now.span), heat)
-    } else {
-        (sliders.moved(way, now.span), now.heat_of_way(sliders, way))
-    };
-    let whole = after;
-    after.shorten(law);
-    let gained = match after.count < whole.count {
-        true => now.stored(&after, N::ZERO) - now.stored(&whole, N::ZERO),
-        false => N::ZERO,
-    };
-    if (way * (place - memory[TURN])).value() < 0.0 {
-        memory[TURN] = place;
-    }
-    memory[ELONGATED] = N::from(1.0);
-    memory[PLACE] = r;
-    memory[COUNT] = N::from(after.count as f64);
-    let parameters = [law.slip_force, law.stiffness, law.exponent, law.ratio];
-    memory[PARAMETERS..PARAMETERS + parameters.len()].copy_from_slice(&parameters);
-    for (pair, knot) in memory[POINTS..].chunks_exact_mut(2).zip(after.own()) {
-        pair.copy_from_slice(&[knot.share, knot.elongation]);
-    }
-    memory[OWED] = memory[OWED] + gained;
-    // rounding apart, nothing gives heat back
-    let heat = if heat.value() > 0.0 { heat } else { N::ZERO };
-    pay(memory, heat).value()
 }
 
 impl Elongations<f64> {

@@ -8,7 +8,8 @@
 use super::{
     Iwan,
     curve::{At, Curve, towards},
-    elongations::{Elongations, Strength},
+    elongations::Elongations,
+    strength::Strength,
 };
 use crate::law::Corner;
 use crate::number::Number;

@@ -1,6 +1,6 @@
 //! Sliders whose strength changes, against as many that are followed one by one, and against points of reversal.
 
-use super::super::{Iwan, Law};
+use super::super::{Iwan, Law, reversals::ELONGATED};
 use super::*;
 use crate::{number::Dual, random::Random};
 

@@ -1,5 +1,5 @@
-//! What sliders of an Iwan law give whose strength changes: load, energy and heat, as sums over the straight pieces of the
-//! line of their elongations.
+//! What sliders of an Iwan law give whose strength changes: load, energy and heat, as sums over the straight pieces of
+//! the line of their elongations.
 
 use super::{
     Iwan,

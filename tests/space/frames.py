@@ -140,13 +140,15 @@ class Rig:
             [f"{first + 50 + n}:+X" for n in range(len(hits))],
         )
 
-    def write(self, folder, frequencies, noise=0.0, rng=None, rows=None, model='model = "full"', more=""):
-        """The files of a test and its study; noise on the assembly in parts of each function's r.m.s."""
+    def write(self, folder, frequencies, noise=0.0, rng=None, rows=None, model='model = "full"', more="", of_sides=(0.0, 0.0)):
+        """The files of a test and its study; noise on the assembly, and on the substructures, in parts of each function's
+        r.m.s."""
         functions = self.functions(frequencies, rows)
-        if noise:
-            c = functions[2]
-            rms = np.sqrt(np.mean(np.abs(c) ** 2, axis=2, keepdims=True))
-            functions[2] = c + noise * rms * (rng.normal(size=c.shape) + 1j * rng.normal(size=c.shape)) / np.sqrt(2)
+        for n, own in enumerate([*of_sides, noise]):
+            if own:
+                c = functions[n]
+                rms = np.sqrt(np.mean(np.abs(c) ** 2, axis=2, keepdims=True))
+                functions[n] = c + own * rms * (rng.normal(size=c.shape) + 1j * rng.normal(size=c.shape)) / np.sqrt(2)
         names = [self.names(0), self.names(1)]
         names.append(tuple(names[0][n] + names[1][n] for n in range(2)))
         for file, frf, (response, reference) in zip("abc", functions, names):
@@ -154,6 +156,7 @@ class Rig:
         text = 'method = "frf-space"\nname = "rig"\n' + more
         if noise:
             text += f"[noise]\nrelative = {noise}\n"
+            text += "".join(f"{name} = {own}\n" for name, own in zip("ab", of_sides) if own)
         for side, name in enumerate("ab"):
             places, hits, directions = self.sides[side]
             text += f'[{name}]\nfrf = "{name}.npz"\n'

@@ -1,26 +1,40 @@
 //! The functions that an assembly with a joint would have, and how they change with every unknown.
 
-use bolted_joint_space::{Coupled, Selection};
 use nalgebra::{DMatrix, Matrix6};
 use num_complex::Complex64;
 
 use crate::error::SpatialError;
-use crate::problem::{Problem, Unknowns, block_diagonal};
+use crate::problem::{Problem, Unknowns};
 use crate::side::{MOTIONS, Transformations};
 
 /// The model at one set of unknowns.
 pub(crate) struct Assembled<'p> {
     problem: &'p Problem,
     transformations: [Transformations; 2],
-    selections: [Selection; 2],
     stiffness: Matrix6<f64>,
     damping: Matrix6<f64>,
 }
 
-/// Functions of the assembly at one line, and their derivatives by each unknown (observed × unknowns).
+/// What the joint sees at one line, without a joint.
+pub(crate) struct Reach {
+    /// Y Sᵀ, a row for each response of a and of b.
+    pub(crate) by_loads: DMatrix<Complex64>,
+    /// S Y, a column for each reference.
+    pub(crate) motions: DMatrix<Complex64>,
+    /// H = S Y Sᵀ.
+    pub(crate) seen: Matrix6<Complex64>,
+}
+
+/// The assembly at one line.
 pub(crate) struct Line {
+    /// The observed functions.
     pub(crate) functions: Vec<Complex64>,
-    pub(crate) derivatives: DMatrix<Complex64>,
+    /// a = Y_C Sᵀ: motions by unit loads across the joint, a row for each response.
+    pub(crate) by_joint_loads: DMatrix<Complex64>,
+    /// b = S Y_C: relative motions in the joint by unit loads, a column for each reference.
+    pub(crate) joint_motions: DMatrix<Complex64>,
+    /// D = K + jωC.
+    pub(crate) dynamic: Matrix6<Complex64>,
 }
 
 impl<'p> Assembled<'p> {
@@ -34,36 +48,9 @@ impl<'p> Assembled<'p> {
         Ok(Self {
             problem,
             transformations: [of(0)?, of(1)?],
-            selections: problem.selections()?,
             stiffness,
             damping,
         })
-    }
-
-    fn extended(&self, line: usize) -> [DMatrix<Complex64>; 2] {
-        let sides = [0, 1];
-        sides.map(|side| {
-            let functions = &self.problem.sides[side].lines[line];
-            self.transformations[side].extended(functions)
-        })
-    }
-
-    fn coupled(
-        &self,
-        line: usize,
-        extended: &[DMatrix<Complex64>; 2],
-    ) -> Result<Coupled, SpatialError> {
-        let [a, b] = extended;
-        let receptances = block_diagonal([a, b]);
-        let [motions, loads] = &self.selections;
-        let dynamic = self.dynamic(line);
-        let dynamic = DMatrix::from_fn(MOTIONS, MOTIONS, |i, j| dynamic[(i, j)]);
-        Ok(Coupled::between(
-            &receptances,
-            [motions, loads],
-            &dynamic,
-            self.problem.length_m,
-        )?)
     }
 
     /// D = K + jωC
@@ -74,50 +61,106 @@ impl<'p> Assembled<'p> {
         })
     }
 
-    /// H = S Y Sᵀ of a line: the receptance that the joint sees.
-    pub(crate) fn seen_by_joint(&self, line: usize) -> Matrix6<Complex64> {
-        let [a, b] = self.extended(line);
-        let corner = |all: &DMatrix<Complex64>| {
-            let (p, q) = (all.nrows() - MOTIONS, all.ncols() - MOTIONS);
-            Matrix6::from_fn(|i, j| all[(p + i, q + j)])
-        };
-        corner(&a) + corner(&b)
+    fn measured(&self, line: usize) -> [&DMatrix<Complex64>; 2] {
+        self.problem.sides.each_ref().map(|side| &side.lines[line])
     }
 
-    /// Y Sᵀ and S Y of a line, for the observed rows and columns, without a joint.
-    pub(crate) fn reach(&self, line: usize) -> [DMatrix<Complex64>; 3] {
-        let [a, b] = self.extended(line);
-        let receptances = block_diagonal([&a, &b]);
-        let [motions, loads] = &self.selections;
-        let complex = |selection: &Selection| selection.matrix().map(Complex64::from);
-        [
-            &receptances * complex(loads).transpose(),
-            complex(motions) * &receptances,
-            receptances,
-        ]
+    /// What the joint sees of the measured substructures.
+    pub(crate) fn reach(&self, line: usize) -> Reach {
+        self.reach_of(self.measured(line))
     }
 
-    /// The observed functions of a line.
-    pub(crate) fn functions(&self, line: usize) -> Result<Vec<Complex64>, SpatialError> {
-        let coupled = self.coupled(line, &self.extended(line))?;
-        let observed = self.problem.observed.iter();
-        Ok(observed
-            .map(|one| coupled.receptance()[(one.at[0], one.at[1])])
-            .collect())
+    /// Likewise of substructures with these functions.
+    fn reach_of(&self, functions: [&DMatrix<Complex64>; 2]) -> Reach {
+        let [(a_loads, a_motions, a), (b_loads, b_motions, b)] = [0, 1].map(|side| {
+            let Transformations { motions, loads, .. } = &self.transformations[side];
+            let by_loads = functions[side] * loads;
+            let seen = motions * &by_loads;
+            (by_loads, motions * functions[side], seen)
+        });
+        let [rows, columns] = self.problem.skips();
+        let mut by_loads = DMatrix::zeros(rows + b_loads.nrows(), MOTIONS);
+        by_loads.rows_mut(0, rows).copy_from(&a_loads);
+        by_loads
+            .rows_mut(rows, b_loads.nrows())
+            .copy_from(&-b_loads);
+        let mut motions = DMatrix::zeros(MOTIONS, columns + b_motions.ncols());
+        motions.columns_mut(0, columns).copy_from(&a_motions);
+        motions
+            .columns_mut(columns, b_motions.ncols())
+            .copy_from(&-b_motions);
+        Reach {
+            by_loads,
+            motions,
+            seen: Matrix6::from_fn(|i, j| a[(i, j)] + b[(i, j)]),
+        }
     }
 
-    /// The observed functions of a line with their derivatives.
+    /// The assembly of the measured substructures.
     pub(crate) fn line(&self, line: usize) -> Result<Line, SpatialError> {
-        let extended = self.extended(line);
-        let coupled = self.coupled(line, &extended)?;
-        let observed = &self.problem.observed;
+        self.line_of(line, self.measured(line))
+    }
+
+    /// The assembly of substructures with these functions: Y_C = Y − Y Sᵀ D b with b = (I + H D)⁻¹ S Y, a = Y Sᵀ (I + D H)⁻¹.
+    pub(crate) fn line_of(
+        &self,
+        line: usize,
+        functions: [&DMatrix<Complex64>; 2],
+    ) -> Result<Line, SpatialError> {
+        let Reach {
+            by_loads,
+            motions,
+            seen,
+        } = self.reach_of(functions);
+        let dynamic = self.dynamic(line);
+        // rotations as lengths: the equations are solved in numbers that are alike
+        let scale = |i: usize| if i < 3 { 1.0 } else { self.problem.length_m };
+        let h = Matrix6::from_fn(|i, j| seen[(i, j)] * scale(i) * scale(j));
+        let d = Matrix6::from_fn(|i, j| dynamic[(i, j)] / (scale(i) * scale(j)));
+        let unit = Matrix6::<Complex64>::identity();
+        let mut b = motions;
+        scale_rows(&mut b, scale);
+        let mut a = by_loads.transpose();
+        scale_rows(&mut a, scale);
+        let is_solved = (unit + h * d).lu().solve_mut(&mut b)
+            && (unit + d * h).transpose().lu().solve_mut(&mut a);
+        if !is_solved || !a.iter().chain(b.iter()).all(|number| number.is_finite()) {
+            return Err(bolted_joint_space::SpaceError::Resonance.into());
+        }
+        scale_rows(&mut a, |i| scale(i).recip());
+        scale_rows(&mut b, |i| scale(i).recip());
+        let loads: DMatrix<Complex64> = DMatrix::from_fn(MOTIONS, b.ncols(), |m, i| {
+            (0..MOTIONS)
+                .map(|n| dynamic[(m, n)] * b[(n, i)])
+                .sum::<Complex64>()
+        });
+        let [rows, columns] = self.problem.skips();
+        let observed = self.problem.observed.iter();
         let functions = observed
-            .iter()
-            .map(|one| coupled.receptance()[(one.at[0], one.at[1])])
+            .map(|one| {
+                let [o, i] = one.at;
+                let alone = match (o < rows, i < columns) {
+                    (true, true) => functions[0][(o, i)],
+                    (false, false) => functions[1][(o - rows, i - columns)],
+                    _ => Complex64::default(),
+                };
+                (0..MOTIONS).fold(alone, |sum, m| sum - by_loads[(o, m)] * loads[(m, i)])
+            })
             .collect();
+        Ok(Line {
+            functions,
+            by_joint_loads: a.transpose(),
+            joint_motions: b,
+            dynamic,
+        })
+    }
+
+    /// Derivatives of the observed functions by each unknown: observed × unknowns.
+    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
+        let observed = &self.problem.observed;
         let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
         let j_omega = Complex64::new(0.0, self.problem.omega(line));
-        let (a, b) = (coupled.by_joint_loads(), coupled.joint_motions());
+        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
         let count = self.problem.model.count();
         for (n, basis) in self.problem.model.bases().iter().enumerate() {
             // ∂Y_C = −a ∂D b
@@ -130,173 +173,79 @@ impl<'p> Assembled<'p> {
             }
         }
         if self.problem.tolerances.is_some() {
-            self.by_errors(line, &extended, &coupled, &mut derivatives);
+            self.by_errors(line, at, &mut derivatives);
         }
-        Ok(Line {
-            functions,
-            derivatives,
-        })
+        derivatives
     }
 
-    /// dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b, for each error of a set-up, which changes the interface's rows and columns
-    /// of Y alone.
-    fn by_errors(
-        &self,
-        line: usize,
-        extended: &[DMatrix<Complex64>; 2],
-        coupled: &Coupled,
-        derivatives: &mut DMatrix<Complex64>,
-    ) {
-        let dynamic = self.dynamic(line);
-        let [a, b] = [coupled.by_joint_loads(), coupled.joint_motions()];
-        let (a_d, d_b) = (a * dynamic, dynamic * b);
+    /// dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b, for each error of a set-up, which changes what the interface does alone: of
+    /// L and R its rows and columns count.
+    fn by_errors(&self, line: usize, at: &Line, derivatives: &mut DMatrix<Complex64>) {
+        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
+        let (left, right) = (a * at.dynamic, at.dynamic * b);
         let observed = &self.problem.observed;
         let mut column = self.problem.joint_count();
         let (mut first_row, mut first_column) = (0, 0);
-        for (side, (own, all)) in self.transformations.iter().zip(extended).enumerate() {
-            let sign = if side == 0 { 1.0 } else { -1.0 };
-            let (p, q) = (all.nrows() - MOTIONS, all.ncols() - MOTIONS);
-            // L to the interface's rows of this side, and to all of its rows: −a D S there, beside the identity
-            let left = |o: usize, m: usize| {
-                let unit = if o == first_row + p + m { 1.0 } else { 0.0 };
-                Complex64::from(unit) - a_d[(o, m)] * sign
-            };
-            let right = |m: usize, i: usize| {
-                let unit = if i == first_column + q + m { 1.0 } else { 0.0 };
-                Complex64::from(unit) - d_b[(m, i)] * sign
-            };
+        for (side, own) in self.transformations.iter().enumerate() {
+            let sign = Complex64::from(if side == 0 { -1.0 } else { 1.0 });
             let functions = &self.problem.sides[side].lines[line];
+            let (p, q) = functions.shape();
             // Y R: what the columns of this side come to, for each column of the assembly
-            let by_columns = DMatrix::from_fn(q, d_b.ncols(), |j, i| {
-                let unit = if i == first_column + j { 1.0 } else { 0.0 };
-                let loads: Complex64 = (0..MOTIONS).map(|m| own.loads[(j, m)] * right(m, i)).sum();
-                loads + unit
-            });
+            let mut by_columns = &own.loads * &right * sign;
+            for j in 0..q {
+                by_columns[(j, first_column + j)] += 1.0;
+            }
             let y_r = functions * by_columns;
             for change in &own.motions_changes {
                 let moved = change * &y_r;
                 for (row, one) in observed.iter().enumerate() {
                     let [o, i] = one.at;
-                    derivatives[(row, column)] =
-                        (0..MOTIONS).map(|m| left(o, m) * moved[(m, i)]).sum();
+                    let sum: Complex64 = (0..MOTIONS).map(|m| left[(o, m)] * moved[(m, i)]).sum();
+                    derivatives[(row, column)] = sign * sum;
                 }
                 column += 1;
             }
             // L Y likewise
-            let by_rows = DMatrix::from_fn(a_d.nrows(), p, |o, r| {
-                let unit = if o == first_row + r { 1.0 } else { 0.0 };
-                let motions: Complex64 =
-                    (0..MOTIONS).map(|m| left(o, m) * own.motions[(m, r)]).sum();
-                motions + unit
-            });
+            let mut by_rows = &left * &own.motions * sign;
+            for r in 0..p {
+                by_rows[(first_row + r, r)] += 1.0;
+            }
             let l_y = by_rows * functions;
             for change in &own.loads_changes {
                 let loaded = &l_y * change;
                 for (row, one) in observed.iter().enumerate() {
                     let [o, i] = one.at;
-                    derivatives[(row, column)] =
-                        (0..MOTIONS).map(|m| loaded[(o, m)] * right(m, i)).sum();
+                    let sum: Complex64 = (0..MOTIONS).map(|m| loaded[(o, m)] * right[(m, i)]).sum();
+                    derivatives[(row, column)] = sign * sum;
                 }
                 column += 1;
             }
-            first_row += all.nrows();
-            first_column += all.ncols();
+            first_row += p;
+            first_column += q;
         }
+    }
+}
+
+fn scale_rows(matrix: &mut DMatrix<Complex64>, scale: impl Fn(usize) -> f64) {
+    for (i, mut row) in matrix.row_iter_mut().enumerate() {
+        row *= Complex64::from(scale(i));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use bolted_joint_frf::{Direction, Dof, Sign};
-    use bolted_joint_space::{Axes, JointModel};
-    use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerances};
-    use nalgebra::{DVector, Vector3};
-
     use super::*;
-    use crate::problem::Observed;
-    use crate::side::{Interface, Side};
-
-    /// Numbers that look random, from −1 to 1.
-    fn number(seed: &mut u32) -> f64 {
-        *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        f64::from(*seed >> 8) / f64::from(1 << 23) - 1.0
-    }
-
-    fn vector(seed: &mut u32) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| number(seed))
-    }
-
-    /// A side with three triaxial sensors and eight impacts, whose interface is not quite rigid, and one more response.
-    fn side(seed: &mut u32) -> Side {
-        let sensors: Vec<Sensor> = (0..3)
-            .map(|_| Sensor::triaxial(0.03 * vector(seed), &Axes::identity(), [1.0; 3]).unwrap())
-            .collect();
-        let impacts: Vec<Impact> = (0..8)
-            .map(|_| Impact::new(0.03 * vector(seed), vector(seed).normalize(), 1.0).unwrap())
-            .collect();
-        let dof = Dof::new(1, Direction::X, Sign::Plus);
-        let lines = (0..2)
-            .map(|_| {
-                DMatrix::from_fn(10, 8, |_, _| {
-                    Complex64::new(number(seed), number(seed)) * 1e-7
-                })
-            })
-            .collect();
-        Side {
-            responses: vec![dof; 10],
-            references: vec![dof; 8],
-            lines,
-            interface: Interface::Points(SetUp::new(&sensors, &impacts).unwrap()),
-        }
-    }
-
-    fn problem() -> Problem {
-        let mut seed = 5;
-        let sides = [side(&mut seed), side(&mut seed)];
-        let rows = [0, 4, 9, 16, 20, 25];
-        let columns = [0, 7, 14, 21];
-        let pairs = rows
-            .iter()
-            .flat_map(|&row| columns.map(|column| [row, column]));
-        let observed = pairs.map(|at| Observed {
-            at,
-            values: vec![Complex64::from(0.0); 2],
-        });
-        Problem {
-            observed: observed.collect(),
-            sides,
-            frequency_hz: vec![100.0, 130.0],
-            model: JointModel::Full.parametrisation().unwrap(),
-            length_m: 0.03,
-            tolerances: Some(Tolerances::TYPICAL),
-        }
-    }
+    use crate::samples::{problem, unknowns};
 
     /// Reference: central differences of the model's functions.
     #[test]
     fn derivatives_are_differences_by_every_unknown() {
         let problem = problem();
-        let mut seed = 9;
-        let mut at = DVector::zeros(problem.count());
+        let at = unknowns(&problem).0;
         let count = problem.model.count();
-        for (n, entry) in problem.model.entries().iter().enumerate() {
-            let size =
-                [entry.row, entry.column].map(|dof| if dof.is_rotation() { 0.03 } else { 1.0 });
-            let own = if entry.row == entry.column {
-                1.0
-            } else {
-                0.2 * number(&mut seed)
-            };
-            at[n] = 2e6 * size[0] * size[1] * own;
-            at[count + n] = 300.0 * size[0] * size[1] * own;
-        }
-        for error in &mut at.as_mut_slice()[2 * count..] {
-            *error = 0.01 * number(&mut seed);
-        }
-        let line = Assembled::new(&problem, &Unknowns(at.clone()))
-            .unwrap()
-            .line(1)
-            .unwrap();
+        let assembled = Assembled::new(&problem, &Unknowns(at.clone())).unwrap();
+        let line = assembled.line(1).unwrap();
+        let derivatives = assembled.derivatives(1, &line);
         let scale = line.functions.iter().map(|y| y.norm()).fold(0.0, f64::max);
         for unknown in 0..problem.count() {
             let step = match unknown < 2 * count {
@@ -307,21 +256,20 @@ mod tests {
                 let mut moved = at.clone();
                 moved[unknown] += step;
                 let assembled = Assembled::new(&problem, &Unknowns(moved)).unwrap();
-                assembled.functions(1).unwrap()
+                assembled.line(1).unwrap().functions
             });
-            let size = line
-                .derivatives
+            let size = derivatives
                 .column(unknown)
                 .iter()
                 .map(|d| d.norm())
                 .fold(0.0, f64::max);
             for (row, (above, below)) in above.iter().zip(&below).enumerate() {
                 let difference = (above - below) / (2.0 * step);
-                let error = (difference - line.derivatives[(row, unknown)]).norm();
+                let error = (difference - derivatives[(row, unknown)]).norm();
                 assert!(
                     error <= 1e-6 * size + 1e-10 * scale / step,
                     "{unknown} {row}: {difference} {}",
-                    line.derivatives[(row, unknown)]
+                    derivatives[(row, unknown)]
                 );
             }
         }

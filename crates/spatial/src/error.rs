@@ -42,6 +42,19 @@ pub enum SpatialError {
         /// Unknowns of the joint.
         unknowns: usize,
     },
+    /// Noise of the substructures is too large nearly everywhere.
+    #[error(
+        "of {lines} lines, {kept} are left at which noise of the substructures moves the assembly's functions by less than {percent} %; \
+         measure a and b with less noise, or state less (noise.a, noise.b)"
+    )]
+    TooMuchNoise {
+        /// Lines of the study.
+        lines: usize,
+        /// Those that could be used.
+        kept: usize,
+        /// What noise may move, in percent of the functions.
+        percent: f64,
+    },
     /// No start leads anywhere.
     #[error(
         "no start of the search gives finite functions of the assembly; check the units of the files and the interface's length"

@@ -1,15 +1,19 @@
-//! The estimate: searches from several starts, the level of the noise, the covariance, and what speaks against the result.
+//! The estimate: search, level of the noise, the joint alone with all lines, and what all errors together do to it.
 
-use bolted_joint_space::{Part, semidefinite};
+use bolted_joint_space::{Entry, Part};
 use bolted_joint_virtual_point::Place;
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::fit::{Fit, covariance};
+use crate::fits::strongest;
+use crate::identification::{Group, QUANTILE, SpatialIdentification, Substructures, Unknown};
+use crate::level::{of_residuals, relative_rms, root_mean_square};
+use crate::marginal::Refined;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::passive::{is_passive, nearest};
 use crate::problem::{Level, Problem, Unknowns};
+use crate::search::{SEARCHED, searched};
 use crate::starts::starts;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
@@ -17,109 +21,22 @@ use crate::together::{LINES_MAX, together};
 /// Rounds in which the level of the noise follows the residuals.
 const ROUNDS: usize = 5;
 
-/// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
-const LEAST_LEVEL: f64 = 1e-12;
-
-/// Likewise where errors of the set-up are estimated: nobody measures better, and beside less the budget would be lost.
-const LEAST_MEASURED: f64 = 1e-4;
-
-/// Squares of the errors of the set-up over those of the budget beyond which it does not hold.
-const BEYOND_BUDGET: f64 = 2.0;
-
-/// Lines that are searched from several starts; all are used from where these lead.
-const SEARCHED: usize = 60;
-
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
 const NOISE: f64 = 0.01;
 
 /// Information on an error of the set-up that is known, in parts of what there is.
 const KNOWN: f64 = 1e9;
 
-/// A search that has come as low as the lowest, up to this part.
-const AS_LOW: f64 = 1e-6;
-
-/// 97.5 % quantile of the normal distribution.
-pub(crate) const QUANTILE: f64 = 1.959_963_984_540_054;
-
-/// χ² over degrees of freedom beyond which stated noise does not explain the residuals.
-const MISFIT: f64 = 1.5;
-
-/// Residual over computed functions, r.m.s., beyond which the model is not that of the data.
-const RESIDUAL_MAX: f64 = 0.5;
-
-/// Negative eigenvalues of a scaled matrix that noise does not excuse.
-const NOT_PASSIVE: f64 = 1e-9;
-
-/// One number of the joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unknown {
-    /// Its name in the model's axes, such as `k_x` or `c_x_ry`.
-    pub name: String,
-    /// SI units, of a passive joint.
-    pub value: f64,
-    /// Without that constraint.
-    pub free: f64,
-    /// Standard deviation, with the errors of the set-up.
-    pub deviation: f64,
-    /// That of noise alone.
-    pub deviation_by_noise: f64,
-    /// Whether the functions determine it: its deviation is smaller than what couples its motions at most.
-    pub is_determined: bool,
-}
-
-impl Unknown {
-    /// Interval of 95 %, about the free estimate and with the passive one in it.
-    #[must_use]
-    pub fn interval_95(&self) -> [f64; 2] {
-        let [low, high] = [-1.0, 1.0].map(|sign| self.free + sign * QUANTILE * self.deviation);
-        [low.min(self.value), high.max(self.value)]
-    }
-}
-
-/// What one kind of errors of the set-up adds.
-#[derive(Clone, Debug)]
-pub struct Group {
-    /// `sensors of a` and so on.
-    pub name: String,
-    /// Standard deviations of the entries of K and of C that it makes by itself.
-    pub deviations: [Matrix6<f64>; 2],
-    /// Largest part of an unknown's variance that is its.
-    pub largest_share: f64,
-}
-
-/// What was found.
-#[derive(Clone, Debug)]
-pub struct SpatialIdentification {
-    /// The unknowns of stiffness, then those of damping.
-    pub unknowns: Vec<Unknown>,
-    /// K, N/m, N/rad, N·m/rad.
-    pub stiffness: Matrix6<f64>,
-    /// C, in the units of K times s.
-    pub damping: Matrix6<f64>,
-    /// K and C without the constraint that the joint be passive, where that is another estimate.
-    pub free: Option<[Matrix6<f64>; 2]>,
-    /// Standard deviations of the entries of K and of C.
-    pub deviations: [Matrix6<f64>; 2],
-    /// Those of noise alone.
-    pub deviations_by_noise: [Matrix6<f64>; 2],
-    /// Correlation of the unknowns.
-    pub correlation: DMatrix<f64>,
-    /// Root mean square of |measured − computed|/|computed|'s r.m.s. of each function.
-    pub relative_rms: f64,
-    /// Functions of the assembly and lines that were compared.
-    pub functions: usize,
-    /// Lines.
-    pub lines: usize,
-    /// χ² over degrees of freedom where the noise is stated.
-    pub reduced_chi_squared: Option<f64>,
-    /// Squares of the errors of the set-up that were found, over those of the budget; `None` without errors.
-    pub budget_used: Option<f64>,
-    /// Starts of the search, and how many came to the same minimum.
-    pub starts: [usize; 2],
-    /// What errors of the set-up add to the deviations: of sensors and of impacts of each side, where they take part.
-    pub groups: Vec<Group>,
-    /// Why the result is not to be relied on.
-    pub reasons_against: Vec<String>,
+/// The search's end.
+struct Found {
+    /// Joint and errors of the set-up, at the lines of `estimated`.
+    best: Fit,
+    estimated: Problem,
+    level: Deviations,
+    /// The joint alone, with the errors as they were found, at all lines.
+    joint: Refined,
+    /// Starts that were tried, and that agree.
+    starts: [usize; 2],
 }
 
 impl SpatialStudy {
@@ -130,7 +47,7 @@ impl SpatialStudy {
     pub fn identify(&self) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
         let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
-        if 2 * functions * lines <= problem.joint_count() {
+        if problem.numbers() <= problem.joint_count() {
             return Err(SpatialError::TooFewFunctions {
                 found: functions,
                 lines,
@@ -142,67 +59,125 @@ impl SpatialStudy {
             .iter()
             .map(|one| root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
             .collect();
-        let mut level: Deviations = match (self.level, problem.error_count()) {
-            (Level::Relative(part), _) => rms.iter().map(|rms| part * rms).collect(),
-            (Level::OfResiduals, 0) => rms.clone(),
-            (Level::OfResiduals, _) => rms.iter().map(|rms| NOISE * rms).collect(),
+        let found = match self.level {
+            Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(&rms, part)?,
+            _ => self.beside_exact(&rms)?,
         };
-        let (mut best, tried, agreeing) = match problem.error_count() {
+        self.result(&found)
+    }
+
+    /// Where the substructures' functions are exact.
+    fn beside_exact(&self, rms: &Deviations) -> Result<Found, SpatialError> {
+        let problem = &self.problem;
+        let errors = problem.error_count();
+        let mut level: Deviations = match (self.level, errors) {
+            (Level::Relative(part), _) => parts(rms, part),
+            (Level::OfResiduals, 0) => rms.clone(),
+            (Level::OfResiduals, _) => parts(rms, NOISE),
+        };
+        let (mut best, tried, agreeing) = match errors {
             0 => {
                 let (found, tried, agreeing) = searched(&problem.thinned(SEARCHED), &level)?;
                 (Fit::from(problem, found.unknowns, &level)?, tried, agreeing)
             }
             _ => together(problem, &level, matches!(self.level, Level::Relative(_)))?,
         };
-        let estimated = match problem.error_count() {
+        let estimated = match errors {
             0 => problem.clone(),
             _ => problem.thinned(LINES_MAX),
         };
         if let Level::OfResiduals = self.level {
             for _ in 0..ROUNDS {
-                level = of_residuals(problem, &best.unknowns, &rms)?;
+                level = of_residuals(problem, &best.unknowns, rms)?;
                 best = Fit::from(&estimated, best.unknowns, &level)?;
             }
         }
-        self.result(&estimated, &best, &level, [tried, agreeing])
-    }
-
-    fn result(
-        &self,
-        estimated: &Problem,
-        best: &Fit,
-        level: &Deviations,
-        starts: [usize; 2],
-    ) -> Result<SpatialIdentification, SpatialError> {
-        let problem = &self.problem;
-        let count = problem.joint_count();
-        let errors = problem.error_count();
-        let normal = Normal::of(estimated, &best.unknowns, level)?;
-        let of_errors = normal.information.view((0, count), (count, errors));
-        let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
         // all lines, with the errors of the set-up as they were found
         let exact = problem.displaced(&best.unknowns)?;
-        let start = Unknowns(best.unknowns.0.rows(0, count).into_owned());
-        let refined = match problem.frequency_hz.len() > estimated.frequency_hz.len() {
-            true => Fit::from(&exact, start, level)?.unknowns,
+        let start = joint_of(problem, &best.unknowns);
+        let unknowns = match problem.frequency_hz.len() > estimated.frequency_hz.len() {
+            true => Fit::from(&exact, start, &level)?.unknowns,
             false => start,
         };
-        let alone = Normal::of(&exact, &refined, level)?;
-        let by_noise = covariance(&alone.information).ok_or(SpatialError::NotDetermined)?;
-        // θ follows η by −F_θθ⁻¹ F_θη
-        let follows = {
-            let own = normal.information.view((0, 0), (count, count)).into_owned();
-            covariance(&own).ok_or(SpatialError::NotDetermined)? * of_errors
-        };
-        let with = |all: &DMatrix<f64>| {
-            let moved = &follows * all.view((count, count), (errors, errors));
-            &by_noise + moved * follows.transpose()
-        };
-        let joint = with(&all);
-        let mut at = best.unknowns.clone();
-        at.0.rows_mut(0, count).copy_from(&refined.0);
+        let normal = Normal::of(&exact, &unknowns, &level)?;
+        let at = with_joint(&best.unknowns, &unknowns);
+        Ok(Found {
+            joint: Refined {
+                covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
+                squares: cost(problem, &at, &level)?,
+                kept: (0..problem.frequency_hz.len()).collect(),
+                moved: 0.0,
+                has_converged: best.has_converged,
+                unknowns,
+            },
+            best,
+            estimated,
+            level,
+            starts: [tried, agreeing],
+        })
+    }
+
+    /// Where the substructures' functions have noise.
+    fn beside_noise(&self, rms: &Deviations, part: f64) -> Result<Found, SpatialError> {
+        let problem = &self.problem;
+        let level = parts(rms, part);
+        let [a, b] = self.noise;
+        // as if their noise moved the assembly's functions as much
+        let all = parts(rms, (part * part + a * a + b * b).sqrt());
+        if problem.error_count() == 0 {
+            let smoothed = problem.smoothed()?;
+            let first = starts(&smoothed.thinned(SEARCHED))?.into_iter().next();
+            let kept = first.and_then(|first| problem.kept(&first, &level, self.noise).ok());
+            let few = match kept {
+                Some(kept) => smoothed.with_lines(&kept).thinned(SEARCHED),
+                None => smoothed.thinned(SEARCHED),
+            };
+            let (best, tried, agreeing) = searched(&few, &all)?;
+            let joint = problem.refined(best.unknowns.clone(), &level, self.noise)?;
+            return Ok(Found {
+                best,
+                estimated: few,
+                level: all,
+                joint,
+                starts: [tried, agreeing],
+            });
+        }
+        let (best, tried, agreeing) = together(problem, &all, true)?;
+        let exact = problem.displaced(&best.unknowns)?;
+        let joint = exact.refined(joint_of(problem, &best.unknowns), &level, self.noise)?;
+        // the errors once more, at the lines that count and with the noise that was found there
+        let estimated = problem.with_lines(&joint.kept).thinned(LINES_MAX);
+        let level_there = parts(rms, part.hypot(joint.moved));
+        let start = with_joint(&best.unknowns, &joint.unknowns);
+        let best = Fit::from(&estimated, start, &level_there)?;
+        let exact = problem.displaced(&best.unknowns)?;
+        let mut joint = exact.refined(joint.unknowns, &level, self.noise)?;
+        joint.squares += squares_of_errors(problem, &best.unknowns);
+        Ok(Found {
+            best,
+            estimated,
+            level: level_there,
+            joint,
+            starts: [tried, agreeing],
+        })
+    }
+
+    fn result(&self, found: &Found) -> Result<SpatialIdentification, SpatialError> {
+        let problem = &self.problem;
         let model = &problem.model;
-        let free = refined.0.clone();
+        let count = problem.joint_count();
+        let errors = problem.error_count();
+        let Found {
+            best,
+            estimated,
+            level,
+            joint: alone,
+            starts,
+        } = found;
+        let spread = Spread::of(estimated, best, level, &alone.covariance)?;
+        let joint = spread.joint(&spread.all);
+        let at = with_joint(&best.unknowns, &alone.unknowns);
+        let free = alone.unknowns.0.clone();
         let passive = match is_passive(model, &free) {
             true => free.clone(),
             false => {
@@ -213,23 +188,7 @@ impl SpatialStudy {
         };
         let matrices = |unknowns: &DVector<f64>| problem.matrices(&Unknowns(unknowns.clone()));
         let [stiffness, damping] = matrices(&passive)?;
-        let entries = |covariance: &DMatrix<f64>| -> [Matrix6<f64>; 2] {
-            [0, 1].map(|part| {
-                let first = part * model.count();
-                Matrix6::from_fn(|i, j| {
-                    let bases = model.bases();
-                    let mut variance = 0.0;
-                    for (m, one) in bases.iter().enumerate() {
-                        for (n, other) in bases.iter().enumerate() {
-                            variance +=
-                                one[(i, j)] * other[(i, j)] * covariance[(first + m, first + n)];
-                        }
-                    }
-                    f64::max(variance, 0.0).sqrt()
-                })
-            })
-        };
-        let deviations = entries(&joint);
+        let entries = |covariance: &DMatrix<f64>| covariances(problem, covariance).map(deviations);
         let names = [Part::Stiffness, Part::Damping].map(|part| model.names(part));
         let unknowns: Vec<Unknown> = names
             .concat()
@@ -250,7 +209,7 @@ impl SpatialStudy {
                     value: passive[n],
                     free: free[n],
                     deviation,
-                    deviation_by_noise: by_noise[(n, n)].sqrt(),
+                    deviation_by_noise: alone.covariance[(n, n)].sqrt(),
                     is_determined: QUANTILE * deviation < (own * other).abs().sqrt(),
                 }
             })
@@ -258,18 +217,12 @@ impl SpatialStudy {
         let correlation = DMatrix::from_fn(count, count, |i, j| {
             joint[(i, j)] / (joint[(i, i)] * joint[(j, j)]).sqrt()
         });
-        let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
         let groups = self
             .groups()
             .into_iter()
             .map(|(name, columns)| {
                 // what is known of it no longer adds
-                let mut known = normal.information.clone();
-                for column in columns {
-                    let place = count + column;
-                    known[(place, place)] += KNOWN * known[(place, place)];
-                }
-                let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
+                let without = spread.without(&columns).unwrap_or_else(|| joint.clone());
                 let own = &joint - without;
                 let share = |n: usize| own[(n, n)] / joint[(n, n)];
                 Group {
@@ -279,11 +232,13 @@ impl SpatialStudy {
                 }
             })
             .collect();
-        let squares = cost(problem, &at, level)?;
-        let freedom = (2 * functions * lines - count) as f64;
+        let lines = alone.kept.len();
+        let compared = problem.with_lines(&alone.kept);
+        let freedom = (compared.numbers() - count) as f64;
         let reduced_chi_squared =
-            matches!(self.level, Level::Relative(_)).then_some(squares / freedom);
-        let mut found = SpatialIdentification {
+            matches!(self.level, Level::Relative(_)).then_some(alone.squares / freedom);
+        let left_out = problem.frequency_hz.len() - lines;
+        let mut result = SpatialIdentification {
             unknowns,
             stiffness,
             damping,
@@ -291,21 +246,29 @@ impl SpatialStudy {
                 true => None,
                 false => Some(matrices(&free)?),
             },
-            deviations,
-            deviations_by_noise: entries(&by_noise),
+            deviations: entries(&joint),
+            deviations_by_noise: entries(&alone.covariance),
+            covariances: covariances(problem, &joint),
             correlation,
-            relative_rms: relative_rms(problem, &at)?,
-            functions,
+            relative_rms: relative_rms(&compared, &at)?,
+            functions: problem.observed.len(),
             lines,
+            substructures: (self.noise != [0.0; 2]).then_some(Substructures {
+                lines_left_out: left_out,
+                moves: alone.moved,
+            }),
+            frequency_hz: problem.frequency_hz.clone(),
+            fits: strongest(problem, &at, &alone.kept)?,
             reduced_chi_squared,
             budget_used: (errors > 0)
                 .then(|| squares_of_errors(problem, &best.unknowns) / errors as f64),
-            starts,
+            starts: *starts,
             groups,
+            errors: self.errors(&best.unknowns, &spread.all),
             reasons_against: Vec::new(),
         };
-        found.reasons_against = found.reasons(best.has_converged);
-        Ok(found)
+        result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        Ok(result)
     }
 
     /// Sensors and impacts of each side, with the places of their errors.
@@ -332,129 +295,95 @@ impl SpatialStudy {
     }
 }
 
-impl SpatialIdentification {
-    fn reasons(&self, has_converged: bool) -> Vec<String> {
-        let mut reasons = Vec::new();
-        if !has_converged {
-            reasons.push(
-                "the search has not converged, or its starts lead to different minima".to_owned(),
-            );
+/// How noise and the errors of the set-up spread the joint.
+struct Spread<'s> {
+    /// Of joint and errors, at the lines of the search.
+    information: DMatrix<f64>,
+    /// Its inverse.
+    all: DMatrix<f64>,
+    /// θ follows η by −F_θθ⁻¹ F_θη.
+    follows: DMatrix<f64>,
+    by_noise: &'s DMatrix<f64>,
+}
+
+impl<'s> Spread<'s> {
+    fn of(
+        problem: &Problem,
+        best: &Fit,
+        level: &Deviations,
+        by_noise: &'s DMatrix<f64>,
+    ) -> Result<Self, SpatialError> {
+        let (count, errors) = (problem.joint_count(), problem.error_count());
+        if errors == 0 {
+            return Ok(Self {
+                information: DMatrix::zeros(0, 0),
+                all: by_noise.clone(),
+                follows: DMatrix::zeros(count, 0),
+                by_noise,
+            });
         }
-        if self.relative_rms > RESIDUAL_MAX {
-            reasons.push(format!(
-                "the residual is {:.0} % of the functions: the model is not that of the data; check units, directions and signs",
-                100.0 * self.relative_rms
-            ));
+        let information = Normal::of(problem, &best.unknowns, level)?.information;
+        let own = information.view((0, 0), (count, count)).into_owned();
+        let of_errors = information.view((0, count), (count, errors));
+        Ok(Self {
+            all: covariance(&information).ok_or(SpatialError::NotDetermined)?,
+            follows: covariance(&own).ok_or(SpatialError::NotDetermined)? * of_errors,
+            information,
+            by_noise,
+        })
+    }
+
+    /// Covariance of the joint, with this one of joint and errors.
+    fn joint(&self, all: &DMatrix<f64>) -> DMatrix<f64> {
+        let (count, errors) = self.follows.shape();
+        let moved = &self.follows * all.view((count, count), (errors, errors));
+        self.by_noise + moved * self.follows.transpose()
+    }
+
+    /// Likewise if some errors were known.
+    fn without(&self, errors: &[usize]) -> Option<DMatrix<f64>> {
+        let mut known = self.information.clone();
+        for error in errors {
+            let place = self.follows.nrows() + error;
+            known[(place, place)] += KNOWN * known[(place, place)];
         }
-        if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
-            reasons.push(format!(
-                "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
-                 of sensors and impacts, or state larger ones in budget",
-                used.sqrt()
-            ));
-        }
-        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
-            reasons.push(format!(
-                "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
-            ));
-        }
-        for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
-            if let Err(refused) = semidefinite(matrix)
-                && !is_excused(matrix)
-            {
-                reasons.push(format!("joint.{name} is not passive: {refused}"));
-            }
-        }
-        reasons
+        Some(self.joint(&covariance(&known)?))
     }
 }
 
-/// Whether a negative eigenvalue is rounding.
-fn is_excused(matrix: &Matrix6<f64>) -> bool {
-    let scale = matrix.diagonal().map(|own| own.abs().sqrt());
-    let scaled = Matrix6::from_fn(|i, j| {
-        let size = scale[i] * scale[j];
-        if size > 0.0 {
-            matrix[(i, j)] / size
-        } else {
-            0.0
-        }
+/// A part of each r.m.s.
+fn parts(rms: &Deviations, part: f64) -> Deviations {
+    rms.iter().map(|rms| part * rms).collect()
+}
+
+/// The joint's unknowns of all.
+fn joint_of(problem: &Problem, all: &Unknowns) -> Unknowns {
+    Unknowns(all.0.rows(0, problem.joint_count()).into_owned())
+}
+
+/// All unknowns, with this joint.
+fn with_joint(all: &Unknowns, joint: &Unknowns) -> Unknowns {
+    let mut own = all.clone();
+    own.0.rows_mut(0, joint.0.len()).copy_from(&joint.0);
+    own
+}
+
+/// Covariances of the 21 numbers of K and of those of C.
+fn covariances(problem: &Problem, covariance: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    let bases = problem.model.bases();
+    let count = bases.len();
+    let by_unknowns = DMatrix::from_fn(21, count, |n, unknown| {
+        let Entry { row, column } = Entry::ALL[n];
+        bases[unknown][(row.index(), column.index())]
     });
-    scaled.symmetric_eigenvalues().min() > -NOT_PASSIVE
+    [0, count].map(|first| {
+        let own = covariance.view((first, first), (count, count));
+        &by_unknowns * own * by_unknowns.transpose()
+    })
 }
 
-/// The lowest of the searches, how many starts were tried and how many came as low. When a second one has, the others are not
-/// tried.
-fn searched(problem: &Problem, level: &Deviations) -> Result<(Fit, usize, usize), SpatialError> {
-    let slack = 2.0 * (problem.observed.len() * problem.frequency_hz.len()) as f64;
-    let mut best: Option<Fit> = None;
-    let (mut tried, mut agreeing) = (0, 0);
-    for start in starts(problem)? {
-        tried += 1;
-        let Ok(fit) = Fit::from(problem, start, level) else {
-            continue;
-        };
-        let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-        let as_low = AS_LOW * (lowest.min(fit.cost) + slack);
-        agreeing = match fit.cost - lowest {
-            above if above > as_low => agreeing,
-            above if above >= -as_low => agreeing + 1,
-            _ => 1,
-        };
-        if fit.cost < lowest {
-            best = Some(fit);
-        }
-        if agreeing > 1 {
-            break;
-        }
-    }
-    Ok((best.ok_or(SpatialError::NoStart)?, tried, agreeing))
-}
-
-/// The level of each function's noise, by its residuals.
-fn of_residuals(
-    problem: &Problem,
-    unknowns: &Unknowns,
-    rms: &Deviations,
-) -> Result<Deviations, SpatialError> {
-    let squares = squares(problem, unknowns)?;
-    // each function's share of the unknowns is spent
-    let lines = problem.frequency_hz.len() as f64;
-    let spent = problem.joint_count() as f64 / (2 * problem.observed.len()) as f64;
-    let freedom = (lines - spent).max(1.0);
-    let least = match problem.error_count() {
-        0 => LEAST_LEVEL,
-        _ => LEAST_MEASURED,
-    };
-    let levels = squares.iter().zip(rms);
-    Ok(levels
-        .map(|([residual, _], rms)| (residual / freedom).sqrt().max(least * rms))
-        .collect())
-}
-
-/// Σ |measured − computed|² and Σ |computed|² of each function.
-fn squares(problem: &Problem, unknowns: &Unknowns) -> Result<Vec<[f64; 2]>, SpatialError> {
-    let assembled = Assembled::new(problem, unknowns)?;
-    let mut sums = vec![[0.0; 2]; problem.observed.len()];
-    for line in 0..problem.frequency_hz.len() {
-        let functions = assembled.functions(line)?;
-        for ((sum, one), function) in sums.iter_mut().zip(&problem.observed).zip(functions) {
-            sum[0] += (one.values[line] - function).norm_sqr();
-            sum[1] += function.norm_sqr();
-        }
-    }
-    Ok(sums)
-}
-
-fn relative_rms(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
-    let squares = squares(problem, unknowns)?;
-    let parts = squares
-        .iter()
-        .map(|[residual, computed]| residual / computed);
-    Ok(root_mean_square(parts))
-}
-
-fn root_mean_square(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = squares.len().max(1) as f64;
-    (squares.sum::<f64>() / count).sqrt()
+/// Deviations of a matrix' entries.
+fn deviations(covariance: DMatrix<f64>) -> Matrix6<f64> {
+    let own = std::array::from_fn(|n| f64::max(covariance[(n, n)], 0.0).sqrt());
+    bolted_joint_space::symmetric(&own)
 }

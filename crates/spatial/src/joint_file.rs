@@ -8,7 +8,7 @@ use bolted_joint_study::{Method, provenance};
 use nalgebra::Matrix6;
 
 use crate::SpatialStudy;
-use crate::estimate::{QUANTILE, SpatialIdentification};
+use crate::identification::{QUANTILE, SpatialIdentification};
 use crate::problem::Level;
 
 impl SpatialIdentification {
@@ -53,6 +53,15 @@ impl SpatialIdentification {
             }
             Level::OfResiduals => "noise as large as each function's residual".to_owned(),
         };
+        let substructures = match (study.noise, &self.substructures) {
+            ([a, b], Some(found)) => format!(
+                "noise of {} % and {} % of those of a and b taken into account, {} lines left out where it moves too much",
+                100.0 * a,
+                100.0 * b,
+                found.lines_left_out
+            ),
+            _ => "the substructures' functions taken as exact".to_owned(),
+        };
         let errors = match problem.tolerances {
             None => "the set-up taken as exact",
             Some(_) => "with what errors of sensors and impacts do to the estimate, to first order",
@@ -68,7 +77,7 @@ impl SpatialIdentification {
             uncertainty: Some(Uncertainty {
                 standard_deviation: deviation(&self.deviations),
                 basis: format!(
-                    "information matrix of the assembly's functions, {level}; {errors}; the substructures' functions taken as exact"
+                    "information matrix of the assembly's functions, {level}; {errors}; {substructures}"
                 ),
                 correlation: Some(Correlation {
                     unknowns: self

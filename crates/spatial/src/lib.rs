@@ -9,22 +9,36 @@
 #![forbid(unsafe_code)]
 
 mod assembled;
+mod consistency;
+mod dyads;
 mod error;
 mod estimate;
 mod fit;
+mod fits;
+mod identification;
 mod joint_file;
+mod level;
+mod marginal;
 mod misfits;
 mod normal;
+mod parallel;
 mod passive;
 mod problem;
+mod reasons;
+#[cfg(test)]
+mod samples;
+mod search;
 mod side;
 mod starts;
 mod study;
 mod tables;
 mod together;
 
+pub use consistency::SideConsistency;
 pub use error::SpatialError;
-pub use estimate::{Group, SpatialIdentification, Unknown};
+pub use identification::{
+    FunctionFit, Group, SetUpError, SpatialIdentification, Substructures, Unknown,
+};
 pub use misfits::Misfit;
 pub use problem::Level;
 pub use study::SpatialStudy;

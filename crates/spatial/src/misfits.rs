@@ -9,6 +9,7 @@ use bolted_joint_virtual_point::{
 };
 
 use crate::error::SpatialError;
+use crate::fits::key;
 use crate::problem::Problem;
 use crate::side::{Interface, Side};
 use crate::study::SpatialStudy;
@@ -92,35 +93,22 @@ fn misfit(
         let is_beyond = |tolerance| suspect.diagnosis.deviations(tolerance) > WITHIN_BUDGET;
         Some(suspect.place) == suspects.bad && tolerance.is_none_or(is_beyond)
     });
-    Ok(bad.map(|suspect| {
-        let (key, dofs) = named(name, side, set_up, suspect.place);
-        Misfit {
-            key,
-            dofs,
-            ratio: suspect.ratio,
-            diagnosis: suspect.diagnosis,
-        }
+    Ok(bad.map(|suspect| Misfit {
+        key: key(name, side, suspect.place),
+        dofs: dofs(side, set_up, suspect.place),
+        ratio: suspect.ratio,
+        diagnosis: suspect.diagnosis,
     }))
 }
 
-/// As the study and the functions have it.
-fn named(name: &str, side: &Side, set_up: &SetUp, place: Place) -> (String, Vec<Dof>) {
-    let of_sensors = set_up.channels().rows_of_each();
+/// Its DOFs in the functions.
+fn dofs(side: &Side, set_up: &SetUp, place: Place) -> Vec<Dof> {
     match place {
-        Place::Sensor(number) => (
-            format!("{name}.sensors[{number}]"),
-            side.responses[of_sensors[number].clone()].to_vec(),
-        ),
-        Place::Channel(row) => {
-            let number = of_sensors.iter().position(|rows| rows.contains(&row));
-            (
-                format!("{name}.sensors[{}]", number.unwrap_or_default()),
-                vec![side.responses[row]],
-            )
+        Place::Sensor(number) => {
+            let rows = set_up.channels().rows_of_each()[number].clone();
+            side.responses[rows].to_vec()
         }
-        Place::Impact(number) => (
-            format!("{name}.impacts[{number}]"),
-            vec![side.references[number]],
-        ),
+        Place::Channel(row) => vec![side.responses[row]],
+        Place::Impact(number) => vec![side.references[number]],
     }
 }

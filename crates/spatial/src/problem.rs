@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_space::{Connection, Parametrisation, Selection, SpaceError};
+use bolted_joint_space::{Parametrisation, SpaceError};
 use bolted_joint_virtual_point::Tolerances;
 use nalgebra::{DMatrix, DVector, Matrix6};
 use num_complex::Complex64;
 
 use crate::error::SpatialError;
-use crate::side::{MOTIONS, Side};
+use crate::side::Side;
 
 /// How large the noise of the assembly's functions is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub enum Level {
 /// One measured function of the assembly.
 #[derive(Clone, Debug)]
 pub(crate) struct Observed {
-    /// Its row and its column among those of both substructures with their interfaces.
+    /// Its row among the responses of a and of b, its column among their references.
     pub(crate) at: [usize; 2],
     /// Receptance at each line.
     pub(crate) values: Vec<Complex64>,
@@ -54,15 +54,29 @@ impl Problem {
             return self.clone();
         }
         let kept: Vec<usize> = (0..most).map(|n| n * (lines - 1) / (most - 1)).collect();
-        let mut own = self.clone();
-        own.frequency_hz = kept.iter().map(|&line| self.frequency_hz[line]).collect();
-        for (side, all) in own.sides.iter_mut().zip(&self.sides) {
-            side.lines = kept.iter().map(|&line| all.lines[line].clone()).collect();
+        self.with_lines(&kept)
+    }
+
+    /// With these of its lines.
+    pub(crate) fn with_lines(&self, kept: &[usize]) -> Self {
+        let side = |side: &Side| Side {
+            responses: side.responses.clone(),
+            references: side.references.clone(),
+            lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
+            interface: side.interface.clone(),
+        };
+        let observed = |one: &Observed| Observed {
+            at: one.at,
+            values: kept.iter().map(|&line| one.values[line]).collect(),
+        };
+        Self {
+            sides: self.sides.each_ref().map(side),
+            frequency_hz: kept.iter().map(|&line| self.frequency_hz[line]).collect(),
+            observed: self.observed.iter().map(observed).collect(),
+            model: self.model.clone(),
+            length_m: self.length_m,
+            tolerances: self.tolerances,
         }
-        for (one, all) in own.observed.iter_mut().zip(&self.observed) {
-            one.values = kept.iter().map(|&line| all.values[line]).collect();
-        }
-        own
     }
 
     /// Unknowns of the joint.
@@ -154,34 +168,27 @@ impl Problem {
         })
     }
 
-    /// S of the rows, and of the columns.
-    pub(crate) fn selections(&self) -> Result<[Selection; 2], SpaceError> {
-        let [a, b] = &self.sides;
-        let joint = |a_first: usize, b_first: usize| Connection {
-            a: std::array::from_fn(|dof| a_first + dof),
-            b: std::array::from_fn(|dof| b_first + dof),
-        };
-        Ok([
-            Selection::relative(
-                a.rows() + b.rows(),
-                &[joint(a.rows() - MOTIONS, a.rows() + b.rows() - MOTIONS)],
-            )?,
-            Selection::relative(
-                a.columns() + b.columns(),
-                &[joint(
-                    a.columns() - MOTIONS,
-                    a.columns() + b.columns() - MOTIONS,
-                )],
-            )?,
-        ])
+    /// Rows and columns of the assembly before those of b.
+    pub(crate) fn skips(&self) -> [usize; 2] {
+        let a = &self.sides[0];
+        [a.responses.len(), a.references.len()]
     }
-}
 
-/// Two matrices on a diagonal.
-pub(crate) fn block_diagonal(blocks: [&DMatrix<Complex64>; 2]) -> DMatrix<Complex64> {
-    let [a, b] = blocks;
-    let mut all = DMatrix::zeros(a.nrows() + b.nrows(), a.ncols() + b.ncols());
-    all.view_mut((0, 0), a.shape()).copy_from(a);
-    all.view_mut(a.shape(), b.shape()).copy_from(b);
-    all
+    /// 1/σ² of the observed functions, rows × columns of the assembly; 0 for what was not measured.
+    pub(crate) fn weights(&self, deviations: &[f64]) -> DMatrix<f64> {
+        let [a, b] = &self.sides;
+        let mut weights = DMatrix::zeros(
+            a.responses.len() + b.responses.len(),
+            a.references.len() + b.references.len(),
+        );
+        for (one, deviation) in self.observed.iter().zip(deviations) {
+            weights[(one.at[0], one.at[1])] += 1.0 / (deviation * deviation);
+        }
+        weights
+    }
+
+    /// Real numbers that are compared.
+    pub(crate) fn numbers(&self) -> usize {
+        2 * self.observed.len() * self.frequency_hz.len()
+    }
 }

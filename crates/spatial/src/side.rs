@@ -1,11 +1,10 @@
 //! One substructure: its functions, and how its interface's motions and loads follow from them.
 
 use bolted_joint_frf::Dof;
-use bolted_joint_space::Dof as Motion;
 use bolted_joint_virtual_point::{
-    Change, Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
+    Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
 };
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 /// Motions of an interface.
@@ -52,15 +51,67 @@ pub(crate) struct Transformations {
     pub(crate) loads_changes: Vec<DMatrix<Complex64>>,
 }
 
-impl Side {
-    /// Rows of its functions together with those of the interface.
-    pub(crate) fn rows(&self) -> usize {
-        self.responses.len() + MOTIONS
+/// What the functions of a side with a rigid interface follow from, Y = R_u h R_fᵀ: those between motions and loads of the
+/// virtual point and what is measured elsewhere; and how h is found, h = T_u Y T_f.
+#[derive(Clone, Debug)]
+pub(crate) struct Reduction {
+    /// R_u, responses × (6 + others).
+    pub(crate) rows: DMatrix<Complex64>,
+    /// R_f, references × (6 + others).
+    pub(crate) columns: DMatrix<Complex64>,
+    /// T_u, (6 + others) × responses.
+    pub(crate) motions: DMatrix<Complex64>,
+    /// T_f, references × (6 + others).
+    pub(crate) loads: DMatrix<Complex64>,
+}
+
+impl Reduction {
+    pub(crate) fn reduced(&self, functions: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+        &self.motions * functions * &self.loads
     }
 
-    /// Columns likewise.
-    pub(crate) fn columns(&self) -> usize {
-        self.references.len() + MOTIONS
+    pub(crate) fn expanded(&self, reduced: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+        &self.rows * reduced * self.columns.transpose()
+    }
+}
+
+impl Side {
+    /// Of a set-up without errors.
+    pub(crate) fn reduction(&self) -> Result<Reduction, VirtualPointError> {
+        let (p, q) = (self.responses.len(), self.references.len());
+        let set_up = match &self.interface {
+            Interface::Node => {
+                let unit = |count: usize| DMatrix::identity(count, count);
+                return Ok(Reduction {
+                    rows: unit(p),
+                    columns: unit(q),
+                    motions: unit(p),
+                    loads: unit(q),
+                });
+            }
+            Interface::Points(set_up) => set_up,
+        };
+        let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)?;
+        // beside the interface's, what is measured elsewhere stands for itself
+        let beside = |own: &DMatrix<f64>, height: usize, width: usize| {
+            let (n, m) = own.shape();
+            DMatrix::from_fn(height, width, |i, j| {
+                Complex64::from(match (i < n, j < m) {
+                    (true, true) => own[(i, j)],
+                    (false, false) if i - n == j - m => 1.0,
+                    _ => 0.0,
+                })
+            })
+        };
+        let (r_u, r_f) = (set_up.channels().matrix(), set_up.impacts().matrix());
+        let [wide, tall] =
+            [(p, r_u.nrows()), (q, r_f.nrows())].map(|(all, own)| MOTIONS + all - own);
+        Ok(Reduction {
+            rows: beside(r_u, p, wide),
+            columns: beside(r_f, q, tall),
+            motions: beside(point.motions_of_channels(), wide, p),
+            loads: beside(&point.forces_of_loads(), q, tall),
+        })
     }
 
     /// Errors that the set-up may have.
@@ -104,10 +155,14 @@ impl Side {
         let point = VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal)?;
         let mut by_channels = point.transformation_derivatives(Role::Channel);
         let mut by_impacts = point.transformation_derivatives(Role::Impact);
-        let parameters = self.parameters();
         let own = by_channels.len();
-        by_rotation_vectors(&mut by_channels, &parameters[..own], &errors[..own]);
-        by_rotation_vectors(&mut by_impacts, &parameters[own..], &errors[own..]);
+        let set_up = point.set_up();
+        set_up
+            .channels()
+            .by_rotation_vectors(&mut by_channels, &errors[..own])?;
+        set_up
+            .impacts()
+            .by_rotation_vectors(&mut by_impacts, &errors[own..])?;
         Ok(Transformations {
             motions: wide(point.motions_of_channels(), rows),
             loads: wide(&point.forces_of_loads().transpose(), columns).transpose(),
@@ -117,52 +172,5 @@ impl Side {
                 .map(|by| wide(by, columns).transpose())
                 .collect(),
         })
-    }
-}
-
-/// Makes derivatives by further turns those by the rotation vectors themselves: exp(φ + dφ) = exp(J dφ) exp(φ) with
-/// J = I + (1 − cos θ)/θ² [φ]× + (θ − sin θ)/θ³ [φ]×², θ = |φ|. Without it a search crawls: what weakly determined unknowns
-/// may do depends on how exactly the others follow.
-fn by_rotation_vectors(changes: &mut [DMatrix<f64>], parameters: &[Parameter], errors: &[f64]) {
-    for first in 0..parameters.len() {
-        if parameters[first].change != Change::Pose(Motion::Rx) {
-            continue;
-        }
-        let vector = Vector3::from_row_slice(&errors[first..first + 3]);
-        let cross = vector.cross_matrix();
-        let angle = vector.norm();
-        // series where the difference would be lost
-        let [of_one, of_two] = if angle < 1e-3 {
-            [
-                0.5 - angle * angle / 24.0,
-                1.0 / 6.0 - angle * angle / 120.0,
-            ]
-        } else {
-            [
-                (1.0 - angle.cos()) / angle.powi(2),
-                (angle - angle.sin()) / angle.powi(3),
-            ]
-        };
-        let jacobian = Matrix3::identity() + of_one * cross + of_two * cross * cross;
-        let by_turns: [DMatrix<f64>; 3] = std::array::from_fn(|n| changes[first + n].clone());
-        for (k, change) in changes[first..first + 3].iter_mut().enumerate() {
-            *change = (0..3).fold(by_turns[0].clone() * 0.0, |sum, m| {
-                sum + &by_turns[m] * jacobian[(m, k)]
-            });
-        }
-    }
-}
-
-impl Transformations {
-    /// The functions of a line with those of the interface: [[Y, Y T_f], [T_u Y, T_u Y T_f]].
-    pub(crate) fn extended(&self, functions: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        let (p, q) = functions.shape();
-        let by_loads = functions * &self.loads;
-        let mut all = DMatrix::zeros(p + MOTIONS, q + MOTIONS);
-        all.view_mut((0, 0), (p, q)).copy_from(functions);
-        all.view_mut((0, q), (p, MOTIONS)).copy_from(&by_loads);
-        let motions = &self.motions * all.rows(0, p);
-        all.rows_mut(p, MOTIONS).copy_from(&motions);
-        all
     }
 }

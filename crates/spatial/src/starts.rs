@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector, Matrix6};
 use num_complex::Complex64;
 
-use crate::assembled::Assembled;
+use crate::assembled::{Assembled, Reach};
 use crate::error::SpatialError;
 use crate::problem::{Problem, Unknowns};
 
@@ -39,7 +39,7 @@ pub(crate) fn starts(problem: &Problem) -> Result<Vec<Unknowns>, SpatialError> {
     // k = 1/|H_ii|, where joint and structures are alike
     let seen: Vec<Matrix6<Complex64>> = looked_at
         .iter()
-        .map(|&line| assembled.seen_by_joint(line))
+        .map(|&line| assembled.reach(line).seen)
         .collect();
     let middle = problem.omega(lines / 2);
     for part in PARTS {
@@ -81,8 +81,18 @@ fn line_by_line(
 ) -> Option<[Matrix6<f64>; 2]> {
     let mut found: Vec<[Matrix6<f64>; 2]> = Vec::new();
     let length = |i: usize| if i < 3 { 1.0 } else { problem.length_m };
+    let [rows, columns] = problem.skips();
     for &line in lines {
-        let [by_loads, motions, alone] = assembled.reach(line);
+        let Reach {
+            by_loads,
+            motions,
+            seen: h,
+        } = assembled.reach(line);
+        let alone = |[o, i]: [usize; 2]| match (o < rows, i < columns) {
+            (true, true) => problem.sides[0].lines[line][(o, i)],
+            (false, false) => problem.sides[1].lines[line][(o - rows, i - columns)],
+            _ => Complex64::default(),
+        };
         // vec Z = (b ⊗ a) vec X over the observed pairs; rotations as lengths, K = ℓ K′ ℓ
         let design = DMatrix::from_fn(problem.observed.len(), 36, |row, column| {
             let [o, i] = problem.observed[row].at;
@@ -91,7 +101,7 @@ fn line_by_line(
         });
         let right = DVector::from_fn(problem.observed.len(), |row, _| {
             let one = &problem.observed[row];
-            alone[(one.at[0], one.at[1])] - one.values[line]
+            alone(one.at) - one.values[line]
         });
         let svd = design.svd(true, true);
         let largest = svd.singular_values.max();
@@ -100,7 +110,6 @@ fn line_by_line(
         }
         let x = svd.solve(&right, 0.0).ok()?;
         let x = Matrix6::from_fn(|m, n| x[6 * n + m] * Complex64::from(length(m) * length(n)));
-        let h = assembled.seen_by_joint(line);
         let inverse = (Matrix6::<Complex64>::identity() - h * x).try_inverse()?;
         let d = x * inverse;
         let omega = problem.omega(line);

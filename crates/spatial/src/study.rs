@@ -14,8 +14,8 @@ use num_complex::Complex64;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{Interface, MOTIONS, Side};
 use crate::tables::{
-    BudgetTable, DeviationsTable, ImpactTable, JointTable, ModelName, NoBudget, SensorTable,
-    SideTable, StudyFile,
+    BudgetTable, DeviationsTable, ImpactTable, JointTable, ModelName, NoBudget, NoiseTable,
+    SensorTable, SideTable, StudyFile,
 };
 
 /// Frequencies that are the same, in parts.
@@ -36,6 +36,8 @@ pub struct SpatialStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
+    /// Noise of the functions of a and of b in parts of each function's r.m.s.; 0 where they are exact.
+    pub noise: [f64; 2],
     pub(crate) problem: Problem,
 }
 
@@ -91,6 +93,7 @@ impl SpatialStudy {
                 "noise in parts of each function's r.m.s., such as 0.01",
             )?),
         };
+        let noise = reader.noise(&file.noise)?;
         let mut files = vec![study.record()];
         for (role, path) in [
             ("a", &file.a.frf),
@@ -107,6 +110,7 @@ impl SpatialStudy {
             notes: file.notes,
             files,
             level,
+            noise,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
@@ -141,6 +145,24 @@ impl Reader<'_> {
         let set = reading.into_set().map_err(StudyError::of_file)?;
         set.restricted_to(from_hz, to_hz)
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
+    }
+
+    /// Noise of the substructures.
+    fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
+        let of = |key: &str, given: Option<f64>| {
+            let Some(part) = given else {
+                return Ok(0.0);
+            };
+            self.study.ensure(
+                table.relative.is_some(),
+                key,
+                format_args!("{part} without noise.relative"),
+                "the noise of the assembly's functions beside that of the substructures",
+            )?;
+            let expected = "noise in parts of each function's r.m.s., such as 0.01; without the key it is none";
+            self.study.positive(key, part, expected)
+        };
+        Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
     }
 
     fn same_lines(&self, key: &str, found: &[f64], expected: &[f64]) -> Result<(), StudyError> {
@@ -332,13 +354,11 @@ impl Reader<'_> {
     fn observed(&self, sides: &[Side; 2], assembly: &FrfSet) -> Result<Vec<Observed>, StudyError> {
         let mut observed = Vec::new();
         let [a, b] = sides;
-        let places = |first: &[Dof], skip: usize, second: &[Dof]| -> Vec<(usize, Dof)> {
-            let own = first.iter().copied().enumerate();
-            let other = second.iter().copied().enumerate();
-            own.chain(other.map(|(n, dof)| (skip + n, dof))).collect()
+        let places = |first: &[Dof], second: &[Dof]| -> Vec<(usize, Dof)> {
+            first.iter().chain(second).copied().enumerate().collect()
         };
-        let rows = places(&a.responses, a.rows(), &b.responses);
-        let columns = places(&a.references, a.columns(), &b.references);
+        let rows = places(&a.responses, &b.responses);
+        let columns = places(&a.references, &b.references);
         for &(row, response) in &rows {
             for &(column, reference) in &columns {
                 let Ok(function) = assembly.receptance(response, reference) else {

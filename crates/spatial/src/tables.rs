@@ -109,6 +109,9 @@ pub(crate) enum ModelName {
 pub(crate) struct NoiseTable {
     /// In parts of each function's r.m.s.
     pub(crate) relative: Option<f64>,
+    /// Likewise of the substructures' functions.
+    pub(crate) a: Option<f64>,
+    pub(crate) b: Option<f64>,
 }
 
 /// `budget = "none"`, or deviations.

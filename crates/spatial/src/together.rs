@@ -48,7 +48,7 @@ pub(crate) fn together(
     let explained = |fit: &Fit| {
         let errors = squares_of_errors(&thin, &fit.unknowns);
         is_stated
-            && fit.cost < EXPLAINED * numbers(&thin)
+            && fit.cost < EXPLAINED * thin.numbers() as f64
             && errors < EXPECTED * problem.error_count() as f64
     };
     let mut best: Option<Fit> = None;
@@ -87,7 +87,7 @@ fn let_down(
     level: &Deviations,
 ) -> Result<Fit, SpatialError> {
     let mut unknowns = start;
-    let mut factor = (residual / numbers(problem)).sqrt();
+    let mut factor = (residual / problem.numbers() as f64).sqrt();
     for step in 1.. {
         if factor <= 1.0 {
             break;
@@ -95,19 +95,14 @@ fn let_down(
         let own: Deviations = level.iter().map(|level| factor * level).collect();
         let fit = Fit::of(problem, unknowns, &own, Effort::Coarse)?;
         unknowns = fit.unknowns;
-        if step >= PATIENCE && fit.cost > LAGGING * numbers(problem) {
+        if step >= PATIENCE && fit.cost > LAGGING * problem.numbers() as f64 {
             return Ok(Fit {
                 cost: cost(problem, &unknowns, level)?,
                 unknowns,
                 has_converged: false,
             });
         }
-        factor *= (fit.cost / numbers(problem)).sqrt().min(LET_DOWN);
+        factor *= (fit.cost / problem.numbers() as f64).sqrt().min(LET_DOWN);
     }
     Fit::from(problem, unknowns, level)
-}
-
-/// Real numbers that are compared.
-fn numbers(problem: &Problem) -> f64 {
-    (2 * problem.observed.len() * problem.frequency_hz.len()) as f64
 }

@@ -59,6 +59,7 @@ mod projection;
 mod sensitivity;
 mod setup;
 mod suspects;
+mod turns;
 mod unseen;
 mod weights;
 mod words;

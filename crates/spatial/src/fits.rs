@@ -1,0 +1,114 @@
+//! What the result shows of functions and of the set-up.
+
+use bolted_joint_virtual_point::{Parameter, Place};
+use nalgebra::DMatrix;
+
+use crate::assembled::Assembled;
+use crate::error::SpatialError;
+use crate::identification::{FunctionFit, SetUpError};
+use crate::level::squares;
+use crate::parallel::over_lines;
+use crate::problem::{Observed, Problem, Unknowns};
+use crate::side::{Interface, Side};
+use crate::study::SpatialStudy;
+
+/// Functions that are shown, of each pair of sides.
+const SHOWN: usize = 2;
+
+/// The strongest functions of each pair of sides, with the joint that was found; `kept` are the lines that took part.
+pub(crate) fn strongest(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    kept: &[usize],
+) -> Result<Vec<FunctionFit>, SpatialError> {
+    let [rows, columns] = problem.skips();
+    let strength = |one: &Observed| {
+        let values = one.values.iter();
+        // over all lines, and not that of the highest peak
+        values.map(|value| value.norm().ln()).sum::<f64>()
+    };
+    let mut shown: Vec<usize> = Vec::new();
+    for pair in [[false, false], [true, true], [false, true], [true, false]] {
+        let mut own: Vec<(f64, usize)> = problem
+            .observed
+            .iter()
+            .enumerate()
+            .filter(|(_, one)| [one.at[0] >= rows, one.at[1] >= columns] == pair)
+            .map(|(n, one)| (strength(one), n))
+            .collect();
+        own.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+        shown.extend(own.iter().take(SHOWN).map(|(_, n)| n));
+    }
+    let assembled = Assembled::new(problem, unknowns)?;
+    let lines: Vec<_> = over_lines(problem.frequency_hz.len(), |lines| {
+        let of = |line| {
+            let functions = assembled.line(line)?.functions;
+            Ok(shown.iter().map(|&n| functions[n]).collect::<Vec<_>>())
+        };
+        lines.map(of).collect::<Result<Vec<_>, SpatialError>>()
+    })?
+    .concat();
+    let residuals = squares(&problem.with_lines(kept), unknowns)?;
+    let [a, b] = &problem.sides;
+    let responses: Vec<_> = a.responses.iter().chain(&b.responses).collect();
+    let references: Vec<_> = a.references.iter().chain(&b.references).collect();
+    Ok(shown
+        .iter()
+        .enumerate()
+        .map(|(place, &n)| {
+            let one = &problem.observed[n];
+            let [residual, computed] = residuals[n];
+            FunctionFit {
+                response: *responses[one.at[0]],
+                reference: *references[one.at[1]],
+                measured: one.values.clone(),
+                computed: lines.iter().map(|line| line[place]).collect(),
+                relative_rms: (residual / computed).sqrt(),
+            }
+        })
+        .collect())
+}
+
+impl SpatialStudy {
+    /// What the errors of the set-up came to; `covariance` is that of all unknowns.
+    pub(crate) fn errors(&self, unknowns: &Unknowns, covariance: &DMatrix<f64>) -> Vec<SetUpError> {
+        let problem = &self.problem;
+        let first = problem.joint_count();
+        let sides = ["a", "b"].into_iter().zip(&problem.sides);
+        let parameters = sides.flat_map(|(name, side)| {
+            let own = side.parameters().into_iter();
+            own.map(move |parameter| (key(name, side, parameter.place), parameter))
+        });
+        parameters
+            .zip(problem.error_deviations())
+            .enumerate()
+            .map(
+                |(n, ((key, Parameter { change, .. }), expected))| SetUpError {
+                    key,
+                    change,
+                    value: unknowns.0[first + n],
+                    deviation: covariance[(first + n, first + n)].sqrt(),
+                    expected,
+                },
+            )
+            .collect()
+    }
+}
+
+/// A sensor's or impact's key in the study.
+pub(crate) fn key(name: &str, side: &Side, place: Place) -> String {
+    match place {
+        Place::Sensor(number) => format!("{name}.sensors[{number}]"),
+        Place::Impact(number) => format!("{name}.impacts[{number}]"),
+        Place::Channel(row) => {
+            let number = match &side.interface {
+                Interface::Node => None,
+                Interface::Points(set_up) => {
+                    let mut each = set_up.channels().rows_of_each().into_iter();
+                    each.position(|rows| rows.contains(&row))
+                }
+            };
+            format!("{name}.sensors[{}]", number.unwrap_or_default())
+        }
+    }
+}

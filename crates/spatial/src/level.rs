@@ -1,0 +1,74 @@
+//! How large the noise of each function is, and the residuals.
+
+use crate::assembled::Assembled;
+use crate::error::SpatialError;
+use crate::normal::Deviations;
+use crate::parallel::over_lines;
+use crate::problem::{Problem, Unknowns};
+
+/// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
+const LEAST_LEVEL: f64 = 1e-12;
+
+/// Likewise where errors of the set-up are estimated: nobody measures better, and beside less the budget would be lost.
+const LEAST_MEASURED: f64 = 1e-4;
+
+/// The level of each function's noise, by its residuals.
+pub(crate) fn of_residuals(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    rms: &Deviations,
+) -> Result<Deviations, SpatialError> {
+    let squares = squares(problem, unknowns)?;
+    // each function's share of the unknowns is spent
+    let lines = problem.frequency_hz.len() as f64;
+    let spent = problem.joint_count() as f64 / (2 * problem.observed.len()) as f64;
+    let freedom = (lines - spent).max(1.0);
+    let least = match problem.error_count() {
+        0 => LEAST_LEVEL,
+        _ => LEAST_MEASURED,
+    };
+    let levels = squares.iter().zip(rms);
+    Ok(levels
+        .map(|([residual, _], rms)| (residual / freedom).sqrt().max(least * rms))
+        .collect())
+}
+
+/// Σ |measured − computed|² and Σ |computed|² of each function.
+pub(crate) fn squares(
+    problem: &Problem,
+    unknowns: &Unknowns,
+) -> Result<Vec<[f64; 2]>, SpatialError> {
+    let assembled = Assembled::new(problem, unknowns)?;
+    let count = problem.observed.len();
+    let parts = over_lines(problem.frequency_hz.len(), |lines| {
+        let mut sums = vec![[0.0; 2]; count];
+        for line in lines {
+            let functions = assembled.line(line)?.functions;
+            for ((sum, one), function) in sums.iter_mut().zip(&problem.observed).zip(functions) {
+                sum[0] += (one.values[line] - function).norm_sqr();
+                sum[1] += function.norm_sqr();
+            }
+        }
+        Ok::<_, SpatialError>(sums)
+    })?;
+    let mut sums = vec![[0.0; 2]; count];
+    for part in parts {
+        for (sum, own) in sums.iter_mut().zip(part) {
+            *sum = [sum[0] + own[0], sum[1] + own[1]];
+        }
+    }
+    Ok(sums)
+}
+
+pub(crate) fn relative_rms(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+    let squares = squares(problem, unknowns)?;
+    let parts = squares
+        .iter()
+        .map(|[residual, computed]| residual / computed);
+    Ok(root_mean_square(parts))
+}
+
+pub(crate) fn root_mean_square(squares: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = squares.len().max(1) as f64;
+    (squares.sum::<f64>() / count).sqrt()
+}

@@ -1,0 +1,423 @@
+//! Noise of the substructures' functions: errors in variables in marginal form.
+//!
+//! What the substructures truly are is unknown beside the joint, thousands of numbers that are linear in the functions of the
+//! assembly as far as noise goes. They are eliminated line by line: with h the reduced functions of the substructures (those
+//! of the virtual point, and of what is measured elsewhere), U = ∂Y_C/∂h and Λ the covariance of h,
+//!
+//! r = y − Y_C(h, θ) − U (h₀ − h), S = Σ + U Λ Uᴴ, F = 2 Re Σ Jᴴ S⁻¹ J, h ← h₀ + Λ Uᴴ S⁻¹ r,
+//!
+//! with S⁻¹ = W − W U M⁻¹ Uᴴ W, M = Λ⁻¹ + Uᴴ W U, W = Σ⁻¹. Both U and J are dyads, which [`crate::dyads`] sums up.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use num_complex::Complex64;
+
+use crate::assembled::Assembled;
+use crate::dyads::{Grid, Group, descent, information, squares};
+use crate::error::SpatialError;
+use crate::fit::covariance;
+use crate::normal::{Deviations, Normal, Patterns, residuals};
+use crate::parallel::over_lines;
+use crate::problem::{Problem, Unknowns};
+use crate::side::{MOTIONS, Reduction};
+
+/// Lines are left out where the substructures' noise moves the functions of the assembly by more than this part of them,
+/// r.m.s.: there they do not follow linearly.
+const MOVED_MAX: f64 = 0.3;
+
+/// Steps of the search at most, with few lines and with all.
+const STEPS_MAX: [usize; 2] = [15, 5];
+
+/// A step below this part of the deviations was the last one.
+const SETTLED: f64 = 0.02;
+
+/// Lines of the search before all take part.
+const FEW: usize = 200;
+
+/// Longest step, in parts of what couples two motions at most.
+const LONGEST: f64 = 0.5;
+
+/// The joint that fits best, beside noise of the substructures.
+pub(crate) struct Refined {
+    /// Of the joint alone.
+    pub(crate) unknowns: Unknowns,
+    /// Covariance of these.
+    pub(crate) covariance: DMatrix<f64>,
+    /// χ², of all real numbers of the lines that took part.
+    pub(crate) squares: f64,
+    /// Lines that took part.
+    pub(crate) kept: Vec<usize>,
+    /// R.m.s. over these lines of what the substructures' noise moves, in parts of the functions.
+    pub(crate) moved: f64,
+    pub(crate) has_converged: bool,
+}
+
+/// A set-up without errors, whose substructures have noise.
+struct Marginal<'p> {
+    problem: &'p Problem,
+    grid: Grid,
+    patterns: Patterns,
+    reductions: [Reduction; 2],
+    /// Λ of each side with noise.
+    noisy: Vec<Noisy>,
+    /// h₀ at each line.
+    measured: Vec<Hidden>,
+}
+
+/// Reduced functions of both sides.
+type Hidden = [DMatrix<Complex64>; 2];
+
+struct Noisy {
+    side: usize,
+    covariance: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+}
+
+/// What one line comes to.
+struct AtLine {
+    products: DMatrix<Complex64>,
+    slopes: DVector<Complex64>,
+    squares: f64,
+    hidden: Hidden,
+}
+
+impl Problem {
+    /// From unknowns near the best ones; the substructures have noise in these parts of each function's r.m.s. Errors of the
+    /// set-up do not take part.
+    pub(crate) fn refined(
+        &self,
+        start: Unknowns,
+        level: &Deviations,
+        noise: [f64; 2],
+    ) -> Result<Refined, SpatialError> {
+        let all = Marginal::of(self, level, noise)?;
+        let kept = all.kept(&start)?;
+        let own = self.with_lines(&kept);
+        let few = own.thinned(FEW);
+        let mut unknowns = start;
+        let mut search = None;
+        for (problem, steps) in [&few, &own].into_iter().zip(STEPS_MAX) {
+            // noise is that of all lines, whichever are looked at
+            let marginal = Marginal {
+                problem,
+                grid: Grid::new(problem.weights(level)),
+                patterns: Patterns::of(&problem.model),
+                reductions: all.reductions.clone(),
+                noisy: all.noisy_again(),
+                measured: Marginal::reduced(problem, &all.reductions),
+            };
+            let found = marginal.searched(unknowns, steps)?;
+            unknowns = found.0.clone();
+            search = Some(found);
+        }
+        let (unknowns, normal, has_converged) = search.ok_or(SpatialError::NoStart)?;
+        let moved = all.moved(&unknowns)?;
+        let squares: f64 = kept.iter().map(|&line| moved[line].powi(2)).sum();
+        Ok(Refined {
+            covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
+            squares: normal.cost,
+            moved: (squares / kept.len().max(1) as f64).sqrt(),
+            unknowns,
+            kept,
+            has_converged,
+        })
+    }
+
+    /// Lines at which the substructures' noise moves the assembly's functions little enough.
+    pub(crate) fn kept(
+        &self,
+        unknowns: &Unknowns,
+        level: &Deviations,
+        noise: [f64; 2],
+    ) -> Result<Vec<usize>, SpatialError> {
+        Marginal::of(self, level, noise)?.kept(unknowns)
+    }
+
+    /// With the functions of a rigid interface in place of the measured ones, which have more noise.
+    pub(crate) fn smoothed(&self) -> Result<Self, SpatialError> {
+        let reductions = reductions(self)?;
+        let mut own = self.clone();
+        for (side, reduction) in own.sides.iter_mut().zip(&reductions) {
+            for line in &mut side.lines {
+                *line = reduction.expanded(&reduction.reduced(line));
+            }
+        }
+        Ok(own)
+    }
+}
+
+fn reductions(problem: &Problem) -> Result<[Reduction; 2], SpatialError> {
+    let of = |n: usize| {
+        let reduction = problem.sides[n].reduction();
+        reduction.map_err(|source| SpatialError::of_side(n, source))
+    };
+    Ok([of(0)?, of(1)?])
+}
+
+impl<'p> Marginal<'p> {
+    fn of(problem: &'p Problem, level: &Deviations, noise: [f64; 2]) -> Result<Self, SpatialError> {
+        let reductions = reductions(problem)?;
+        let mut noisy = Vec::new();
+        for (side, part) in noise.into_iter().enumerate() {
+            if part > 0.0 {
+                noisy.push(Noisy::of(problem, &reductions[side], side, part)?);
+            }
+        }
+        Ok(Self {
+            problem,
+            grid: Grid::new(problem.weights(level)),
+            patterns: Patterns::of(&problem.model),
+            noisy,
+            measured: Self::reduced(problem, &reductions),
+            reductions,
+        })
+    }
+
+    fn noisy_again(&self) -> Vec<Noisy> {
+        let of = |own: &Noisy| Noisy {
+            side: own.side,
+            covariance: own.covariance.clone(),
+            inverse: own.inverse.clone(),
+        };
+        self.noisy.iter().map(of).collect()
+    }
+
+    fn reduced(problem: &Problem, reductions: &[Reduction; 2]) -> Vec<Hidden> {
+        (0..problem.frequency_hz.len())
+            .map(|line| [0, 1].map(|n| reductions[n].reduced(&problem.sides[n].lines[line])))
+            .collect()
+    }
+
+    /// What noise of the substructures moves at each line, in parts of the functions, r.m.s. with the functions' weights.
+    fn moved(&self, unknowns: &Unknowns) -> Result<Vec<f64>, SpatialError> {
+        let assembled = Assembled::new(self.problem, unknowns)?;
+        let parts = over_lines(self.problem.frequency_hz.len(), |lines| {
+            let of = |line: usize| {
+                let (_, groups) = self.dyads(&assembled, line, &self.measured[line])?;
+                let sums = information(&self.grid, &groups[..self.noisy.len()]);
+                // Σ w var = tr(Λ Uᴴ W U)
+                let mut first = 0;
+                let mut moved = 0.0;
+                for own in &self.noisy {
+                    let count = own.covariance.nrows();
+                    let block = sums.view((first, first), (count, count));
+                    let terms = block.iter().zip(&own.covariance);
+                    moved += terms
+                        .map(|(sum, covariance)| sum.re * covariance)
+                        .sum::<f64>();
+                    first += count;
+                }
+                let mut values = DMatrix::zeros(groups[0].left.nrows(), groups[0].right.ncols());
+                for one in &self.problem.observed {
+                    values[(one.at[0], one.at[1])] = one.values[line];
+                }
+                Ok((moved / squares(&self.grid, &values)).sqrt())
+            };
+            lines.map(of).collect::<Result<Vec<f64>, SpatialError>>()
+        })?;
+        Ok(parts.concat())
+    }
+
+    fn kept(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
+        let moved = self.moved(unknowns)?;
+        let kept: Vec<usize> = (0..moved.len())
+            .filter(|&line| moved[line] < MOVED_MAX)
+            .collect();
+        if kept.len() * self.problem.observed.len() <= self.problem.joint_count() {
+            return Err(SpatialError::TooMuchNoise {
+                lines: moved.len(),
+                kept: kept.len(),
+                percent: 100.0 * MOVED_MAX,
+            });
+        }
+        Ok(kept)
+    }
+
+    /// Gauss–Newton steps, with h following at each.
+    fn searched(
+        &self,
+        start: Unknowns,
+        steps: usize,
+    ) -> Result<(Unknowns, Normal, bool), SpatialError> {
+        let mut unknowns = start;
+        let mut hidden = self.measured.clone();
+        let mut last = None;
+        for _ in 0..steps {
+            let (normal, followed) = self.normal(&unknowns, &hidden)?;
+            hidden = followed;
+            let covariance = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
+            let step = &covariance * &normal.descent;
+            let expected = self.problem.expected(&unknowns)?;
+            let longest = step.zip_map(&expected, |step, expected| (step / expected).abs());
+            let part = (LONGEST / longest.max()).min(1.0);
+            let in_deviations = step
+                .iter()
+                .zip(&covariance.diagonal())
+                .map(|(step, variance)| step.abs() / variance.sqrt())
+                .fold(0.0, f64::max);
+            unknowns = Unknowns(&unknowns.0 + part * step);
+            let has_settled = in_deviations < SETTLED;
+            last = Some((normal, has_settled));
+            if has_settled {
+                break;
+            }
+        }
+        let (normal, has_settled) = last.ok_or(SpatialError::NoStart)?;
+        Ok((unknowns, normal, has_settled))
+    }
+
+    /// The normal equations at these unknowns and reduced functions, and to what the latter go.
+    fn normal(
+        &self,
+        unknowns: &Unknowns,
+        hidden: &[Hidden],
+    ) -> Result<(Normal, Vec<Hidden>), SpatialError> {
+        let assembled = Assembled::new(self.problem, unknowns)?;
+        let parts = over_lines(self.problem.frequency_hz.len(), |lines| {
+            let mut normal = Normal::zeros(self.problem.count());
+            let mut followed = Vec::new();
+            for line in lines {
+                let found = self.at_line(&assembled, line, &hidden[line])?;
+                normal.add_line(self.problem.omega(line), &found.products, &found.slopes);
+                normal.cost += found.squares;
+                followed.push(found.hidden);
+            }
+            Ok::<_, SpatialError>((normal, followed))
+        })?;
+        let mut normal = Normal::zeros(self.problem.count());
+        let mut followed = Vec::new();
+        for (part, own) in parts {
+            normal.add(&part);
+            followed.extend(own);
+        }
+        Ok((normal, followed))
+    }
+
+    /// The assembly with these substructures; x and y of each side with noise, then those of the joint.
+    fn dyads(
+        &self,
+        assembled: &Assembled<'_>,
+        line: usize,
+        hidden: &Hidden,
+    ) -> Result<(crate::assembled::Line, Vec<Group>), SpatialError> {
+        let functions = [0, 1].map(|n| self.reductions[n].expanded(&hidden[n]));
+        let found = assembled.line_of(line, functions.each_ref())?;
+        let (a, b) = (&found.by_joint_loads, &found.joint_motions);
+        let (a_d, d_b) = (a * found.dynamic, found.dynamic * b);
+        let skips = self.problem.skips();
+        let mut groups = Vec::new();
+        for own in &self.noisy {
+            // dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b
+            let sign = Complex64::from(if own.side == 0 { 1.0 } else { -1.0 });
+            let [rows, columns] = skips.map(|skip| skip * own.side);
+            let Reduction {
+                rows: r_u,
+                columns: r_f,
+                ..
+            } = &self.reductions[own.side];
+            let mut left = DMatrix::zeros(a.nrows(), r_u.ncols());
+            left.view_mut((rows, 0), r_u.shape()).copy_from(r_u);
+            let mut of_interface = left.columns_mut(0, MOTIONS);
+            of_interface -= &a_d * sign;
+            let mut right = DMatrix::zeros(r_f.ncols(), b.ncols());
+            right
+                .view_mut((0, columns), (r_f.ncols(), r_f.nrows()))
+                .copy_from(&r_f.transpose());
+            let mut of_interface = right.rows_mut(0, MOTIONS);
+            of_interface -= &d_b * sign;
+            groups.push(Group { left, right });
+        }
+        groups.push(found.dyads());
+        Ok((found, groups))
+    }
+
+    fn at_line(
+        &self,
+        assembled: &Assembled<'_>,
+        line: usize,
+        hidden: &Hidden,
+    ) -> Result<AtLine, SpatialError> {
+        let (found, groups) = self.dyads(assembled, line, hidden)?;
+        let measured = &self.measured[line];
+        let mut errors = residuals(self.problem, line, &found);
+        for (own, group) in self.noisy.iter().zip(&groups) {
+            let moved = &measured[own.side] - &hidden[own.side];
+            errors -= &group.left * moved * &group.right;
+        }
+        let sums = information(&self.grid, &groups);
+        let slopes = descent(&self.grid, &groups, &errors);
+        let all = sums.nrows() - MOTIONS * MOTIONS;
+        let joint = MOTIONS * MOTIONS;
+        let mut m = sums.view((0, 0), (all, all)).into_owned();
+        let mut first = 0;
+        for own in &self.noisy {
+            let count = own.inverse.nrows();
+            let mut block = m.view_mut((first, first), (count, count));
+            block += own.inverse.map(Complex64::from);
+            first += count;
+        }
+        let root = Cholesky::new(m).ok_or(SpatialError::NotDetermined)?;
+        let own = sums.view((all, all), (joint, joint)).into_owned();
+        let mut cross = self
+            .patterns
+            .columns(&sums.view((0, all), (all, joint)).into_owned());
+        let mut pull = slopes.rows(0, all).into_owned();
+        let lower = root.l_dirty();
+        let is_solved = lower.solve_lower_triangular_mut(&mut cross)
+            && lower.solve_lower_triangular_mut(&mut pull);
+        if !is_solved {
+            return Err(SpatialError::NotDetermined);
+        }
+        let products = self.patterns.products(&own) - cross.adjoint() * &cross;
+        let slopes =
+            self.patterns.slopes(&slopes.rows(all, joint).into_owned()) - cross.adjoint() * &pull;
+        let squares = 2.0 * (squares(&self.grid, &errors) - pull.norm_squared());
+        lower.ad_solve_lower_triangular_mut(&mut pull);
+        let mut followed = measured.clone();
+        let mut first = 0;
+        for own in &self.noisy {
+            let target = &mut followed[own.side];
+            let (height, width) = target.shape();
+            for p in 0..height {
+                for q in 0..width {
+                    target[(p, q)] += pull[first + p * width + q];
+                }
+            }
+            first += height * width;
+        }
+        Ok(AtLine {
+            products,
+            slopes,
+            squares,
+            hidden: followed,
+        })
+    }
+}
+
+impl Noisy {
+    /// Λ = Σ σ_ij² (t_j t_jᵀ) ⊗ (t_i t_iᵀ), with σ_ij a part of each function's r.m.s.
+    fn of(
+        problem: &Problem,
+        reduction: &Reduction,
+        side: usize,
+        part: f64,
+    ) -> Result<Self, SpatialError> {
+        let lines = &problem.sides[side].lines;
+        let (p, q) = (reduction.rows.nrows(), reduction.columns.nrows());
+        let count = lines.len().max(1) as f64;
+        let variances = DMatrix::from_fn(p, q, |i, j| {
+            let squares: f64 = lines.iter().map(|line| line[(i, j)].norm_sqr()).sum();
+            part * part * squares / count
+        });
+        let group = Group {
+            left: reduction.motions.transpose(),
+            right: reduction.loads.transpose(),
+        };
+        let covariance = information(&Grid::new(variances), &[group]).map(|sum| sum.re);
+        let inverse = crate::fit::covariance(&covariance).ok_or(SpatialError::NotDetermined)?;
+        Ok(Self {
+            side,
+            covariance,
+            inverse,
+        })
+    }
+}

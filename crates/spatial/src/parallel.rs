@@ -1,0 +1,22 @@
+//! Work on many lines on all processors, with sums that do not depend on how many there are.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Lines of one piece of work.
+const LENGTH: usize = 16;
+
+/// Work on pieces of consecutive lines; the results in their order.
+pub(crate) fn over_lines<T: Send, E: Send>(
+    lines: usize,
+    work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    let pieces: Vec<Range<usize>> = (0..lines)
+        .step_by(LENGTH)
+        .map(|first| first..lines.min(first + LENGTH))
+        .collect();
+    // all results first: which error is told must not depend on who is faster
+    let results: Vec<Result<T, E>> = pieces.into_par_iter().map(&work).collect();
+    results.into_iter().collect()
+}

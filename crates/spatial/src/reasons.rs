@@ -1,0 +1,69 @@
+//! What speaks against a result.
+
+use bolted_joint_space::semidefinite;
+use nalgebra::Matrix6;
+
+use crate::identification::SpatialIdentification;
+
+/// Squares of the errors of the set-up over those of the budget beyond which it does not hold.
+const BEYOND_BUDGET: f64 = 2.0;
+
+/// χ² over degrees of freedom beyond which stated noise does not explain the residuals.
+const MISFIT: f64 = 1.5;
+
+/// Residual over computed functions, r.m.s., beyond which the model is not that of the data.
+const RESIDUAL_MAX: f64 = 0.5;
+
+/// Negative eigenvalues of a scaled matrix that noise does not excuse.
+const NOT_PASSIVE: f64 = 1e-9;
+
+impl SpatialIdentification {
+    pub(crate) fn reasons(&self, has_converged: bool) -> Vec<String> {
+        let mut reasons = Vec::new();
+        if !has_converged {
+            reasons.push(
+                "the search has not converged, or its starts lead to different minima".to_owned(),
+            );
+        }
+        if self.relative_rms > RESIDUAL_MAX {
+            reasons.push(format!(
+                "the residual is {:.0} % of the functions: the model is not that of the data; check units, directions and signs",
+                100.0 * self.relative_rms
+            ));
+        }
+        if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
+            reasons.push(format!(
+                "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
+                 of sensors and impacts, or state larger ones in budget",
+                used.sqrt()
+            ));
+        }
+        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
+            reasons.push(format!(
+                "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
+            ));
+        }
+        for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
+            if let Err(refused) = semidefinite(matrix)
+                && !is_excused(matrix)
+            {
+                reasons.push(format!("joint.{name} is not passive: {refused}"));
+            }
+        }
+        reasons
+    }
+}
+
+/// Whether a negative eigenvalue is rounding.
+fn is_excused(matrix: &Matrix6<f64>) -> bool {
+    let scale = matrix.diagonal().map(|own| own.abs().sqrt());
+    let scaled = Matrix6::from_fn(|i, j| {
+        let size = scale[i] * scale[j];
+        if size > 0.0 {
+            matrix[(i, j)] / size
+        } else {
+            0.0
+        }
+    });
+    scaled.symmetric_eigenvalues().min() > -NOT_PASSIVE
+}

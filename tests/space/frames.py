@@ -141,14 +141,14 @@ class Rig:
         )
 
     def write(self, folder, frequencies, noise=0.0, rng=None, rows=None, model='model = "full"', more="", of_sides=(0.0, 0.0)):
-        """The files of a test and its study; noise on the assembly, and on the substructures, in parts of each function's
-        r.m.s."""
+        """The files of a test and its study; noise on the assembly in parts of each function's r.m.s., on the substructures in
+        parts of each value."""
         functions = self.functions(frequencies, rows)
         for n, own in enumerate([*of_sides, noise]):
             if own:
                 c = functions[n]
-                rms = np.sqrt(np.mean(np.abs(c) ** 2, axis=2, keepdims=True))
-                functions[n] = c + own * rms * (rng.normal(size=c.shape) + 1j * rng.normal(size=c.shape)) / np.sqrt(2)
+                size = np.abs(c) if n < 2 else np.sqrt(np.mean(np.abs(c) ** 2, axis=2, keepdims=True))
+                functions[n] = c + own * size * (rng.normal(size=c.shape) + 1j * rng.normal(size=c.shape)) / np.sqrt(2)
         names = [self.names(0), self.names(1)]
         names.append(tuple(names[0][n] + names[1][n] for n in range(2)))
         for file, frf, (response, reference) in zip("abc", functions, names):

@@ -127,12 +127,15 @@ impl SpatialStudy {
         if problem.error_count() == 0 {
             let smoothed = problem.smoothed()?;
             let first = starts(&smoothed.thinned(SEARCHED))?.into_iter().next();
-            let kept = first.and_then(|first| problem.kept(&first, &level, self.noise).ok());
-            let few = match kept {
-                Some(kept) => smoothed.with_lines(&kept).thinned(SEARCHED),
-                None => smoothed.thinned(SEARCHED),
-            };
-            let (best, tried, agreeing) = searched(&few, &all)?;
+            let first = first.ok_or(SpatialError::NoStart)?;
+            // the lines at which noise moves least, as far as the joint is known
+            let mut few = smoothed.with_lines(&problem.steadiest(&first, &level, self.noise)?);
+            let (mut best, tried, agreeing) = searched(&few, &all)?;
+            for _ in 0..ROUNDS {
+                let lines = problem.steadiest(&best.unknowns, &level, self.noise)?;
+                few = smoothed.with_lines(&lines);
+                best = Fit::from(&few, best.unknowns, &all)?;
+            }
             let joint = problem.refined(best.unknowns.clone(), &level, self.noise)?;
             return Ok(Found {
                 best,

@@ -55,7 +55,7 @@ impl SpatialIdentification {
         };
         let substructures = match (study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
-                "noise of {} % and {} % of those of a and b taken into account, {} lines left out where it moves too much",
+                "noise of {} % and {} % of each value of a and of b taken into account, {} lines left out where it moves too much",
                 100.0 * a,
                 100.0 * b,
                 found.lines_left_out

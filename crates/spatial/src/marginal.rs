@@ -18,6 +18,7 @@ use crate::fit::covariance;
 use crate::normal::{Deviations, Normal, Patterns, residuals};
 use crate::parallel::over_lines;
 use crate::problem::{Problem, Unknowns};
+use crate::search::SEARCHED;
 use crate::side::{MOTIONS, Reduction};
 
 /// Lines are left out where the substructures' noise moves the functions of the assembly by more than this part of them,
@@ -25,16 +26,22 @@ use crate::side::{MOTIONS, Reduction};
 const MOVED_MAX: f64 = 0.3;
 
 /// Steps of the search at most, with few lines and with all.
-const STEPS_MAX: [usize; 2] = [15, 5];
+const STEPS_MAX: [usize; 2] = [30, 5];
 
 /// A step below this part of the deviations was the last one.
-const SETTLED: f64 = 0.02;
+const SETTLED: f64 = 0.05;
 
 /// Lines of the search before all take part.
 const FEW: usize = 200;
 
-/// Longest step, in parts of what couples two motions at most.
+/// Longest step of a stiffness, in parts of what couples two motions at most.
 const LONGEST: f64 = 0.5;
+
+/// Parts of a step that the reduced functions of a line try.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+
+/// Damping that bounds any step.
+const DAMPING_MAX: f64 = 1e20;
 
 /// The joint that fits best, beside noise of the substructures.
 pub(crate) struct Refined {
@@ -57,7 +64,6 @@ struct Marginal<'p> {
     grid: Grid,
     patterns: Patterns,
     reductions: [Reduction; 2],
-    /// Λ of each side with noise.
     noisy: Vec<Noisy>,
     /// h₀ at each line.
     measured: Vec<Hidden>,
@@ -66,10 +72,11 @@ struct Marginal<'p> {
 /// Reduced functions of both sides.
 type Hidden = [DMatrix<Complex64>; 2];
 
+/// A side whose functions have noise in this part of each value.
+#[derive(Clone, Copy)]
 struct Noisy {
     side: usize,
-    covariance: DMatrix<f64>,
-    inverse: DMatrix<f64>,
+    part: f64,
 }
 
 /// What one line comes to.
@@ -81,8 +88,8 @@ struct AtLine {
 }
 
 impl Problem {
-    /// From unknowns near the best ones; the substructures have noise in these parts of each function's r.m.s. Errors of the
-    /// set-up do not take part.
+    /// From unknowns near the best ones; the substructures have noise in these parts of each value. Errors of the set-up do
+    /// not take part.
     pub(crate) fn refined(
         &self,
         start: Unknowns,
@@ -96,16 +103,7 @@ impl Problem {
         let mut unknowns = start;
         let mut search = None;
         for (problem, steps) in [&few, &own].into_iter().zip(STEPS_MAX) {
-            // noise is that of all lines, whichever are looked at
-            let marginal = Marginal {
-                problem,
-                grid: Grid::new(problem.weights(level)),
-                patterns: Patterns::of(&problem.model),
-                reductions: all.reductions.clone(),
-                noisy: all.noisy_again(),
-                measured: Marginal::reduced(problem, &all.reductions),
-            };
-            let found = marginal.searched(unknowns, steps)?;
+            let found = Marginal::of(problem, level, noise)?.searched(unknowns, steps)?;
             unknowns = found.0.clone();
             search = Some(found);
         }
@@ -122,14 +120,22 @@ impl Problem {
         })
     }
 
-    /// Lines at which the substructures' noise moves the assembly's functions little enough.
-    pub(crate) fn kept(
+    /// The lines at which the substructures' noise moves the assembly's functions least: a half of all, and not too many.
+    pub(crate) fn steadiest(
         &self,
         unknowns: &Unknowns,
         level: &Deviations,
         noise: [f64; 2],
     ) -> Result<Vec<usize>, SpatialError> {
-        Marginal::of(self, level, noise)?.kept(unknowns)
+        let marginal = Marginal::of(self, level, noise)?;
+        let moved = marginal.moved(unknowns)?;
+        let mut lines: Vec<usize> = (0..moved.len()).collect();
+        lines.sort_by(|&one, &other| moved[one].total_cmp(&moved[other]));
+        lines.truncate(moved.len().div_ceil(2));
+        // spread over frequency
+        lines.sort_unstable();
+        let step = lines.len().div_ceil(SEARCHED).max(1);
+        Ok(lines.into_iter().step_by(step).collect())
     }
 
     /// With the functions of a rigid interface in place of the measured ones, which have more noise.
@@ -159,7 +165,7 @@ impl<'p> Marginal<'p> {
         let mut noisy = Vec::new();
         for (side, part) in noise.into_iter().enumerate() {
             if part > 0.0 {
-                noisy.push(Noisy::of(problem, &reductions[side], side, part)?);
+                noisy.push(Noisy { side, part });
             }
         }
         Ok(Self {
@@ -170,15 +176,6 @@ impl<'p> Marginal<'p> {
             measured: Self::reduced(problem, &reductions),
             reductions,
         })
-    }
-
-    fn noisy_again(&self) -> Vec<Noisy> {
-        let of = |own: &Noisy| Noisy {
-            side: own.side,
-            covariance: own.covariance.clone(),
-            inverse: own.inverse.clone(),
-        };
-        self.noisy.iter().map(of).collect()
     }
 
     fn reduced(problem: &Problem, reductions: &[Reduction; 2]) -> Vec<Hidden> {
@@ -198,9 +195,10 @@ impl<'p> Marginal<'p> {
                 let mut first = 0;
                 let mut moved = 0.0;
                 for own in &self.noisy {
-                    let count = own.covariance.nrows();
+                    let own = own.covariance(self, line);
+                    let count = own.nrows();
                     let block = sums.view((first, first), (count, count));
-                    let terms = block.iter().zip(&own.covariance);
+                    let terms = block.iter().zip(&own);
                     moved += terms
                         .map(|(sum, covariance)| sum.re * covariance)
                         .sum::<f64>();
@@ -245,16 +243,13 @@ impl<'p> Marginal<'p> {
             let (normal, followed) = self.normal(&unknowns, &hidden)?;
             hidden = followed;
             let covariance = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
-            let step = &covariance * &normal.descent;
-            let expected = self.problem.expected(&unknowns)?;
-            let longest = step.zip_map(&expected, |step, expected| (step / expected).abs());
-            let part = (LONGEST / longest.max()).min(1.0);
+            let step = self.step(&unknowns, &normal)?;
             let in_deviations = step
                 .iter()
                 .zip(&covariance.diagonal())
                 .map(|(step, variance)| step.abs() / variance.sqrt())
                 .fold(0.0, f64::max);
-            unknowns = Unknowns(&unknowns.0 + part * step);
+            unknowns = Unknowns(&unknowns.0 + step);
             let has_settled = in_deviations < SETTLED;
             last = Some((normal, has_settled));
             if has_settled {
@@ -263,6 +258,31 @@ impl<'p> Marginal<'p> {
         }
         let (normal, has_settled) = last.ok_or(SpatialError::NoStart)?;
         Ok((unknowns, normal, has_settled))
+    }
+
+    /// (F + λ E)⁻¹ g with the least λ that bounds the step of the stiffness, E by what couples two motions at most.
+    fn step(&self, unknowns: &Unknowns, normal: &Normal) -> Result<DVector<f64>, SpatialError> {
+        let expected = self.problem.expected(unknowns)?;
+        let stiffness = self.problem.model.count();
+        let mut damping = 0.0;
+        loop {
+            let mut information = normal.information.clone();
+            for place in 0..expected.len() {
+                information[(place, place)] += damping / expected[place].powi(2);
+            }
+            let inverse = covariance(&information).ok_or(SpatialError::NotDetermined)?;
+            let step = inverse * &normal.descent;
+            let longest = (0..stiffness)
+                .map(|place| (step[place] / expected[place]).abs())
+                .fold(0.0, f64::max);
+            if longest <= LONGEST {
+                return Ok(step);
+            }
+            if damping > DAMPING_MAX {
+                return Err(SpatialError::NotDetermined);
+            }
+            damping = if damping == 0.0 { 1.0 } else { 4.0 * damping };
+        }
     }
 
     /// The normal equations at these unknowns and reduced functions, and to what the latter go.
@@ -330,6 +350,44 @@ impl<'p> Marginal<'p> {
         Ok((found, groups))
     }
 
+    /// As far towards the target as the line's own squares fall: near a resonance the functions are not linear in h, and full
+    /// steps would not end.
+    fn followed(
+        &self,
+        assembled: &Assembled<'_>,
+        line: usize,
+        hidden: &Hidden,
+        target: &Hidden,
+        inverses: &[DMatrix<f64>],
+    ) -> Result<Hidden, SpatialError> {
+        let of = |hidden: &Hidden| {
+            let functions = [0, 1].map(|n| self.reductions[n].expanded(&hidden[n]));
+            let found = assembled.line_of(line, functions.each_ref())?;
+            let errors = residuals(self.problem, line, &found);
+            let mut sum = squares(&self.grid, &errors);
+            for (own, inverse) in self.noisy.iter().zip(inverses) {
+                let moved = &hidden[own.side] - &self.measured[line][own.side];
+                // in the order of the dyads: row by row
+                let moved = moved.transpose();
+                let own = DVector::from_column_slice(moved.as_slice());
+                let [re, im] = [own.map(|x| x.re), own.map(|x| x.im)];
+                sum += re.dot(&(inverse * &re)) + im.dot(&(inverse * &im));
+            }
+            Ok::<f64, SpatialError>(sum)
+        };
+        let before = of(hidden)?;
+        for part in PARTS {
+            let trial: Hidden = std::array::from_fn(|n| {
+                let step = &target[n] - &hidden[n];
+                &hidden[n] + step * Complex64::from(part)
+            });
+            if of(&trial).is_ok_and(|squares| squares <= before) {
+                return Ok(trial);
+            }
+        }
+        Ok(hidden.clone())
+    }
+
     fn at_line(
         &self,
         assembled: &Assembled<'_>,
@@ -348,12 +406,16 @@ impl<'p> Marginal<'p> {
         let all = sums.nrows() - MOTIONS * MOTIONS;
         let joint = MOTIONS * MOTIONS;
         let mut m = sums.view((0, 0), (all, all)).into_owned();
+        let mut inverses = Vec::new();
         let mut first = 0;
         for own in &self.noisy {
-            let count = own.inverse.nrows();
+            let inverse =
+                covariance(&own.covariance(self, line)).ok_or(SpatialError::NotDetermined)?;
+            let count = inverse.nrows();
             let mut block = m.view_mut((first, first), (count, count));
-            block += own.inverse.map(Complex64::from);
+            block += inverse.map(Complex64::from);
             first += count;
+            inverses.push(inverse);
         }
         let root = Cholesky::new(m).ok_or(SpatialError::NotDetermined)?;
         let own = sums.view((all, all), (joint, joint)).into_owned();
@@ -372,18 +434,19 @@ impl<'p> Marginal<'p> {
             self.patterns.slopes(&slopes.rows(all, joint).into_owned()) - cross.adjoint() * &pull;
         let squares = 2.0 * (squares(&self.grid, &errors) - pull.norm_squared());
         lower.ad_solve_lower_triangular_mut(&mut pull);
-        let mut followed = measured.clone();
+        let mut target = measured.clone();
         let mut first = 0;
         for own in &self.noisy {
-            let target = &mut followed[own.side];
-            let (height, width) = target.shape();
+            let values = &mut target[own.side];
+            let (height, width) = values.shape();
             for p in 0..height {
                 for q in 0..width {
-                    target[(p, q)] += pull[first + p * width + q];
+                    values[(p, q)] += pull[first + p * width + q];
                 }
             }
             first += height * width;
         }
+        let followed = self.followed(assembled, line, hidden, &target, &inverses)?;
         Ok(AtLine {
             products,
             slopes,
@@ -394,30 +457,15 @@ impl<'p> Marginal<'p> {
 }
 
 impl Noisy {
-    /// Λ = Σ σ_ij² (t_j t_jᵀ) ⊗ (t_i t_iᵀ), with σ_ij a part of each function's r.m.s.
-    fn of(
-        problem: &Problem,
-        reduction: &Reduction,
-        side: usize,
-        part: f64,
-    ) -> Result<Self, SpatialError> {
-        let lines = &problem.sides[side].lines;
-        let (p, q) = (reduction.rows.nrows(), reduction.columns.nrows());
-        let count = lines.len().max(1) as f64;
-        let variances = DMatrix::from_fn(p, q, |i, j| {
-            let squares: f64 = lines.iter().map(|line| line[(i, j)].norm_sqr()).sum();
-            part * part * squares / count
-        });
+    /// Λ = Σ σ_ij² (t_j t_jᵀ) ⊗ (t_i t_iᵀ) at one line.
+    fn covariance(self, marginal: &Marginal<'_>, line: usize) -> DMatrix<f64> {
+        let variances = marginal.problem.sides[self.side].lines[line]
+            .map(|value| self.part * self.part * value.norm_sqr());
+        let Reduction { motions, loads, .. } = &marginal.reductions[self.side];
         let group = Group {
-            left: reduction.motions.transpose(),
-            right: reduction.loads.transpose(),
+            left: motions.transpose(),
+            right: loads.transpose(),
         };
-        let covariance = information(&Grid::new(variances), &[group]).map(|sum| sum.re);
-        let inverse = crate::fit::covariance(&covariance).ok_or(SpatialError::NotDetermined)?;
-        Ok(Self {
-            side,
-            covariance,
-            inverse,
-        })
+        information(&Grid::new(variances), &[group]).map(|sum| sum.re)
     }
 }

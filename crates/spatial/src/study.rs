@@ -36,7 +36,7 @@ pub struct SpatialStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
-    /// Noise of the functions of a and of b in parts of each function's r.m.s.; 0 where they are exact.
+    /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
     pub(crate) problem: Problem,
 }
@@ -159,7 +159,8 @@ impl Reader<'_> {
                 format_args!("{part} without noise.relative"),
                 "the noise of the assembly's functions beside that of the substructures",
             )?;
-            let expected = "noise in parts of each function's r.m.s., such as 0.01; without the key it is none";
+            let expected =
+                "noise in parts of each value, such as 0.01; without the key there is none";
             self.study.positive(key, part, expected)
         };
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])

@@ -109,7 +109,7 @@ pub(crate) enum ModelName {
 pub(crate) struct NoiseTable {
     /// In parts of each function's r.m.s.
     pub(crate) relative: Option<f64>,
-    /// Likewise of the substructures' functions.
+    /// Of the substructures' functions, in parts of each value.
     pub(crate) a: Option<f64>,
     pub(crate) b: Option<f64>,
 }

@@ -4,7 +4,10 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
-use bolted_joint::identify::space::{Misfit, SpatialIdentification, SpatialStudy, Unknown};
+use bolted_joint::identify::space::{
+    Change, Misfit, Role, SideConsistency, SpatialIdentification, SpatialStudy, Unknown,
+};
+use bolted_joint::report::{SpatialReport, spatial_figure};
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
@@ -14,32 +17,48 @@ use super::IdentifyArguments;
 
 pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<(), CliError> {
     for (option, is_given) in [
-        ("--report", arguments.report.is_some()),
-        ("--figure", arguments.figure.is_some()),
         ("--bootstrap", arguments.bootstrap.is_some()),
         ("--no-rivals", arguments.no_rivals),
     ] {
         if is_given {
-            let expected = "a study of method \"frf-decoupling\"; of a joint in space, take --json";
+            let expected = "a study of method \"frf-decoupling\"";
             return Err(CliError::option(option, "it", expected));
         }
     }
+    let written = arguments.report.as_ref();
+    let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = SpatialStudy::of(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
     let misfits = study.misfits()?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
+    let consistency = study.consistency()?;
     let found = study.identify()?;
     let file = found.joint_file(&study);
     let text = file.to_json()?;
     let mut outputs = Outputs::new();
     outputs.add(Some(&arguments.output), || text);
+    outputs.add(arguments.figure.as_ref(), || spatial_figure(&study, &found));
+    if let Some(written) = written {
+        let report = SpatialReport {
+            study: &study,
+            found: &found,
+            consistency: &consistency,
+            misfits: &misfits,
+            written,
+        };
+        outputs.add(arguments.report.as_ref(), || report.to_html());
+    }
     outputs.write()?;
     if arguments.json {
         print(&serde_json::to_string_pretty(&as_json(
-            &found, &file, &misfits, arguments,
+            &found,
+            &file,
+            &misfits,
+            &consistency,
+            arguments,
         ))?)?;
     } else {
-        print(&(summary(&study, &found) + &outputs.written()))?;
+        print(&(summary(&study, &found) + &of_consistency(&consistency) + &outputs.written()))?;
     }
     CliError::unless_usable(&arguments.output, &found.reasons_against)
 }
@@ -48,6 +67,7 @@ fn as_json(
     found: &SpatialIdentification,
     file: &bolted_joint::joint::JointFile,
     misfits: &[Misfit],
+    consistency: &[SideConsistency],
     arguments: &IdentifyArguments,
 ) -> serde_json::Value {
     let unknown = |unknown: &Unknown| {
@@ -77,6 +97,29 @@ fn as_json(
             "dofs": misfit.dofs.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "ratio": misfit.ratio,
             "text": misfit.to_string(),
+        })).collect::<Vec<_>>(),
+        "consistency": consistency.iter().map(|one| json!({
+            "side": one.side,
+            "of": kind(one.role),
+            "mean": one.mean(),
+            "overall": one.overall,
+            "specific": one.specific.iter().map(|(key, dof, own)| json!({
+                "key": key,
+                "dof": dof.to_string(),
+                "coherence": own,
+            })).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
+        "substructures": found.substructures.as_ref().map(|own| json!({
+            "lines_left_out": own.lines_left_out,
+            "moves": own.moves,
+        })),
+        "errors": found.errors.iter().map(|error| json!({
+            "key": error.key,
+            "change": change(error.change),
+            "value": error.value,
+            "standard_deviation": error.deviation,
+            "budget": error.expected,
+            "pull": error.pull(),
         })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
@@ -122,6 +165,14 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
     if found.free.is_some() {
         text += "the passive joint that is nearest to the free estimate, which would feed energy; the intervals are about that one\n";
     }
+    if let Some(own) = &found.substructures {
+        let _ = writeln!(
+            text,
+            "noise of the substructures moves the assembly's functions by {} % r.m.s.; {} lines left out where it moves them too far",
+            number(100.0 * own.moves, 2),
+            own.lines_left_out
+        );
+    }
     if let Some(chi) = found.reduced_chi_squared {
         let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
     }
@@ -141,4 +192,40 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
         );
     }
     text
+}
+
+/// How rigidly the interfaces moved.
+fn of_consistency(consistency: &[SideConsistency]) -> String {
+    let mut text = String::new();
+    for one in consistency {
+        let least = one.overall.iter().copied().fold(f64::INFINITY, f64::min);
+        let _ = write!(
+            text,
+            "consistency of the {} of {}: {} overall, {} at the worst line",
+            kind(one.role),
+            one.side,
+            number(one.mean(), 4),
+            number(least, 3)
+        );
+        if let Some((key, dof, own)) = one.worst() {
+            let _ = write!(text, "; least {} of {key} ({dof})", number(*own, 3));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn kind(role: Role) -> &'static str {
+    match role {
+        Role::Channel => "sensors",
+        Role::Impact => "impacts",
+    }
+}
+
+/// A change as JSON has it: `x`, `ry`, `gain[0]`.
+fn change(change: Change) -> String {
+    match change {
+        Change::Pose(dof) => dof.symbol().to_owned(),
+        Change::Gain(channel) => format!("gain[{channel}]"),
+    }
 }

@@ -13,6 +13,7 @@ mod page;
 mod prediction;
 mod pressure_figure;
 mod resonance_labels;
+mod spatial;
 mod spectrum_figure;
 
 pub use frf_figure::{FrfFigure, FrfPanel};
@@ -22,6 +23,7 @@ pub use layered_beam_figure::LayeredBeamFigure;
 pub use page::IdentificationReport;
 pub use prediction::PredictionReport;
 pub use pressure_figure::PressureFigure;
+pub use spatial::{SpatialReport, spatial_figure};
 pub use spectrum_figure::spectrum_figure;
 
 #[cfg(test)]

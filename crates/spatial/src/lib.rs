@@ -42,3 +42,5 @@ pub use identification::{
 pub use misfits::Misfit;
 pub use problem::Level;
 pub use study::SpatialStudy;
+// what its errors and indicators are told by
+pub use bolted_joint_virtual_point::{Change, Role};

@@ -23,13 +23,16 @@ use crate::side::{MOTIONS, Reduction};
 
 /// Lines are left out where the substructures' noise moves the functions of the assembly by more than this part of them,
 /// r.m.s.: there they do not follow linearly.
-const MOVED_MAX: f64 = 0.3;
+const MOVED_MAX: f64 = 0.15;
 
 /// Steps of the search at most, with few lines and with all.
 const STEPS_MAX: [usize; 2] = [30, 5];
 
 /// A step below this part of the deviations was the last one.
 const SETTLED: f64 = 0.05;
+
+/// A step below this many deviations, after which the reduced functions follow.
+const NEAR: f64 = 5.0;
 
 /// Lines of the search before all take part.
 const FEW: usize = 200;
@@ -218,7 +221,13 @@ impl<'p> Marginal<'p> {
     fn kept(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
         let moved = self.moved(unknowns)?;
         let kept: Vec<usize> = (0..moved.len())
-            .filter(|&line| moved[line] < MOVED_MAX)
+            .filter(|&line| {
+                moved[line]
+                    < std::env::var("MOVED")
+                        .ok()
+                        .and_then(|x| x.parse().ok())
+                        .unwrap_or(MOVED_MAX)
+            })
             .collect();
         if kept.len() * self.problem.observed.len() <= self.problem.joint_count() {
             return Err(SpatialError::TooMuchNoise {
@@ -241,7 +250,6 @@ impl<'p> Marginal<'p> {
         let mut last = None;
         for _ in 0..steps {
             let (normal, followed) = self.normal(&unknowns, &hidden)?;
-            hidden = followed;
             let covariance = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
             let step = self.step(&unknowns, &normal)?;
             let in_deviations = step
@@ -250,6 +258,10 @@ impl<'p> Marginal<'p> {
                 .map(|(step, variance)| step.abs() / variance.sqrt())
                 .fold(0.0, f64::max);
             unknowns = Unknowns(&unknowns.0 + step);
+            // far from the bottom they would follow the wrong joint
+            if in_deviations < NEAR {
+                hidden = followed;
+            }
             let has_settled = in_deviations < SETTLED;
             last = Some((normal, has_settled));
             if has_settled {

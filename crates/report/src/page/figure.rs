@@ -7,7 +7,7 @@ use bolted_joint_figures::Look;
 use bolted_joint_figures::html::escaped;
 
 /// The figure; `caption` is finished HTML.
-pub(super) fn figure(chart: &Chart<'_>, caption: &str) -> String {
+pub(crate) fn figure(chart: &Chart<'_>, caption: &str) -> String {
     let mut keys = String::new();
     for (number, strip) in chart.strips.iter().enumerate() {
         for (curve_number, curve) in strip.curves.iter().enumerate() {

@@ -10,7 +10,7 @@ use super::{Assembly, IdentificationReport, counted};
 use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::html::{cell, escaped, number_cell, percent, table};
-use bolted_joint_identify::FunctionFit;
+use bolted_joint_frf::Dof;
 
 /// Functions that are drawn at most.
 const MOST_FIGURES: usize = 9;
@@ -95,19 +95,49 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
     let of = |matrices: &[bolted_joint_frf::structure::ComplexMatrix]| -> Vec<Complex64> {
         matrices.iter().map(|matrix| matrix[fit.place]).collect()
     };
-    let measured = of(&assembly.lines.assembly);
-    let regenerated = of(assembly.regenerated);
-    let name = format!("{} / {}", fit.response, fit.reference);
+    drawn(&Function {
+        id,
+        between: [fit.response, fit.reference],
+        frequency_hz,
+        measured: &of(&assembly.lines.assembly),
+        regenerated: &of(assembly.regenerated),
+        relative_rms: fit.relative_rms,
+    })
+}
+
+/// A function that is drawn.
+pub(crate) struct Function<'a> {
+    /// Name within the page.
+    pub(crate) id: &'a str,
+    /// Response and reference.
+    pub(crate) between: [Dof; 2],
+    pub(crate) frequency_hz: &'a [f64],
+    pub(crate) measured: &'a [Complex64],
+    pub(crate) regenerated: &'a [Complex64],
+    pub(crate) relative_rms: f64,
+}
+
+/// Magnitude, phase and residual over frequency.
+pub(crate) fn drawn(function: &Function<'_>) -> String {
+    let Function {
+        id,
+        between: [response, reference],
+        frequency_hz,
+        measured,
+        regenerated,
+        relative_rms,
+    } = *function;
+    let name = format!("{response} / {reference}");
     let values = |samples: Vec<Sample>| samples.into_iter().map(|sample| sample.1).collect();
     let curve = |key: Key, samples| Curve {
         name: key.name().to_owned(),
         look: key.look(),
         values: values(samples),
     };
-    let phase = curve::phase(frequency_hz, &regenerated);
-    let measured_phase = curve::turned_towards(&phase, curve::phase(frequency_hz, &measured));
-    let residual = curve::residual(frequency_hz, &measured, &regenerated);
-    let both = measured.iter().chain(&regenerated);
+    let phase = curve::phase(frequency_hz, regenerated);
+    let measured_phase = curve::turned_towards(&phase, curve::phase(frequency_hz, measured));
+    let residual = curve::residual(frequency_hz, measured, regenerated);
+    let both = measured.iter().chain(regenerated);
     let strip = |name: &str, unit: &str, height, axis, curves| ChartStrip {
         name: name.to_owned(),
         unit: unit.to_owned(),
@@ -124,14 +154,14 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
         strips: vec![
             strip(
                 "magnitude",
-                unit(fit),
+                unit([response, reference]),
                 MAGNITUDE,
                 Axis::logarithmic(both.map(|value| value.norm()), MAGNITUDE_DECADES),
                 vec![
-                    curve(Key::Measured, curve::magnitude(frequency_hz, &measured)),
+                    curve(Key::Measured, curve::magnitude(frequency_hz, measured)),
                     curve(
                         Key::Regenerated,
-                        curve::magnitude(frequency_hz, &regenerated),
+                        curve::magnitude(frequency_hz, regenerated),
                     ),
                 ],
             ),
@@ -153,19 +183,19 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
                 vec![curve(Key::Residual, residual)],
             ),
         ],
-        resonating: Some(&regenerated),
+        resonating: Some(regenerated),
     };
     let caption = format!(
         "<b>{}</b> residual {} r.m.s.",
         escaped(&name),
-        percent(fit.relative_rms)
+        percent(relative_rms)
     );
     figure(&chart, &caption)
 }
 
 /// Unit of a receptance, by whether response and reference are rotations.
-pub(super) fn unit(fit: &FunctionFit) -> &'static str {
-    match [fit.response, fit.reference].map(|dof| dof.direction().is_rotation()) {
+pub(crate) fn unit(between: [Dof; 2]) -> &'static str {
+    match between.map(|dof| dof.direction().is_rotation()) {
         [false, false] => "m/N",
         [false, true] => "m/(N·m)",
         [true, false] => "rad/N",

@@ -3,9 +3,9 @@
 mod beside;
 mod budget;
 mod decoupled;
-mod figure;
+pub(crate) mod figure;
 mod files;
-mod functions;
+pub(crate) mod functions;
 mod judgement;
 mod measured;
 mod nyquist;
@@ -37,7 +37,6 @@ impl IdentificationReport<'_> {
     /// and lets the reader zoom.
     #[must_use]
     pub fn to_html(&self) -> String {
-        let name = escaped(&self.found.name);
         let files: Vec<JointFile> = self
             .found
             .joint_files()
@@ -57,18 +56,11 @@ impl IdentificationReport<'_> {
             files.first().map(origin::section).unwrap_or_default(),
         ]
         .concat();
-        format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{name}: identification of a bolted joint</title>\n<style>\n{common}{own}</style>\n</head>\n<body>\n<header>\n\
-             <h1>{name}</h1>\n<p>Identification of a bolted joint by {tool} {version}, <time>{date}</time>.</p>\n</header>\n\
-             <main>\n{sections}</main>\n<script>\n{script}</script>\n</body>\n</html>\n",
-            common = html::STYLE,
-            own = include_str!("page.css"),
-            script = include_str!("charts.js"),
-            tool = bolted_joint_files::TOOL,
-            version = bolted_joint_files::VERSION,
-            date = self.written,
+        page(
+            &self.found.name,
+            "identification of a bolted joint",
+            self.written,
+            &sections,
         )
     }
 
@@ -87,6 +79,24 @@ impl IdentificationReport<'_> {
         });
         std::iter::once(first).chain(further).collect()
     }
+}
+
+/// A page around finished sections, with the script that charts need to be zoomed.
+pub(crate) fn page(name: &str, what: &str, written: Timestamp, sections: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}: {what}</title>\n<style>\n{common}{own}</style>\n</head>\n<body>\n<header>\n\
+         <h1>{name}</h1>\n<p>{begins} by {tool} {version}, <time>{written}</time>.</p>\n</header>\n\
+         <main>\n{sections}</main>\n<script>\n{script}</script>\n</body>\n</html>\n",
+        name = escaped(name),
+        begins = html::capitalised(what),
+        common = html::STYLE,
+        own = include_str!("page.css"),
+        script = include_str!("charts.js"),
+        tool = bolted_joint_files::TOOL,
+        version = bolted_joint_files::VERSION,
+    )
 }
 
 /// One assembly of a study.
@@ -109,7 +119,7 @@ impl Assembly<'_> {
 }
 
 /// A number and the thing it counts.
-fn counted(count: usize, thing: &str) -> String {
+pub(crate) fn counted(count: usize, thing: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{count} {thing}{ending}")
 }

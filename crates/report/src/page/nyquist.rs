@@ -46,7 +46,7 @@ fn figure(assembly: &Assembly<'_>, assembly_number: usize) -> Option<String> {
     let measured: Vec<Complex64> = measured.map(|h| h[fit.place]).collect();
     let name = format!("{} / {}", fit.response, fit.reference);
     let title = format!("{name} around its most prominent resonance, imaginary over real part");
-    let unit = unit(fit);
+    let unit = unit([fit.response, fit.reference]);
     let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
     let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
     Some(format!(

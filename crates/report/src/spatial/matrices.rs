@@ -1,0 +1,145 @@
+//! K and C in blocks: translations, rotations, and what couples them.
+
+use bolted_joint_figures::html::{beside, shown, spread, table};
+use bolted_joint_spatial::SpatialIdentification;
+use nalgebra::Matrix6;
+
+use super::symbol;
+
+const TRANSLATIONS: [&str; 3] = ["x", "y", "z"];
+const ROTATIONS: [&str; 3] = ["rx", "ry", "rz"];
+
+/// Standard deviations in an interval of 95 %.
+const QUANTILE: f64 = 1.96;
+
+/// A block of a matrix.
+struct Block {
+    name: &'static str,
+    /// Of stiffness and of damping.
+    units: [&'static str; 2],
+    first: [usize; 2],
+}
+
+const BLOCKS: [Block; 3] = [
+    Block {
+        name: "Translations",
+        units: ["N/m", "N·s/m"],
+        first: [0, 0],
+    },
+    Block {
+        name: "Rotations",
+        units: ["N·m/rad", "N·m·s/rad"],
+        first: [3, 3],
+    },
+    Block {
+        name: "Coupling",
+        units: ["N/rad", "N·s/rad"],
+        first: [0, 3],
+    },
+];
+
+pub(super) fn section(found: &SpatialIdentification) -> String {
+    let mut html = "<h2>Stiffness and damping</h2>\n<p>For the relative motion of the two virtual points, each value with its \
+                    standard deviation and with the digits that this warrants. Both matrices are symmetric: what stands below \
+                    the diagonal of a block is left out. Coupling has forces by rotations, and moments by translations across \
+                    the diagonal. Set faint and in brackets: what the data do not determine, since its interval is as wide as \
+                    what couples the two motions at most.</p>\n"
+        .to_owned();
+    let [of_stiffness, of_damping] = &found.deviations;
+    for (part, (heading, letter, matrix, deviations)) in [
+        ("Stiffness", "k", &found.stiffness, of_stiffness),
+        ("Damping", "c", &found.damping, of_damping),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        html += &format!("<h3>{heading}</h3>\n<div class=\"blocks\">\n");
+        for block in &BLOCKS {
+            html += &of_block(block, block.units[part], letter, matrix, deviations);
+        }
+        html += "</div>\n";
+    }
+    html
+}
+
+fn of_block(
+    block: &Block,
+    unit: &str,
+    letter: &str,
+    matrix: &Matrix6<f64>,
+    deviations: &Matrix6<f64>,
+) -> String {
+    let [row, column] = block.first;
+    let is_symmetric = row == column;
+    let places = || (0..3).flat_map(|i| (0..3).map(move |j| (row + i, column + j)));
+    let largest = places()
+        .map(|(i, j)| matrix[(i, j)].abs().max(deviations[(i, j)]))
+        .fold(0.0, f64::max);
+    if largest == 0.0 {
+        return format!(
+            "<div><p class=\"block\">{}</p><p>None in this model.</p></div>\n",
+            block.name
+        );
+    }
+    // a power of a thousand, so that the cells are short
+    let power = 3 * (largest.log10() / 3.0).floor() as i32;
+    let scale = 10_f64.powi(power);
+    let of = |dof: usize| [TRANSLATIONS, ROTATIONS].concat()[dof];
+    let rows: Vec<String> = (0..3)
+        .map(|i| {
+            let cells: String = (0..3)
+                .map(|j| {
+                    let at = (row + i, column + j);
+                    if is_symmetric && j < i {
+                        return "<td></td>".to_owned();
+                    }
+                    let (value, deviation) = (matrix[at], deviations[at]);
+                    if value == 0.0 && deviation == 0.0 {
+                        return "<td class=\"number\">0</td>".to_owned();
+                    }
+                    let name = match at.0 == at.1 {
+                        true => format!("{letter}_{}", of(at.0)),
+                        false => format!("{letter}_{}_{}", of(at.0), of(at.1)),
+                    };
+                    let most = (matrix[(at.0, at.0)] * matrix[(at.1, at.1)]).abs().sqrt();
+                    let is_determined = QUANTILE * deviation < most;
+                    let (class, [open, close]) = match is_determined {
+                        true => ("number", ["", ""]),
+                        false => ("number open", ["(", ")"]),
+                    };
+                    let [value, deviation] = [value, deviation].map(|number| number / scale);
+                    let digits = match deviation {
+                        0.0 => shown(value, 6),
+                        deviation => beside(value, deviation),
+                    };
+                    format!(
+                        "<td class=\"{class}\" title=\"{name}\">{open}{digits}{close}<br><small>± {}</small></td>",
+                        spread(deviation)
+                    )
+                })
+                .collect();
+            format!("<th scope=\"row\">{}</th>{cells}", of(row + i))
+        })
+        .collect();
+    let headings: Vec<String> = std::iter::once(String::new())
+        .chain((0..3).map(|j| of(column + j).to_owned()))
+        .collect();
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    let scaled = match power {
+        0 => unit.to_owned(),
+        power => format!(
+            "10<sup>{}</sup> {unit}",
+            power.to_string().replace('-', "−")
+        ),
+    };
+    let example = match is_symmetric {
+        true => format!("{letter}_{}_{}", of(row), of(column + 1)),
+        false => format!("{letter}_{}_{}", of(row), of(column)),
+    };
+    format!(
+        "<div><p class=\"block\">{}, such as {}: {scaled}</p>\n{}</div>\n",
+        block.name,
+        symbol(&example),
+        table(&headings, &rows)
+    )
+}

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
+use bolted_joint::export::Timestamp;
 use bolted_joint::identify::space::{
     Change, Misfit, Role, SideConsistency, SpatialIdentification, SpatialStudy, Unknown,
 };

@@ -131,6 +131,55 @@ def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_pat
     assert found["budget_used"] < 1.5 and found["misfits"] == []
 
 
+def test_noise_on_everything_is_in_the_intervals(run, program, tmp_path):
+    """1 % on every value of a and b, and on the assembly: without that of a and b the errors would be many deviations."""
+    soft, own = 0.02 * K, definite(2, 300.0)
+    rig = Rig(soft, own, sensors=3, impacts=9)
+    truth = np.concatenate([soft[UPPER], own[UPPER]])
+    errors = []
+    for draw in range(4):
+        rng = np.random.default_rng(300 + draw)
+        rig.write(tmp_path, np.linspace(60, 1800, 120), noise=0.01, rng=rng, more=EXACT, of_sides=(0.01, 0.01))
+        found = identified(run, tmp_path)
+        assert 0.9 < found["reduced_chi_squared"] < 1.1
+        # lines at resonances of a and b are not linear in their noise
+        assert 0 < found["substructures"]["lines_left_out"] < 60 and found["substructures"]["moves"] < 0.15
+        assert found["lines"] + found["substructures"]["lines_left_out"] == 120
+        errors.append([(u["free"] - t) / u["standard_deviation"] for u, t in zip(found["unknowns"], truth)])
+    assert 0.75 < np.sqrt(np.mean(np.square(errors))) < 1.25
+    assert np.mean(np.abs(errors) < 1.96) >= 0.9
+    # the same functions, taken as exact, are not explained
+    study = tmp_path / "study.toml"
+    study.write_text(study.read_text().replace("relative = 0.01\na = 0.01\nb = 0.01\n", "relative = 0.01\n"))
+    done = subprocess.run(
+        [program, "identify", study, "-o", tmp_path / "j.joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
+    )
+    assert done.returncode == 3 and json.loads(done.stdout)["reduced_chi_squared"] > 2
+
+
+def test_consistency_is_told(run, tmp_path):
+    """By the formulas: ρ = ‖F u‖/‖u‖ with u = Y·1, and the coherence of each channel; six impacts agree with anything."""
+    rig, rng = Rig(K, C, sensors=3, impacts=9), np.random.default_rng(8)
+    rows = [rig.rows(side, (rng, 1e-3, 0.01, 0.01)) for side in range(2)]
+    functions = rig.write(tmp_path, FREQUENCIES[::6], noise=0.01, rng=rng, rows=rows)
+    done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json")
+    found = json.loads(done.stdout)["consistency"]
+    assert [(one["side"], one["of"]) for one in found] == [(side, of) for side in "ab" for of in ("sensors", "impacts")]
+    for n, one in enumerate(found):
+        side, of_impacts = divmod(n, 2)
+        r = rig.rows(side)[of_impacts]
+        y = functions[side] if not of_impacts else functions[side].transpose(1, 0, 2)
+        u = y.sum(axis=1)
+        rigid = r @ np.linalg.pinv(r) @ u
+        overall = np.linalg.norm(rigid, axis=0) / np.linalg.norm(u, axis=0)
+        own = np.abs(rigid + u) ** 2 / (2 * (np.abs(rigid) ** 2 + np.abs(u) ** 2))
+        assert one["overall"] == pytest.approx(overall, rel=1e-9)
+        assert [each["coherence"] for each in one["specific"]] == pytest.approx(own.mean(axis=1), rel=1e-9)
+        assert one["mean"] == pytest.approx(overall.mean(), rel=1e-9)
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stdout
+    assert "consistency of the impacts of b" in told
+
+
 def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
     """A start leads to a minimum whose residuals are a tenth beyond the noise, and its stiffness 70 % off."""
     Rig(K, C).write(tmp_path, FREQUENCIES[::2], noise=0.01, rng=np.random.default_rng(5))
@@ -186,6 +235,8 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
         ('model = "full"', 'model = "two-bolts"', ["joint.line", "direction from one bolt"]),
         ('model = "full"', 'model = "spring"', ["spring", "full"]),
         ('budget = "none"', "budget = { gain = 0 }", ["budget.gain", "found 0", "none"]),
+        ('budget = "none"', 'budget = "none"\nnoise = { a = 0.01 }', ["noise.a", "without noise.relative"]),
+        ('budget = "none"', 'budget = "none"\nnoise = { relative = 0.01, b = -1 }', ["noise.b", "found -1"]),
         ('[a]\nfrf = "a.npz"', '[a]\nfrf = "a.npz"\ninterface = 3', ["a.interface", "beside sensors or impacts"]),
     ],
 )

@@ -26,10 +26,10 @@ use crate::side::{MOTIONS, Reduction};
 const MOVED_MAX: f64 = 0.15;
 
 /// Steps of the search at most, with few lines and with all.
-const STEPS_MAX: [usize; 2] = [30, 5];
+const STEPS_MAX: [usize; 2] = [30, 8];
 
 /// A step below this part of the deviations was the last one.
-const SETTLED: f64 = 0.05;
+const SETTLED: f64 = 0.1;
 
 /// A step below this many deviations, after which the reduced functions follow.
 const NEAR: f64 = 5.0;

@@ -4,6 +4,8 @@ use bolted_joint_figures::html::{beside, cell, number_cell, percent, shown, spre
 use bolted_joint_space::{CentreOfElasticity, PrincipalAxes, PrincipalStiffness, Uncertainty};
 use bolted_joint_spatial::SpatialIdentification;
 
+use super::scaled;
+
 /// Coupling at the centre below this share counts for nothing.
 const DECOUPLED: f64 = 0.02;
 
@@ -65,8 +67,8 @@ fn of_centre(centre: &CentreOfElasticity, what: &str) -> String {
         true => "There translations and rotations are not coupled: the axes below pass through it."
             .to_owned(),
         false => format!(
-            "Even there translations and rotations stay coupled, by {} of what the stiffnesses would allow: the directions below \
-             hold, but no point lies on all axes.",
+            "Even there translations and rotations stay coupled, by {} of what both would allow: the directions below hold, but no \
+             point lies on all axes.",
             percent(centre.relative_coupling)
         ),
     };
@@ -74,11 +76,13 @@ fn of_centre(centre: &CentreOfElasticity, what: &str) -> String {
 }
 
 fn of_axes(axes: &PrincipalAxes, units: [&str; 2]) -> String {
-    let row = |motion: &str, unit: &str, principal: &PrincipalStiffness| {
-        let deviation = principal.deviation.unwrap_or(0.0);
+    let row = |motion: &str, (power, unit): &(i32, String), principal: &PrincipalStiffness| {
+        let scale = 10_f64.powi(-power);
+        let deviation = scale * principal.deviation.unwrap_or(0.0);
+        let stiffness = scale * principal.stiffness;
         let value = match deviation > 0.0 {
-            true => beside(principal.stiffness, deviation),
-            false => shown(principal.stiffness, 6),
+            true => beside(stiffness, deviation),
+            false => shown(stiffness, 6),
         };
         let [x, y, z, aside] = match principal.axis {
             None => [
@@ -111,11 +115,19 @@ fn of_axes(axes: &PrincipalAxes, units: [&str; 2]) -> String {
         ]
         .concat()
     };
-    let along = axes.translational.iter();
-    let about = axes.rotational.iter();
-    let rows: Vec<String> = along
-        .map(|one| row("along", units[0], one))
-        .chain(about.map(|one| row("about", units[1], one)))
+    let largest = |all: &[PrincipalStiffness; 3]| {
+        all.iter()
+            .map(|one| one.stiffness.abs())
+            .fold(0.0, f64::max)
+    };
+    let [straight, turned] = [&axes.translational, &axes.rotational].map(largest);
+    let [along, about] =
+        [(straight, units[0]), (turned, units[1])].map(|(size, unit)| scaled(size, unit));
+    let rows: Vec<String> = axes
+        .translational
+        .iter()
+        .map(|one| row("along", &along, one))
+        .chain(axes.rotational.iter().map(|one| row("about", &about, one)))
         .collect();
     format!(
         "<p>Principal values: of translations with rotations held, of rotations with translations free. They are the same at every \

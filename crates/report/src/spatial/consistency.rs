@@ -29,12 +29,15 @@ pub(super) fn section(report: &SpatialReport<'_>) -> String {
         if own.is_empty() {
             continue;
         }
-        let rows: Vec<String> = own.iter().flat_map(|one| each(one)).collect();
         let heading = match role {
             Role::Channel => "Sensor",
             Role::Impact => "Impact",
         };
-        html += &table(&[heading, "DOF: coherence"], &rows);
+        let tables: String = own
+            .iter()
+            .map(|one| table(&[heading, "DOF: coherence"], &each(one)))
+            .collect();
+        html += &format!("<div class=\"blocks\">\n{tables}</div>\n");
     }
     html
 }
@@ -62,7 +65,8 @@ fn over_frequency(report: &SpatialReport<'_>) -> String {
             let least = values().fold(f64::INFINITY, f64::min);
             // from what is not worth a look to 1, or as far down as there is anything
             let low = (10.0 * least.min(0.95)).floor() / 10.0;
-            let high = values().fold(1.0, f64::max);
+            // with room above the line at 1
+            let high = values().fold(1.0, f64::max) + 0.06 * (1.0 - low);
             (!curves.is_empty()).then(|| ChartStrip {
                 name: format!("consistency of {side}"),
                 unit: String::new(),

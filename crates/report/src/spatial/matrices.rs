@@ -4,7 +4,7 @@ use bolted_joint_figures::html::{beside, shown, spread, table};
 use bolted_joint_spatial::SpatialIdentification;
 use nalgebra::Matrix6;
 
-use super::symbol;
+use super::{scaled, symbol};
 
 const TRANSLATIONS: [&str; 3] = ["x", "y", "z"];
 const ROTATIONS: [&str; 3] = ["rx", "ry", "rz"];
@@ -81,8 +81,7 @@ fn of_block(
             block.name
         );
     }
-    // a power of a thousand, so that the cells are short
-    let power = 3 * (largest.log10() / 3.0).floor() as i32;
+    let (power, scaled) = scaled(largest, unit);
     let scale = 10_f64.powi(power);
     let of = |dof: usize| [TRANSLATIONS, ROTATIONS].concat()[dof];
     let rows: Vec<String> = (0..3)
@@ -125,13 +124,6 @@ fn of_block(
         .chain((0..3).map(|j| of(column + j).to_owned()))
         .collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
-    let scaled = match power {
-        0 => unit.to_owned(),
-        power => format!(
-            "10<sup>{}</sup> {unit}",
-            power.to_string().replace('-', "−")
-        ),
-    };
     let example = match is_symmetric {
         true => format!("{letter}_{}_{}", of(row), of(column + 1)),
         false => format!("{letter}_{}_{}", of(row), of(column)),

@@ -67,13 +67,13 @@ impl SpatialReport<'_> {
         };
         let mut html = format!(
             "<p>Model <i>{}</i>, from {} of the assembly at {}: the computed functions are within {} r.m.s. of the measured \
-             ones; {determined}. {} of {} came to the same minimum.</p>\n",
+             ones; {determined}. Starts that came to the same minimum: {} of {}.</p>\n",
             escaped(&self.study.model),
             counted(found.functions, "function"),
             counted(found.lines, "line"),
             percent(found.relative_rms),
             found.starts[1],
-            counted(found.starts[0], "start"),
+            found.starts[0],
         );
         if let Some(chi) = found.reduced_chi_squared {
             html += &format!(
@@ -121,5 +121,20 @@ fn symbol(name: &str) -> String {
             escaped(&index.replace('_', ","))
         ),
         None => escaped(name),
+    }
+}
+
+/// A power of a thousand that makes numbers up to this size short, and the unit with it.
+fn scaled(largest: f64, unit: &str) -> (i32, String) {
+    let power = match largest > 0.0 {
+        true => 3 * (largest.log10() / 3.0).floor() as i32,
+        false => 0,
+    };
+    match power {
+        0 => (0, unit.to_owned()),
+        power => {
+            let digits = power.to_string().replace('-', "−");
+            (power, format!("10<sup>{digits}</sup> {unit}"))
+        }
     }
 }

@@ -257,11 +257,11 @@ impl Model {
     pub(crate) const fn references(self) -> u32 {
         if self.friction.is_empty() && !self.is_over_preload {
             match self.dofs {
-                6 => 450,
+                6 => 702,
                 _ => 45,
             }
         } else {
-            450
+            702
         }
     }
 }

@@ -70,9 +70,9 @@ fn causality(role: Role) -> &'static str {
         Role::Independent => "independent",
         Role::Parameter => "parameter",
         Role::Input => "input",
-        Role::State | Role::Output => "output",
+        Role::State | Role::InnerState | Role::Output => "output",
         Role::CalculatedParameter => "calculatedParameter",
-        Role::Derivative => "local",
+        Role::Derivative | Role::Indicator => "local",
     }
 }
 

@@ -111,7 +111,11 @@ impl<const D: usize, N: Number> Lap<D, N> {
     /// Kinetic energy of the bodies and potential energy of their supports and of the joint, J.
     #[inline]
     #[must_use]
-    pub fn stored_energy(&self, memory: &JointMemory<D>, state: &LapState<D, N>) -> N {
+    pub fn stored_energy<M: Number + Into<N>>(
+        &self,
+        memory: &JointMemory<D, M>,
+        state: &LapState<D, N>,
+    ) -> N {
         let relative = state.relative();
         self.a.energy(&state.a)
             + self.b.energy(&state.b)
@@ -123,7 +127,11 @@ impl<const D: usize, N: Number> Lap<D, N> {
     /// Power that joint and supports turn into heat, W.
     #[inline]
     #[must_use]
-    pub fn dissipated_power(&self, memory: &JointMemory<D>, state: &LapState<D, N>) -> N {
+    pub fn dissipated_power<M: Number + Into<N>>(
+        &self,
+        memory: &JointMemory<D, M>,
+        state: &LapState<D, N>,
+    ) -> N {
         self.a.dissipation(&state.a)
             + self.b.dissipation(&state.b)
             + self.joint.dissipated_power_after(memory, &state.relative())
@@ -139,9 +147,9 @@ impl<const D: usize, N: Number> Lap<D, N> {
 
     /// Accelerations of body a and of body b: m/s², rad/s².
     #[must_use]
-    pub fn accelerations(
+    pub fn accelerations<M: Number + Into<N>>(
         &self,
-        memory: &JointMemory<D>,
+        memory: &JointMemory<D, M>,
         state: &LapState<D, N>,
         loads: &LapLoads<D, N>,
     ) -> [[N; D]; 2] {

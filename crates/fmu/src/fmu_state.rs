@@ -17,7 +17,7 @@
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of values, and all of them: by value reference, but for further laws of a kind where the joint has none; then
 //!   what is remembered beside them |
-//! | 4 + 8 l | number of numbers that the joint remembers, and these |
+//! | 4 + 8 l | number of numbers that the joint remembers, with those for event indicators, and these |
 //! | 9 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
@@ -30,6 +30,7 @@ use crate::{
     },
     mode::Mode,
     pace::Pace,
+    values::Inner,
     version::Abi,
 };
 
@@ -219,7 +220,7 @@ impl Snapshot {
         }
         let remembered = self.values.remembered();
         bytes.extend((remembered.len() as u32).to_le_bytes());
-        bytes.extend(remembered.iter().flat_map(|number| number.to_le_bytes()));
+        bytes.extend(remembered.flat_map(f64::to_le_bytes));
         bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
@@ -276,7 +277,7 @@ impl Snapshot {
         let pace = Pace::from_bytes(reader.array()?).ok_or(StateError::Field {
             name: "communication step",
         })?;
-        let values = reader.values(variables)?;
+        let values = reader.values(variables, found.interface_type)?;
         let inputs = InputCourse::from_bytes(reader.array()?).ok_or(StateError::Field {
             name: "course of the inputs",
         })?;
@@ -356,8 +357,13 @@ impl<'a> Reader<'a> {
     }
 
     /// Everything that an instance remembers as numbers: as many as this build of the library has.
-    fn values(&mut self, variables: Variables) -> Result<Values, StateError> {
+    fn values(
+        &mut self,
+        variables: Variables,
+        interface_type: InterfaceType,
+    ) -> Result<Values, StateError> {
         let mut values = Values::at_rest(variables);
+        values.set_inner(Inner::of(interface_type));
         self.count(values.indices().count())?;
         for place in values.indices() {
             values[place] = self.f64()?;
@@ -371,7 +377,7 @@ impl<'a> Reader<'a> {
             }
         }
         self.count(values.remembered().len())?;
-        for (place, number) in values.remembered_mut().iter_mut().enumerate() {
+        for (place, number) in values.remembered_mut().enumerate() {
             *number = self.f64()?;
             if !number.is_finite() {
                 let index = VALUE_COUNT - REFERENCE_COUNT + place;

@@ -23,7 +23,7 @@ use crate::{
     pace::Pace,
     refusal::{Active, Refusal, Warning},
     start_file::StartFile,
-    values::StartValues,
+    values::{Inner, StartValues},
     version::{Abi, Words},
 };
 use intermediate::Access;
@@ -41,6 +41,10 @@ pub(crate) struct Instance {
     pace: Pace,
     parameters_changed: bool,
     outputs_stale: bool,
+    /// Whether energies and powers are, though other outputs may not be.
+    energies_stale: bool,
+    /// Whether that can be: few ask for them.
+    has_energies_apart: bool,
     event_mode_used: bool,
     access: Access,
 }
@@ -66,6 +70,8 @@ impl Instance {
                 expected,
             });
         }
+        let mut values = values;
+        values.set_inner(Inner::of(interface_type));
         Ok(Self {
             identity: Arc::new(Identity {
                 variables,
@@ -83,6 +89,8 @@ impl Instance {
             pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
+            energies_stale: true,
+            has_energies_apart: variables.dependence.remembers(),
             event_mode_used: false,
             access: Access::NONE,
         })

@@ -4,7 +4,10 @@ use std::fmt;
 
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, SPACE, SPACE_COUNT,
-    law::{DOF_PARAMETER_COUNT, FIRST_PARAMETER_COUNT, FIRST_REMEMBERED_COUNT, REMEMBERED_COUNT},
+    law::{
+        DOF_PARAMETER_COUNT, FIRST_INNER_COUNT, FIRST_PARAMETER_COUNT, FIRST_REMEMBERED_COUNT,
+        INNER_COUNT, REMEMBERED_COUNT,
+    },
 };
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
@@ -112,24 +115,44 @@ impl Dependence {
     }
 }
 
-/// What a variable is to the library; each role is one bit of a [`Roles`] set.
+/// What a variable is to the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
 pub(crate) enum Role {
     /// Time.
-    Independent = 1,
+    Independent,
     /// Tunable parameter.
-    Parameter = 2,
+    Parameter,
     /// Continuous input.
-    Input = 4,
+    Input,
     /// Continuous state, exposed as an output.
-    State = 8,
+    State,
     /// Calculated output.
-    Output = 16,
+    Output,
     /// Derivative of a continuous state, calculated; exposed as a local variable.
-    Derivative = 32,
+    Derivative,
     /// Parameter that follows from others.
-    CalculatedParameter = 64,
+    CalculatedParameter,
+    /// Continuous state of a law of the joint, exposed as an output: the importer's in Model Exchange, what was committed in
+    /// Co-Simulation.
+    InnerState,
+    /// Event indicator, calculated; exposed as a local variable.
+    Indicator,
+}
+
+impl Role {
+    /// Its bit in a [`Roles`] set. The calculated local variables share one.
+    const fn bit(self) -> u8 {
+        match self {
+            Self::Independent => 1,
+            Self::Parameter => 2,
+            Self::Input => 4,
+            Self::State => 8,
+            Self::Output => 16,
+            Self::Derivative | Self::Indicator => 32,
+            Self::CalculatedParameter => 64,
+            Self::InnerState => 128,
+        }
+    }
 }
 
 impl fmt::Display for Role {
@@ -142,6 +165,8 @@ impl fmt::Display for Role {
             Self::Output => "a calculated output",
             Self::Derivative => "a calculated derivative",
             Self::CalculatedParameter => "a calculated parameter",
+            Self::InnerState => "an inner state of the joint",
+            Self::Indicator => "an event indicator",
         })
     }
 }
@@ -154,15 +179,12 @@ impl Roles {
     /// No role at all.
     pub(crate) const NONE: Self = Self(0);
 
-    /// An input that does not take every number, beside its role.
-    pub(crate) const LIMITED: Self = Self(128);
-
     /// The set of these roles.
     pub(crate) const fn of(roles: &[Role]) -> Self {
         let mut bits = 0;
         let mut index = 0;
         while index < roles.len() {
-            bits |= roles[index] as u8;
+            bits |= roles[index].bit();
             index += 1;
         }
         Self(bits)
@@ -171,6 +193,11 @@ impl Roles {
     /// Both sets together.
     pub(crate) const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+
+    /// This set but for that one.
+    pub(crate) const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
     }
 
     /// Whether this is just that set.
@@ -223,6 +250,13 @@ const fn is_further(index: usize) -> bool {
         place = FIRST_REMEMBERED_COUNT;
         while place < REMEMBERED_COUNT {
             if reference::LAW_MEMORY[row][place] == index {
+                return true;
+            }
+            place += 1;
+        }
+        place = FIRST_INNER_COUNT;
+        while place < INNER_COUNT {
+            if reference::INNER_RATES[row][place] == index {
                 return true;
             }
             place += 1;
@@ -287,6 +321,8 @@ pub(crate) fn is_committed(index: usize) -> bool {
 // the tables are those of the same DOFs and laws
 const _: () = assert!(reference::LAW_PARAMETERS.len() == DOF_COUNT);
 const _: () = assert!(reference::LAW_MEMORY.len() == DOF_COUNT);
+const _: () = assert!(reference::INNER_STATES[0].len() == INNER_COUNT);
+const _: () = assert!(reference::INNER_RATES[0].len() == INNER_COUNT);
 
 /// Who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -496,6 +532,16 @@ impl Variables {
         })
     }
 
+    /// Value references of the event indicators, in the order of the model structure.
+    pub(crate) fn event_indicators(self) -> impl Iterator<Item = usize> {
+        let indicators = match self.kind {
+            Kind::Element => ELEMENT_INDICATORS,
+            Kind::Lap => LAP_INDICATORS,
+        };
+        let has = move |reference: &usize| self.get(*reference).is_some();
+        indicators.iter().copied().filter(has)
+    }
+
     /// Name of the variable with this value reference, for messages.
     pub(crate) fn name(self, reference: usize) -> &'static str {
         self.get(reference)
@@ -506,13 +552,8 @@ impl Variables {
     pub(crate) fn roles(self) -> Box<[Roles]> {
         let count = self.iter().last().map_or(0, |(last, _)| last + 1);
         let role = |index| {
-            self.get(index).map_or(Roles::NONE, |variable| {
-                let role = Roles::of(&[variable.role]);
-                match index {
-                    reference::PRELOAD => role.with(Roles::LIMITED),
-                    _ => role,
-                }
-            })
+            self.get(index)
+                .map_or(Roles::NONE, |variable| Roles::of(&[variable.role]))
         };
         (0..count).map(role).collect()
     }

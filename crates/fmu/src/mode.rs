@@ -37,6 +37,7 @@ impl Mode {
         const ALL: Roles = Roles::of(&[Role::Parameter, Role::Input, Role::State]);
         const TUNABLE: Roles = Roles::of(&[Role::Parameter, Role::Input]);
         const INPUT: Roles = Roles::of(&[Role::Input]);
+        const INNER: Roles = Roles::of(&[Role::InnerState]);
         match self {
             Self::Instantiated | Self::SetUp | Self::Initialization => ALL,
             Self::Step if event_mode_used => INPUT,
@@ -45,9 +46,9 @@ impl Mode {
             // only FMI 3.0 lets states be set at an event
             Self::Event => match abi {
                 Abi::Fmi2 => TUNABLE,
-                Abi::Fmi3 => ALL,
+                Abi::Fmi3 => ALL.with(INNER),
             },
-            Self::ContinuousTime => Roles::of(&[Role::Input, Role::State]),
+            Self::ContinuousTime => Roles::of(&[Role::Input, Role::State]).with(INNER),
             Self::Terminated => Roles::NONE,
         }
     }
@@ -69,19 +70,31 @@ impl Mode {
     /// Roles of the variables that partial derivatives are of, and with respect to, in this mode; `None` where there
     /// are no derivatives (FMI 3.0, 2.2.12 for the unknowns, 2.4.8 for the knowns).
     pub(crate) const fn unknowns_and_knowns(self) -> Option<(Roles, Roles)> {
-        const KNOWN: Roles =
+        const INITIALLY: Roles =
             Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
+        const KNOWN: Roles = INITIALLY.with(Roles::of(&[Role::InnerState]));
         match self {
             // within a communication step there are none: they belong to communication points
             Self::Instantiated | Self::SetUp | Self::IntermediateUpdate => None,
             // the initial unknowns: what is calculated; a state is given there
             Self::Initialization => Some((
-                Roles::of(&[Role::Output, Role::Derivative, Role::CalculatedParameter]),
-                KNOWN,
+                Roles::of(&[
+                    Role::Output,
+                    Role::InnerState,
+                    Role::Derivative,
+                    Role::CalculatedParameter,
+                ]),
+                INITIALLY,
             )),
             // outputs, among them the states, and derivatives of states
             Self::Step | Self::Event | Self::ContinuousTime | Self::Terminated => Some((
-                Roles::of(&[Role::State, Role::Output, Role::Derivative]),
+                Roles::of(&[
+                    Role::State,
+                    Role::InnerState,
+                    Role::Output,
+                    Role::Derivative,
+                    Role::Indicator,
+                ]),
                 KNOWN,
             )),
         }

@@ -125,10 +125,11 @@ pub(crate) enum Refusal {
         found: usize,
         expected: usize,
     },
-    /// Event indicators are asked for.
+    /// An array of event indicators has the wrong length.
     IndicatorCount {
         argument: &'static str,
         found: usize,
+        expected: usize,
     },
     /// The memory for a serialised FMU state has the wrong size, in bytes.
     Size { found: usize, expected: usize },

@@ -1,14 +1,22 @@
 //! Everything that an instance holds as numbers: its variables, what it remembers beside them, and what its joint
 //! remembers.
 
-use std::ops::{Index, IndexMut};
-
-use bolted_joint_dynamics::{
-    DOF_AT_REST, DofMemory, JointLaw, JointMemory, Motion,
-    law::{FIRST_REMEMBERED_COUNT, REMEMBERED_PLACES},
+use std::{
+    borrow::Cow,
+    ops::{Index, IndexMut},
 };
 
-use crate::interface::{FURTHER, VALUE_COUNT, Variables, first_row, reference::LAW_MEMORY};
+use bolted_joint_dynamics::{
+    DOF_AT_REST, DofMemory, Dual, JointLaw, JointMemory, Motion,
+    law::{
+        FIRST_INNER_COUNT, FIRST_REMEMBERED_COUNT, INNER_COUNT, INNER_PLACES, REMEMBERED_PLACES,
+    },
+};
+
+use crate::interface::{
+    FURTHER, InterfaceType, VALUE_COUNT, Variables, first_row,
+    reference::{INNER_RATES, INNER_STATES, LAW_MEMORY},
+};
 
 /// Number of values that every FMU has room for.
 const COMMON_COUNT: usize = VALUE_COUNT - FURTHER_COUNT;
@@ -27,6 +35,36 @@ pub(crate) struct Values {
     further: Vec<f64>,
     /// Of each DOF of a joint with memory.
     joint: Vec<DofMemory>,
+    /// Of each DOF of a joint with event indicators, for Model Exchange.
+    ahead: Vec<Ahead>,
+    inner: Inner,
+}
+
+/// What event indicators of a DOF follow from: the direction in which the joint has moved since it last turned (1 or -1; 0
+/// before), the largest relative velocity up to now, and the next place in that direction at which the load is not smooth (the
+/// largest double where there is none).
+pub(crate) type Ahead = [f64; 3];
+
+/// Where the inner states of the joint's laws come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Inner {
+    /// They are what the joint remembers, and move on with it.
+    #[default]
+    Committed,
+    /// The importer integrates them: they are among the variables.
+    Integrated,
+    /// The importer will integrate them from where the start values put them.
+    Starting,
+}
+
+impl Inner {
+    /// Where they come from once the simulation has begun.
+    pub(crate) fn of(interface_type: InterfaceType) -> Self {
+        match interface_type {
+            InterfaceType::CoSimulation => Self::Committed,
+            InterfaceType::ModelExchange => Self::Integrated,
+        }
+    }
 }
 
 impl Index<usize> for Values {
@@ -61,6 +99,8 @@ impl Values {
             numbers: [0.0; COMMON_COUNT],
             further: vec![0.0; self.further.len()],
             joint: Vec::new(),
+            ahead: Vec::new(),
+            inner: Inner::Committed,
         }
     }
 
@@ -73,6 +113,8 @@ impl Values {
             numbers: [0.0; COMMON_COUNT],
             further: vec![0.0; if has_further { FURTHER_COUNT } else { 0 }],
             joint: vec![DOF_AT_REST; remembering_dofs(variables)],
+            ahead: vec![[0.0; 3]; turning_dofs(variables)],
+            inner: Inner::Committed,
         }
     }
 
@@ -100,6 +142,139 @@ impl Values {
         }
     }
 
+    /// How many of the inner states on a DOF this FMU can have.
+    #[inline]
+    fn inner_count(&self) -> usize {
+        match self.has_further() {
+            true => INNER_COUNT,
+            false => FIRST_INNER_COUNT,
+        }
+    }
+
+    /// Where inner states come from, from now on.
+    pub(crate) fn set_inner(&mut self, inner: Inner) {
+        self.inner = inner;
+    }
+
+    /// Whether the importer integrates.
+    #[inline]
+    pub(crate) fn are_integrated(&self) -> bool {
+        self.inner != Inner::Committed
+    }
+
+    /// What the joint remembers where it is at this relative motion: as it was committed, but for inner states that the
+    /// importer has integrated meanwhile.
+    #[inline]
+    pub(crate) fn joint_at<const D: usize>(
+        &self,
+        law: &JointLaw<D>,
+        relative: &Motion<D>,
+    ) -> Cow<'_, JointMemory<D>> {
+        if !(self.are_integrated() && law.has_inner()) {
+            return Cow::Borrowed(self.joint());
+        }
+        let mut memory = *self.joint();
+        self.put_inner(&mut memory, law, relative);
+        Cow::Owned(memory)
+    }
+
+    /// Puts the inner states that the importer has integrated into the joint's memory.
+    #[cold]
+    fn put_inner<const D: usize>(
+        &self,
+        memory: &mut JointMemory<D>,
+        law: &JointLaw<D>,
+        relative: &Motion<D>,
+    ) {
+        for (own, states) in memory.iter_mut().zip(&INNER_STATES[first_row::<D>()..]) {
+            for (&state, place) in states.iter().zip(INNER_PLACES).take(self.inner_count()) {
+                own[place] = self[state];
+            }
+        }
+        law.settle(memory, relative);
+    }
+
+    /// The same with its change along the direction `change`; `None` where only the motion changes it.
+    pub(crate) fn joint_change_at<const D: usize>(
+        &self,
+        change: &Self,
+        law: &JointLaw<D, Dual<1>>,
+        relative: &Motion<D, Dual<1>>,
+    ) -> Option<JointMemory<D, Dual<1>>> {
+        if !law.has_inner() {
+            return None;
+        }
+        let committed = self.joint::<D>();
+        let mut memory = committed.map(|own| own.map(Dual::from));
+        for (row, own) in memory.iter_mut().enumerate() {
+            let states = INNER_STATES[first_row::<D>() + row];
+            for (state, place) in states
+                .into_iter()
+                .zip(INNER_PLACES)
+                .take(self.inner_count())
+            {
+                own[place] = match self.inner {
+                    Inner::Committed => Dual::new(committed[row][place], [change[state]]),
+                    Inner::Integrated => Dual::new(self[state], [change[state]]),
+                    Inner::Starting => Dual::from(0.0),
+                };
+            }
+        }
+        match self.inner {
+            Inner::Committed => {}
+            Inner::Integrated => law.settle(&mut memory, relative),
+            Inner::Starting => {
+                law.settle(&mut memory, &Motion::REST);
+                law.commit_inner(&mut memory, relative);
+            }
+        }
+        Some(memory)
+    }
+
+    /// Writes the rates of the inner states to the variables.
+    #[inline]
+    pub(crate) fn set_inner_rates<const D: usize>(
+        &mut self,
+        law: &JointLaw<D>,
+        relative: &Motion<D>,
+    ) {
+        if law.has_inner() {
+            let rates = law.inner_rates(&self.joint_at(law, relative), relative);
+            for (own, references) in rates.iter().zip(&INNER_RATES[first_row::<D>()..]) {
+                for (&rate, &reference) in own.iter().zip(references).take(self.inner_count()) {
+                    self[reference] = rate;
+                }
+            }
+        }
+    }
+
+    /// Writes the changes of inner states, where these follow from the start values, and of their rates to `change`.
+    pub(crate) fn differentiate_inner<const D: usize>(
+        &self,
+        memory: &JointMemory<D, Dual<1>>,
+        law: &JointLaw<D, Dual<1>>,
+        relative: &Motion<D, Dual<1>>,
+        change: &mut Self,
+    ) {
+        let rates = law.inner_rates(memory, relative);
+        for (row, (own, rates)) in memory.iter().zip(rates).enumerate() {
+            let row = first_row::<D>() + row;
+            for (rate, reference) in rates
+                .into_iter()
+                .zip(INNER_RATES[row])
+                .take(self.inner_count())
+            {
+                change[reference] = rate.change[0];
+            }
+            if self.inner == Inner::Starting {
+                let states = INNER_STATES[row].into_iter().zip(INNER_PLACES);
+                for (state, place) in states.take(self.inner_count()) {
+                    change[state] = own[place].change[0];
+                }
+            }
+        }
+    }
+
     /// What the joint remembers.
     #[inline]
     pub(crate) fn joint<const D: usize>(&self) -> &JointMemory<D> {
@@ -114,7 +289,14 @@ impl Values {
     ) -> Option<T> {
         let joint = self.joint.first_chunk_mut::<D>()?;
         let result = change(joint);
-        for (references, own) in LAW_MEMORY[first_row::<D>()..].iter().zip(joint) {
+        self.show_joint::<D>();
+        Some(result)
+    }
+
+    /// Shows what the joint remembers in the variables.
+    #[inline]
+    fn show_joint<const D: usize>(&mut self) {
+        for (references, own) in LAW_MEMORY[first_row::<D>()..].iter().zip(&self.joint) {
             let mut shown = references.iter().zip(REMEMBERED_PLACES);
             for (&reference, place) in shown.by_ref().take(FIRST_REMEMBERED_COUNT) {
                 self.numbers[reference] = own[place];
@@ -126,7 +308,6 @@ impl Values {
                 self.further[reference - FURTHER.start] = own[place];
             }
         }
-        Some(result)
     }
 
     /// Moves what the joint remembers on to a relative motion, and returns the heat of that way, J; `None` where a number is
@@ -136,25 +317,72 @@ impl Values {
         law: &JointLaw<D>,
         relative: &Motion<D>,
     ) -> Option<f64> {
-        let mut moved = *self.joint();
-        let heat = law.commit(&mut moved, relative);
-        // without a branch for each, so that a processor looks at several at once
-        let numbers = moved.as_flattened().iter();
-        if !numbers.fold(heat.is_finite(), |all, number| all & number.is_finite()) {
-            return None;
+        let is_integrated = self.are_integrated() && law.has_inner();
+        let Some(joint) = self.joint.first_chunk_mut::<D>() else {
+            return Some(0.0);
+        };
+        let heat = law.try_commit(joint, relative)?;
+        if is_integrated {
+            // their heat is that of the way, they themselves are the importer's
+            let mut memory = *joint;
+            self.put_inner(&mut memory, law, relative);
+            self.change_joint(|joint| *joint = memory);
+        } else {
+            self.show_joint::<D>();
         }
-        self.change_joint(|joint| *joint = moved);
         Some(heat)
     }
 
-    /// What the joint remembers, as numbers.
-    pub(crate) fn remembered(&self) -> &[f64] {
-        self.joint.as_flattened()
+    /// Takes the joint straight to this relative motion from where nothing has moved yet.
+    pub(crate) fn commit_from_rest<const D: usize>(
+        &mut self,
+        law: &JointLaw<D>,
+        relative: &Motion<D>,
+    ) {
+        let mut memory = [DOF_AT_REST; D];
+        law.commit(&mut memory, relative);
+        if memory
+            .as_flattened()
+            .iter()
+            .all(|number| number.is_finite())
+        {
+            self.change_joint(|joint| *joint = memory);
+        } else {
+            self.change_joint(|joint| *joint = [DOF_AT_REST; D]);
+        }
+    }
+
+    /// Whether the importer looks for events.
+    #[inline]
+    pub(crate) fn have_events(&self) -> bool {
+        self.are_integrated() && !self.ahead.is_empty()
+    }
+
+    /// What event indicators follow from.
+    pub(crate) fn ahead<const D: usize>(&self) -> [Ahead; D] {
+        self.ahead.first_chunk().copied().unwrap_or([[0.0; 3]; D])
+    }
+
+    /// The same from now on.
+    pub(crate) fn set_ahead(&mut self, ahead: &[Ahead]) {
+        for (own, new) in self.ahead.iter_mut().zip(ahead) {
+            *own = *new;
+        }
+    }
+
+    /// What is remembered of the joint, as numbers.
+    pub(crate) fn remembered(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
+        (0..joint.len() + ahead.len()).map(move |place| match joint.get(place) {
+            Some(&number) => number,
+            None => ahead[place - joint.len()],
+        })
     }
 
     /// The same, to be written.
-    pub(crate) fn remembered_mut(&mut self) -> &mut [f64] {
-        self.joint.as_flattened_mut()
+    pub(crate) fn remembered_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let joint = self.joint.as_flattened_mut().iter_mut();
+        joint.chain(self.ahead.as_flattened_mut())
     }
 }
 
@@ -182,6 +410,14 @@ impl StartValues {
             values[place as usize] = number;
         }
         values.joint.fill(DOF_AT_REST);
+        values.ahead.fill([0.0; 3]);
+    }
+}
+
+fn turning_dofs(variables: Variables) -> usize {
+    match variables.event_indicators().next() {
+        Some(_) => variables.dofs.of_model(),
+        None => 0,
     }
 }
 

@@ -1,7 +1,10 @@
 //! The interface of one FMU, read from its model description, and that of both.
 
 use fmi_schema::{
-    fmi3::{Float64Type, Fmi3ModelDescription, TypeDefinition, Variable as Declared},
+    fmi3::{
+        Causality, Float64Type, Fmi3ModelDescription, Initial, TypeDefinition, Variability,
+        Variable as Declared,
+    },
     traits::FmiModelDescription,
 };
 
@@ -25,6 +28,8 @@ pub struct Interface {
     pub variables: Vec<Variable>,
     /// Continuous states, in the order of their derivatives in the model structure.
     pub continuous_states: Vec<ContinuousState>,
+    /// Value references of the event indicators, in the order of the model structure.
+    pub event_indicators: Vec<u32>,
     /// Names of the log categories, in the order of the file.
     pub log_categories: Vec<String>,
     pub(crate) description: Fmi3ModelDescription,
@@ -85,6 +90,8 @@ impl Interface {
             })
             .collect::<Result<Vec<_>, _>>()?;
         check_uniqueness(&variables)?;
+        tell_inner_states(&mut variables);
+        check_indicators(&variables, &description)?;
         check_independent(&variables)?;
         variables.sort_by_key(|variable| variable.reference);
         units::check_derivatives(&variables, &description)?;
@@ -96,6 +103,11 @@ impl Interface {
             model_identifier,
             variables,
             continuous_states,
+            event_indicators: description
+                .model_structure
+                .event_indicators()
+                .map(|indicator| indicator.value_reference)
+                .collect(),
             log_categories,
             description,
         })
@@ -264,6 +276,42 @@ fn name_of(declared: &Declared) -> String {
         Declared::Clock(variable) => variable.name(),
     }
     .to_owned()
+}
+
+/// Outputs that are calculated at first and have a local variable as their derivative are states.
+fn tell_inner_states(variables: &mut [Variable]) {
+    let states: Vec<u32> = variables
+        .iter()
+        .filter(|variable| variable.role == Role::Derivative)
+        .filter_map(|variable| variable.derivative_of)
+        .collect();
+    for variable in variables {
+        if variable.role == Role::Output && states.contains(&variable.reference) {
+            variable.role = Role::InnerState;
+        }
+    }
+}
+
+/// A calculated local variable that is no derivative has to be an event indicator.
+fn check_indicators(
+    variables: &[Variable],
+    description: &Fmi3ModelDescription,
+) -> Result<(), DefinitionProblem> {
+    let is_listed = |variable: &&Variable| {
+        let mut listed = description.model_structure.event_indicators();
+        listed.any(|indicator| indicator.value_reference == variable.reference)
+    };
+    let mut locals = variables.iter();
+    let stray = locals.find(|local| local.role == Role::Indicator && !is_listed(local));
+    match stray {
+        Some(local) => Err(DefinitionProblem::NoRole {
+            variable: local.name.clone(),
+            causality: Causality::Local,
+            variability: Variability::Continuous,
+            initial: Some(Initial::Calculated),
+        }),
+        None => Ok(()),
+    }
 }
 
 fn check_uniqueness(variables: &[Variable]) -> Result<(), DefinitionProblem> {

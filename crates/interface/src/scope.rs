@@ -52,6 +52,18 @@ impl Joints {
         Self(4 << law)
     }
 
+    /// The joints that have to be told where they turn: with a law that remembers more than an inner state.
+    #[must_use]
+    pub fn that_commit(laws: &[Declaration]) -> Self {
+        let mut places = laws.iter().enumerate();
+        places
+            .by_ref()
+            .filter(|(_, law)| law.commits())
+            .fold(Self::NONE, |joints, (place, _)| {
+                joints.with(Self::with_memory_of(place))
+            })
+    }
+
     /// Whether they remember their motion.
     #[must_use]
     pub const fn remembers(self) -> bool {

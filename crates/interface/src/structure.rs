@@ -20,14 +20,16 @@ pub(crate) fn check(
     };
     // Outputs: every output, each once
     let outputs = list("Output", structure.outputs().collect());
-    outputs.check_entries(|variable| matches!(variable.role, Role::Output | Role::State))?;
+    outputs.check_entries(|variable| {
+        matches!(variable.role, Role::Output | Role::State | Role::InnerState)
+    })?;
     outputs.check_dependencies()?;
     // Initial unknowns: every output and every derivative that is not given exactly, and every calculated parameter
     let initial = list("InitialUnknown", structure.initial_unknowns().collect());
     initial.check_entries(|variable| {
         matches!(
             variable.role,
-            Role::Output | Role::Derivative | Role::CalculatedParameter
+            Role::Output | Role::InnerState | Role::Derivative | Role::CalculatedParameter
         )
     })?;
     initial.check_dependencies()?;
@@ -36,7 +38,11 @@ pub(crate) fn check(
     let entries = structure.continuous_state_derivatives().collect();
     let derivatives = list("ContinuousStateDerivative", entries);
     derivatives.check_entries(|variable| state_of(variable, variables).is_some())?;
-    derivatives.check_dependencies()
+    derivatives.check_dependencies()?;
+    // Event indicators: every one, each once
+    let indicators = list("EventIndicator", structure.event_indicators().collect());
+    indicators.check_entries(|variable| variable.role == Role::Indicator)?;
+    indicators.check_dependencies()
 }
 
 /// The continuous states, in the order of their derivatives.
@@ -64,7 +70,7 @@ pub(crate) fn continuous_states(
     };
     match variables
         .iter()
-        .find(|variable| variable.role == Role::State && !is_listed(variable))
+        .find(|variable| is_state(variable) && !is_listed(variable))
     {
         Some(state) => Err(InterfaceProblem::NoDerivative {
             variable: state.name.clone(),
@@ -78,14 +84,18 @@ fn state_of<'a>(variable: &Variable, variables: &'a [Variable]) -> Option<&'a Va
     let reference = variable.derivative_of?;
     variables
         .iter()
-        .find(|candidate| candidate.reference == reference && candidate.role == Role::State)
+        .find(|candidate| candidate.reference == reference && is_state(candidate))
+}
+
+fn is_state(variable: &Variable) -> bool {
+    matches!(variable.role, Role::State | Role::InnerState)
 }
 
 /// Whether outputs and derivatives may depend on the variable.
 fn is_known(variable: &Variable) -> bool {
     matches!(
         variable.role,
-        Role::Input | Role::State | Role::Parameter | Role::Independent
+        Role::Input | Role::State | Role::InnerState | Role::Parameter | Role::Independent
     )
 }
 

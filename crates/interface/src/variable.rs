@@ -18,8 +18,12 @@ pub enum Role {
     Input,
     /// Output whose initial value is known exactly: a continuous state that is exposed.
     State,
+    /// Output whose initial value is calculated, and that is a continuous state.
+    InnerState,
     /// Output that is calculated.
     Output,
+    /// Local variable whose sign tells of events.
+    Indicator,
     /// Local variable that is calculated, as the derivative of a continuous state.
     Derivative,
     /// Tunable parameter that is calculated from others.
@@ -137,6 +141,9 @@ fn role(declared: &FmiFloat64) -> Result<Role, DefinitionProblem> {
             if declared.derivative.is_some() =>
         {
             Ok(Role::Derivative)
+        }
+        (Causality::Local, Variability::Continuous, Some(Initial::Calculated)) => {
+            Ok(Role::Indicator)
         }
         // legal in FMI, but nothing that the library implements
         _ => Err(DefinitionProblem::NoRole {

@@ -240,7 +240,7 @@ fn unknown_attribute_is_malformed() {
 fn shared_names_have_shared_references() {
     let problem = disagreement(
         r#"name="step_size_max" valueReference="37""#,
-        r#"name="step_size_max" valueReference="660""#,
+        r#"name="step_size_max" valueReference="702""#,
     );
     assert_eq!(problem, InterfaceProblem::Gap { reference: 37 });
     // swap two numbers that occur in declarations only
@@ -308,9 +308,9 @@ fn shared_definitions_are_equal() {
 #[test]
 fn intact_descriptions_are_accepted() {
     let interfaces = Interfaces::present().unwrap();
-    assert_eq!(interfaces.element.variables.len(), 596);
-    assert_eq!(interfaces.lap.variables.len(), 660);
-    assert_eq!(interfaces.reference_count(), 660);
+    assert_eq!(interfaces.element.variables.len(), 638);
+    assert_eq!(interfaces.lap.variables.len(), 702);
+    assert_eq!(interfaces.reference_count(), 702);
     let role = |interface: &Interface, name| interface.variable(name).map(|variable| variable.role);
     assert_eq!(role(&interfaces.element, "a.y"), Some(Role::Input));
     assert_eq!(role(&interfaces.lap, "a.y"), Some(Role::State));
@@ -335,8 +335,29 @@ fn intact_descriptions_are_accepted() {
             .map(|state| (state.reference, state.derivative))
             .collect::<Vec<_>>()
     };
-    assert_eq!(states(&interfaces.element), []);
-    let states_of_lap = states(&interfaces.lap);
+    // what laws have of states on each of the seven DOFs, y in plane and space being one
+    let states_of_element = states(&interfaces.element);
+    assert_eq!(states_of_element.len(), 4 * 7);
+    let mut states_of_lap = states(&interfaces.lap);
+    let of_laws = states_of_lap.split_off(states_of_lap.len() - 4 * 7);
+    assert_eq!(of_laws, states_of_element);
+    for (state, rate) in of_laws {
+        let of = |reference| {
+            let mut all = interfaces.lap.variables.iter();
+            all.find(|variable| variable.reference == reference)
+                .unwrap()
+        };
+        assert_eq!(of(state).role, Role::InnerState);
+        assert_eq!(of(rate).role, Role::Derivative);
+        assert_eq!(of(rate).derivative_of, Some(state));
+    }
+    for interface in [&interfaces.element, &interfaces.lap] {
+        assert_eq!(interface.event_indicators.len(), 2 * 7);
+    }
+    assert_eq!(
+        role(&interfaces.lap, "joint.turning_y"),
+        Some(Role::Indicator)
+    );
     let in_plane: Vec<_> = (states_of_lap.iter().copied())
         .filter(|&(state, derivative)| state < 116 && derivative < 116)
         .collect();
@@ -371,8 +392,8 @@ fn intact_descriptions_are_accepted() {
             .count()
     };
     // θ brings θ, ω, M of both sides, M of the joint, k and c of its own and with y, the laws' parameters, what laws remember, the
-    // escape amplitude; J, k_θ, c_θ, α of both bodies
-    let [sides, laws, bodies] = [6 + 1 + 1, 55 + 14, 6 + 2];
+    // rates of the states among that, the escape amplitude, two event indicators; J, k_θ, c_θ, α of both bodies
+    let [sides, laws, bodies] = [6 + 1 + 1 + 2, 55 + 14 + 4, 6 + 2];
     for (place, bodies) in [(0, 0), (1, bodies)] {
         let alone = of(place, &[0]);
         let with_theta = alone + sides + 4 + laws + bodies;

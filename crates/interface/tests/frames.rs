@@ -63,6 +63,7 @@ const SLIDER: Declaration = Declaration {
         symbol: "slip",
         quantity: RememberedAs::Displacement,
         description: "Where the slider stands in {motion}",
+        rate: None,
     }],
     hidden_memory: 3,
     at_most: 1,
@@ -159,7 +160,8 @@ fn a_row_and_a_law_more_give_all_that_belongs_to_them() {
                         joint.c_thetaw joint.c_ww joint.k3_w joint.k5_w joint.k7_w joint.c2_w joint.c4_w \
                         joint.slip_force_y joint.slip_force_theta joint.slip_force_w joint.q_yy \
                         joint.q_ytheta joint.q_yw joint.q_thetatheta joint.q_thetaw joint.q_ww \
-                        joint.escape_amplitude_w joint.slip_y joint.slip_theta joint.slip_w";
+                        joint.escape_amplitude_w joint.slip_y joint.slip_theta joint.slip_w joint.turning_w \
+                        joint.ahead_w";
         assert_eq!(new.join(" "), expected);
         // joints of other kinds have neither the law nor the row
         for (rows, joint) in [

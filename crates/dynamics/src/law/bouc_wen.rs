@@ -8,8 +8,8 @@ mod integral;
 use super::{
     Corner, Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule, is_positive,
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
+        Span, UnitRule, is_positive,
     },
     flow,
 };
@@ -193,7 +193,11 @@ impl<N: Number> Law<N> for BoucWen<N> {
         memory: &[Remembered {
             symbol: "bouc_wen_p",
             quantity: RememberedAs::Load,
-            description: "{Load} of the joint's Bouc-Wen law in {motion}, as of the last step",
+            description: "{Load} of the joint's Bouc-Wen law in {motion}; in Co-Simulation as of the last step",
+            rate: Some(RateOf {
+                symbol: "bouc_wen_pdot",
+                description: "Rate of the {load} of the joint's Bouc-Wen law in {motion}",
+            }),
         }],
         hidden_memory: 2,
         at_most: 2,
@@ -254,6 +258,25 @@ impl<N: Number> Law<N> for BoucWen<N> {
         memory[DIRECTION] = N::from(sign);
         let [stiffness, slip_force, ..] = self.parameters().map(Number::value);
         released + slip_force * slip_force / stiffness * way.heat
+    }
+
+    fn settle(&self, memory: &mut [N], r: N, velocity: N) {
+        if memory.len() > DIRECTION {
+            memory[PLACE] = r;
+            if velocity.value() != 0.0 {
+                memory[DIRECTION] = N::from(velocity.value().signum());
+            }
+        }
+    }
+
+    fn inner_rate(&self, memory: &[N], velocity: N) -> N {
+        let Some(&load) = memory.get(LOAD).filter(|_| self.is_there()) else {
+            return N::ZERO;
+        };
+        // dF/dt = k (1 − (β s sgn w + γ) |w|ⁿ) u̇
+        let sign = N::from(if velocity.value() < 0.0 { -1.0 } else { 1.0 });
+        let against = sign * load / self.slip_force;
+        self.stiffness * self.branch().rate(against) * velocity
     }
 
     fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {

@@ -92,6 +92,7 @@ impl<N: Number> Law<N> for Dahl<N> {
             symbol: "dahl_p",
             quantity: RememberedAs::Load,
             description: "{Load} of the joint's Dahl law in {motion}, as of the last step",
+            rate: None,
         }],
         hidden_memory: HIDDEN,
         at_most: 2,

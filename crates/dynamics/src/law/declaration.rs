@@ -57,6 +57,25 @@ impl Declaration {
     pub const fn remembers(&self) -> bool {
         self.memory_count() > 0
     }
+
+    /// Number of its inner states: of what it remembers and that follows a differential equation.
+    #[must_use]
+    pub const fn inner_count(&self) -> usize {
+        let (mut count, mut place) = (0, 0);
+        while place < self.memory.len() {
+            if self.memory[place].rate.is_some() {
+                count += 1;
+            }
+            place += 1;
+        }
+        count
+    }
+
+    /// Whether it remembers anything beside inner states, such that it has to be told where the joint turns.
+    #[must_use]
+    pub const fn commits(&self) -> bool {
+        self.remembers() && self.inner_count() == 0
+    }
 }
 
 /// A parameter that is outside of its law's range.
@@ -202,6 +221,18 @@ pub struct Remembered {
     pub symbol: &'static str,
     /// Its quantity, that is its unit and type.
     pub quantity: RememberedAs,
+    /// What it is, for people; words in braces as in [`Parameter::description`].
+    pub description: &'static str,
+    /// Its rate, where it follows a differential equation that an importer can integrate; `None` where it moves on only
+    /// at the end of a step.
+    pub rate: Option<RateOf>,
+}
+
+/// The rate of a remembered number that follows a differential equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RateOf {
+    /// Variable `joint.SYMBOL_DOF`.
+    pub symbol: &'static str,
     /// What it is, for people; words in braces as in [`Parameter::description`].
     pub description: &'static str,
 }

@@ -19,7 +19,7 @@ use super::{
     },
 };
 use crate::number::Number;
-use curve::{Curve, towards};
+use curve::Curve;
 use elongations::Elongations;
 use reversals::{HIDDEN, Reversals};
 use strength::Strength;
@@ -80,8 +80,10 @@ pub struct Iwan<N = f64> {
 
 impl<N: Number> Iwan<N> {
     /// Its curve of first loading; `None` where it gives no load.
-    fn curve(&self) -> Option<Curve<N>> {
-        (self.is_there() && self.slip_force.value() > 0.0).then(|| Curve::new(self))
+    fn curve<M: Number + Into<N>>(&self, memory: &[M]) -> Option<Curve<N>> {
+        let known = || Reversals::of(memory).curve(self);
+        (self.is_there() && self.slip_force.value() > 0.0)
+            .then(|| known().unwrap_or_else(|| Curve::new(self)))
     }
 
     /// Whether it has sliders, be they pressed or not.
@@ -148,6 +150,7 @@ impl<N: Number> Law<N> for Iwan<N> {
             symbol: "iwan_reversal",
             quantity: RememberedAs::Displacement,
             description: "Relative {motion} at which the joint turned last, zero before it has, as of the last step",
+            rate: None,
         }],
         hidden_memory: HIDDEN,
         at_most: 2,
@@ -161,17 +164,15 @@ impl<N: Number> Law<N> for Iwan<N> {
         if let Some(sliders) = reversals.elongations(self) {
             return Strength::of(self).load(&sliders, r - reversals.place().into());
         }
-        let Some(curve) = self.curve() else {
+        if let Some(load) = reversals.load_here(self, r) {
+            return load;
+        }
+        let Some(curve) = self.curve(memory) else {
             return N::ZERO;
         };
         let branch = reversals.branch(r.value());
-        let load = curve.load(&reversals.at(&branch, r, &curve));
-        match reversals.tip(&branch, &curve) {
-            // f = F(r), F odd
-            None => towards(r, load),
-            // f = f_r + 2 F((r − u_r)/2)   (Masing)
-            Some(tip) => tip.load + N::from(2.0) * towards(r - tip.place, load),
-        }
+        let at = reversals.at(&branch, r, &curve);
+        reversals::load(reversals.tip(&branch, &curve).as_ref(), r, &curve, &at)
     }
 
     fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
@@ -180,7 +181,7 @@ impl<N: Number> Law<N> for Iwan<N> {
             let stored = Strength::of(self).stored(&sliders, r - reversals.place().into());
             return stored - reversals.owed().into();
         }
-        let Some(curve) = self.curve() else {
+        let Some(curve) = self.curve(memory) else {
             return N::ZERO;
         };
         let branch = reversals.branch(r.value());
@@ -199,7 +200,7 @@ impl<N: Number> Law<N> for Iwan<N> {
             let (way, sign) = (r - reversals.place().into(), rate.signum());
             return Strength::of(self).slipping(&sliders, way, sign) * N::from(sign) * velocity;
         }
-        let Some(curve) = self.curve() else {
+        let Some(curve) = self.curve(memory) else {
             return N::ZERO;
         };
         let branch = reversals.branch(r.value());
@@ -218,11 +219,19 @@ impl<N: Number> Law<N> for Iwan<N> {
         if let Some(sliders) = Reversals::of(memory).elongations(self) {
             return strength::commit(self, &sliders, memory, r);
         }
-        match self.curve() {
+        match self.curve(memory) {
             Some(curve) => reversals::commit(memory, &curve, r),
             None if self.is_there() => strength::commit(self, &Elongations::at_rest(), memory, r),
             None => 0.0,
         }
+    }
+
+    fn used(&self, memory: &[N]) -> usize {
+        reversals::used(memory, self.slip_force)
+    }
+
+    fn is_finite(&self, memory: &[N]) -> bool {
+        reversals::is_finite(memory)
     }
 
     fn corners(&self, memory: &[f64], to: f64, tell: &mut dyn FnMut(Corner)) {
@@ -230,7 +239,7 @@ impl<N: Number> Law<N> for Iwan<N> {
         let reversals = Reversals::of(memory);
         if let Some(sliders) = reversals.elongations(&law) {
             sliders.corners(reversals.place(), to, Strength::of(&law).span, tell);
-        } else if let Some(curve) = law.curve() {
+        } else if let Some(curve) = law.curve(memory) {
             reversals.corners(to, curve.span, tell);
         }
     }
@@ -248,7 +257,7 @@ impl<N: Number> Law<N> for Iwan<N> {
 
     fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {
         // from φ_max on all of it slips
-        self.curve()
+        self.curve::<N>(&[])
             .map_or(f64::INFINITY, |curve| curve.span.value())
     }
 }

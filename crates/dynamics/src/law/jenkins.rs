@@ -128,6 +128,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
             symbol: "jenkins_slider",
             quantity: RememberedAs::Displacement,
             description: "Relative {motion} at which the joint's elastic slider is without load, as of the last step",
+            rate: None,
         }],
         // its slip force there, and where the joint was
         hidden_memory: 2,

@@ -1,7 +1,8 @@
 //! The whole law of the massless joint: the linear one, and on each relative DOF the laws beside it.
 
 use super::{
-    DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, Linear, Outside, Polynomial,
+    DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, INNER_COUNT, Linear,
+    Outside, Polynomial,
 };
 use crate::{
     condensation::{condensed, following},
@@ -19,7 +20,7 @@ pub struct JointLaw<const D: usize, N = f64> {
 }
 
 /// What a joint remembers of its motion, on each relative DOF.
-pub type JointMemory<const D: usize> = [DofMemory; D];
+pub type JointMemory<const D: usize, N = f64> = [DofMemory<N>; D];
 
 impl<const D: usize> From<Linear<D>> for JointLaw<D> {
     /// The linear law alone.
@@ -60,7 +61,11 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     /// The same of a joint that remembers `memory`.
     #[inline]
     #[must_use]
-    pub fn load_on_b_after(&self, memory: &JointMemory<D>, relative: &Motion<D, N>) -> [N; D] {
+    pub fn load_on_b_after<M: Number + Into<N>>(
+        &self,
+        memory: &JointMemory<D, M>,
+        relative: &Motion<D, N>,
+    ) -> [N; D] {
         // F_b = K r + C ṙ + Σ f(r, ṙ)
         let linear = self.linear.load(relative);
         std::array::from_fn(|i| {
@@ -82,7 +87,11 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     /// The same of a joint that remembers `memory`.
     #[inline]
     #[must_use]
-    pub fn stored_energy_after(&self, memory: &JointMemory<D>, r: &[N; D]) -> N {
+    pub fn stored_energy_after<M: Number + Into<N>>(
+        &self,
+        memory: &JointMemory<D, M>,
+        r: &[N; D],
+    ) -> N {
         (0..D).fold(self.linear.stored_energy(r), |sum, i| {
             if self.on[i].are_none() {
                 return sum;
@@ -101,7 +110,11 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     /// The same of a joint that remembers `memory`.
     #[inline]
     #[must_use]
-    pub fn dissipated_power_after(&self, memory: &JointMemory<D>, relative: &Motion<D, N>) -> N {
+    pub fn dissipated_power_after<M: Number + Into<N>>(
+        &self,
+        memory: &JointMemory<D, M>,
+        relative: &Motion<D, N>,
+    ) -> N {
         let linear = self.linear.dissipated_power(&relative.velocity);
         (0..D).fold(linear, |sum, i| {
             if self.on[i].are_none() {
@@ -135,6 +148,37 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
     #[must_use]
     pub fn has_memory(&self) -> bool {
         self.on.iter().any(DofLaws::have_memory)
+    }
+
+    /// Whether a law of the joint has an inner state.
+    #[inline]
+    #[must_use]
+    pub fn has_inner(&self) -> bool {
+        self.on.iter().any(DofLaws::have_inner)
+    }
+
+    /// Takes the inner states as those at this relative motion: where somebody else integrates them.
+    pub fn settle(&self, memory: &mut JointMemory<D, N>, relative: &Motion<D, N>) {
+        for (i, memory) in memory.iter_mut().enumerate() {
+            self.on[i].settle(memory, relative.displacement[i], relative.velocity[i]);
+        }
+    }
+
+    /// Rates of the inner states on each DOF, in the order of [`super::INNER_PLACES`].
+    #[must_use]
+    pub fn inner_rates(
+        &self,
+        memory: &JointMemory<D, N>,
+        relative: &Motion<D, N>,
+    ) -> [[N; INNER_COUNT]; D] {
+        std::array::from_fn(|i| self.on[i].inner_rates(&memory[i], relative.velocity[i]))
+    }
+
+    /// Moves the inner states alone on to the relative motion.
+    pub fn commit_inner(&self, memory: &mut JointMemory<D, N>, relative: &Motion<D, N>) {
+        for (i, memory) in memory.iter_mut().enumerate() {
+            self.on[i].commit_inner(memory, relative.displacement[i], relative.velocity[i]);
+        }
     }
 
     /// A function of each coefficient of several laws.
@@ -191,6 +235,34 @@ impl<const D: usize> JointLaw<D> {
             let (r, velocity) = (relative.displacement[i], relative.velocity[i]);
             heat + self.on[i].commit(&mut memory[i], r, velocity)
         })
+    }
+
+    /// The same, if all that is remembered then is finite, and the heat; else nothing moves, and there is `None`.
+    pub fn try_commit(&self, memory: &mut JointMemory<D>, relative: &Motion<D>) -> Option<f64> {
+        /// Numbers of a DOF for which there is a place that costs little.
+        const ROOM: usize = 32;
+        let is_finite = |memory: &JointMemory<D>| {
+            let mut own = self.on.iter().zip(memory);
+            own.all(|(laws, memory)| laws.is_memory_finite(memory))
+        };
+        let mut before = [[0.0; ROOM]; D];
+        let mut places = before.iter_mut().zip(memory.iter()).zip(&self.on);
+        if !places.all(|((before, memory), laws)| laws.save(memory, before)) {
+            let mut moved = *memory;
+            let heat = self.commit(&mut moved, relative);
+            return (heat.is_finite() && is_finite(&moved)).then(|| {
+                *memory = moved;
+                heat
+            });
+        }
+        let heat = self.commit(memory, relative);
+        if heat.is_finite() && is_finite(memory) {
+            return Some(heat);
+        }
+        for ((before, memory), laws) in before.iter().zip(memory).zip(&self.on) {
+            laws.put_back(memory, before);
+        }
+        None
     }
 
     /// Copies what the joint's own laws remember, and nothing else.
@@ -280,6 +352,7 @@ impl<const D: usize> JointLaw<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::{Iwan, Jenkins};
 
     fn law() -> JointLaw<2> {
         Linear {
@@ -377,6 +450,59 @@ mod tests {
         // 10 − 4/1 = 6 = 3 u and 1 − 4/10 = 0.6 = u
         let [y, theta] = law.active_amplitude().map(Option::unwrap);
         assert!((y - 2.0_f64.sqrt()).abs() < 1e-15 && (theta - 0.6_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_commit_that_overflows_leaves_no_trace() {
+        let iwan = Iwan {
+            slip_force: 1e300,
+            stiffness: 1e300,
+            exponent: -0.3,
+            ratio: 0.5,
+        };
+        let jenkins = Jenkins {
+            stiffness: 1e6,
+            slip_force: 10.0,
+        };
+        let law = JointLaw {
+            on: [
+                DofLaws::from(jenkins),
+                DofLaws::from(iwan).beside(&jenkins.into()),
+            ],
+            ..JointLaw::NONE
+        };
+        let at = |r: f64| Motion {
+            displacement: [r; 2],
+            velocity: [0.0; 2],
+        };
+        // few reversals, and more than there is room for beside them
+        for count in [3, 40] {
+            let mut memory = [DOF_AT_REST; 2];
+            let mut plain = memory;
+            for index in 0..count {
+                let r = 1e-3 * (1.0 - 0.02 * f64::from(index)) * (-1.0_f64).powi(index);
+                let heat = law.try_commit(&mut memory, &at(r));
+                assert_eq!(heat, Some(law.commit(&mut plain, &at(r))));
+                assert_eq!(memory, plain);
+            }
+            assert_eq!(law.try_commit(&mut memory, &at(1e100)), None);
+            assert_eq!(memory, plain);
+        }
+    }
+
+    #[test]
+    fn the_next_corner_is_where_the_slider_slips() {
+        let laws = DofLaws::from(Jenkins {
+            stiffness: 2.0,
+            slip_force: 3.0,
+        });
+        let mut memory = DOF_AT_REST;
+        assert_eq!(laws.next_corner(&memory, 0.0, 1.0), Some(1.5));
+        assert_eq!(laws.next_corner(&memory, 0.0, -1.0), Some(-1.5));
+        laws.commit(&mut memory, 4.0, 1.0);
+        // it slips on, and back it sticks for 2 h/k
+        assert_eq!(laws.next_corner(&memory, 4.0, 1.0), None);
+        assert_eq!(laws.next_corner(&memory, 4.0, -1.0), Some(1.0));
     }
 
     #[test]

@@ -8,8 +8,8 @@
 use super::{
     Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule, is_positive,
+        ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
+        Span, UnitRule, is_positive,
     },
 };
 use crate::number::Number;
@@ -219,7 +219,11 @@ impl<N: Number> Law<N> for LuGre<N> {
         memory: &[Remembered {
             symbol: "lugre_z",
             quantity: RememberedAs::Displacement,
-            description: "Deflection of the bristles in the joint's LuGre law in {motion}, as of the last step",
+            description: "Deflection of the bristles in the joint's LuGre law in {motion}; in Co-Simulation as of the last step",
+            rate: Some(RateOf {
+                symbol: "lugre_zdot",
+                description: "{Rate} at which the bristles in the joint's LuGre law bend in {motion}",
+            }),
         }],
         hidden_memory: 2,
         at_most: 2,
@@ -295,6 +299,20 @@ impl<N: Number> Law<N> for LuGre<N> {
         memory[VELOCITY] = velocity;
         // rounding apart, no way gives heat back
         released + (slipped + damped).max(0.0)
+    }
+
+    fn settle(&self, memory: &mut [N], r: N, velocity: N) {
+        if memory.len() > VELOCITY {
+            memory[PLACE] = r;
+            memory[VELOCITY] = velocity;
+        }
+    }
+
+    fn inner_rate(&self, memory: &[N], velocity: N) -> N {
+        match memory.get(DEFLECTION) {
+            Some(&deflection) if self.is_there() => self.rate(deflection, velocity),
+            _ => N::ZERO,
+        }
     }
 
     fn outside(&self) -> Option<Outside> {

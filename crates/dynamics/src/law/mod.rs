@@ -38,8 +38,8 @@ mod valanis;
 pub use bouc_wen::BoucWen;
 pub use dahl::Dahl;
 pub use declaration::{
-    ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-    UnitRule,
+    ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
+    Span, UnitRule,
 };
 pub use iwan::{Iwan, REVERSALS_MAX};
 pub use jenkins::Jenkins;
@@ -100,6 +100,27 @@ pub trait Law<N: Number>: Copy {
         0.0
     }
 
+    /// How many of the numbers that it remembers are in use, or are after one commit: those from the first on.
+    fn used(&self, memory: &[N]) -> usize {
+        memory.len()
+    }
+
+    /// Whether all that a commit has written is finite.
+    fn is_finite(&self, memory: &[N]) -> bool {
+        // without a branch for each, so that a processor looks at several at once
+        let numbers = memory.iter();
+        numbers.fold(true, |all, number| all & number.is_finite())
+    }
+
+    /// Takes its inner state, if it has one, as that at the relative displacement r (m, rad) and this rate: where somebody
+    /// else integrates it.
+    fn settle(&self, _memory: &mut [N], _r: N, _velocity: N) {}
+
+    /// Rate of its inner state, if it has one, at this rate of the relative displacement.
+    fn inner_rate(&self, _memory: &[N], _velocity: N) -> N {
+        N::ZERO
+    }
+
     /// Tells where its load may not be smooth on the straight way from where the memory is to `to`; beside the way there may be
     /// others.
     fn corners(&self, _memory: &[f64], _to: f64, _tell: &mut dyn FnMut(Corner)) {}
@@ -116,6 +137,12 @@ pub trait Law<N: Number>: Copy {
     }
 }
 
+/// Farther than any joint goes, m or rad.
+const FAR_AWAY: f64 = 1e300;
+
+/// Part of its place by which rounding may put a corner before the joint that has just come to it.
+const ROUNDING: f64 = 1e-10;
+
 /// Where a law's numbers are among those of all laws on a DOF.
 #[derive(Clone, Copy, Debug)]
 struct Place {
@@ -123,6 +150,8 @@ struct Place {
     bit: u32,
     parameters: [usize; 2],
     memory: [usize; 2],
+    /// Whether the law there has an inner state.
+    is_inner: bool,
 }
 
 impl Place {
@@ -131,6 +160,7 @@ impl Place {
         bit: 0,
         parameters: [0, 0],
         memory: [0, 0],
+        is_inner: false,
     };
 
     /// Whether the law there remembers anything.
@@ -145,6 +175,7 @@ impl Place {
             bit: if self.bit == 0 { 1 } else { self.bit << 1 },
             parameters: [parameters, parameters + declaration.parameters.len()],
             memory: [memory, memory + declaration.memory_count()],
+            is_inner: declaration.inner_count() > 0,
         }
     }
 
@@ -231,6 +262,18 @@ const REMEMBERING: u32 = {
     let (mut bits, mut law) = (0, 0);
     while law < ALL.len() {
         if ALL[law].has_memory() {
+            bits |= ALL[law].bit;
+        }
+        law += 1;
+    }
+    bits
+};
+
+/// The bits of the laws with an inner state.
+const INNER: u32 = {
+    let (mut bits, mut law) = (0, 0);
+    while law < ALL.len() {
+        if ALL[law].is_inner {
             bits |= ALL[law].bit;
         }
         law += 1;
@@ -380,15 +423,100 @@ macro_rules! dof_laws {
                 heat
             }
 
+            /// Moves the inner states alone on to the relative displacement r (m, rad) and its rate.
+            pub fn commit_inner(&self, memory: &mut DofMemory<N>, r: N, velocity: N) {
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    $law::new(self.of(place)).commit(part_mut(memory, place), r, velocity);
+                })+
+            }
+
+            /// Takes the inner states as those at the relative displacement r (m, rad) and this rate: where somebody else
+            /// integrates them.
+            pub fn settle(&self, memory: &mut DofMemory<N>, r: N, velocity: N) {
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    $law::new(self.of(place)).settle(part_mut(memory, place), r, velocity);
+                })+
+            }
+
+            /// Rates of the inner states, in the order of [`INNER_PLACES`], at this rate of the relative displacement.
+            #[must_use]
+            pub fn inner_rates(&self, memory: &DofMemory<N>, velocity: N) -> [N; INNER_COUNT] {
+                let mut rates = [N::ZERO; INNER_COUNT];
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    let own = INNER_PLACES.iter().position(|&state| state == place.memory[0]);
+                    if let Some(own) = own {
+                        let law = $law::new(self.of(place));
+                        rates[own] = law.inner_rate(part(memory, place), velocity);
+                    }
+                })+
+                rates
+            }
         }
 
         impl DofLaws {
+            /// The nearest place (m, rad) before r in this direction, 1 or -1, at which the load is not smooth if the joint goes on
+            /// from there.
+            #[must_use]
+            pub fn next_corner(&self, memory: &DofMemory, r: f64, direction: f64) -> Option<f64> {
+                let mut nearest: Option<f64> = None;
+                self.corners(memory, direction * FAR_AWAY, &mut |corner| {
+                    let Corner::Sharp(corner) = corner else {
+                        return;
+                    };
+                    let way = (corner - r) * direction;
+                    let is_ahead = way > ROUNDING * (r.abs() + corner.abs());
+                    if is_ahead && nearest.is_none_or(|nearest| way < (nearest - r) * direction) {
+                        nearest = Some(corner);
+                    }
+                });
+                nearest
+            }
+
             /// Tells where the load may not be smooth on the straight way from where the memory is to `to`; beside the way
             /// there may be others.
             pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(Corner)) {
                 $(for place in self.own(&PLACES.$name) {
                     $law::new(self.of(place)).corners(part(memory, place), to, tell);
                 })+
+            }
+
+            /// Saves what is in use of what the laws that are there remember; says no where `to` is too small for it.
+            fn save(&self, memory: &DofMemory, to: &mut [f64]) -> bool {
+                let mut to = to;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    let own = part(memory, place);
+                    let used = $law::new(self.of(place)).used(own);
+                    let Some((saved, rest)) = to.split_at_mut_checked(used) else {
+                        return false;
+                    };
+                    saved.copy_from_slice(&own[..used]);
+                    to = rest;
+                })+
+                let _ = to;
+                true
+            }
+
+            /// Puts back what was saved.
+            fn put_back(&self, memory: &mut DofMemory, from: &[f64]) {
+                let mut from = from;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    let own = part_mut(memory, place);
+                    // by what was saved: its numbers tell how many they are
+                    let used = $law::new(self.of(place)).used(from).min(own.len());
+                    let (saved, rest) = from.split_at(used);
+                    own[..used].copy_from_slice(saved);
+                    from = rest;
+                })+
+                let _ = from;
+            }
+
+            /// Whether all that the laws that are there have committed is finite.
+            fn is_memory_finite(&self, memory: &DofMemory) -> bool {
+                let mut all = true;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    all &= $law::new(self.of(place)).is_finite(part(memory, place));
+                })+
+                all
             }
 
             /// Copies what the laws that are there remember, and nothing else.
@@ -525,6 +653,48 @@ pub const REMEMBERED_PLACES: [usize; REMEMBERED_COUNT] = {
     places
 };
 
+/// Number of the inner states on each DOF.
+pub const INNER_COUNT: usize = {
+    let (mut count, mut law) = (0, 0);
+    while law < DECLARATIONS.len() {
+        let own = DECLARATIONS[law].inner_count();
+        // a law gives the rate of one
+        assert!(own <= 1);
+        count += own;
+        law += 1;
+    }
+    count
+};
+
+/// Number of the first of those, of the first law of each kind.
+pub const FIRST_INNER_COUNT: usize = {
+    let (mut count, mut law) = (0, 0);
+    while law < KINDS.len() {
+        count += KINDS[law].inner_count();
+        law += 1;
+    }
+    count
+};
+
+/// Places in [`DofMemory`] of the inner states, in the order of [`DECLARATIONS`].
+pub const INNER_PLACES: [usize; INNER_COUNT] = {
+    let mut places = [0; INNER_COUNT];
+    let (mut count, mut law, mut start) = (0, 0, 0);
+    while law < DECLARATIONS.len() {
+        let mut own = 0;
+        while own < DECLARATIONS[law].memory.len() {
+            if DECLARATIONS[law].memory[own].rate.is_some() {
+                places[count] = start + own;
+                count += 1;
+            }
+            own += 1;
+        }
+        start += DECLARATIONS[law].memory_count();
+        law += 1;
+    }
+    places
+};
+
 /// The numbers in [`DofMemory`] that are variables: the place of each, with its law and what that declares of it.
 pub fn remembered() -> impl Iterator<Item = (usize, &'static Declaration, &'static Remembered)> {
     let laws = DECLARATIONS.iter();
@@ -613,6 +783,13 @@ impl<N: Number> DofLaws<N> {
     #[must_use]
     pub const fn have_memory(&self) -> bool {
         self.present & REMEMBERING != 0
+    }
+
+    /// Whether a law that is there has an inner state.
+    #[inline]
+    #[must_use]
+    pub const fn have_inner(&self) -> bool {
+        self.present & INNER != 0
     }
 
     /// The laws with what grows as the preload does times this share of it.

@@ -98,6 +98,36 @@ pub(super) fn assert_balance<L: Tried + std::fmt::Debug>(law: &L, way: &[f64], s
     assert_eq!(turned, 0.0);
 }
 
+/// Along a way its inner state changes as its rate says, and where somebody else integrates that, the load is that of the state
+/// wherever the joint is.
+pub(super) fn assert_inner<L: Tried + std::fmt::Debug>(law: &L, way: &[f64], speed: f64) {
+    let mut memory = L::at_rest();
+    for (index, &r) in way.iter().enumerate() {
+        let velocity = if index % 3 == 0 { -speed } else { speed };
+        law.commit(&mut memory, r, velocity);
+        law.settle(&mut memory, r, velocity);
+        let rate = law.inner_rate(&memory, velocity);
+        let small_s = 1e-7 * way[0].abs() / speed;
+        let state_after = |time_s: f64| {
+            let mut memory = memory.clone();
+            law.commit(&mut memory, r + velocity * time_s, velocity);
+            memory[0]
+        };
+        let found = (state_after(small_s) - memory[0]) / small_s;
+        let scale = rate.abs() + memory[0].abs() / small_s * 1e-8;
+        assert!(
+            (found - rate).abs() < 1e-5 * scale,
+            "{law:?}: {found:e} {rate:e}"
+        );
+        let load = law.load(&memory, r, velocity);
+        let elsewhere = r + 0.3 * way[0];
+        let mut moved = memory.clone();
+        law.settle(&mut moved, elsewhere, velocity);
+        assert_eq!(law.load(&moved, elsewhere, velocity), load);
+        assert_eq!(moved[0], memory[0]);
+    }
+}
+
 /// In every state the power of the load is what is stored and the heat per second, and loads and energies change as
 /// their differences, with the motion, with each point that it passed before and with every parameter.
 pub(super) fn assert_changes<L: Tried + std::fmt::Debug>(

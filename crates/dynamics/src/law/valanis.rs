@@ -129,6 +129,7 @@ impl<N: Number> Law<N> for Valanis<N> {
             symbol: "valanis_p",
             quantity: RememberedAs::Load,
             description: "{Load} of the slider in the joint's Valanis law in {motion}, as of the last step",
+            rate: None,
         }],
         hidden_memory: HIDDEN,
         at_most: 2,

@@ -15,10 +15,11 @@ pub(super) fn section(page: &Page<'_>) -> String {
                 Role::Independent => "independent",
                 Role::Parameter => "parameter",
                 Role::Input => "input",
-                Role::State => "output, state",
+                Role::State | Role::InnerState => "output, state",
                 Role::Output => "output",
                 Role::CalculatedParameter => "calculated parameter",
                 Role::Derivative => "local, derivative of a state",
+                Role::Indicator => "local, event indicator",
             };
             [
                 format!(

@@ -159,7 +159,7 @@ impl Names {
         };
         Self {
             inputs: with(&[Role::Input]),
-            outputs: with(&[Role::State, Role::Output]),
+            outputs: with(&[Role::State, Role::InnerState, Role::Output]),
             dofs,
         }
     }

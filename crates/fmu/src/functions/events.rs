@@ -1,4 +1,4 @@
-//! Event Mode, in Model Exchange and, with FMI 3.0, in Co-Simulation. Nothing changes by itself at an event.
+//! Event Mode, in Model Exchange and, with FMI 3.0, in Co-Simulation. What changes by itself has done so where it is entered.
 
 use super::{Fmi2Boolean, functions};
 use crate::{
@@ -28,7 +28,7 @@ functions! {
     /// From Continuous-Time Mode, or in Co-Simulation from Step Mode, to Event Mode.
     fmi3EnterEventMode() => Instance::enter_event_mode;
 
-    /// Tells that nothing changes by itself at an event.
+    /// Tells that nothing changes by itself any more.
     fmi2NewDiscreteStates(event_info: *mut EventInfo) for EXCHANGE => |instance| {
         let event_info = output(event_info, "fmi2eventInfo")?;
         instance.update_discrete_states()?;
@@ -36,7 +36,7 @@ functions! {
         Ok(())
     };
 
-    /// Tells that nothing changes by itself at an event.
+    /// Tells that nothing changes by itself any more.
     fmi3UpdateDiscreteStates(
         discrete_states_need_update: *mut Fmi3Boolean,
         terminate_simulation: *mut Fmi3Boolean,

@@ -11,12 +11,12 @@ use crate::{
 };
 
 functions! {
-    /// Checks the states that a step of the importer's solver has led to; there are no events.
+    /// Checks the states that a step of the importer's solver has led to, and moves on to them what the joint remembers.
     fmi2CompletedIntegratorStep(
         _no_set_fmu_state_prior: Fmi2Boolean, enter_event_mode: *mut Fmi2Boolean, terminate_simulation: *mut Fmi2Boolean,
     ) for EXCHANGE => |instance| complete_integrator_step(instance, [enter_event_mode, terminate_simulation]);
 
-    /// Checks the states that a step of the importer's solver has led to; there are no events.
+    /// Checks the states that a step of the importer's solver has led to, and moves on to them what the joint remembers.
     fmi3CompletedIntegratorStep(
         _no_set_fmu_state_prior: Fmi3Boolean, enter_event_mode: *mut Fmi3Boolean, terminate_simulation: *mut Fmi3Boolean,
     ) for EXCHANGE => |instance| complete_integrator_step(instance, [enter_event_mode, terminate_simulation]);
@@ -40,13 +40,16 @@ functions! {
     fmi2GetNominalsOfContinuousStates, fmi3GetNominalsOfContinuousStates(nominals: *mut f64, count: usize) for EXCHANGE =>
         |instance| instance.nominals(array_mut(nominals, count, instance.words().nominals)?);
 
-    /// Reads no event indicator: there are none.
-    fmi2GetEventIndicators, fmi3GetEventIndicators(_event_indicators: *mut f64, count: usize) for EXCHANGE =>
-        |instance| instance.event_indicators(count);
+    /// Reads all event indicators.
+    fmi2GetEventIndicators, fmi3GetEventIndicators(event_indicators: *mut f64, count: usize) for EXCHANGE =>
+        |instance| {
+            instance.check_indicator_count(count)?;
+            instance.event_indicators(array_mut(event_indicators, count, "eventIndicators")?)
+        };
 
-    /// Number of event indicators: none.
+    /// Number of event indicators.
     fmi3GetNumberOfEventIndicators(count: *mut usize) for EXCHANGE =>
-        |instance| output(count, instance.words().indicator_count).map(|count| count.write(0));
+        |instance| output(count, instance.words().indicator_count).map(|count| count.write(instance.indicator_count()));
 
     /// Number of continuous states.
     fmi3GetNumberOfContinuousStates(count: *mut usize) for EXCHANGE =>

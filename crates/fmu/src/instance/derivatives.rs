@@ -6,6 +6,7 @@ use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
     interface::{Role, Roles, Values, memory},
     refusal::Refusal,
+    values::Inner,
 };
 
 impl Instance {
@@ -65,6 +66,9 @@ impl Instance {
     fn present(&self) -> Values {
         let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
+        if self.begins() && values.are_integrated() {
+            values.set_inner(Inner::Starting);
+        }
         values
     }
 

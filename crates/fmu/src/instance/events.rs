@@ -1,4 +1,4 @@
-//! Events: where the importer lets inputs and parameters jump. The model has none of its own.
+//! Events: where the importer lets inputs and parameters jump, and in Model Exchange where a joint that remembers has turned.
 
 use super::Instance;
 use crate::{
@@ -18,10 +18,13 @@ impl Instance {
     pub(crate) fn enter_event_mode(&mut self) -> Result<(), Refusal> {
         match self.interface_type() {
             // FMI 2.0 lets an event follow an event
-            InterfaceType::ModelExchange => self.require(match self.identity.abi {
-                Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
-                Abi::Fmi3 => &[Mode::ContinuousTime],
-            })?,
+            InterfaceType::ModelExchange => {
+                self.require(match self.identity.abi {
+                    Abi::Fmi2 => &[Mode::Event, Mode::ContinuousTime],
+                    Abi::Fmi3 => &[Mode::ContinuousTime],
+                })?;
+                self.pass_event();
+            }
             InterfaceType::CoSimulation => {
                 self.require_event_mode()?;
                 self.require(&[Mode::Step])?;
@@ -31,7 +34,18 @@ impl Instance {
         Ok(())
     }
 
-    /// Nothing changes by itself at an event; this only tells whether the call is allowed.
+    /// Moves what the joint remembers on to the event, before anything jumps there. A motion that cannot be remembered stays
+    /// without effect here: the end of a step tells.
+    fn pass_event(&mut self) {
+        let time_s = self.time_s();
+        let is_new = self.mode == Mode::ContinuousTime;
+        if is_new && self.model.commit(&mut self.values, time_s).is_ok() {
+            self.model.pass_event(&mut self.values);
+            self.outputs_stale = true;
+        }
+    }
+
+    /// All that changes by itself has changed where the event was entered; this only tells whether the call is allowed.
     pub(crate) fn update_discrete_states(&self) -> Result<(), Refusal> {
         if self.interface_type() == InterfaceType::CoSimulation {
             self.require_event_mode()?;

@@ -57,8 +57,15 @@ impl Instance {
     }
 
     /// Reads all states.
-    pub(crate) fn continuous_states(&self, states: &mut [MaybeUninit<f64>]) -> Result<(), Refusal> {
+    pub(crate) fn continuous_states(
+        &mut self,
+        states: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Refusal> {
         self.require(READABLE)?;
+        if self.begins() {
+            // inner states follow from the start values
+            self.calculate_outputs();
+        }
         self.fill(states, |state| Ok(self.values[state.reference]))
     }
 
@@ -87,18 +94,44 @@ impl Instance {
         self.fill(nominals, |state| Ok(state.nominal))
     }
 
-    /// Reads no event indicator: there are none; in FMI 2.0 only where states can be read.
-    pub(crate) fn event_indicators(&self, count: usize) -> Result<(), Refusal> {
+    /// Refuses to read another number of event indicators than there is. In FMI 2.0 they are only where states can be read.
+    pub(crate) fn check_indicator_count(&self, found: usize) -> Result<(), Refusal> {
         if self.identity.abi == Abi::Fmi2 {
             self.require(READABLE)?;
         }
-        match count {
-            0 => Ok(()),
-            found => Err(Refusal::IndicatorCount {
+        match self.indicator_count() {
+            expected if expected == found => Ok(()),
+            expected => Err(Refusal::IndicatorCount {
                 argument: self.words().indicator_count,
                 found,
+                expected,
             }),
         }
+    }
+
+    /// Reads all event indicators: where one falls to zero there is an event. Their number was checked.
+    pub(crate) fn event_indicators(
+        &mut self,
+        indicators: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Refusal> {
+        if indicators.is_empty() {
+            return Ok(());
+        }
+        self.calculate_outputs();
+        let references = self.identity.variables.event_indicators();
+        for (indicator, reference) in indicators.iter_mut().zip(references) {
+            let value = self.values[reference];
+            if !value.is_finite() {
+                return Err(self.overflow(reference));
+            }
+            indicator.write(value);
+        }
+        Ok(())
+    }
+
+    /// Number of event indicators.
+    pub(crate) fn indicator_count(&self) -> usize {
+        self.identity.variables.event_indicators().count()
     }
 
     /// Checks what a step of the importer's solver has led to.

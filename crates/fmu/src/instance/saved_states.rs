@@ -33,7 +33,7 @@ impl Instance {
             }
         }
         if begins {
-            values.remembered_mut().fill(0.0);
+            values.remembered_mut().for_each(|number| *number = 0.0);
         }
         Snapshot {
             identity: Arc::clone(&self.identity),

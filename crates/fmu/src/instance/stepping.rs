@@ -54,7 +54,11 @@ impl Instance {
         let is_in_time = (current_s - expected_s).abs() <= 1e-6 * interval_s
             && end_s > expected_s
             && end_s <= self.stop_s.unwrap_or(f64::MAX);
-        if !is_in_time || !self.model.advance_steadily(&mut self.values, interval_s) {
+        if !is_in_time
+            || !self
+                .model
+                .advance_steadily(&mut self.values, current_s, interval_s)
+        {
             return false;
         }
         self.values[TIME] = end_s;

@@ -64,7 +64,7 @@ impl Instance {
         for (&reference, &order) in references.iter().zip(orders) {
             let (index, roles) = self.known(reference)?;
             let name = self.name(index);
-            if !roles.intersects(Roles::of(&[Role::State, Role::Output])) {
+            if !roles.intersects(Roles::of(&[Role::State, Role::InnerState, Role::Output])) {
                 let role = self.role(index);
                 return Err(Refusal::NoOutputDerivative { name, role });
             }
@@ -86,7 +86,7 @@ impl Instance {
     fn rates(&self) -> Values {
         let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
-        if self.outputs_stale {
+        if self.outputs_stale || self.energies_stale {
             self.model.calculate_outputs(&mut values);
         }
         // ẏ = ∂y/∂x ẋ + ∂y/∂u u̇

@@ -4,14 +4,22 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    interface::{Role, Roles, memory, reference::PRELOAD},
+    interface::{
+        InterfaceType, Role, Roles, memory,
+        reference::{ENERGY_STORED, POWER_DISSIPATED, PRELOAD},
+    },
     mode::Mode,
     refusal::Refusal,
     version::Abi,
 };
 
 /// Roles whose values are calculated only when somebody asks.
-pub(super) const CALCULATED: Roles = Roles::of(&[Role::Output, Role::Derivative]);
+pub(super) const CALCULATED: Roles = Roles::of(&[
+    Role::Output,
+    Role::Derivative,
+    Role::InnerState,
+    Role::Indicator,
+]);
 
 /// Roles whose values follow from the parameters, and are calculated whenever somebody asks.
 pub(super) const CALCULATED_PARAMETERS: Roles = Roles::of(&[Role::CalculatedParameter]);
@@ -47,7 +55,7 @@ impl Instance {
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if roles.intersects(CALCULATED) {
-                self.calculate_outputs();
+                self.calculate(index);
                 if !self.values[index].is_finite() {
                     return Err(self.overflow(index));
                 }
@@ -91,6 +99,10 @@ impl Instance {
     /// Sets the variables with these value references, all or none; `values` has the same length.
     pub(crate) fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
         let settable = self.mode.settable(self.identity.abi, self.event_mode_used);
+        let settable = match self.interface_type() {
+            InterfaceType::ModelExchange => settable,
+            InterfaceType::CoSimulation => settable.without(Roles::of(&[Role::InnerState])),
+        };
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if !roles.intersects(settable) {
@@ -102,7 +114,7 @@ impl Instance {
                     value,
                 });
             }
-            if roles.intersects(Roles::LIMITED) {
+            if index == PRELOAD {
                 self.model.check_input(index, value)?;
             }
         }
@@ -131,8 +143,10 @@ impl Instance {
             return false;
         }
         for (&reference, value) in references.iter().zip(values) {
-            let roles = self.roles.get(reference as usize);
-            if !(roles.is_some_and(|roles| roles.is(INPUTS)) && value.is_finite()) {
+            let index = reference as usize;
+            let is_input = self.roles.get(index).is_some_and(|roles| roles.is(INPUTS));
+            // not every preload is taken
+            if !(is_input && index != PRELOAD && value.is_finite()) {
                 return false;
             }
         }
@@ -177,7 +191,7 @@ impl Instance {
     /// Brings outputs and derivatives up to date.
     #[inline]
     pub(super) fn calculate_outputs(&mut self) {
-        if self.outputs_stale {
+        if self.outputs_stale | self.energies_stale {
             if self.begins() {
                 self.model.begin(&mut self.values);
             }
@@ -186,7 +200,31 @@ impl Instance {
             // it follows from the inputs' course, and is nothing to remember
             self.values[memory::PRELOAD_RATE] = 0.0;
             self.outputs_stale = false;
+            self.energies_stale = false;
         }
+    }
+
+    /// Brings up to date the output with this index, and what comes with it.
+    #[inline]
+    fn calculate(&mut self, index: usize) {
+        if !self.has_energies_apart || matches!(index, ENERGY_STORED | POWER_DISSIPATED) {
+            self.calculate_outputs();
+        } else if self.outputs_stale {
+            self.calculate_loads();
+        }
+    }
+
+    /// Brings outputs up to date but for energies and powers, where these are not easily had.
+    fn calculate_loads(&mut self) {
+        if self.begins() {
+            self.calculate_outputs();
+            return;
+        }
+        let is_prepared = !self.parameters_changed;
+        self.values[memory::PRELOAD_RATE] = self.preload_rate();
+        self.energies_stale = !self.model.calculate_loads(&mut self.values, is_prepared);
+        self.values[memory::PRELOAD_RATE] = 0.0;
+        self.outputs_stale = false;
     }
 
     /// Whether the simulation has not begun, so that all follows from parameters and start values.

@@ -1,19 +1,22 @@
-//! The element FMU: a massless joint, motion of both sides in, loads on both sides out, no states.
+//! The element FMU: a massless joint, motion of both sides in, loads on both sides out; no states but those that laws of the
+//! joint have in Model Exchange.
 //!
 //! Of a joint with memory, the motion between two points at which the importer has completed a step is taken as going
 //! straight from one to the next: the joint moves on to the motion that is put in where the next step begins, because only
 //! then is it known to stay.
 
-use bolted_joint_dynamics::{JointLaw, JointMemory, Motion, Number, Polynomial, law::Law};
+use bolted_joint_dynamics::{
+    DOF_AT_REST, Dual, JointLaw, JointMemory, Motion, Number, Polynomial, law::Law,
+};
 
 use crate::{
     input_course::InputCourse,
     interface::{
-        ElementCalculatedParameters, ElementMemoryOutputs, ElementOutputs, InterfaceType, Values,
-        memory, reference as vr,
+        ElementCalculatedParameters, ElementMemoryIndicators, ElementMemoryOutputs, ElementOutputs,
+        InterfaceType, Values, memory, reference as vr, scatter,
     },
     models::{
-        Model, Outcome, Step, heat_not_finite,
+        Model, Outcome, Step, events, heat_not_finite,
         sides::{A, B, check_laws, is_active, joint_law, joint_linear, joint_polynomials},
         watch::{Watch, finite},
     },
@@ -21,11 +24,23 @@ use crate::{
 };
 
 /// The joint alone, with `D` degrees of freedom, and with laws that remember the motion or without.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Element<const D: usize, const REMEMBERS: bool> {
+    /// Law of the parameters in use.
+    law: JointLaw<D>,
     watch: Watch<D>,
     /// Relative displacement up to which there is nothing to tell the user.
     quiet: Quiet<D>,
+}
+
+impl<const D: usize, const REMEMBERS: bool> Default for Element<D, REMEMBERS> {
+    fn default() -> Self {
+        Self {
+            law: JointLaw::NONE,
+            watch: Watch::default(),
+            quiet: Quiet::default(),
+        }
+    }
 }
 
 /// A relative displacement of each DOF; unlimited unless told otherwise.
@@ -64,6 +79,7 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
         check_laws(&law)?;
         self.watch.set(&law, finite(law.escape_amplitude()));
         self.quiet = Quiet(self.watch.quiet());
+        self.law = law;
         Ok(Active::of(is_active(&law), false))
     }
 
@@ -80,17 +96,25 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
         }
     }
 
+    fn pass_event(&self, values: &mut Values) {
+        if REMEMBERS {
+            pass_event(values, &joint_law::<D>(values));
+        }
+    }
+
     fn check_states(&mut self, values: &Values) -> Outcome {
         Ok(self.look(values, values[vr::TIME]))
     }
 
     fn advance(&mut self, values: &mut Values, step: Step, _: &InputCourse) -> Outcome {
-        self.commit(values, step.time_s)?;
+        if REMEMBERS {
+            commit(values, &self.law, step.time_s)?;
+        }
         Ok(self.look(values, step.time_s))
     }
 
-    fn advance_steadily(&self, values: &mut Values, _: f64) -> bool {
-        !REMEMBERS && self.is_quiet(values)
+    fn advance_steadily(&self, values: &mut Values, time_s: f64, _: f64) -> bool {
+        self.is_quiet(values) && (!REMEMBERS || commit(values, &self.law, time_s).is_ok())
     }
 
     fn reset(&mut self) {
@@ -117,23 +141,33 @@ impl<const D: usize, const REMEMBERS: bool> Model for Element<D, REMEMBERS> {
         rates::<D>(values, inputs, change);
     }
 
+    fn calculate_loads(&self, values: &mut Values, is_prepared: bool) -> bool {
+        if !REMEMBERS || values.are_integrated() {
+            self.calculate_outputs(values);
+            return true;
+        }
+        match is_prepared {
+            true => set_loads(values, &self.law),
+            false => set_loads(values, &joint_law::<D>(values)),
+        }
+        set_memory_outputs::<D>(values);
+        false
+    }
+
     fn calculate_outputs(&self, values: &mut Values) {
         if !REMEMBERS {
             forgetful_outputs::<D>(values).write(values);
             return;
         }
         set_outputs(values, &joint_law::<D>(values));
-        // as of the last step
-        let energy_dissipated = values[vr::ENERGY_DISSIPATED];
-        ElementMemoryOutputs { energy_dissipated }.write(values);
+        set_memory_outputs::<D>(values);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let [law, law_change] = [values, &*change].map(joint_law::<D>);
         differentiate([&law, &law_change], values, change);
         if REMEMBERS {
-            let energy_dissipated = 0.0;
-            ElementMemoryOutputs { energy_dissipated }.write(change);
+            differentiate_memory_outputs::<D>(values, change);
         }
     }
 }
@@ -145,6 +179,14 @@ pub(super) fn begin<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
     values[memory::COMMITTED_TIME] = values[vr::TIME];
     // finite however fast the motion starts, since it is remembered
     values[memory::COMMITTED_POWER] = law.viscous_power(&relative).min(f64::MAX);
+    if values.are_integrated() {
+        // inner states are where the straight way to where the motion starts leaves them
+        values.change_joint(|memory| {
+            *memory = [DOF_AT_REST; D];
+            law.commit_inner(memory, &relative);
+        });
+    }
+    events::begin(values, law, &relative);
 }
 
 /// Moves what the joint remembers on to where the motion is at `time_s` (s), and counts the heat of that way.
@@ -167,7 +209,41 @@ pub(super) fn commit<const D: usize>(
     values[vr::ENERGY_DISSIPATED] = before_j + slid_j.ok_or(heat_not_finite(time_s))?;
     values[memory::COMMITTED_TIME] = time_s;
     values[memory::COMMITTED_POWER] = power;
+    events::look_ahead(values, law, &relative, false);
     Ok(())
+}
+
+/// Looks for what may have turned at the present motion, which is committed.
+pub(super) fn pass_event<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
+    let relative = relative(values);
+    events::look_ahead(values, law, &relative, true);
+}
+
+/// Writes what is calculated of a joint that remembers.
+pub(super) fn set_memory_outputs<const D: usize>(values: &mut Values) {
+    // as of the last step
+    let energy_dissipated = values[vr::ENERGY_DISSIPATED];
+    ElementMemoryOutputs { energy_dissipated }.write(values);
+    if let Some(indicators) = events::indicators::<D>(values, &relative(values)) {
+        let [joint_turning, joint_ahead] = indicators;
+        ElementMemoryIndicators {
+            joint_turning,
+            joint_ahead,
+        }
+        .write(values);
+    }
+}
+
+/// Writes the first-order change of that.
+pub(super) fn differentiate_memory_outputs<const D: usize>(values: &Values, change: &mut Values) {
+    let energy_dissipated = 0.0;
+    ElementMemoryOutputs { energy_dissipated }.write(change);
+    let [joint_turning, joint_ahead] = events::change::<D>(values, &relative(change));
+    ElementMemoryIndicators {
+        joint_turning,
+        joint_ahead,
+    }
+    .write(change);
 }
 
 /// Derivatives of the motions with respect to time.
@@ -191,7 +267,24 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 /// Writes what is calculated from the law and the motions.
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
-    outputs(law, values.joint(), &relative(values), |output| output).write(values);
+    let relative = relative(values);
+    outputs(law, &values.joint_at(law, &relative), &relative, |output| {
+        output
+    })
+    .write(values);
+    values.set_inner_rates(law, &relative);
+}
+
+/// Writes the loads alone, with the rates of inner states.
+#[inline]
+fn set_loads<const D: usize>(values: &mut Values, law: &JointLaw<D>) {
+    let relative = relative(values);
+    let on_b = law.load_on_b_after(values.joint(), &relative);
+    // 0 − F is −F but for F = 0, which stays without a sign
+    scatter(values, &vr::A_LOAD, &on_b.map(|load| 0.0 - load));
+    scatter(values, &vr::B_LOAD, &on_b);
+    scatter(values, &vr::JOINT_LOAD, &on_b);
+    values.set_inner_rates(law, &relative);
 }
 
 /// Writes the first-order change of what is calculated, for a change of the law beside that of the motions.
@@ -202,14 +295,21 @@ pub(super) fn differentiate<const D: usize>(
 ) {
     let law = law.with_change(law_change);
     let relative = relative(values).with_change(&relative(change));
-    outputs(&law, values.joint(), &relative, |output| output.change[0]).write(change);
+    let of = |output: Dual<1>| output.change[0];
+    match values.joint_change_at(change, &law, &relative) {
+        None => outputs(&law, values.joint(), &relative, of).write(change),
+        Some(memory) => {
+            outputs(&law, &memory, &relative, of).write(change);
+            values.differentiate_inner(&memory, &law, &relative, change);
+        }
+    }
 }
 
 /// What is calculated, or what `of` makes of it.
 #[inline]
-fn outputs<const D: usize, N: Number>(
+fn outputs<const D: usize, N: Number, M: Number + Into<N>>(
     law: &JointLaw<D, N>,
-    memory: &JointMemory<D>,
+    memory: &JointMemory<D, M>,
     relative: &Motion<D, N>,
     of: impl Fn(N) -> f64,
 ) -> ElementOutputs<D> {

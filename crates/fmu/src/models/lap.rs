@@ -7,13 +7,16 @@ pub(super) mod way;
 
 use std::num::NonZeroU32;
 
-use bolted_joint_dynamics::{JointMemory, Lap, LapLoads, LapState, Motion, Number};
+use bolted_joint_dynamics::{Dual, JointMemory, Lap, LapLoads, LapState, Motion, Number};
 
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, LapCalculatedParameters, LapOutputs, Values, reference as vr},
+    interface::{
+        InterfaceType, LapCalculatedParameters, LapMemoryIndicators, LapOutputs, Values,
+        reference as vr,
+    },
     models::{
-        Model, Outcome, Step,
+        Model, Outcome, Step, events,
         sides::{A, B, check_laws, is_active},
         watch::{Watch, finite},
     },
@@ -66,6 +69,10 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         W::commit(values, time_s)
     }
 
+    fn pass_event(&self, values: &mut Values) {
+        W::pass_event(values);
+    }
+
     fn check_states(&mut self, values: &Values) -> Outcome {
         let way = self.way.as_mut().ok_or(Refusal::NotUsable)?;
         let (state, time_s) = (state(values), values[vr::TIME]);
@@ -83,7 +90,7 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         way.advance(&mut self.watch, values, step, inputs)
     }
 
-    fn advance_steadily(&self, values: &mut Values, interval_s: f64) -> bool {
+    fn advance_steadily(&self, values: &mut Values, _: f64, interval_s: f64) -> bool {
         match &self.way {
             Some(way) => way.advance_steadily(values, interval_s),
             None => false,
@@ -119,11 +126,13 @@ impl<const D: usize, W: Way<D>> Model for LapModel<D, W> {
         let lap = lap::<D>(values);
         let state = state::<D>(values);
         set_outputs(values, &lap, &state);
+        W::set_indicators(values);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let [lap, lap_change] = [values, &*change].map(lap::<D>);
         differentiate([&lap, &lap_change], values, change);
+        W::differentiate_indicators(values, change);
     }
 }
 
@@ -151,7 +160,10 @@ pub(super) fn rates<const D: usize>(values: &Values, inputs: &InputCourse, rates
 #[inline]
 pub(super) fn set_outputs<const D: usize>(values: &mut Values, lap: &Lap<D>, state: &LapState<D>) {
     let loads = loads(values);
-    outputs(lap, values.joint(), (state, &loads), |output| output).write(values);
+    let relative = state.relative();
+    let memory = values.joint_at(&lap.joint, &relative);
+    outputs(lap, &memory, (state, &loads), |output| output).write(values);
+    values.set_inner_rates(&lap.joint, &relative);
 }
 
 /// Writes the first-order change of what is calculated, for a change of bodies and joint beside that of the other variables.
@@ -163,17 +175,44 @@ pub(super) fn differentiate<const D: usize>(
     let lap = lap.with_change(lap_change);
     let state = state(values).with_change(&state(change));
     let loads = loads(values).with_change(&loads(change));
-    outputs(&lap, values.joint(), (&state, &loads), |output| {
-        output.change[0]
-    })
+    let relative = state.relative();
+    let of = |output: Dual<1>| output.change[0];
+    match values.joint_change_at(change, &lap.joint, &relative) {
+        None => outputs(&lap, values.joint(), (&state, &loads), of).write(change),
+        Some(memory) => {
+            outputs(&lap, &memory, (&state, &loads), of).write(change);
+            values.differentiate_inner(&memory, &lap.joint, &relative, change);
+        }
+    }
+}
+
+/// Writes the event indicators of a joint that remembers.
+pub(super) fn set_indicators<const D: usize>(values: &mut Values) {
+    if let Some(indicators) = events::indicators::<D>(values, &state(values).relative()) {
+        let [joint_turning, joint_ahead] = indicators;
+        LapMemoryIndicators {
+            joint_turning,
+            joint_ahead,
+        }
+        .write(values);
+    }
+}
+
+/// Writes the first-order change of the event indicators of a joint that remembers.
+pub(super) fn differentiate_indicators<const D: usize>(values: &Values, change: &mut Values) {
+    let [joint_turning, joint_ahead] = events::change::<D>(values, &state(change).relative());
+    LapMemoryIndicators {
+        joint_turning,
+        joint_ahead,
+    }
     .write(change);
 }
 
 /// What is calculated, or what `of` makes of it.
 #[inline]
-fn outputs<const D: usize, N: Number>(
+fn outputs<const D: usize, N: Number, M: Number + Into<N>>(
     lap: &Lap<D, N>,
-    memory: &JointMemory<D>,
+    memory: &JointMemory<D, M>,
     (state, loads): (&LapState<D, N>, &LapLoads<D, N>),
     of: impl Fn(N) -> f64,
 ) -> LapOutputs<D> {

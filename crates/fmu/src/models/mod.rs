@@ -1,6 +1,7 @@
 //! What the FMUs simulate, behind one interface: each model reads and writes the variables by value reference.
 
 mod element;
+mod events;
 mod lap;
 mod loosening;
 mod remembering;
@@ -59,9 +60,9 @@ pub(crate) trait Model: Send {
     /// told already. The inputs in `values` stay those at the step's beginning.
     fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome;
 
-    /// Does what [`Model::advance`] does, for one of many steps of `interval_s` (s) with the inputs held, if nothing has
-    /// to be prepared for it and nothing goes wrong in it. Otherwise it says no, and `values` are untouched.
-    fn advance_steadily(&self, _values: &mut Values, _interval_s: f64) -> bool {
+    /// Does what [`Model::advance`] does, for one of many steps with the inputs held, if nothing has to be prepared for it
+    /// and nothing goes wrong in it: from a time (s), by an interval (s). Otherwise it says no, and `values` are untouched.
+    fn advance_steadily(&self, _values: &mut Values, _time_s: f64, _interval_s: f64) -> bool {
         false
     }
 
@@ -77,11 +78,21 @@ pub(crate) trait Model: Send {
     /// Calculates outputs and derivatives of states from parameters, inputs and states.
     fn calculate_outputs(&self, values: &mut Values);
 
+    /// Calculates outputs, or all of them but energies and powers; tells whether it was all. `_is_prepared` says that the
+    /// parameters are those in use.
+    fn calculate_loads(&self, values: &mut Values, _is_prepared: bool) -> bool {
+        self.calculate_outputs(values);
+        true
+    }
+
     /// Moves what the joint remembers on to the present point, where a step is completed at `_time_s` (s); on refusal `values`
     /// are untouched.
     fn commit(&self, _values: &mut Values, _time_s: f64) -> Result<(), Refusal> {
         Ok(())
     }
+
+    /// Takes note of an event at the present point, where a step was completed: the joint may have turned.
+    fn pass_event(&self, _values: &mut Values) {}
 
     /// Writes the derivatives of inputs and states with respect to time to `rates`, at the point `values`, of which the
     /// outputs are up to date.

@@ -11,11 +11,13 @@ use crate::{
     input_course::InputCourse,
     interface::{Values, reference as vr},
     models::{
-        Outcome, Step, heat_not_finite,
+        Outcome, Step, events, heat_not_finite,
         lap::{
+            differentiate_indicators,
             faults::check_held,
             loads::Loads,
             prepared::count,
+            set_indicators,
             way::{Way, lap, loads, set_state, state},
         },
         watch::{Watch, finite},
@@ -57,9 +59,10 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
 
     fn begin(values: &mut Values) {
         // the joint has come straight to where it starts; the heat of that way was before
-        values.change_joint(|memory| *memory = [DOF_AT_REST; D]);
         let law: JointLaw<D> = lap(values).joint;
-        values.commit_joint(&law, &state(values).relative());
+        let relative = state(values).relative();
+        values.commit_from_rest(&law, &relative);
+        events::begin(values, &law, &relative);
     }
 
     fn commit(values: &mut Values, time_s: f64) -> Result<(), Refusal> {
@@ -67,7 +70,23 @@ impl<const D: usize> Way<D> for RememberingLap<D> {
         let law: JointLaw<D> = lap(values).joint;
         // its heat is part of the power that the importer integrates
         let heat_j = values.commit_joint(&law, &relative);
-        heat_j.map(|_| ()).ok_or(heat_not_finite(time_s))
+        heat_j.ok_or(heat_not_finite(time_s))?;
+        events::look_ahead(values, &law, &relative, false);
+        Ok(())
+    }
+
+    fn pass_event(values: &mut Values) {
+        let law: JointLaw<D> = lap(values).joint;
+        let relative = state(values).relative();
+        events::look_ahead(values, &law, &relative, true);
+    }
+
+    fn set_indicators(values: &mut Values) {
+        set_indicators::<D>(values);
+    }
+
+    fn differentiate_indicators(values: &Values, change: &mut Values) {
+        differentiate_indicators::<D>(values, change);
     }
 
     fn advance(

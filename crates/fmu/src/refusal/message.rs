@@ -146,9 +146,13 @@ impl fmt::Display for Refusal {
                 f,
                 "argument {argument} is {found}, expected {expected}, the number of continuous states"
             ),
-            Self::IndicatorCount { argument, found } => write!(
+            Self::IndicatorCount { argument, found, expected: 0 } => write!(
                 f,
                 "argument {argument} is {found}, expected 0: there are no event indicators"
+            ),
+            Self::IndicatorCount { argument, found, expected } => write!(
+                f,
+                "argument {argument} is {found}, expected {expected}, the number of event indicators"
             ),
             Self::Size { found, expected } => write!(
                 f,

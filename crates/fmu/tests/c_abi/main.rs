@@ -22,6 +22,7 @@ mod importer;
 mod input_derivatives;
 mod instantiation;
 mod intermediate_update;
+mod joints_that_remember;
 mod logging;
 mod model_exchange;
 mod not_provided;

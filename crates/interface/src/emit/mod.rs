@@ -69,6 +69,7 @@ impl Interfaces {
             let constant = name.to_uppercase();
             table(&mut source, &constant, interface, expanded, count);
             states(&mut source, &constant, interface);
+            indicators(&mut source, &constant, interface);
             outputs::write(&mut source, name, interface, expanded);
         }
         source
@@ -155,6 +156,19 @@ fn states(source: &mut String, name: &str, interface: &Interface) {
         );
     }
     line!(source, "];");
+}
+
+fn indicators(source: &mut String, name: &str, interface: &Interface) {
+    line!(
+        source,
+        "/// Value references of the event indicators of `{}`.",
+        interface.file
+    );
+    line!(
+        source,
+        "pub(crate) static {name}_INDICATORS: &[usize] = &{:?};",
+        interface.event_indicators
+    );
 }
 
 /// Name of a constant or, in small letters, of a field: `a.{load}` becomes `A_LOAD` and `a.k_{displacement}`, in which the

@@ -11,10 +11,10 @@ use crate::{
     variable::Role,
 };
 
-/// What is calculated together: of the same kinds of joints, when outputs are, or when parameters are.
+/// What is calculated together: of the same kinds of joints, as outputs, as event indicators or as parameters.
 struct Group {
     joints: Joints,
-    is_parameter: bool,
+    kind: &'static str,
     fields: Vec<Field>,
 }
 
@@ -27,12 +27,7 @@ struct Field {
 
 pub(super) fn write(source: &mut String, fmu: &str, interface: &Interface, expanded: &Expanded) {
     for group in groups(interface, expanded) {
-        let kind = if group.is_parameter {
-            "CalculatedParameters"
-        } else {
-            "Outputs"
-        };
-        let name = format!("{fmu}{}{kind}", group.joints.label());
+        let name = format!("{fmu}{}{}", group.joints.label(), group.kind);
         let generic = group.fields.iter().any(|field| field.of_each_dof);
         let [declared, used] = if generic {
             ["<const D: usize>", "<D>"]
@@ -87,9 +82,10 @@ fn groups(interface: &Interface, expanded: &Expanded) -> Vec<Group> {
         let role = interface
             .variable(&declared.name)
             .map(|variable| variable.role);
-        let is_parameter = match role {
-            Some(Role::Output | Role::Derivative) => false,
-            Some(Role::CalculatedParameter) => true,
+        let kind = match role {
+            Some(Role::Output | Role::Derivative) => "Outputs",
+            Some(Role::Indicator) => "Indicators",
+            Some(Role::CalculatedParameter) => "CalculatedParameters",
             _ => continue,
         };
         for origin in &declared.origins {
@@ -102,17 +98,16 @@ fn groups(interface: &Interface, expanded: &Expanded) -> Vec<Group> {
                     pattern: pattern.clone(),
                     of_each_dof: true,
                 },
-                Origin::Parameter { .. } | Origin::Memory(_) => continue,
+                Origin::Parameter { .. } | Origin::Memory(_) | Origin::Rate(_) => continue,
             };
             let joints = declared.scope.joints;
-            let same =
-                |group: &&mut Group| group.joints == joints && group.is_parameter == is_parameter;
+            let same = |group: &&mut Group| group.joints == joints && group.kind == kind;
             match groups.iter_mut().find(same) {
                 Some(group) if group.fields.contains(&field) => {}
                 Some(group) => group.fields.push(field),
                 None => groups.push(Group {
                     joints,
-                    is_parameter,
+                    kind,
                     fields: vec![field],
                 }),
             }

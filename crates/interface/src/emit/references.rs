@@ -7,6 +7,7 @@ use super::{constant_name, line};
 use crate::{
     frame::{At, Origin},
     interface::Interfaces,
+    variable::Role,
 };
 
 /// What is nowhere in an FMU, such as an entry of a matrix between two DOFs that no joint has at the same time.
@@ -24,6 +25,8 @@ struct References {
     parameters: BTreeMap<[usize; 2], Vec<usize>>,
     /// Likewise for what is remembered.
     memory: BTreeMap<[usize; 2], Vec<usize>>,
+    /// Likewise for the inner states among that, and for their rates.
+    inner: [BTreeMap<[usize; 2], Vec<usize>>; 2],
 }
 
 pub(super) fn write(source: &mut String, interfaces: &Interfaces) {
@@ -58,9 +61,12 @@ pub(super) fn write(source: &mut String, interfaces: &Interfaces) {
             symbol.to_uppercase()
         );
     }
+    let [states, rates] = &found.inner;
     for (name, what, places) in [
         ("LAW_PARAMETERS", "The laws' parameters", &found.parameters),
         ("LAW_MEMORY", "What the laws remember", &found.memory),
+        ("INNER_STATES", "The laws' inner states", states),
+        ("INNER_RATES", "The rates of these states", rates),
     ] {
         let rows: Vec<Vec<usize>> = (0..count)
             .map(|row| places.values().map(|references| references[row]).collect())
@@ -111,8 +117,16 @@ impl References {
                             }
                         },
                         Origin::Memory([law, number, row]) => {
-                            let of_dofs =
-                                found.memory.entry([*law, *number]).or_insert_with(nowhere);
+                            let place = [*law, *number];
+                            found.memory.entry(place).or_insert_with(nowhere)[*row] = reference;
+                            if variable.role == Role::InnerState {
+                                let [states, _] = &mut found.inner;
+                                states.entry(place).or_insert_with(nowhere)[*row] = reference;
+                            }
+                        }
+                        Origin::Rate([law, number, row]) => {
+                            let [_, rates] = &mut found.inner;
+                            let of_dofs = rates.entry([*law, *number]).or_insert_with(nowhere);
                             of_dofs[*row] = reference;
                         }
                     }

@@ -19,7 +19,12 @@ use crate::{
 
 /// Elements that a frame has one line for.
 const VARIABLE: &str = "Float64";
-const UNKNOWNS: [&str; 3] = ["Output", "ContinuousStateDerivative", INITIAL];
+const UNKNOWNS: [&str; 4] = [
+    "Output",
+    "ContinuousStateDerivative",
+    INITIAL,
+    "EventIndicator",
+];
 
 /// A frame with its lines written for DOFs and laws, value references apart.
 pub(super) struct Filled {
@@ -46,10 +51,12 @@ impl Filled {
     ) -> Result<Self, InterfaceProblem> {
         let parameters = law_parameters(filling);
         let memory = law_memory(filling);
+        let rates = memory.iter().filter_map(|memory| memory.rate.as_ref());
         let types: Vec<_> = parameters
             .iter()
             .map(|parameter| &parameter.declared_type)
             .chain(memory.iter().map(|memory| &memory.declared_type))
+            .chain(rates.map(|rate| &rate.declared_type))
             .collect();
         let [units, definitions] = types::missing(frame, &types)?;
         let mut filler = Filler {
@@ -113,8 +120,12 @@ impl Filled {
     }
 
     /// Adds an unknown, or what it depends on to the same one for another DOF.
-    fn add_unknown(&mut self, mut unknown: Unknown) -> Result<(), InterfaceProblem> {
-        unknown.complete(&self.unknowns)?;
+    fn add_unknown(
+        &mut self,
+        mut unknown: Unknown,
+        laws: &Laws<'_>,
+    ) -> Result<(), InterfaceProblem> {
+        unknown.complete(&self.unknowns, laws)?;
         let mut unknowns = self.unknowns.iter_mut();
         match unknowns.find(|other| other.is_same_as(&unknown)) {
             Some(same) => same.depend_also_as(unknown),
@@ -194,7 +205,8 @@ impl<'a> Filler<'a> {
                 self.filled.add_variable(declared);
             } else {
                 let unknown = self.unknown(&line, &instance, number)?;
-                self.filled.add_unknown(unknown)?;
+                let laws = self.laws();
+                self.filled.add_unknown(unknown, &laws)?;
             }
         }
         Ok(())
@@ -210,13 +222,26 @@ impl<'a> Filler<'a> {
             None => vec![Instance::Alone],
             Some("dof") => (0..self.filling.dofs.len()).map(Instance::Dof).collect(),
             Some("parameter") => self.parameters.iter().map(Instance::Parameter).collect(),
-            Some("memory") => self.memory.iter().map(Instance::Memory).collect(),
+            Some("memory") => {
+                let committed = self.memory.iter().filter(|memory| memory.rate.is_none());
+                committed.map(Instance::Memory).collect()
+            }
+            Some("state") => {
+                let integrated = self.memory.iter().filter(|memory| memory.rate.is_some());
+                integrated.map(Instance::Memory).collect()
+            }
+            Some("rate") => {
+                let integrated = self.memory.iter();
+                let rate =
+                    |memory: &'a LawMemory| Some(Instance::Rate(memory, memory.rate.as_ref()?));
+                integrated.filter_map(rate).collect()
+            }
             Some(found) => {
                 return Err(InterfaceProblem::Word {
                     line: number,
                     attribute: "each",
                     found: found.to_owned(),
-                    expected: "dof, parameter or memory",
+                    expected: "dof, parameter, memory, state or rate",
                 });
             }
         })
@@ -251,6 +276,7 @@ impl<'a> Filler<'a> {
                     at: parameter.at,
                 },
                 Instance::Memory(memory) => Origin::Memory([memory.law, memory.number, memory.row]),
+                Instance::Rate(memory, _) => Origin::Rate([memory.law, memory.number, memory.row]),
             }],
             line,
             number,
@@ -271,11 +297,15 @@ impl<'a> Filler<'a> {
             }
         }
         let name = self.checked_name(&line, number)?;
-        let laws = Laws {
+        Unknown::new(&line, number, name, instance, &self.laws())
+    }
+
+    fn laws(&self) -> Laws<'a> {
+        Laws {
             filling: self.filling,
             parameters: self.parameters,
-        };
-        Unknown::new(&line, number, name, instance, &laws)
+            memory: self.memory,
+        }
     }
 
     fn checked_name(&self, line: &Line, number: usize) -> Result<String, InterfaceProblem> {
@@ -288,6 +318,8 @@ impl<'a> Filler<'a> {
         match (placeholder, instance) {
             ("parameter", Instance::Parameter(parameter)) => Some(parameter.name.clone()),
             ("memory", Instance::Memory(memory)) => Some(memory.name.clone()),
+            ("state", Instance::Rate(memory, _)) => Some(memory.name.clone()),
+            ("inner_rate", Instance::Rate(_, rate)) => Some(rate.name.clone()),
             _ => {
                 let dof = &self.filling.dofs[instance.row()?];
                 Some(Quantity::parse(placeholder)?.name(dof).to_owned())
@@ -300,6 +332,7 @@ impl<'a> Filler<'a> {
         match (placeholder, instance) {
             ("type", Instance::Parameter(parameter)) => Some(parameter.declared_type.name.clone()),
             ("type", Instance::Memory(memory)) => Some(memory.declared_type.name.clone()),
+            ("type", Instance::Rate(_, rate)) => Some(rate.declared_type.name.clone()),
             _ => Some(words::type_name(&self.word(placeholder, instance)?)),
         }
     }
@@ -309,6 +342,7 @@ impl<'a> Filler<'a> {
         match (placeholder, instance) {
             ("description", Instance::Parameter(parameter)) => Some(parameter.description.clone()),
             ("description", Instance::Memory(memory)) => Some(memory.description.clone()),
+            ("description", Instance::Rate(_, rate)) => Some(rate.description.clone()),
             ("start", Instance::Parameter(parameter)) => Some(types::number(parameter.start)),
             _ => words::word(placeholder, self.filling.dofs[instance.row()?].kind),
         }
@@ -330,7 +364,8 @@ impl<'a> Filler<'a> {
                 joints: joints(Joints::ANY)?,
             },
             Instance::Parameter(LawParameter { scope, .. })
-            | Instance::Memory(LawMemory { scope, .. }) => Scope {
+            | Instance::Memory(LawMemory { scope, .. })
+            | Instance::Rate(LawMemory { scope, .. }, _) => Scope {
                 rows: scope.rows.clone(),
                 joints: joints(scope.joints)?,
             },
@@ -345,12 +380,13 @@ impl<'a> Filler<'a> {
                 "constant" => Joints::CONSTANT,
                 "over_preload" => Joints::OVER_PRELOAD,
                 "memory" => Joints::MEMORY,
+                "turning" => Joints::that_commit(self.filling.laws),
                 found => {
                     return Err(InterfaceProblem::Word {
                         line: number,
                         attribute: "only",
                         found: found.to_owned(),
-                        expected: "constant, over_preload or memory",
+                        expected: "constant, over_preload, memory or turning",
                     });
                 }
             });

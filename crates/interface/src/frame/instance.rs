@@ -1,6 +1,6 @@
 //! What a line of a frame is written for: itself, a DOF, or what a law declares.
 
-use super::laws::{LawMemory, LawParameter};
+use super::laws::{InnerRate, LawMemory, LawParameter};
 
 /// One of those that a line is written for.
 pub(super) enum Instance<'a> {
@@ -8,6 +8,7 @@ pub(super) enum Instance<'a> {
     Dof(usize),
     Parameter(&'a LawParameter),
     Memory(&'a LawMemory),
+    Rate(&'a LawMemory, &'a InnerRate),
 }
 
 impl Instance<'_> {
@@ -15,7 +16,7 @@ impl Instance<'_> {
         match self {
             Self::Alone | Self::Parameter(_) => None,
             Self::Dof(row) => Some(*row),
-            Self::Memory(memory) => Some(memory.row),
+            Self::Memory(memory) | Self::Rate(memory, _) => Some(memory.row),
         }
     }
 
@@ -23,7 +24,7 @@ impl Instance<'_> {
         match self {
             Self::Alone | Self::Dof(_) => None,
             Self::Parameter(parameter) => Some(parameter.law),
-            Self::Memory(memory) => Some(memory.law),
+            Self::Memory(memory) | Self::Rate(memory, _) => Some(memory.law),
         }
     }
 }

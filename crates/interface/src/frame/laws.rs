@@ -8,7 +8,7 @@ use bolted_joint_dynamics::{
 
 use super::{
     filling::Filling,
-    types::{Type, of_memory, of_parameter},
+    types::{Type, of_memory, of_parameter, of_rate},
     words,
 };
 use crate::scope::{Joints, Rows, Scope};
@@ -73,6 +73,16 @@ pub(super) struct LawMemory {
     pub(super) description: String,
     pub(super) declared_type: Type,
     pub(super) scope: Scope,
+    /// Its rate, where it is an inner state.
+    pub(super) rate: Option<InnerRate>,
+}
+
+/// The rate of an inner state.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct InnerRate {
+    pub(super) name: String,
+    pub(super) description: String,
+    pub(super) declared_type: Type,
 }
 
 /// Every parameter of every law, in the order of declarations and DOFs.
@@ -126,6 +136,12 @@ pub(super) fn law_memory(filling: &Filling<'_>) -> Vec<LawMemory> {
                         rows: vec![Rows::of(&[row])],
                         joints: Joints::of_law(law, filling.laws),
                     },
+                    rate: remembered.rate.map(|rate| InnerRate {
+                        name: declaration.variable(rate.symbol, dof.name),
+                        description: with_words(rate.description, dof.kind, None)
+                            + &which(declaration),
+                        declared_type: of_rate(quantity, dof.kind),
+                    }),
                 });
             }
         }

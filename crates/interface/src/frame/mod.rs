@@ -5,8 +5,10 @@
 //! - `each="dof"` writes the line once for each row; braces in it stand for the row's names (in names of variables) or for the
 //!   words for its quantities (in texts and types), such as `{rate}` and `{Rate}`,
 //!   or for one text in translation and another in rotation, `{1.41|1e-3}`;
-//! - `each="parameter"` and `each="memory"` write it for each parameter of a law and each number that a law remembers;
-//! - `only="constant"`, `only="over_preload"`, `only="memory"` keep the variable to such joints, both words to either;
+//! - `each="parameter"` and `each="memory"` write it for each parameter of a law and each number that a law remembers,
+//!   inner states apart; `each="state"` and `each="rate"` for each inner state and its rate;
+//! - `only="constant"`, `only="over_preload"`, `only="memory"` keep the variable to such joints, `only="turning"` to those
+//!   that remember more than inner states, several words to either;
 //! - value references are not written, but found in `value-references.txt`, and `derivative` and the model structure go by names.
 
 mod fill;
@@ -151,4 +153,6 @@ pub(crate) enum Origin {
     },
     /// What a law remembers: place of the law, of the number, and row of the table of DOFs.
     Memory([usize; 3]),
+    /// The rate of an inner state, by the same places.
+    Rate([usize; 3]),
 }

@@ -100,6 +100,29 @@ pub(super) fn of_memory(quantity: words::Quantity, kind: DofKind) -> Type {
     }
 }
 
+/// Type of the rate of what is remembered of this quantity: a displacement's is the DOF's own.
+pub(super) fn of_rate(quantity: words::Quantity, kind: DofKind) -> Type {
+    let (name, nominal) = match quantity {
+        words::Quantity::Load => (
+            format!("{}Rate", words::type_name(quantity.word(kind))),
+            RATE_OF_LOAD,
+        ),
+        _ => (words::type_name(words::Quantity::Rate.word(kind)), [1.0; 2]),
+    };
+    let mut unit = of_memory(quantity, kind).unit;
+    unit.exponents[SECOND] -= 1;
+    unit.name += "/s";
+    Type {
+        name,
+        unit,
+        nominal: nominal[usize::from(kind == DofKind::Rotation)],
+        not_negative: false,
+    }
+}
+
+/// Typical rates of a force and of a moment, N/s and N·m/s.
+const RATE_OF_LOAD: [f64; 2] = [1e5, 1e3];
+
 fn load_unit(kind: DofKind) -> Unit {
     Unit {
         name: kind.load_unit().to_owned(),

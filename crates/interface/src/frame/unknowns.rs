@@ -2,12 +2,17 @@
 //!
 //! An attribute for each kind of dependency lists names. `{load}` in them is the name for the line's own DOF, `{load:every}` are
 //! those of all DOFs and `{load:other}` those of the others; `@load`, `@stored_energy`, `@dissipated_power` and `@escape` are
-//! the parameters of laws that act on that (`@load`: on the load of the line's DOF), `@own` those of the line's own law.
+//! the parameters of laws that act on that (`@load`: on the load of the line's DOF), `@own` those of the line's own law;
+//! `@state` are the inner states of laws on the line's DOF, `@state:own` that of its own law, `@state:every` all.
 
 use std::collections::HashMap;
 
 use super::{
-    filling::Filling, instance::Instance, laws::LawParameter, line::Line, words::Quantity,
+    filling::Filling,
+    instance::Instance,
+    laws::{LawMemory, LawParameter},
+    line::Line,
+    words::Quantity,
 };
 use crate::error::InterfaceProblem;
 
@@ -58,7 +63,13 @@ impl Unknown {
     }
 
     /// Takes over what an earlier line says of the same unknown.
-    pub(super) fn complete(&mut self, earlier: &[Self]) -> Result<(), InterfaceProblem> {
+    ///
+    /// What is calculated at first is no known of what else is.
+    pub(super) fn complete(
+        &mut self,
+        earlier: &[Self],
+        laws: &Laws<'_>,
+    ) -> Result<(), InterfaceProblem> {
         if self.known.is_none() {
             let same = earlier.iter().find(|other| other.name == self.name);
             let same = same.ok_or_else(|| InterfaceProblem::NothingDependedOn {
@@ -66,6 +77,9 @@ impl Unknown {
                 name: self.name.clone(),
             })?;
             self.known.clone_from(&same.known);
+        }
+        if let (INITIAL, Some(known)) = (self.tag.as_str(), &mut self.known) {
+            known.retain(|(name, _)| !laws.is_state(name));
         }
         Ok(())
     }
@@ -126,11 +140,15 @@ fn add(known: &mut Vec<(String, &'static str)>, name: String, kind: &'static str
 pub(super) struct Laws<'a> {
     pub(super) filling: &'a Filling<'a>,
     pub(super) parameters: &'a [LawParameter],
+    pub(super) memory: &'a [LawMemory],
 }
 
 impl Laws<'_> {
     /// The names that a word stands for, or the placeholder that stands for nothing.
     fn names(&self, token: &str, instance: &Instance<'_>) -> Result<Vec<String>, String> {
+        if let Some(whose) = token.strip_prefix("@state") {
+            return self.states(whose, instance);
+        }
         if let Some(effect) = token.strip_prefix('@') {
             return self.acting_on(effect, instance);
         }
@@ -153,6 +171,36 @@ impl Laws<'_> {
             .into_iter()
             .map(|row| format!("{prefix}{}{suffix}", name(row)))
             .collect())
+    }
+
+    /// Inner states: of the line's own law, of its DOF, or all of them.
+    fn states(&self, whose: &str, instance: &Instance<'_>) -> Result<Vec<String>, String> {
+        let here = |memory: &LawMemory| instance.row().is_none_or(|row| memory.row == row);
+        let is_meant = |memory: &&LawMemory| match whose {
+            ":own" => instance.law() == Some(memory.law) && here(memory),
+            ":every" => true,
+            _ => here(memory),
+        };
+        let stands_for_something = match whose {
+            "" => instance.row().is_some(),
+            ":own" => instance.law().is_some(),
+            ":every" => true,
+            _ => false,
+        };
+        if !stands_for_something {
+            return Err(format!("@state{whose}"));
+        }
+        let states = self.memory.iter().filter(|memory| memory.rate.is_some());
+        Ok(states
+            .filter(is_meant)
+            .map(|memory| memory.name.clone())
+            .collect())
+    }
+
+    /// Whether this is the name of an inner state.
+    pub(super) fn is_state(&self, name: &str) -> bool {
+        let mut states = self.memory.iter().filter(|memory| memory.rate.is_some());
+        states.any(|memory| memory.name == name)
     }
 
     fn acting_on(&self, effect: &str, instance: &Instance<'_>) -> Result<Vec<String>, String> {

@@ -45,6 +45,13 @@ const AT_LIMIT: f64 = 1e-15;
 impl<N: Number> Branch<N> {
     /// The way of this length from w.
     pub(super) fn way(&self, w: N, length: N) -> Way<N> {
+        if length.value() == 0.0 {
+            // w moves with the length
+            return Way {
+                after: w + self.rate(w) * length,
+                heat: 0.0,
+            };
+        }
         if let Some(way) = self.short_way(w, length) {
             return way;
         }
@@ -193,6 +200,16 @@ impl<N: Number> Branch<N> {
         y * hypergeometric(a, -(self.unloading * y.powf(self.exponent)))
     }
 
+    /// dw/dx
+    pub(super) fn rate(&self, w: N) -> N {
+        let (q, size) = if w.value() < 0.0 {
+            (-self.unloading, -w)
+        } else {
+            (self.loading, w)
+        };
+        N::from(1.0) - q * size.powf(self.exponent)
+    }
+
     fn plain(&self) -> Branch<f64> {
         Branch {
             exponent: self.exponent.value(),
@@ -203,16 +220,6 @@ impl<N: Number> Branch<N> {
 }
 
 impl Branch<f64> {
-    /// dw/dx
-    fn rate(&self, w: f64) -> f64 {
-        let q = if w < 0.0 {
-            -self.unloading
-        } else {
-            self.loading
-        };
-        1.0 - q * w.abs().powf_of(self.exponent)
-    }
-
     /// Where x from no load is reached: w, 1 − m there, and the heat of all of it.
     fn loaded_to(&self, target: f64) -> (f64, f64, f64) {
         let a = 1.0 / self.exponent;

@@ -2,8 +2,8 @@
 
 use super::{
     super::trials::{
-        Tried, assert_balance, assert_balance_over_preload, assert_changes, integral, way,
-        way_over_preload,
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, assert_inner, integral,
+        way, way_over_preload,
     },
     *,
 };
@@ -167,4 +167,12 @@ fn what_a_lower_preload_no_longer_holds_is_heat() {
         released += assert_balance_over_preload(&law, &way, 1.0);
     }
     assert!(released > 0.0);
+}
+
+#[test]
+fn its_inner_state_follows_the_equation() {
+    let mut random = Random(43);
+    for (law, ..) in LOOPS {
+        assert_inner(&law, &way(&mut random, 40, 2.0), 0.7);
+    }
 }

@@ -17,8 +17,12 @@ pub(super) struct Curve<N> {
     power: N,
     /// φ_max
     pub(super) span: N,
+    /// 1/φ_max
+    per_span: N,
     /// 1/((1+β)(χ+2))
     softening: N,
+    /// Whether what was committed holds for it.
+    pub(super) is_known: bool,
 }
 
 /// A place on the curve.
@@ -37,14 +41,33 @@ impl<N: Number> Curve<N> {
         let power = law.exponent + N::from(2.0);
         // φ_max = F_S (1+β)/(K_T (β + (χ+1)/(χ+2)))   (Segalman 2005, eq. 25 and 26)
         let below = law.ratio + (law.exponent + one) / power;
+        let span = law.slip_force * (one + law.ratio) / (law.stiffness * below);
+        let softening = one / ((one + law.ratio) * power);
+        Self {
+            is_known: false,
+            ..Self::from_derived(law, [span, one / span, softening])
+        }
+    }
+
+    /// The curve of which [`Curve::derived`] is known.
+    #[inline]
+    pub(super) fn from_derived(law: &Iwan<N>, [span, per_span, softening]: [N; 3]) -> Self {
         Self {
             parameters: law.parameters(),
             slip_force: law.slip_force,
             stiffness: law.stiffness,
-            power,
-            span: law.slip_force * (one + law.ratio) / (law.stiffness * below),
-            softening: one / ((one + law.ratio) * power),
+            power: law.exponent + N::from(2.0),
+            span,
+            per_span,
+            softening,
+            is_known: true,
         }
+    }
+
+    /// What takes divisions to find.
+    #[inline]
+    pub(super) fn derived(&self) -> [N; 3] {
+        [self.span, self.per_span, self.softening]
     }
 
     /// A place on the curve.
@@ -55,7 +78,7 @@ impl<N: Number> Curve<N> {
         At {
             u,
             // φ_max v^(χ+2) with v = u/φ_max
-            bent: sticks.then(|| self.span * (u / self.span).powf(self.power)),
+            bent: sticks.then(|| self.span * (u * self.per_span).powf(self.power)),
         }
     }
 

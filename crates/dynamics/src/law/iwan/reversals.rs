@@ -42,8 +42,12 @@ const SHIFT: usize = 11;
 const BENT: usize = 12;
 /// Whether the elongations of the sliders are remembered in the place of reversal points, because their strength has changed.
 pub(super) const ELONGATED: usize = 13;
+/// Load at the present place.
+const LOAD_HERE: usize = 14;
+/// What the parameters give.
+const DERIVED: usize = 15;
 /// The reversal points, oldest first.
-pub(super) const POINTS: usize = 14;
+pub(super) const POINTS: usize = 18;
 
 /// Numbers that are no variables: all but the last reversal point.
 pub(super) const HIDDEN: usize = POINTS + REVERSALS_MAX - 1;
@@ -142,6 +146,40 @@ impl<'m, M: Number> Reversals<'m, M> {
             .then(|| Elongations::of_points(self.points(), self.place(), span))
     }
 
+    /// The curve of this law, if what was committed holds for its parameters, which do not change.
+    #[inline]
+    pub(super) fn curve<N: Number>(&self, law: &Iwan<N>) -> Option<Curve<N>>
+    where
+        M: Into<N>,
+    {
+        let known = self.known(law)?;
+        let derived = [0, 1, 2].map(|k| known[DERIVED + k].into());
+        Some(Curve::from_derived(law, derived))
+    }
+
+    /// The load at r, if the joint is there and that holds for this law.
+    #[inline]
+    pub(super) fn load_here<N: Number>(&self, law: &Iwan<N>, r: N) -> Option<N>
+    where
+        M: Into<N>,
+    {
+        let known = self.known(law)?;
+        let is_here = (r - known[PLACE].into()).is_zero();
+        is_here.then(|| known[LOAD_HERE].into())
+    }
+
+    /// The numbers before the points, if they hold for this law.
+    #[inline]
+    fn known<N: Number>(&self, law: &Iwan<N>) -> Option<&'m [M; POINTS]>
+    where
+        M: Into<N>,
+    {
+        let known: &[M; POINTS] = self.numbers.first_chunk()?;
+        let parameters = law.parameters();
+        let is_same = |k: usize| (parameters[k] - known[PARAMETERS + k].into()).is_zero();
+        (is_same(0) & is_same(1) & is_same(2) & is_same(3)).then_some(known)
+    }
+
     fn number(&self, place: usize) -> M {
         self.numbers.get(place).copied().unwrap_or(M::ZERO)
     }
@@ -229,7 +267,7 @@ impl<'m, M: Number> Reversals<'m, M> {
             Some(start) => N::from(0.5) * (r - start.into()),
         };
         let is_here = *branch == self.own_branch() && (r - self.place().into()).is_zero();
-        if is_here && self.holds_for(curve) {
+        if is_here && curve.is_known {
             curve.known(way, self.number(BENT).into())
         } else {
             curve.at(way)
@@ -243,7 +281,7 @@ impl<'m, M: Number> Reversals<'m, M> {
     {
         let points = self.points();
         let kept = &points[..branch.count.min(points.len())];
-        let before = if kept.len() == points.len() && self.holds_for(curve) {
+        let before = if kept.len() == points.len() && curve.is_known {
             self.known_tip()
         } else {
             Tip::over(kept, curve)
@@ -264,18 +302,6 @@ impl<'m, M: Number> Reversals<'m, M> {
             place: place.into(),
             load: self.number(LOAD).into(),
             stored: self.number(STORED).into(),
-        })
-    }
-
-    /// Whether what was committed holds for these parameters, which do not change.
-    fn holds_for<N: Number>(&self, curve: &Curve<N>) -> bool
-    where
-        M: Into<N>,
-    {
-        let mut own = curve.parameters.iter().enumerate();
-        own.all(|(k, &parameter)| {
-            let known: N = self.number(PARAMETERS + k).into();
-            (parameter - known).is_zero()
         })
     }
 }
@@ -339,6 +365,24 @@ impl Branch {
     }
 }
 
+/// How many numbers are in use, or are after one commit, which may add a point or find that the sliders' strength has changed.
+pub(super) fn used<N: Number>(memory: &[N], slip_force: N) -> usize {
+    let number = |place: usize| memory.get(place).map_or(0.0, |number| number.value());
+    let has_points = number(ELONGATED) == 0.0 && number(PARAMETERS) == slip_force.value();
+    match has_points {
+        true => (POINTS + number(COUNT) as usize + 1).min(memory.len()),
+        false => memory.len(),
+    }
+}
+
+/// Whether all that a commit has written is finite: points were places before.
+pub(super) fn is_finite<N: Number>(memory: &[N]) -> bool {
+    let is_elongated = memory.get(ELONGATED).is_some_and(|it| it.value() != 0.0);
+    let count = if is_elongated { memory.len() } else { DERIVED };
+    let numbers = memory.iter().take(count);
+    numbers.fold(true, |all, number| all & number.is_finite())
+}
+
 /// Moves the memory on to r, and returns the heat of the way, J.
 pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64 {
     if memory.len() <= HIDDEN || r.value() == memory[PLACE].value() {
@@ -349,7 +393,7 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
     }
     let reversals = Reversals::of(memory);
     let (points, place) = (reversals.points(), reversals.place());
-    let known = reversals.holds_for(curve);
+    let known = curve.is_known;
     let mut branch = reversals.branch_towards(r.value());
     let mut before = match branch.turned {
         true => N::ZERO,
@@ -372,6 +416,7 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
     write(memory, curve, &branch, tip.unwrap_or(Tip::ORIGIN));
     memory[HEAT] = after;
     memory[BENT] = at.bent.unwrap_or(N::ZERO);
+    memory[LOAD_HERE] = load(tip.as_ref(), r, curve, &at);
     memory[PLACE] = r;
     if memory[COUNT].value() >= REVERSALS_MAX as f64 {
         // now, because the shift does no work while the joint stays, and so that there is room where it turns next
@@ -380,6 +425,18 @@ pub(super) fn commit<N: Number>(memory: &mut [N], curve: &Curve<N>, r: N) -> f64
     // rounding apart, no way gives heat back
     let heat = if heat.value() > 0.0 { heat } else { N::ZERO };
     pay(memory, heat).value()
+}
+
+/// Load at r, `at` on the curve, on the way from a reversal point or from the origin.
+#[inline]
+pub(super) fn load<N: Number>(tip: Option<&Tip<N>>, r: N, curve: &Curve<N>, at: &At<N>) -> N {
+    let load = curve.load(at);
+    match tip {
+        // f = F(r), F odd
+        None => towards(r, load),
+        // f = f_r + 2 F((r − u_r)/2)   (Masing)
+        Some(tip) => tip.load + N::from(2.0) * towards(r - tip.place, load),
+    }
 }
 
 /// What is left of this heat when what is owed is paid.
@@ -408,7 +465,13 @@ fn write<N: Number>(memory: &mut [N], curve: &Curve<N>, branch: &Branch, tip: Ti
     memory[TURN] = tip.place;
     memory[LOAD] = tip.load;
     memory[STORED] = tip.stored;
+    remember(memory, curve);
+}
+
+/// Remembers for which curve the rest holds.
+fn remember<N: Number>(memory: &mut [N], curve: &Curve<N>) {
     memory[PARAMETERS..SHIFT].copy_from_slice(&curve.parameters);
+    memory[DERIVED..POINTS].copy_from_slice(&curve.derived());
 }
 
 /// Forgets two neighbouring reversal points: of those whose loss shifts the load back from where earlier losses have
@@ -450,7 +513,13 @@ fn forget<N: Number>(memory: &mut [N], curve: &Curve<N>) {
     let half = curve.at(N::from(0.5) * (place - tip.place));
     memory[HEAT] = N::from(2.0) * curve.heat(&half);
     memory[BENT] = half.bent.unwrap_or(N::ZERO);
-    memory[PARAMETERS..SHIFT].copy_from_slice(&curve.parameters);
+    memory[LOAD_HERE] = load(
+        (memory[COUNT].value() > 0.0).then_some(&tip),
+        place,
+        curve,
+        &half,
+    );
+    remember(memory, curve);
     memory[OWED] = memory[OWED] + (after - before);
     memory[SHIFT] = memory[SHIFT] + shift;
 }

@@ -23,7 +23,7 @@ const fn law(slip_force: f64, stiffness: f64, exponent: f64, ratio: f64) -> Iwan
 
 /// What the parameters give: φ_max.
 fn span(law: &Iwan) -> f64 {
-    law.curve().unwrap().span
+    law.curve::<f64>(&[]).unwrap().span
 }
 
 /// By mpmath with 30 digits from Segalman's formulas: parameters, φ_max, amplitude/φ_max, load and stiffness at the

@@ -2,7 +2,8 @@
 
 use super::{
     super::trials::{
-        Tried, assert_balance, assert_balance_over_preload, assert_changes, way, way_over_preload,
+        Tried, assert_balance, assert_balance_over_preload, assert_changes, assert_inner, way,
+        way_over_preload,
     },
     *,
 };
@@ -151,4 +152,10 @@ fn what_a_lower_preload_no_longer_holds_is_heat() {
         released += assert_balance_over_preload(&law, &way, 1.0);
     }
     assert!(released > 0.0);
+}
+
+#[test]
+fn its_inner_state_follows_the_equation() {
+    let mut random = Random(41);
+    assert_inner(&law(160.0), &way(&mut random, 60, 3e-5), 2e-3);
 }

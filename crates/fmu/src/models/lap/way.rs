@@ -48,6 +48,14 @@ pub(in crate::models) trait Way<const D: usize>: Sized + Send {
         Ok(())
     }
 
+    fn pass_event(_values: &mut Values) {}
+
+    /// Writes the event indicators.
+    fn set_indicators(_values: &mut Values) {}
+
+    /// Writes the first-order change of the event indicators.
+    fn differentiate_indicators(_values: &Values, _change: &mut Values) {}
+
     /// Adds the rates of what is integrated beside the motion.
     fn add_rates(_values: &Values, _rates: &mut Values) {}
 }

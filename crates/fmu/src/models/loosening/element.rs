@@ -9,12 +9,15 @@ use super::{
 use crate::{
     input_course::InputCourse,
     interface::{
-        ElementCalculatedParameters, ElementMemoryOutputs, ElementOverPreloadOutputs,
-        InterfaceType, Values, reference as vr,
+        ElementCalculatedParameters, ElementOverPreloadOutputs, InterfaceType, Values,
+        reference as vr,
     },
     models::{
         Model, Outcome, Step,
-        element::{begin, commit, differentiate, rates, relative, set_outputs},
+        element::{
+            begin, commit, differentiate, differentiate_memory_outputs, pass_event, rates,
+            relative, set_memory_outputs, set_outputs,
+        },
         watch::{Watch, finite},
     },
     preload_table::OverPreload,
@@ -81,6 +84,12 @@ impl<const D: usize> Model for LooseningElement<D> {
         }
     }
 
+    fn pass_event(&self, values: &mut Values) {
+        if self.table.has_memory() {
+            pass_event(values, &self.law(values));
+        }
+    }
+
     fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
         if input == vr::PRELOAD {
             check_preload(&self.table, value, None)
@@ -141,9 +150,7 @@ impl<const D: usize> Model for LooseningElement<D> {
         }
         .write(values);
         if self.table.has_memory() {
-            // as of the last step
-            let energy_dissipated = values[vr::ENERGY_DISSIPATED];
-            ElementMemoryOutputs { energy_dissipated }.write(values);
+            set_memory_outputs::<D>(values);
         }
     }
 
@@ -157,8 +164,7 @@ impl<const D: usize> Model for LooseningElement<D> {
         }
         .write(change);
         if self.table.has_memory() {
-            let energy_dissipated = 0.0;
-            ElementMemoryOutputs { energy_dissipated }.write(change);
+            differentiate_memory_outputs::<D>(values, change);
         }
     }
 }

@@ -8,8 +8,8 @@
 use std::num::NonZeroU32;
 
 use bolted_joint_dynamics::{
-    CountedState, DOF_AT_REST, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions,
-    LapLoads, LapState, PassedEnergy,
+    CountedState, JointLaw, JointMemory, JointOverPreload, Lap, LapConditions, LapLoads, LapState,
+    PassedEnergy,
 };
 
 use super::{
@@ -23,13 +23,13 @@ use crate::{
         reference as vr,
     },
     models::{
-        Model, Outcome, Step, heat_not_finite,
+        Model, Outcome, Step, events, heat_not_finite,
         lap::{
-            differentiate,
+            differentiate, differentiate_indicators,
             faults::{check_held, check_parameters, check_step},
             loads::Loads,
             prepared::count,
-            rates, set_outputs,
+            rates, set_indicators, set_outputs,
             way::{loads, set_state, state},
         },
         sides::{A, B},
@@ -204,8 +204,9 @@ impl<const D: usize> Model for LooseningLap<D> {
         values[memory::PRELOAD_WORK] = 0.0;
         if self.table.has_memory() {
             // the joint has come straight to where it starts; the heat of that way was before
-            values.change_joint(|memory| *memory = [DOF_AT_REST; D]);
-            values.commit_joint(&self.lap(values).joint, &state(values).relative());
+            let (law, relative) = (self.lap(values).joint, state(values).relative());
+            values.commit_from_rest(&law, &relative);
+            events::begin(values, &law, &relative);
         }
         // what the balance E = E₀ + supplied − dissipated + preload starts from
         let stored = self
@@ -220,8 +221,18 @@ impl<const D: usize> Model for LooseningLap<D> {
             return Ok(());
         }
         // its heat is part of the power that the importer integrates
-        let heat_j = values.commit_joint(&self.lap(values).joint, &state(values).relative());
-        heat_j.map(|_| ()).ok_or(heat_not_finite(time_s))
+        let (law, relative) = (self.lap(values).joint, state(values).relative());
+        let heat_j = values.commit_joint(&law, &relative);
+        heat_j.ok_or(heat_not_finite(time_s))?;
+        events::look_ahead(values, &law, &relative, false);
+        Ok(())
+    }
+
+    fn pass_event(&self, values: &mut Values) {
+        if self.table.has_memory() {
+            let (law, relative) = (self.lap(values).joint, state(values).relative());
+            events::look_ahead(values, &law, &relative, true);
+        }
     }
 
     fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
@@ -381,6 +392,9 @@ impl<const D: usize> Model for LooseningLap<D> {
         let state = state::<D>(values);
         let r = state.a.relative_to(&state.b).displacement;
         set_outputs(values, &lap, &state);
+        if self.table.has_memory() {
+            set_indicators::<D>(values);
+        }
         LapOverPreloadOutputs {
             power_preload: preload_power(&self.table, values, &r),
             power_supplied: supplied_power(&loads(values), &state),
@@ -410,6 +424,9 @@ impl<const D: usize> Model for LooseningLap<D> {
         let [r, r_change] =
             [&state, &state_change].map(|state| state.a.relative_to(&state.b).displacement);
         differentiate([&lap, &lap_change], values, change);
+        if self.table.has_memory() {
+            differentiate_indicators::<D>(values, change);
+        }
         LapOverPreloadOutputs {
             power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
             // dP = dFᵀẋ + Fᵀdẋ

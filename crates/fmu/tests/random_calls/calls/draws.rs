@@ -401,10 +401,12 @@ pub(super) fn set_continuous_states(turn: &mut Turn<'_, '_>) -> Outcome {
 
 pub(super) fn event_indicators(turn: &mut Turn<'_, '_>) -> Outcome {
     let i = turn.instance();
-    let count = if turn.a.wrong(4) { 3 } else { 0 };
+    let right = turn.subject.model().indicators();
+    let count = if turn.a.wrong(4) { 3 } else { right };
     let values = turn.a.array(vec![0.0; count]);
     let (z, count) = (values.pointer(), values.count());
-    call!(i, fmi2GetEventIndicators | fmi3GetEventIndicators(z, count)).into()
+    let status = call!(i, fmi2GetEventIndicators | fmi3GetEventIndicators(z, count));
+    Outcome::with(status, values.content())
 }
 
 pub(super) fn do_step(turn: &mut Turn<'_, '_>) -> Outcome {

@@ -40,6 +40,32 @@ const IWAN: Friction = (
 
 const JENKINS: Friction = ("jenkins", &[("jenkins_k", 1e6), ("jenkins_h", 20.0)]);
 
+const LUGRE: Friction = (
+    "lugre",
+    &[
+        ("lugre_s0", 1e6),
+        ("lugre_s1", 10.0),
+        ("lugre_s2", 6.0),
+        ("lugre_fc", 10.0),
+        ("lugre_fs", 15.0),
+        ("lugre_vs", 1e-3),
+    ],
+);
+
+const BOUC_WEN: Friction = (
+    "bouc-wen",
+    &[
+        ("bouc_wen_k", 1e6),
+        ("bouc_wen_h", 20.0),
+        ("bouc_wen_n", 1.5),
+        ("bouc_wen_beta", 0.7),
+        ("bouc_wen_gamma", -0.2),
+    ],
+);
+
+/// Laws whose inner state the importer integrates in Model Exchange; the others have to be told where they turn.
+const WITH_INNER_STATE: [Friction; 2] = [LUGRE, BOUC_WEN];
+
 const ALL_FRICTION: [Friction; 6] = [
     JENKINS,
     IWAN,
@@ -53,32 +79,13 @@ const ALL_FRICTION: [Friction; 6] = [
         ],
     ),
     ("dahl", &[("dahl_k", 1e6), ("dahl_h", 10.0)]),
-    (
-        "lugre",
-        &[
-            ("lugre_s0", 1e6),
-            ("lugre_s1", 10.0),
-            ("lugre_s2", 6.0),
-            ("lugre_fc", 10.0),
-            ("lugre_fs", 15.0),
-            ("lugre_vs", 1e-3),
-        ],
-    ),
-    (
-        "bouc-wen",
-        &[
-            ("bouc_wen_k", 1e6),
-            ("bouc_wen_h", 20.0),
-            ("bouc_wen_n", 1.5),
-            ("bouc_wen_beta", 0.7),
-            ("bouc_wen_gamma", -0.2),
-        ],
-    ),
+    LUGRE,
+    BOUC_WEN,
 ];
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
 /// friction, and over the preload.
-pub(crate) const MODELS: [Model; 20] = [
+pub(crate) const MODELS: [Model; 22] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -99,6 +106,8 @@ pub(crate) const MODELS: [Model; 20] = [
     Model::new(false, 6, 0.0).slipping(&ALL_FRICTION),
     Model::new(true, 6, 0.0).slipping(&[IWAN]),
     Model::new(false, 6, 0.0).slipping(&[JENKINS]).loosening(),
+    Model::new(false, 1, 0.0).slipping(&WITH_INNER_STATE),
+    Model::new(true, 2, 0.0).slipping(&WITH_INNER_STATE),
 ];
 
 impl Model {
@@ -130,16 +139,23 @@ impl Model {
 
     /// Number of continuous states.
     pub(crate) fn states(self) -> usize {
-        if !self.lap {
-            return 0;
-        }
         // motion, and what is counted: heat of a joint that remembers, and work besides of one over the preload
         let counted = match (self.is_over_preload, self.friction) {
             (true, _) => 2,
             (false, []) => 0,
             (false, _) => 1,
         };
-        4 * usize::from(self.dofs) + counted
+        let dofs = usize::from(self.dofs);
+        let of_bodies = if self.lap { 4 * dofs + counted } else { 0 };
+        let names = self.friction.iter().map(|(name, _)| name);
+        of_bodies + dofs * names.filter(|name| has_inner_state(name)).count()
+    }
+
+    /// Number of event indicators.
+    pub(crate) fn indicators(self) -> usize {
+        let mut names = self.friction.iter().map(|(name, _)| name);
+        let turns = names.any(|name| !has_inner_state(name));
+        if turns { 2 * usize::from(self.dofs) } else { 0 }
     }
 
     /// Value references of the inputs.
@@ -241,13 +257,17 @@ impl Model {
     pub(crate) const fn references(self) -> u32 {
         if self.friction.is_empty() && !self.is_over_preload {
             match self.dofs {
-                6 => 420,
+                6 => 702,
                 _ => 45,
             }
         } else {
-            420
+            702
         }
     }
+}
+
+fn has_inner_state(law: &str) -> bool {
+    WITH_INNER_STATE.iter().any(|(name, _)| *name == law)
 }
 
 static RESOURCES: OnceLock<Vec<CString>> = OnceLock::new();

@@ -211,6 +211,11 @@ impl<'a> Experiment<'a> {
         }
     }
 
+    /// Whether several assemblies see the same errors of the structures.
+    pub(crate) fn has_common_errors(&self) -> bool {
+        self.assemblies.len() > 1
+    }
+
     /// Joints of the assemblies.
     #[must_use]
     pub fn joints(&self) -> usize {

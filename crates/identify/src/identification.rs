@@ -142,7 +142,8 @@ pub fn identify_and_draw(
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
         has_budget,
-        bootstrap,
+        // with causes it draws these, too, and follows
+        bootstrap: bootstrap.filter(|_| !has_budget),
         progress: Some(&|| watch.drawn()),
     };
     let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
@@ -188,9 +189,24 @@ pub fn identify_and_draw(
         Some(_) => Vec::new(),
         None => slips,
     };
-    let estimate = match &systematic {
-        Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),
-        None => estimate,
+    let estimate = match (&systematic, bootstrap) {
+        (Some(found), bootstrap) => {
+            let draws = bootstrap.map(|bootstrap| {
+                let progress = || watch.drawn();
+                let draws = found.draws(study, &all, &estimate, bootstrap, &progress);
+                (bootstrap, draws)
+            });
+            let estimate = estimate.with_systematic_errors(found, study.bolts.with_own_joint());
+            match draws {
+                Some((bootstrap, draws)) => estimate.with_draws(bootstrap, &draws),
+                None => estimate,
+            }
+        }
+        (None, Some(_)) if has_budget => {
+            options.bootstrap = bootstrap;
+            estimated(study, &all, &options)?
+        }
+        (None, _) => estimate,
     };
     let mut fitted = Vec::with_capacity(all.len());
     for (number, lines) in all.into_iter().enumerate() {
@@ -228,9 +244,6 @@ pub fn identify_and_draw(
     warnings.extend(study.rotations_not_corrected());
     if systematic.is_none() && slips.is_empty() && study.has_causes() {
         warnings.push(Systematic::not_applied(apart));
-    }
-    if systematic.is_some() && bootstrap.is_some() {
-        warnings.push(Systematic::BESIDE_A_BOOTSTRAP.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
+use bolted_joint_joint::Drawn;
 
 use super::assessment::Assessment;
 use super::averages::{Decoupled, band_averages, first_bands, used_bands};
@@ -137,6 +138,22 @@ impl LinesEstimate {
             unrest: if found.converged { 0.0 } else { f64::INFINITY },
             ..self
         }
+    }
+
+    /// The same with what a bootstrap of noise and causes shows.
+    #[must_use]
+    pub(super) fn with_draws(mut self, bootstrap: Bootstrap, draws: &[DVector<f64>]) -> Self {
+        let size = self.layout.unknowns();
+        for (number, joint) in self.joints.iter_mut().enumerate() {
+            let own = number * size..(number + 1) * size;
+            joint.bootstrap = Some(BootstrapResult::of(
+                bootstrap,
+                Drawn::NoiseAndSetUp,
+                draws,
+                own,
+            ));
+        }
+        self
     }
 
     /// The number of the joint that each assembly has.
@@ -342,9 +359,9 @@ pub fn identify_lines(
             },
             bands,
             covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
-            bootstrap: draws
-                .as_ref()
-                .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
+            bootstrap: draws.as_ref().map(|(bootstrap, draws)| {
+                BootstrapResult::of(*bootstrap, Drawn::Noise, draws, own.clone())
+            }),
             whole: layout.whole(passive.as_ref().unwrap_or(&free)),
             layout: layout.clone(),
             free,

@@ -42,8 +42,8 @@ impl Default for Settings {
 pub struct Start {
     /// Stiffness of each unknown entry, then its damping; joint after joint.
     pub unknowns: Vec<f64>,
-    /// A cause that is not zero, with its value in its unit.
-    pub cause: Option<(Cause, f64)>,
+    /// Causes that are not zero, with their values in their units.
+    pub causes: Vec<(Cause, f64)>,
 }
 
 impl Start {
@@ -52,7 +52,7 @@ impl Start {
     pub fn without_causes(unknowns: &[f64]) -> Self {
         Self {
             unknowns: unknowns.to_vec(),
-            cause: None,
+            causes: Vec::new(),
         }
     }
 
@@ -64,9 +64,9 @@ impl Start {
     }
 
     pub(crate) fn point(&self, priors: &[Prior]) -> Point {
-        let value = |prior: &Prior| match self.cause {
-            Some((cause, value)) if cause == prior.cause => value,
-            _ => 0.0,
+        let value = |prior: &Prior| {
+            let own = self.causes.iter().find(|(cause, _)| *cause == prior.cause);
+            own.map_or(0.0, |(_, value)| *value)
         };
         Point {
             unknowns: self.unknowns.clone(),
@@ -256,6 +256,21 @@ pub(crate) fn estimate_with(
     )
 }
 
+/// As [`estimate`], with the priors as they are and from this start alone. `None` where that does not come to rest, too.
+#[must_use]
+pub fn estimate_near(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &Start,
+    settings: &Settings,
+) -> Option<Estimate> {
+    let task = Task::new(experiment, priors);
+    let none = Inflation::none(experiment);
+    let found = search(&task, start.point(priors), settings, &none)?;
+    let found = Some(found).filter(|found| found.converged)?;
+    of(&task, found, &vec![None; priors.len()])
+}
+
 /// What the data say of a joint without causes, not searched for. `None` as in [`estimate`].
 #[must_use]
 pub fn evaluated(
@@ -269,7 +284,11 @@ pub fn evaluated(
     };
     let task = Task::new(experiment, &[]);
     let start = Start::without_causes(unknowns).point(&[]);
-    of(&task, search(&task, start, &settings, &Inflation::none(experiment))?, &[])
+    of(
+        &task,
+        search(&task, start, &settings, &Inflation::none(experiment))?,
+        &[],
+    )
 }
 
 impl Estimate {

@@ -178,6 +178,11 @@ impl<'a> Experiment<'a> {
         }
     }
 
+    /// Fits are made anew, of functions that have changed.
+    pub(crate) fn forget_fits(&mut self) {
+        self.fits = OnceLock::new();
+    }
+
     /// A smooth fit of a structure; `None` where it is not measured or no fit comes near it.
     pub(crate) fn fit(&self, side: Side) -> Option<&ModalFit> {
         let fits = self.fits.get_or_init(|| {

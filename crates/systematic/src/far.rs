@@ -44,7 +44,7 @@ pub(crate) fn from_far(
                 let value = beginning * careful.standard_deviation;
                 let start = Start {
                     unknowns: unknowns.clone(),
-                    cause: Some((careful.cause, value)),
+                    causes: vec![(careful.cause, value)],
                 };
                 let Some(found) = search(&task, start.point(&free), &settings, &inflation) else {
                     continue;
@@ -53,8 +53,8 @@ pub(crate) fn from_far(
                 if best.as_ref().is_none_or(|(least, _)| rank < *least) {
                     let value = found.point.causes[0];
                     let unknowns = found.point.unknowns;
-                    let cause = Some((careful.cause, value));
-                    best = Some((rank, Start { unknowns, cause }));
+                    let causes = vec![(careful.cause, value)];
+                    best = Some((rank, Start { unknowns, causes }));
                 }
             }
         }

@@ -172,7 +172,7 @@ impl<'t> Task<'t> {
         super::structures::value_of(Cause::LossFactor, self.priors, &point.causes)
     }
 
-    fn at_assembly<'r>(
+    pub(crate) fn at_assembly<'r>(
         &'r self,
         number: usize,
         receptance: &'r ComplexMatrix,
@@ -216,6 +216,21 @@ impl<'t> Task<'t> {
         }
     }
 
+    /// Receptances of each assembly.
+    pub(crate) fn assembled(
+        &self,
+        line: usize,
+        point: &Point,
+        labelled: &Labelled,
+        recomputed: &Recomputations,
+    ) -> Option<Vec<ComplexMatrix>> {
+        let structures = self.structures(line, point, labelled, recomputed)?;
+        let assemblies = self.experiment.assemblies.iter();
+        assemblies
+            .map(|assembly| Some(self.coupled(assembly, line, point, &structures)?.receptance))
+            .collect()
+    }
+
     /// What these receptances leave of the assemblies' functions without the causes, nothing linearised.
     pub(crate) fn left(
         &self,
@@ -224,16 +239,14 @@ impl<'t> Task<'t> {
         labelled: &Labelled,
         recomputed: &Recomputations,
     ) -> Option<DVector<Complex64>> {
-        let experiment = self.experiment;
-        let structures = self.structures(line, point, labelled, recomputed)?;
+        let receptances = self.assembled(line, point, labelled, recomputed)?;
         let mut left = Vec::new();
-        for (number, assembly) in experiment.assemblies.iter().enumerate() {
-            let coupled = self.coupled(assembly, line, point, &structures)?;
-            let at = self.at_assembly(number, &coupled.receptance, experiment.omega[line]);
+        for (number, receptance) in receptances.iter().enumerate() {
+            let at = self.at_assembly(number, receptance, self.experiment.omega[line]);
             let beside = at.beside(self.priors, &point.causes);
-            for (entry, beside) in assembly.functions.entries.iter().zip(beside) {
+            for (entry, beside) in at.functions.entries.iter().zip(beside) {
                 let factor = at.factor(entry, self.priors, &point.causes);
-                left.push(entry.values[line] / factor - beside - coupled.receptance[entry.place]);
+                left.push(entry.values[line] / factor - beside - receptance[entry.place]);
             }
         }
         Some(DVector::from_vec(left))
@@ -249,7 +262,8 @@ impl<'t> Task<'t> {
     ) -> Option<f64> {
         let left = self.left(line, point, labelled, recomputed)?;
         let entries = self.experiment.assembled();
-        let of_entry = |(left, entry): (&Complex64, &Entry)| left.norm_sqr() / variance(entry, line);
+        let of_entry =
+            |(left, entry): (&Complex64, &Entry)| left.norm_sqr() / variance(entry, line);
         let mut cost: f64 = left.iter().zip(entries).map(of_entry).sum();
         let variances = self.labelled_variance(line, point, labelled);
         let mut variances = variances.iter();

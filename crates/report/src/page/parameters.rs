@@ -7,7 +7,7 @@ use bolted_joint_figures::html::{
     beside, cell, escaped, number_cell, quantity, shown, spread, table,
 };
 use bolted_joint_identify::{JointEstimate, Unknown};
-use bolted_joint_joint::with_symbols;
+use bolted_joint_joint::{Drawn, with_symbols};
 
 /// Digits of a parameter.
 const DIGITS: usize = 5;
@@ -249,9 +249,13 @@ fn bootstrap(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String
         return String::new();
     };
     let mut html = format!(
-        "<h3>Bootstrap{}</h3>\n<p>{} from the fitted model, seed {}; the estimate converged on {} of them.</p>\n",
+        "<h3>Bootstrap{}</h3>\n<p>{} of {} from the fitted model, seed {}; the estimate converged on {} of them.</p>\n",
         place(joint),
         counted(result.draws, "draw"),
+        match result.drawn {
+            Drawn::Noise => "noise",
+            Drawn::NoiseAndSetUp => "noise and of errors of the set-up within the error budget",
+        },
         result.seed,
         result.converged
     );

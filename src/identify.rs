@@ -391,8 +391,10 @@ pub(super) fn basis(found: &Identification) -> String {
         let ending = if count == 1 { "" } else { "s" };
         format!("{count} {thing}{ending}")
     };
+    let equations = found.estimate.equations_on_both_sides();
+    let by = equations.map(|equations| format!(", decoupled by {equations}"));
     format!(
-        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz",
+        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz{}",
         found.model,
         at_bolts(&found.bolts),
         counted(
@@ -408,6 +410,7 @@ pub(super) fn basis(found: &Identification) -> String {
         counted(frequency_hz.len(), "line"),
         number(frequency_hz[0], 4),
         number(frequency_hz[frequency_hz.len() - 1], 4),
+        by.unwrap_or_default(),
     )
 }
 

@@ -127,10 +127,14 @@ pub fn identify_and_draw(
     } = assemble::lines(study, watch)?;
     let of_b = &all[0].points.clone();
     let dofs = study.dofs_of_a_bolt();
-    let labels = [
-        assemble::measured_labels(&study.a, dofs, &[]),
-        assemble::measured_labels(&study.b, dofs, of_b),
-    ];
+    let labels = match study.points_by_side() {
+        (_, []) => [
+            assemble::measured_labels(&study.a, dofs, &[]),
+            assemble::measured_labels(&study.b, dofs, of_b),
+        ],
+        // both structures are one
+        _ => [Vec::new(), Vec::new()],
+    };
     let apart = are_together(study, &all).err();
     let has_budget = study.has_causes() && apart.is_none();
     let mut options = Options {
@@ -141,6 +145,9 @@ pub fn identify_and_draw(
         compare_models: study.compares_rivals,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
+        points_on_a: std::iter::once(study.points_on_a)
+            .chain(study.further.iter().map(|further| further.points_on_a))
+            .collect(),
         has_budget,
         // with causes it draws these, too, and follows
         bootstrap: bootstrap.filter(|_| !has_budget),

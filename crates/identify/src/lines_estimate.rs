@@ -16,7 +16,7 @@ use super::decoupling;
 use super::error::IdentifyError;
 use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
 use super::layout::{Bolts, Layout};
-use super::line_by_line::{decouple, is_complete};
+use super::line_by_line::{Equations, decouple};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Levels, Noise, NoiseLevel, Of};
@@ -46,6 +46,8 @@ pub struct Options<'a> {
     pub torques_n_m: Vec<f64>,
     /// Whether each torque has a joint of its own.
     pub dependence: TorqueDependence,
+    /// How many points of each assembly, the last ones, are on A; none where the list is empty.
+    pub points_on_a: Vec<usize>,
     /// Whether an estimate with errors of the set-up follows, which has a search of its own where these lead this one astray.
     pub has_budget: bool,
     /// Bootstrap to run, if any.
@@ -68,6 +70,8 @@ impl Options<'_> {
 #[derive(Clone, Debug)]
 pub struct LinesEstimate {
     decoupled: Vec<Vec<Option<ComplexMatrix>>>,
+    /// The equations by which each assembly was decoupled; none where it was not.
+    pub equations: Vec<Option<Equations>>,
     /// All joints: the common one, or one for each torque in the order of their first assemblies.
     pub joints: Vec<JointEstimate>,
     joint_of_assembly: Vec<usize>,
@@ -154,6 +158,21 @@ impl LinesEstimate {
             ));
         }
         self
+    }
+
+    /// The equations of the decoupling, one after the other, where any assembly was measured on A.
+    #[must_use]
+    pub fn equations_on_both_sides(&self) -> Option<String> {
+        let mut named: Vec<String> = Vec::new();
+        for equations in self.equations.iter().flatten() {
+            let name = equations.to_string();
+            if !named.contains(&name) {
+                named.push(name);
+            }
+        }
+        let is_on_a = |equations: &Option<Equations>| *equations != Some(Equations::Ss);
+        let is_any = self.equations.iter().flatten().count() > 0;
+        (is_any && self.equations.iter().any(is_on_a)).then(|| named.join("; "))
     }
 
     /// The number of the joint that each assembly has.
@@ -301,12 +320,19 @@ pub fn identify_lines(
         assignment.joints,
     );
     let noise = &options.noise;
+    let on_a = options.points_on_a.iter().copied();
+    let on_a = on_a.chain(std::iter::repeat(0));
+    let equations: Vec<Option<Equations>> = all
+        .iter()
+        .zip(on_a)
+        .map(|(lines, on_a)| Equations::of(lines, on_a))
+        .collect();
     let (problem, decoupled) = parallel::both(
         || Problem::new(assignment, noise),
         || {
-            let lines = all.iter();
+            let lines = all.iter().zip(&equations);
             lines
-                .map(|lines| decouple(lines, &layout))
+                .map(|(lines, equations)| decouple(lines, &layout, *equations))
                 .collect::<Vec<_>>()
         },
     );
@@ -385,7 +411,7 @@ pub fn identify_lines(
     let torque_choice = torques
         .filter(|_| options.compare_models)
         .and_then(|torques| torque::compare(all, &torques, noise, &layout, dependence, &found));
-    let mut warnings = warnings(all, &layout, &found);
+    let mut warnings = warnings(all, &equations, &layout, &found);
     let of_joints = joints.iter().flat_map(|joint| joint.warnings(names));
     let joint_warnings: Vec<String> = complaint(&found, &joints)
         .into_iter()
@@ -399,6 +425,7 @@ pub fn identify_lines(
     );
     Ok(LinesEstimate {
         decoupled,
+        equations,
         noise_level,
         levels,
         joints,
@@ -467,7 +494,12 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
     }
 }
 
-fn warnings(all: &[Lines], layout: &Layout, found: &Found) -> Vec<String> {
+fn warnings(
+    all: &[Lines],
+    equations: &[Option<Equations>],
+    layout: &Layout,
+    found: &Found,
+) -> Vec<String> {
     let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
@@ -494,8 +526,8 @@ fn warnings(all: &[Lines], layout: &Layout, found: &Found) -> Vec<String> {
             once(&mut warnings, warning);
         }
     }
-    for lines in all {
-        if !is_complete(lines) {
+    for (lines, equations) in all.iter().zip(equations) {
+        if equations.is_none() {
             let warning = format!(
                 "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
                  refined estimate does not need them",

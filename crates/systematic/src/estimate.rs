@@ -331,7 +331,7 @@ fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
         search(task, led.point, settings, &released)
     };
     let assemblies = 0..experiment.assemblies.len();
-    let leading = assemblies.filter(|_| experiment.has_common_errors() && !task.priors.is_empty());
+    let leading = assemblies.filter(|_| experiment.joints() > 1 && !task.priors.is_empty());
     let [first, others @ ..] = INFLATIONS;
     let ways = std::iter::once(Way::Inflated(first))
         .chain(leading.map(Way::Led))

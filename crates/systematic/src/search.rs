@@ -24,8 +24,10 @@ const SHORTEST: f64 = 0.25;
 pub(crate) const TOLERANCE: f64 = 0.01;
 /// A step longer than this many standard deviations is taken as far as it leaves less …
 const LONG: f64 = 1.0;
-/// … and is halved so often at most.
-const MOST_HALVINGS: usize = 5;
+/// … down to this part, which is taken where no part leaves less.
+const SHORTEST_PART: f64 = 0.04;
+/// A search that finds no way down more often than this, one time after the other, is given up.
+const MOST_STUCK: usize = 4;
 /// Of a search that has used up its steps, the last one may have been so many standard deviations long.
 const TOLERABLE: f64 = 0.3;
 /// Prior standard deviations that a cause may move in one step.
@@ -114,6 +116,7 @@ pub(crate) fn search(
     let mut inflated = inflation.from.clone();
     let mut rests = !has_labelled;
     let mut before: Option<DVector<f64>> = None;
+    let mut stuck = 0;
     for iteration in 0..settings.most_iterations {
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
         let frozen = !rests;
@@ -175,7 +178,22 @@ pub(crate) fn search(
         let mut step = step * (part * damping);
         if frozen && largest > LONG {
             let now = cost + priors_cost(task, &point);
-            step *= descending(task, &point, &step, (&terms, &whitened), now);
+            let down = descending(task, &point, &step, (&terms, &whitened), now);
+            stuck = if down.is_some() { 0 } else { stuck + 1 };
+            step *= down.unwrap_or(SHORTEST_PART);
+        }
+        if stuck > MOST_STUCK {
+            drop(whitened);
+            return Some(Found {
+                point,
+                labelled,
+                lines,
+                information,
+                cost,
+                shares,
+                iterations: iteration + 1,
+                converged: false,
+            });
         }
         before = Some(step.component_div(&deviation));
         if has_labelled && !frozen {
@@ -211,15 +229,14 @@ fn damping(before: Option<&DVector<f64>>, step: &DVector<f64>, deviation: &DVect
     }
 }
 
-/// Part of a long step after which less is left than `now`, with the covariances of where it begins; the shortest that is tried
-/// where no part does that.
+/// Part of a long step after which less is left than `now`, with the covariances of where it begins; `None` where no part is.
 fn descending(
     task: &Task<'_>,
     point: &Point,
     step: &DVector<f64>,
     (terms, whitened): (&[(usize, Terms)], &[Whitened<'_>]),
     now: f64,
-) -> f64 {
+) -> Option<f64> {
     let left = |part: f64| -> Option<f64> {
         let mut moved = point.clone();
         moved.moves(&(step * part));
@@ -234,13 +251,13 @@ fn descending(
         Some(lines?.iter().sum::<f64>() + priors_cost(task, &moved))
     };
     let mut part = 1.0;
-    for _ in 0..MOST_HALVINGS {
+    while part > SHORTEST_PART {
         if left(part).is_some_and(|left| left < now) {
-            break;
+            return Some(part);
         }
         part *= 0.5;
     }
-    part
+    None
 }
 
 /// Σ (ν/σ)²

@@ -54,9 +54,12 @@ impl Systematic {
                 causes: draw(&mut drawn, &origin, &mut normal)?,
                 unknowns: self.unknowns.clone(),
             };
-            let found = estimate_near(&drawn, &priors, &start, &Settings::default());
+            let settings = Settings::default();
+            let found = estimate_near(&drawn, &priors, &start, &settings);
             progress();
-            found.map(|found| DVector::from_vec(found.unknowns))
+            // what leaves more than noise would be refused, too
+            let found = found.filter(|found| found.fits(&settings))?;
+            Some(DVector::from_vec(found.unknowns))
         };
         let numbers: Vec<u64> = (0..bootstrap.draws as u64).collect();
         parallel::map(&numbers, one).into_iter().flatten().collect()

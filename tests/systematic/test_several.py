@@ -169,13 +169,14 @@ def test_assemblies_with_other_points_say_why_no_cause_takes_part(program, tmp_p
 
 def test_a_bootstrap_with_the_budget_draws_the_causes_too(program, tmp_path, monkeypatch):
     sets = assemblies(monkeypatch, [Mistakes()], [1], 5)
-    options = ["--bootstrap", "40", "--seed", "7", "--no-rivals"]
+    options = ["--bootstrap", "12", "--seed", "7", "--no-rivals"]
     whole, _ = identify(program, tmp_path, sets, options=options)
     record = whole["joint_file"]["uncertainty"]["bootstrap"]
-    assert record["drawn"] == "noise-and-set-up" and record["converged"] > 30
+    assert record["drawn"] == "noise-and-set-up" and record["converged"] >= 9
     ratio = entries(record["standard_deviation"]) / of_common(whole)[1]
-    # forty draws tell a deviation to 11 %
-    assert (ratio > 0.65).all() and (ratio < 1.45).all(), ratio
+    # Twelve draws tell a deviation to 21 %. How well the data tell the joint depends on the errors that they have: with others,
+    # drawn anew, deviations of the damping are up to three times those of data without any.
+    assert (ratio > 0.5).all() and (ratio < 3).all(), ratio
     # by noise alone the first three are several times smaller
     noise = np.array(whole["budget"]["standard_deviation_of_noise"])
     assert (entries(record["standard_deviation"])[:3] > 1.5 * noise[:3]).all()

@@ -1,7 +1,9 @@
 //! Parametric bootstrap of the estimate with the set-up's errors: causes drawn from their priors, noise with them, and all of it
 //! estimated anew.
 
-use bolted_joint_systematic::{CauseEstimate, Origin, Prior, Settings, Start, draw, estimate_near};
+use bolted_joint_systematic::{
+    CauseEstimate, Estimate, Origin, Prior, Settings, Start, draw, estimate, estimate_near,
+};
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -16,7 +18,7 @@ use super::{MOST_LINES, MOST_LINES_OF_A_SEARCH, Systematic, experiment, together
 
 impl Systematic {
     /// The unknowns that are estimated from each draw, of those draws on which the search comes to rest. A draw begins at the joint
-    /// and the causes that it was made with. Many lines are thinned out, and their noise is as much less. `progress` is called after
+    /// and the causes that it was made with and, where that leads to nothing that fits, as an identification does. Many lines are thinned out, and their noise is as much less. `progress` is called after
     /// each.
     pub(in super::super) fn draws(
         &self,
@@ -55,11 +57,15 @@ impl Systematic {
                 unknowns: self.unknowns.clone(),
             };
             let settings = Settings::default();
-            let found = estimate_near(&drawn, &priors, &start, &settings);
-            progress();
             // what leaves more than noise would be refused, too
-            let found = found.filter(|found| found.fits(&settings))?;
-            Some(DVector::from_vec(found.unknowns))
+            let fits = |found: &Estimate| found.fits(&settings);
+            let near = estimate_near(&drawn, &priors, &start, &settings).filter(fits);
+            let found = near.or_else(|| {
+                let start = Start::without_causes(&self.unknowns);
+                estimate(&drawn, &priors, &start, &settings).filter(fits)
+            });
+            progress();
+            Some(DVector::from_vec(found?.unknowns))
         };
         let numbers: Vec<u64> = (0..bootstrap.draws as u64).collect();
         parallel::map(&numbers, one).into_iter().flatten().collect()

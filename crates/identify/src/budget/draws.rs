@@ -24,7 +24,7 @@ impl Systematic {
         &self,
         study: &Study,
         all: &[Lines],
-        estimate: &LinesEstimate,
+        plain: &LinesEstimate,
         bootstrap: Bootstrap,
         progress: &(dyn Fn() + Sync),
     ) -> Vec<DVector<f64>> {
@@ -45,7 +45,7 @@ impl Systematic {
             let mut generator = ChaCha8Rng::seed_from_u64(bootstrap.seed);
             generator.set_stream(number);
             let mut normal = || StandardNormal.sample(&mut generator);
-            let joints = estimate.joint_numbers();
+            let joints = plain.joint_numbers();
             let mut drawn = experiment::of(study, &few, joints, &layout, self.levels)?;
             let origin = Origin {
                 unknowns: &self.unknowns,

@@ -17,9 +17,9 @@ use super::super::study::Study;
 use super::{MOST_LINES, MOST_LINES_OF_A_SEARCH, Systematic, experiment, together};
 
 impl Systematic {
-    /// The unknowns that are estimated from each draw, of those draws on which the search comes to rest. A draw begins at the joint
-    /// and the causes that it was made with and, where that leads to nothing that fits, as an identification does. Many lines are thinned out, and their noise is as much less. `progress` is called after
-    /// each.
+    /// The unknowns that are estimated from each draw, of those draws on which the search comes to rest. A draw begins at
+    /// the joint and the causes that it was made with and, where that leads to nothing that fits, as an identification
+    /// does. Many lines are thinned out, and their noise is as much less. `progress` is called after each.
     pub(in super::super) fn draws(
         &self,
         study: &Study,

@@ -15,7 +15,7 @@ use bolted_joint::export::Timestamp;
 use bolted_joint::identify::{
     Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
 };
-use bolted_joint::joint::JointFile;
+use bolted_joint::joint::{Drawn, JointFile};
 use bolted_joint::report::{FrfFigure, FrfPanel, IdentificationReport};
 use bolted_joint::study::{Method, StudyText};
 
@@ -359,8 +359,14 @@ fn bootstrap(result: &BootstrapResult, joint: &JointEstimate, bolts: &[String]) 
     let at = place(joint);
     let unknowns = &joint.covariance.unknowns;
     let mut text = format!(
-        "\nbootstrap{at}: {} draws, seed {}, {} converged\n",
-        result.draws, result.seed, result.converged
+        "\nbootstrap{at}: {} draws of {}, seed {}, {} converged\n",
+        result.draws,
+        match result.drawn {
+            Drawn::Noise => "noise",
+            Drawn::NoiseAndSetUp => "noise and of errors of the set-up",
+        },
+        result.seed,
+        result.converged
     );
     if result.converged > 1 {
         let mut table = Table::new(&["", "± std. dev.", "95 % interval", "unit"]);
@@ -385,8 +391,10 @@ pub(super) fn basis(found: &Identification) -> String {
         let ending = if count == 1 { "" } else { "s" };
         format!("{count} {thing}{ending}")
     };
+    let equations = found.estimate.equations_on_both_sides();
+    let by = equations.map(|equations| format!(", decoupled by {equations}"));
     format!(
-        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz",
+        "joint model \"{}\"{} from {} at {}, {} from {} to {} Hz{}",
         found.model,
         at_bolts(&found.bolts),
         counted(
@@ -402,6 +410,7 @@ pub(super) fn basis(found: &Identification) -> String {
         counted(frequency_hz.len(), "line"),
         number(frequency_hz[0], 4),
         number(frequency_hz[frequency_hz.len() - 1], 4),
+        by.unwrap_or_default(),
     )
 }
 

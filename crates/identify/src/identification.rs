@@ -127,10 +127,14 @@ pub fn identify_and_draw(
     } = assemble::lines(study, watch)?;
     let of_b = &all[0].points.clone();
     let dofs = study.dofs_of_a_bolt();
-    let labels = [
-        assemble::measured_labels(&study.a, dofs, &[]),
-        assemble::measured_labels(&study.b, dofs, of_b),
-    ];
+    let labels = match study.points_by_side() {
+        (_, []) => [
+            assemble::measured_labels(&study.a, dofs, &[]),
+            assemble::measured_labels(&study.b, dofs, of_b),
+        ],
+        // both structures are one
+        _ => [Vec::new(), Vec::new()],
+    };
     let apart = are_together(study, &all).err();
     let has_budget = study.has_causes() && apart.is_none();
     let mut options = Options {
@@ -141,8 +145,12 @@ pub fn identify_and_draw(
         compare_models: study.compares_rivals,
         torques_n_m: torques(study).unwrap_or_default(),
         dependence: study.torques,
+        points_on_a: std::iter::once(study.points_on_a)
+            .chain(study.further.iter().map(|further| further.points_on_a))
+            .collect(),
         has_budget,
-        bootstrap,
+        // with causes it draws these, too, and follows
+        bootstrap: bootstrap.filter(|_| !has_budget),
         progress: Some(&|| watch.drawn()),
     };
     let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
@@ -188,9 +196,24 @@ pub fn identify_and_draw(
         Some(_) => Vec::new(),
         None => slips,
     };
-    let estimate = match &systematic {
-        Some(found) => estimate.with_systematic_errors(found, study.bolts.with_own_joint()),
-        None => estimate,
+    let estimate = match (&systematic, bootstrap) {
+        (Some(found), bootstrap) => {
+            let draws = bootstrap.map(|bootstrap| {
+                let progress = || watch.drawn();
+                let draws = found.draws(study, &all, &estimate, bootstrap, &progress);
+                (bootstrap, draws)
+            });
+            let estimate = estimate.with_systematic_errors(found, study.bolts.with_own_joint());
+            match draws {
+                Some((bootstrap, draws)) => estimate.with_draws(bootstrap, &draws),
+                None => estimate,
+            }
+        }
+        (None, Some(_)) if has_budget => {
+            options.bootstrap = bootstrap;
+            estimated(study, &all, &options)?
+        }
+        (None, _) => estimate,
     };
     let mut fitted = Vec::with_capacity(all.len());
     for (number, lines) in all.into_iter().enumerate() {
@@ -228,9 +251,6 @@ pub fn identify_and_draw(
     warnings.extend(study.rotations_not_corrected());
     if systematic.is_none() && slips.is_empty() && study.has_causes() {
         warnings.push(Systematic::not_applied(apart));
-    }
-    if systematic.is_some() && bootstrap.is_some() {
-        warnings.push(Systematic::BESIDE_A_BOOTSTRAP.to_owned());
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());

@@ -1,5 +1,6 @@
 //! The joint of one torque, or of all, with how sure it is.
 
+use bolted_joint_joint::Drawn;
 use bolted_joint_statistics::{quantile, student_975};
 use nalgebra::{DMatrix, DVector};
 
@@ -45,6 +46,8 @@ pub struct JointEstimate {
 /// Scatter of the estimates over bootstrap draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BootstrapResult {
+    /// What differs from draw to draw.
+    pub drawn: Drawn,
     /// Draws asked for.
     pub draws: usize,
     /// Seed.
@@ -278,6 +281,7 @@ impl BootstrapResult {
     /// What the draws show of those unknowns that they hold.
     pub(super) fn of(
         bootstrap: Bootstrap,
+        drawn: Drawn,
         draws: &[DVector<f64>],
         own: std::ops::Range<usize>,
     ) -> Self {
@@ -294,6 +298,7 @@ impl BootstrapResult {
         let own = if draws.is_empty() { 0..0 } else { own };
         let unknowns: Vec<Vec<f64>> = own.map(sorted).collect();
         Self {
+            drawn,
             draws: bootstrap.draws,
             seed: bootstrap.seed,
             converged: draws.len(),

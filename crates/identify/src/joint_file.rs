@@ -138,7 +138,7 @@ impl Identification {
         let names = own
             .iter()
             .map(|&index| nominal.covariance.unknowns[index].name);
-        let nominal = self.at_torque(nominal, bolt);
+        let nominal = self.at_torque((0, nominal), bolt);
         let budget = match self.systematic {
             Some(_) => ", and errors of the set-up within the error budget",
             None => "",
@@ -154,7 +154,7 @@ impl Identification {
             }),
             interval_95: nominal.interval_95,
             inflation: (inflation > 1.0).then_some(inflation),
-            budget: self.budget(&own),
+            budget: nominal.budget,
             not_identified: nominal.not_identified,
             free_estimate: nominal.free_estimate,
             bootstrap: nominal.bootstrap,
@@ -162,7 +162,7 @@ impl Identification {
         })
     }
 
-    /// What errors of the set-up do to the unknowns number `own`.
+    /// What errors of the set-up do to the unknowns number `own` among those of all torques.
     fn budget(&self, own: &[usize]) -> Option<BudgetRecord> {
         let found = self.systematic.as_ref()?;
         let noise: Vec<f64> = found
@@ -209,7 +209,7 @@ impl Identification {
         UncertaintyOverPreload {
             at: joints
                 .iter()
-                .map(|(_, joint)| self.at_torque(joint, bolt))
+                .map(|&numbered| self.at_torque(numbered, bolt))
                 .collect(),
             correlation: Some(Correlation {
                 unknowns: names.collect(),
@@ -218,9 +218,15 @@ impl Identification {
         }
     }
 
-    fn at_torque(&self, joint: &JointEstimate, bolt: usize) -> UncertaintyAtPreload {
+    fn at_torque(
+        &self,
+        (number, joint): (usize, &JointEstimate),
+        bolt: usize,
+    ) -> UncertaintyAtPreload {
         let covariance = &joint.covariance;
         let own = joint.unknowns_of(bolt);
+        let first = number * covariance.unknowns.len();
+        let among_all: Vec<usize> = own.iter().map(|index| first + index).collect();
         let open = own.iter().filter(|&&index| !covariance.identified[index]);
         let (deviation, ends) = (covariance.standard_deviation(), joint.intervals());
         let (free, passive) = (&joint.free[bolt], &joint.bolts()[bolt]);
@@ -228,6 +234,7 @@ impl Identification {
             preload: torque(joint),
             standard_deviation: deviations(self.model, &chosen(&deviation, &own)),
             interval_95: Some(intervals(self.model, &chosen(&ends, &own))),
+            budget: self.budget(&among_all),
             not_identified: open
                 .map(|&index| covariance.unknowns[index].name.to_owned())
                 .collect(),
@@ -324,6 +331,7 @@ fn chosen<T: Copy>(values: &[T], own: &[usize]) -> Vec<T> {
 
 fn bootstrap(model: JointModel, result: &BootstrapResult, own: &[usize]) -> BootstrapRecord {
     BootstrapRecord {
+        drawn: result.drawn,
         draws: result.draws,
         seed: result.seed,
         converged: result.converged,

@@ -80,6 +80,7 @@ pub use identification::{AssemblyFit, FunctionFit, Identification, identify, ide
 pub use joint_estimate::{BootstrapResult, JointEstimate};
 pub use layout::{Bolts, MOST_BOLTS};
 pub use level::{Level, LevelMeasure, LevelQuantity};
+pub use line_by_line::Equations;
 pub use lines::{Lines, Repeats};
 pub use lines_estimate::{LinesEstimate, Options, identify_lines};
 pub use model::{JointMatrices, JointModel};

@@ -1,6 +1,10 @@
 //! K* of each line of an assembly by (3.21), as `decoupling` computes it, in matrices of fixed size: there are many lines.
 
+use std::fmt;
+use std::ops::Range;
+
 use bolted_joint_frf::structure::{ComplexMatrix, Partition};
+use num_complex::Complex64;
 
 use super::decoupling;
 use super::kernel::{Small, dot, filled, for_dofs, inverse, vector};
@@ -11,21 +15,143 @@ use super::lines::Lines;
 /// A column of unit length of which less than this is left beside those before it depends on them.
 const DEPENDENT: f64 = 1e-10;
 
-/// Whether every pair of points was measured, at least as its transpose.
-pub(super) fn is_complete(lines: &Lines) -> bool {
-    let count = lines.points.len();
-    let has = |place: (usize, usize)| {
-        lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
-    };
-    (0..count).all(|p| (0..count).all(|q| has((p, q))))
+/// The equations of Tol by which an assembly is decoupled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Equations {
+    /// (3.21): every pair of points on B.
+    Ss,
+    /// (3.18): every pair of points on A.
+    Rr,
+    /// (3.18) to (3.21) at once, by least squares: every pair of points on both sides.
+    All {
+        /// How many of the points, the last ones, are on A.
+        on_a: usize,
+    },
+    /// (3.18) alone, beside points on B whose pairs were not all measured.
+    RrOf {
+        /// How many of the points, the last ones, are on A.
+        on_a: usize,
+    },
+    /// (3.19): every pair of a response on A and a reference on B, or (3.20), which is its transpose.
+    Rs {
+        /// How many of the points, the last ones, are on A.
+        on_a: usize,
+    },
+    /// (3.21) alone, beside points on A whose pairs were not all measured.
+    SsOf {
+        /// How many of the points, the last ones, are on A.
+        on_a: usize,
+    },
 }
 
-/// K* of each line by (3.21), over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be had.
-pub(super) fn decouple(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
-    let of: Option<OfLines> = for_dofs!(lines.joint_dofs(), with_dofs);
-    match of {
-        Some(of) if is_complete(lines) => of(lines, layout),
-        _ => vec![None; lines.frequency_hz.len()],
+/// As equations are numbered.
+impl fmt::Display for Equations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Ss | Self::SsOf { .. } => "(3.21)",
+            Self::Rr | Self::RrOf { .. } => "(3.18)",
+            Self::Rs { .. } => "(3.19) and (3.20)",
+            Self::All { .. } => "(3.18) to (3.21) at once",
+        })
+    }
+}
+
+impl Equations {
+    /// What the measured pairs allow, `on_a` of the points, the last ones, being on A; `None` if nothing.
+    pub(super) fn of(lines: &Lines, on_a: usize) -> Option<Self> {
+        let count = lines.points.len();
+        let (b, a) = (0..count - on_a.min(count), count - on_a.min(count)..count);
+        let has = |place: (usize, usize)| {
+            lines.measured.contains(&place) || lines.measured.contains(&(place.1, place.0))
+        };
+        let is_complete = |rows: &Range<usize>, columns: &Range<usize>| {
+            let mut pairs = rows
+                .clone()
+                .flat_map(|p| columns.clone().map(move |q| (p, q)));
+            !rows.is_empty() && !columns.is_empty() && pairs.all(has)
+        };
+        let [ss, rr, rs] = [(&b, &b), (&a, &a), (&a, &b)].map(|(p, q)| is_complete(p, q));
+        match (a.is_empty(), b.is_empty()) {
+            (true, _) => ss.then_some(Self::Ss),
+            (false, true) => rr.then_some(Self::Rr),
+            (false, false) if ss && rr && rs => Some(Self::All { on_a }),
+            (false, false) if rs => Some(Self::Rs { on_a }),
+            (false, false) if ss => Some(Self::SsOf { on_a }),
+            (false, false) => rr.then_some(Self::RrOf { on_a }),
+        }
+    }
+}
+
+/// Blocks of an assembly that was measured on both sides, of one structure that both are as long as they are apart.
+struct Sides {
+    /// A at the joint, which is still, and at its points.
+    a: Partition,
+    /// Both at the joint, and B at its points.
+    b: Partition,
+    rr: ComplexMatrix,
+    rs: ComplexMatrix,
+    ss: ComplexMatrix,
+}
+
+impl Sides {
+    fn of(lines: &Lines, used: &[usize], line: usize, on_a: usize) -> Self {
+        let whole = lines.b_at(line);
+        let of_b = lines.points.len() - on_a;
+        let joint = whole.joint.select_rows(used).select_columns(used);
+        let to_points = whole.points_joint.select_columns(used);
+        let assembly = &lines.assembly[line];
+        let block = |at: (usize, usize), size: (usize, usize), matrix: &ComplexMatrix| {
+            matrix.view(at, size).into_owned()
+        };
+        let side = |joint: ComplexMatrix, first: usize, count: usize, sign: f64| {
+            let to_points = to_points.rows(first, count) * Complex64::from(sign);
+            Partition {
+                joint,
+                joint_points: to_points.transpose(),
+                points_joint: to_points,
+                points: block((first, first), (count, count), &whole.points),
+            }
+        };
+        let still = ComplexMatrix::zeros(used.len(), used.len());
+        Self {
+            // H_ur = −H_jr
+            a: side(still, of_b, on_a, -1.0),
+            b: side(joint, 0, of_b, 1.0),
+            rr: block((of_b, of_b), (on_a, on_a), assembly),
+            rs: block((of_b, 0), (on_a, of_b), assembly),
+            ss: block((0, 0), (of_b, of_b), assembly),
+        }
+    }
+}
+
+/// K* of each line by these equations, over the DOFs of all bolts that the joint model makes use of; `None` where it cannot be
+/// had.
+pub(super) fn decouple(
+    lines: &Lines,
+    layout: &Layout,
+    equations: Option<Equations>,
+) -> Vec<Option<ComplexMatrix>> {
+    type By = fn(&Partition, &Partition, &ComplexMatrix) -> Option<ComplexMatrix>;
+    let used = layout.used_dofs();
+    let of_sides = |on_a: usize, by: By, block: fn(&Sides) -> &ComplexMatrix| {
+        let count = 0..lines.frequency_hz.len();
+        let of_line = |line| {
+            let sides = Sides::of(lines, &used, line, on_a);
+            by(&sides.a, &sides.b, block(&sides))
+        };
+        count.map(of_line).collect()
+    };
+    let none = || vec![None; lines.frequency_hz.len()];
+    match equations {
+        None => none(),
+        Some(Equations::Rs { on_a }) => of_sides(on_a, decoupling::from_rs, |sides| &sides.rs),
+        Some(Equations::RrOf { on_a }) => of_sides(on_a, decoupling::from_rr, |sides| &sides.rr),
+        Some(Equations::SsOf { on_a }) => of_sides(on_a, decoupling::from_ss, |sides| &sides.ss),
+        // of one structure all of these are (3.21)
+        Some(Equations::Ss | Equations::Rr | Equations::All { .. }) => {
+            let of: Option<OfLines> = for_dofs!(lines.joint_dofs(), with_dofs);
+            of.map_or_else(none, |of| of(lines, layout))
+        }
     }
 }
 

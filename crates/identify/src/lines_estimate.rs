@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
+use bolted_joint_joint::Drawn;
 
 use super::assessment::Assessment;
 use super::averages::{Decoupled, band_averages, first_bands, used_bands};
@@ -15,7 +16,7 @@ use super::decoupling;
 use super::error::IdentifyError;
 use super::joint_estimate::{BootstrapResult, CovarianceOfAll, JointEstimate};
 use super::layout::{Bolts, Layout};
-use super::line_by_line::{decouple, is_complete};
+use super::line_by_line::{Equations, decouple};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Levels, Noise, NoiseLevel, Of};
@@ -45,6 +46,8 @@ pub struct Options<'a> {
     pub torques_n_m: Vec<f64>,
     /// Whether each torque has a joint of its own.
     pub dependence: TorqueDependence,
+    /// How many points of each assembly, the last ones, are on A; none where the list is empty.
+    pub points_on_a: Vec<usize>,
     /// Whether an estimate with errors of the set-up follows, which has a search of its own where these lead this one astray.
     pub has_budget: bool,
     /// Bootstrap to run, if any.
@@ -67,6 +70,8 @@ impl Options<'_> {
 #[derive(Clone, Debug)]
 pub struct LinesEstimate {
     decoupled: Vec<Vec<Option<ComplexMatrix>>>,
+    /// The equations by which each assembly was decoupled; none where it was not.
+    pub equations: Vec<Option<Equations>>,
     /// All joints: the common one, or one for each torque in the order of their first assemblies.
     pub joints: Vec<JointEstimate>,
     joint_of_assembly: Vec<usize>,
@@ -137,6 +142,37 @@ impl LinesEstimate {
             unrest: if found.converged { 0.0 } else { f64::INFINITY },
             ..self
         }
+    }
+
+    /// The same with what a bootstrap of noise and causes shows.
+    #[must_use]
+    pub(super) fn with_draws(mut self, bootstrap: Bootstrap, draws: &[DVector<f64>]) -> Self {
+        let size = self.layout.unknowns();
+        for (number, joint) in self.joints.iter_mut().enumerate() {
+            let own = number * size..(number + 1) * size;
+            joint.bootstrap = Some(BootstrapResult::of(
+                bootstrap,
+                Drawn::NoiseAndSetUp,
+                draws,
+                own,
+            ));
+        }
+        self
+    }
+
+    /// The equations of the decoupling, one after the other, where any assembly was measured on A.
+    #[must_use]
+    pub fn equations_on_both_sides(&self) -> Option<String> {
+        let mut named: Vec<String> = Vec::new();
+        for equations in self.equations.iter().flatten() {
+            let name = equations.to_string();
+            if !named.contains(&name) {
+                named.push(name);
+            }
+        }
+        let is_on_a = |equations: &Option<Equations>| *equations != Some(Equations::Ss);
+        let is_any = self.equations.iter().flatten().count() > 0;
+        (is_any && self.equations.iter().any(is_on_a)).then(|| named.join("; "))
     }
 
     /// The number of the joint that each assembly has.
@@ -284,12 +320,19 @@ pub fn identify_lines(
         assignment.joints,
     );
     let noise = &options.noise;
+    let on_a = options.points_on_a.iter().copied();
+    let on_a = on_a.chain(std::iter::repeat(0));
+    let equations: Vec<Option<Equations>> = all
+        .iter()
+        .zip(on_a)
+        .map(|(lines, on_a)| Equations::of(lines, on_a))
+        .collect();
     let (problem, decoupled) = parallel::both(
         || Problem::new(assignment, noise),
         || {
-            let lines = all.iter();
+            let lines = all.iter().zip(&equations);
             lines
-                .map(|lines| decouple(lines, &layout))
+                .map(|(lines, equations)| decouple(lines, &layout, *equations))
                 .collect::<Vec<_>>()
         },
     );
@@ -342,9 +385,9 @@ pub fn identify_lines(
             },
             bands,
             covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
-            bootstrap: draws
-                .as_ref()
-                .map(|(bootstrap, draws)| BootstrapResult::of(*bootstrap, draws, own.clone())),
+            bootstrap: draws.as_ref().map(|(bootstrap, draws)| {
+                BootstrapResult::of(*bootstrap, Drawn::Noise, draws, own.clone())
+            }),
             whole: layout.whole(passive.as_ref().unwrap_or(&free)),
             layout: layout.clone(),
             free,
@@ -368,7 +411,7 @@ pub fn identify_lines(
     let torque_choice = torques
         .filter(|_| options.compare_models)
         .and_then(|torques| torque::compare(all, &torques, noise, &layout, dependence, &found));
-    let mut warnings = warnings(all, &layout, &found);
+    let mut warnings = warnings(all, &equations, &layout, &found);
     let of_joints = joints.iter().flat_map(|joint| joint.warnings(names));
     let joint_warnings: Vec<String> = complaint(&found, &joints)
         .into_iter()
@@ -382,6 +425,7 @@ pub fn identify_lines(
     );
     Ok(LinesEstimate {
         decoupled,
+        equations,
         noise_level,
         levels,
         joints,
@@ -450,7 +494,12 @@ pub(super) fn no_estimate(all: &[Lines], starts: usize) -> IdentifyError {
     }
 }
 
-fn warnings(all: &[Lines], layout: &Layout, found: &Found) -> Vec<String> {
+fn warnings(
+    all: &[Lines],
+    equations: &[Option<Equations>],
+    layout: &Layout,
+    found: &Found,
+) -> Vec<String> {
     let dofs = layout.used_dofs().len();
     let mut warnings = Vec::new();
     if found.estimate.degrees_of_freedom == 0 {
@@ -477,8 +526,8 @@ fn warnings(all: &[Lines], layout: &Layout, found: &Found) -> Vec<String> {
             once(&mut warnings, warning);
         }
     }
-    for lines in all {
-        if !is_complete(lines) {
+    for (lines, equations) in all.iter().zip(equations) {
+        if equations.is_none() {
             let warning = format!(
                 "{} of {} pairs of points were measured: without all of them there is no decoupling and no band average; the \
                  refined estimate does not need them",

@@ -158,6 +158,11 @@ impl MeasuredSubstructure {
         Self { lost, ..self }
     }
 
+    /// What is added at the joint's DOFs.
+    pub(super) fn lost(&self) -> Option<&DMatrix<f64>> {
+        self.lost.as_ref()
+    }
+
     /// With the frequency of each line, and which of the measured DOFs are rotations. Without them lines are taken for evenly
     /// spaced, and DOFs for translations.
     #[must_use]

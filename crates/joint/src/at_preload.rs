@@ -208,6 +208,7 @@ impl Uncertainty {
                 inflation: self.inflation,
                 not_identified: own.not_identified.clone(),
                 free_estimate: own.free_estimate.clone(),
+                budget: own.budget.clone(),
                 bootstrap: own.bootstrap.clone(),
                 ..Self::default()
             });

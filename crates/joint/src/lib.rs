@@ -32,9 +32,10 @@ pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::JointProblem;
 pub use record::{
     BandOriginRecord, BandRecord, BandsRecord, Bodies, Body, BootstrapRecord, BudgetRecord,
-    Correlation, Format, FreeEstimate, FromModesRecord, FunctionResidual, GroupRecord, InputFile,
-    Intervals, Joint, JointFile, NoiseRecord, OutlierRecord, OverPreload, Provenance, Residual,
-    StandardDeviation, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+    Correlation, Drawn, Format, FreeEstimate, FromModesRecord, FunctionResidual, GroupRecord,
+    InputFile, Intervals, Joint, JointFile, NoiseRecord, OutlierRecord, OverPreload, Provenance,
+    Residual, StandardDeviation, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload,
+    Validity,
 };
 pub use status::Status;
 pub use units::{description, superscript, unit, unit_for_people, with_symbols};

@@ -251,6 +251,9 @@ pub struct UncertaintyAtPreload {
     /// Interval of 95 % of each entry of the joint's matrices.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval_95: Option<Intervals>,
+    /// What errors of the set-up do to the standard deviations, where they take part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<BudgetRecord>,
     /// Unknowns that the data do not determine: their values are not to be believed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_identified: Vec<String>,
@@ -296,11 +299,26 @@ pub struct FreeEstimate {
     pub damping: Vec<Vec<f64>>,
 }
 
+/// What a bootstrap draws.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Drawn {
+    /// Noise alone.
+    #[default]
+    Noise,
+    /// Noise, and errors of the set-up within the error budget.
+    NoiseAndSetUp,
+}
+
 /// A parametric bootstrap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BootstrapRecord {
+    /// What differs from draw to draw.
+    #[serde(default)]
+    pub drawn: Drawn,
     /// Draws from the fitted model.
     pub draws: usize,
     /// Seed of the draws.

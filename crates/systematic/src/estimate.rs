@@ -6,7 +6,7 @@ use super::budget::Prior;
 use super::cause::{Cause, Side};
 use super::experiment::Experiment;
 use super::line::{Point, Task};
-use super::search::{Found, inverse, search, with_priors};
+use super::search::{Found, Inflation, inverse, priors_cost, search, with_priors};
 use super::shares::Shares;
 use super::starts::grid;
 
@@ -42,8 +42,8 @@ impl Default for Settings {
 pub struct Start {
     /// Stiffness of each unknown entry, then its damping; joint after joint.
     pub unknowns: Vec<f64>,
-    /// A cause that is not zero, with its value in its unit.
-    pub cause: Option<(Cause, f64)>,
+    /// Causes that are not zero, with their values in their units.
+    pub causes: Vec<(Cause, f64)>,
 }
 
 impl Start {
@@ -52,7 +52,7 @@ impl Start {
     pub fn without_causes(unknowns: &[f64]) -> Self {
         Self {
             unknowns: unknowns.to_vec(),
-            cause: None,
+            causes: Vec::new(),
         }
     }
 
@@ -64,9 +64,9 @@ impl Start {
     }
 
     pub(crate) fn point(&self, priors: &[Prior]) -> Point {
-        let value = |prior: &Prior| match self.cause {
-            Some((cause, value)) if cause == prior.cause => value,
-            _ => 0.0,
+        let value = |prior: &Prior| {
+            let own = self.causes.iter().find(|(cause, _)| *cause == prior.cause);
+            own.map_or(0.0, |(_, value)| *value)
         };
         Point {
             unknowns: self.unknowns.clone(),
@@ -191,16 +191,17 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
         most_lines: settings.most_lines.min(FEW_LINES),
         ..settings.clone()
     };
+    let none = Inflation::none(task.experiment);
     let mut nearest: Option<Found> = None;
     for unknowns in grid(task.experiment) {
         let start = Start::without_causes(&unknowns);
-        let near = search(task, start.point(task.priors), &few, 1.0);
+        let near = search(task, start.point(task.priors), &few, &none);
         let promises = |found: &Found| {
             let reduced = reduced_chi_squared(task, found);
             reduced.is_some_and(|reduced| reduced < settings.most_reduced_chi_squared)
         };
         if let Some(near) = near.as_ref().filter(|near| promises(near)) {
-            let found = search(task, near.point.clone(), settings, 1.0);
+            let found = search(task, near.point.clone(), settings, &none);
             if found.as_ref().is_some_and(fits) {
                 return found;
             }
@@ -210,7 +211,7 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
     let second = nearest.and_then(|nearest| {
         let near = Start::without_causes(&nearest.point.unknowns);
         let found = best(task, &near, settings);
-        found.or_else(|| search(task, nearest.point, settings, 1.0))
+        found.or_else(|| search(task, nearest.point, settings, &none))
     });
     better(task, first, second)
 }
@@ -255,6 +256,21 @@ pub(crate) fn estimate_with(
     )
 }
 
+/// As [`estimate`], with the priors as they are and from this start alone. `None` where that does not come to rest, too.
+#[must_use]
+pub fn estimate_near(
+    experiment: &Experiment<'_>,
+    priors: &[Prior],
+    start: &Start,
+    settings: &Settings,
+) -> Option<Estimate> {
+    let task = Task::new(experiment, priors);
+    let none = Inflation::none(experiment);
+    let found = search(&task, start.point(priors), settings, &none)?;
+    let found = Some(found).filter(|found| found.converged)?;
+    of(&task, found, &vec![None; priors.len()])
+}
+
 /// What the data say of a joint without causes, not searched for. `None` as in [`estimate`].
 #[must_use]
 pub fn evaluated(
@@ -268,7 +284,11 @@ pub fn evaluated(
     };
     let task = Task::new(experiment, &[]);
     let start = Start::without_causes(unknowns).point(&[]);
-    of(&task, search(&task, start, &settings, 1.0)?, &[])
+    of(
+        &task,
+        search(&task, start, &settings, &Inflation::none(experiment))?,
+        &[],
+    )
 }
 
 impl Estimate {
@@ -299,9 +319,29 @@ impl Estimate {
 }
 
 fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
+    let experiment = task.experiment;
+    let from = |inflation: f64| {
+        let inflation = Inflation::from(experiment, inflation);
+        search(task, start.point(task.priors), settings, &inflation)
+    };
+    // An assembly by itself is easier, and what it says of the structures leads the others.
+    let led_by = |leading: usize| {
+        let [held, released] = Inflation::led_by(experiment, leading);
+        let led = search(task, start.point(task.priors), settings, &held)?;
+        search(task, led.point, settings, &released)
+    };
+    let assemblies = 0..experiment.assemblies.len();
+    let leading = assemblies.filter(|_| experiment.joints() > 1 && !task.priors.is_empty());
+    let [first, others @ ..] = INFLATIONS;
+    let ways = std::iter::once(Way::Inflated(first))
+        .chain(leading.map(Way::Led))
+        .chain(others.map(Way::Inflated));
     let mut found: Option<Found> = None;
-    for inflation in INFLATIONS {
-        let next = search(task, start.point(task.priors), settings, inflation);
+    for way in ways {
+        let next = match way {
+            Way::Inflated(inflation) => from(inflation),
+            Way::Led(leading) => led_by(leading),
+        };
         found = better(task, found, next);
         let fits = |found: &Found| rank(task, found) < settings.most_reduced_chi_squared;
         if found.as_ref().is_some_and(fits) {
@@ -309,8 +349,19 @@ fn best(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<Found> {
         }
     }
     let restless = found.as_ref().filter(|found| !found.converged);
-    let again = restless.and_then(|found| search(task, found.point.clone(), settings, 1.0));
+    let again = restless.and_then(|found| {
+        let none = Inflation::none(experiment);
+        search(task, found.point.clone(), settings, &none)
+    });
     better(task, found, again)
+}
+
+/// A way from a start to an estimate.
+enum Way {
+    /// With all assemblies' noise so many times as large at first.
+    Inflated(f64),
+    /// With one assembly before the others.
+    Led(usize),
 }
 
 /// Degrees of freedom: as many causes as priors, so that the joint's unknowns alone cost some.
@@ -324,10 +375,7 @@ fn freedom(task: &Task<'_>, found: &Found) -> Option<f64> {
 
 /// χ² of residuals and priors over the degrees of freedom.
 fn reduced_chi_squared(task: &Task<'_>, found: &Found) -> Option<f64> {
-    let pulls = task.priors.iter().zip(&found.point.causes);
-    let priors: f64 = pulls
-        .map(|(prior, value)| (value / prior.standard_deviation).powi(2))
-        .sum();
+    let priors = priors_cost(task, &found.point);
     Some((found.cost + priors) / freedom(task, found)?)
 }
 

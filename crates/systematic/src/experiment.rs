@@ -178,6 +178,11 @@ impl<'a> Experiment<'a> {
         }
     }
 
+    /// Fits are made anew, of functions that have changed.
+    pub(crate) fn forget_fits(&mut self) {
+        self.fits = OnceLock::new();
+    }
+
     /// A smooth fit of a structure; `None` where it is not measured or no fit comes near it.
     pub(crate) fn fit(&self, side: Side) -> Option<&ModalFit> {
         let fits = self.fits.get_or_init(|| {
@@ -209,6 +214,11 @@ impl<'a> Experiment<'a> {
             Structure::Measured(measured) => measured.functions.entries.len(),
             Structure::Computed(_) | Structure::Exact(_) => 0,
         }
+    }
+
+    /// Whether several assemblies see the same errors of the structures.
+    pub(crate) fn has_common_errors(&self) -> bool {
+        self.assemblies.len() > 1
     }
 
     /// Joints of the assemblies.

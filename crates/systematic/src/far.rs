@@ -7,7 +7,7 @@ use super::cause::Cause;
 use super::estimate::{Settings, Start, rank};
 use super::experiment::Experiment;
 use super::line::Task;
-use super::search::search;
+use super::search::{Inflation, search};
 use super::starts::few;
 
 /// Lines of these searches.
@@ -31,6 +31,7 @@ pub(crate) fn from_far(
         ..settings.clone()
     };
     let starts = few(experiment);
+    let inflation = Inflation::from(experiment, INFLATION);
     let sought = |careful: &Prior| -> Option<(f64, Prior, Start)> {
         let free = [Prior {
             standard_deviation: wider * careful.standard_deviation,
@@ -43,17 +44,17 @@ pub(crate) fn from_far(
                 let value = beginning * careful.standard_deviation;
                 let start = Start {
                     unknowns: unknowns.clone(),
-                    cause: Some((careful.cause, value)),
+                    causes: vec![(careful.cause, value)],
                 };
-                let Some(found) = search(&task, start.point(&free), &settings, INFLATION) else {
+                let Some(found) = search(&task, start.point(&free), &settings, &inflation) else {
                     continue;
                 };
                 let rank = rank(&task, &found);
                 if best.as_ref().is_none_or(|(least, _)| rank < *least) {
                     let value = found.point.causes[0];
                     let unknowns = found.point.unknowns;
-                    let cause = Some((careful.cause, value));
-                    best = Some((rank, Start { unknowns, cause }));
+                    let causes = vec![(careful.cause, value)];
+                    best = Some((rank, Start { unknowns, causes }));
                 }
             }
         }

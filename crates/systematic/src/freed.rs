@@ -165,7 +165,7 @@ impl Task<'_> {
         self.priors.iter().zip(&point.causes).map(of).collect()
     }
 
-    fn at_structure<'r>(
+    pub(crate) fn at_structure<'r>(
         &self,
         side: Side,
         functions: &'r MeasuredFunctions,

@@ -11,6 +11,7 @@ mod budget;
 mod cause;
 mod consistency;
 mod coupling;
+mod draw;
 mod effect;
 mod estimate;
 mod experiment;
@@ -30,8 +31,9 @@ mod suspect;
 pub use budget::{Budget, Prior, priors};
 pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
+pub use draw::{Origin, draw};
 pub use estimate::{
-    CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, evaluated,
+    CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, estimate_near, evaluated,
 };
 pub use experiment::{
     Assembly, Change, ComplexMatrix, Computation, Compute, Computed, Entry, Experiment, JointShape,

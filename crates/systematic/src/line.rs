@@ -172,7 +172,7 @@ impl<'t> Task<'t> {
         super::structures::value_of(Cause::LossFactor, self.priors, &point.causes)
     }
 
-    fn at_assembly<'r>(
+    pub(crate) fn at_assembly<'r>(
         &'r self,
         number: usize,
         receptance: &'r ComplexMatrix,
@@ -216,6 +216,42 @@ impl<'t> Task<'t> {
         }
     }
 
+    /// Receptances of each assembly.
+    pub(crate) fn assembled(
+        &self,
+        line: usize,
+        point: &Point,
+        labelled: &Labelled,
+        recomputed: &Recomputations,
+    ) -> Option<Vec<ComplexMatrix>> {
+        let structures = self.structures(line, point, labelled, recomputed)?;
+        let assemblies = self.experiment.assemblies.iter();
+        assemblies
+            .map(|assembly| Some(self.coupled(assembly, line, point, &structures)?.receptance))
+            .collect()
+    }
+
+    /// What these receptances leave of the assemblies' functions without the causes, nothing linearised.
+    pub(crate) fn left(
+        &self,
+        line: usize,
+        point: &Point,
+        labelled: &Labelled,
+        recomputed: &Recomputations,
+    ) -> Option<DVector<Complex64>> {
+        let receptances = self.assembled(line, point, labelled, recomputed)?;
+        let mut left = Vec::new();
+        for (number, receptance) in receptances.iter().enumerate() {
+            let at = self.at_assembly(number, receptance, self.experiment.omega[line]);
+            let beside = at.beside(self.priors, &point.causes);
+            for (entry, beside) in at.functions.entries.iter().zip(beside) {
+                let factor = at.factor(entry, self.priors, &point.causes);
+                left.push(entry.values[line] / factor - beside - receptance[entry.place]);
+            }
+        }
+        Some(DVector::from_vec(left))
+    }
+
     /// Sum of squared residuals over their variances with these receptances, nothing linearised.
     pub(crate) fn cost(
         &self,
@@ -224,19 +260,11 @@ impl<'t> Task<'t> {
         labelled: &Labelled,
         recomputed: &Recomputations,
     ) -> Option<f64> {
-        let experiment = self.experiment;
-        let structures = self.structures(line, point, labelled, recomputed)?;
-        let mut cost = 0.0;
-        for (number, assembly) in experiment.assemblies.iter().enumerate() {
-            let coupled = self.coupled(assembly, line, point, &structures)?;
-            let at = self.at_assembly(number, &coupled.receptance, experiment.omega[line]);
-            let beside = at.beside(self.priors, &point.causes);
-            for (entry, beside) in assembly.functions.entries.iter().zip(beside) {
-                let factor = at.factor(entry, self.priors, &point.causes);
-                let left = entry.values[line] / factor - beside - coupled.receptance[entry.place];
-                cost += left.norm_sqr() / variance(entry, line);
-            }
-        }
+        let left = self.left(line, point, labelled, recomputed)?;
+        let entries = self.experiment.assembled();
+        let of_entry =
+            |(left, entry): (&Complex64, &Entry)| left.norm_sqr() / variance(entry, line);
+        let mut cost: f64 = left.iter().zip(entries).map(of_entry).sum();
         let variances = self.labelled_variance(line, point, labelled);
         let mut variances = variances.iter();
         for side in [Side::A, Side::B] {

@@ -16,6 +16,16 @@ pub(crate) struct Share {
     pub(crate) cost: f64,
 }
 
+/// What residuals of the assemblies scatter by beside their own noise.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Scatter<'s> {
+    /// Factor of each assembly's standard deviation; 1 where none is given.
+    pub(crate) inflation: &'s [f64],
+    /// Whether the square of what the structures' noise does counts, too: of the difference of two assemblies nothing else of that
+    /// noise is left, y/(1 + ε) = y (1 − ε + ε² …), as long as the receptances stay what was measured.
+    pub(crate) keeps_second_order: bool,
+}
+
 /// A line whose covariance S = Σ_C + J Σ_H Jᴴ is factorised.
 pub(crate) struct Whitened<'l> {
     terms: &'l Terms,
@@ -23,25 +33,42 @@ pub(crate) struct Whitened<'l> {
 }
 
 impl<'l> Whitened<'l> {
-    /// `inflation` multiplies the variances of the assembly.
+    /// `measure` says what the assemblies' residuals scatter by beside their own noise.
     pub(crate) fn of(
         task: &Task<'_>,
         line: usize,
         terms: &'l Terms,
-        inflation: f64,
+        measure: &Scatter<'_>,
     ) -> Option<Self> {
         let mut scaled = terms.by_labelled.clone();
         for (mut column, variance) in scaled.column_iter_mut().zip(&terms.labelled_variance) {
             column *= Complex64::from(*variance);
         }
         let mut covariance = scaled * terms.by_labelled.adjoint();
-        for (e, entry) in task.experiment.assembled().enumerate() {
+        let assemblies = task.experiment.assemblies.iter().enumerate();
+        let entries = assemblies.flat_map(|(number, assembly)| {
+            let entries = assembly.functions.entries.iter();
+            entries.map(move |entry| (number, entry))
+        });
+        for (e, (number, entry)) in entries.enumerate() {
+            if measure.keeps_second_order {
+                let first_order = covariance[(e, e)].re / terms.magnitude[e];
+                covariance[(e, e)] += first_order * first_order;
+            }
+            let inflation = measure.inflation.get(number).map_or(1.0, |of| of * of);
             covariance[(e, e)] += inflation * variance(entry, line);
         }
         Some(Self {
             terms,
             factor: covariance.cholesky()?,
         })
+    }
+
+    /// 2 rᴴ S⁻¹ r of another residual.
+    pub(crate) fn cost_of(&self, mut residual: DVector<Complex64>) -> f64 {
+        let lower = self.factor.l_dirty();
+        lower.solve_lower_triangular_mut(&mut residual);
+        2.0 * residual.norm_squared()
     }
 
     pub(crate) fn share(&self) -> Share {

@@ -8,7 +8,7 @@ use super::budget::Prior;
 use super::estimate::{Estimate, Settings, of};
 use super::experiment::Experiment;
 use super::line::{Point, Task};
-use super::normal::{Share, Whitened, as_measured, is_linear};
+use super::normal::{Scatter, Share, Whitened, as_measured, is_linear};
 use super::search::{Found, TOLERANCE, keeps_its_frequency, step, summed};
 use super::structures::Recomputations;
 
@@ -86,7 +86,11 @@ fn sums(
         if first && !is_linear(&terms, settings.most_nonlinear) {
             return Some(None);
         }
-        let whitened = Whitened::of(task, line, &terms, 1.0)?;
+        let scatter = Scatter {
+            keeps_second_order: task.experiment.has_common_errors(),
+            ..Scatter::default()
+        };
+        let whitened = Whitened::of(task, line, &terms, &scatter)?;
         Some(Some((line, whitened.share())))
     };
     let mut kept = Vec::with_capacity(lines.len());

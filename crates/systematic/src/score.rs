@@ -5,7 +5,7 @@ use super::cause::Cause;
 use super::estimate::Estimate;
 use super::experiment::Experiment;
 use super::line::{Point, Task};
-use super::normal::Whitened;
+use super::normal::{Scatter, Whitened};
 use super::search::inverse;
 use super::structures::Recomputations;
 
@@ -54,7 +54,7 @@ fn tested(task: &Task<'_>, point: &Point, estimate: &Estimate, own: usize) -> Op
     let mut gradient = nalgebra::DVector::zeros(size);
     for &line in &estimate.found.lines {
         let terms = task.terms(line, point, &estimate.found.labelled[line], &recomputed)?;
-        let share = Whitened::of(task, line, &terms, 1.0)?.share();
+        let share = Whitened::of(task, line, &terms, &Scatter::default())?.share();
         information += share.information;
         gradient += share.gradient;
     }

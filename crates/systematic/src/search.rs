@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::cause::{Cause, Side};
 use super::estimate::Settings;
-use super::experiment::Structure;
+use super::experiment::{Experiment, Structure};
 use super::line::{Labelled, Point, Task, Terms};
-use super::normal::{Share, Whitened, as_measured, is_linear};
+use super::normal::{Scatter, Share, Whitened, as_measured, is_linear};
 use super::structures::Recomputations;
 
 /// The structures' receptances stay what was measured until steps are below this part of a standard deviation …
@@ -22,6 +22,12 @@ const FALLING: f64 = 0.3;
 const SHORTEST: f64 = 0.25;
 /// Steps below this part of a standard deviation are none.
 pub(crate) const TOLERANCE: f64 = 0.01;
+/// A step longer than this many standard deviations is taken as far as it leaves less …
+const LONG: f64 = 1.0;
+/// … down to this part, which is taken where no part leaves less.
+const SHORTEST_PART: f64 = 0.04;
+/// A search that finds no way down more often than this, one time after the other, is given up.
+const MOST_STUCK: usize = 4;
 /// Of a search that has used up its steps, the last one may have been so many standard deviations long.
 const TOLERABLE: f64 = 0.3;
 /// Prior standard deviations that a cause may move in one step.
@@ -32,6 +38,45 @@ const LARGEST_PARTS: [f64; 2] = [0.3, 1.0];
 const ANNEALING: f64 = 0.6;
 /// Of two shifts of the frequency by two prior standard deviations at most this is looked at.
 const LARGEST_SHIFT: f64 = 0.008;
+
+/// How many times as large as they are the standard deviations of each assembly are taken to be: at the beginning, and where the
+/// search may come to rest. What is left shrinks from step to step.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Inflation {
+    from: Vec<f64>,
+    to: Vec<f64>,
+}
+
+/// The inflation of an assembly that is hardly heard beside another.
+const FAINT: f64 = 300.0;
+
+impl Inflation {
+    /// None.
+    pub(crate) fn none(experiment: &Experiment<'_>) -> Self {
+        Self::from(experiment, 1.0)
+    }
+
+    /// The same for all assemblies, at the beginning.
+    pub(crate) fn from(experiment: &Experiment<'_>, factor: f64) -> Self {
+        let all = |factor: f64| vec![factor; experiment.assemblies.len()];
+        Self {
+            from: all(factor),
+            to: all(1.0),
+        }
+    }
+
+    /// One assembly is heard and the others hardly; then the others are heard more and more.
+    pub(crate) fn led_by(experiment: &Experiment<'_>, leading: usize) -> [Self; 2] {
+        let of = |number| if number == leading { 1.0 } else { FAINT };
+        let from: Vec<f64> = (0..experiment.assemblies.len()).map(of).collect();
+        let held = Self {
+            to: from.clone(),
+            from: from.clone(),
+        };
+        let Self { to, .. } = Self::none(experiment);
+        [held, Self { from, to }]
+    }
+}
 
 /// Where a search came to rest.
 pub(crate) struct Found {
@@ -49,13 +94,12 @@ pub(crate) struct Found {
     pub(crate) converged: bool,
 }
 
-/// Searches from `point`; the assembly's standard deviations begin `inflation` times as large as they are. `None` where an
-/// assembly is singular or a structure cannot be computed.
+/// Searches from `point`; `None` where an assembly is singular or a structure cannot be computed.
 pub(crate) fn search(
     task: &Task<'_>,
     mut point: Point,
     settings: &Settings,
-    inflation: f64,
+    inflation: &Inflation,
 ) -> Option<Found> {
     let experiment = task.experiment;
     let has_labelled = [&experiment.a, &experiment.b]
@@ -69,13 +113,17 @@ pub(crate) fn search(
     let mut labelled: Vec<Labelled> = Vec::new();
     let mut proposed: Option<Vec<Labelled>> = None;
     let mut lines: Vec<usize> = all.clone();
-    let mut inflated = inflation;
+    let mut inflated = inflation.from.clone();
     let mut rests = !has_labelled;
     let mut before: Option<DVector<f64>> = None;
+    let mut stuck = 0;
     for iteration in 0..settings.most_iterations {
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
         let frozen = !rests;
-        let variance_factor = inflated.max(1.0).powi(2);
+        let scatter = Scatter {
+            inflation: &inflated.clone(),
+            keeps_second_order: frozen && experiment.has_common_errors(),
+        };
         if frozen || labelled.is_empty() {
             labelled = (0..task.lines())
                 .map(|line| as_measured(task, line, &point))
@@ -98,7 +146,7 @@ pub(crate) fn search(
         }
         let whitened: Vec<Whitened<'_>> = terms
             .par_iter()
-            .map(|(line, terms)| Whitened::of(task, *line, terms, variance_factor))
+            .map(|(line, terms)| Whitened::of(task, *line, terms, &scatter))
             .collect::<Option<_>>()?;
         let shares: Vec<Share> = whitened.par_iter().map(Whitened::share).collect();
         let (information, gradient, cost) = summed(&shares, task.unknowns() + task.priors.len())?;
@@ -109,7 +157,7 @@ pub(crate) fn search(
             .map(|(s, d)| (s / d).abs());
         let largest = relative.fold(0.0, f64::max);
         let part = allowed(task, &point, &step, &deviation, iteration);
-        rests |= inflated <= 1.0
+        rests |= inflated == inflation.to
             && part == 1.0
             && (largest < NEAR || iteration + LAST >= settings.most_iterations);
         let has_settled = !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1;
@@ -127,7 +175,26 @@ pub(crate) fn search(
             });
         }
         let damping = damping(before.as_ref(), &step, &deviation);
-        let step = step * (part * damping);
+        let mut step = step * (part * damping);
+        if frozen && largest > LONG {
+            let now = cost + priors_cost(task, &point);
+            let down = descending(task, &point, &step, (&terms, &whitened), now);
+            stuck = if down.is_some() { 0 } else { stuck + 1 };
+            step *= down.unwrap_or(SHORTEST_PART);
+        }
+        if stuck > MOST_STUCK {
+            drop(whitened);
+            return Some(Found {
+                point,
+                labelled,
+                lines,
+                information,
+                cost,
+                shares,
+                iterations: iteration + 1,
+                converged: false,
+            });
+        }
         before = Some(step.component_div(&deviation));
         if has_labelled && !frozen {
             let mut next = labelled.clone();
@@ -137,7 +204,9 @@ pub(crate) fn search(
             proposed = Some(next);
         }
         point.moves(&step);
-        inflated *= ANNEALING;
+        for (now, least) in inflated.iter_mut().zip(&inflation.to) {
+            *now = (*now * ANNEALING).max(*least);
+        }
     }
     None
 }
@@ -158,6 +227,45 @@ fn damping(before: Option<&DVector<f64>>, step: &DVector<f64>, deviation: &DVect
     } else {
         1.0
     }
+}
+
+/// Part of a long step after which less is left than `now`, with the covariances of where it begins; `None` where no part is.
+fn descending(
+    task: &Task<'_>,
+    point: &Point,
+    step: &DVector<f64>,
+    (terms, whitened): (&[(usize, Terms)], &[Whitened<'_>]),
+    now: f64,
+) -> Option<f64> {
+    let left = |part: f64| -> Option<f64> {
+        let mut moved = point.clone();
+        moved.moves(&(step * part));
+        let recomputed = Recomputations::values(task.experiment, task.priors, &moved.causes)?;
+        let of_line = |((line, _), whitened): (&(usize, Terms), &Whitened<'_>)| {
+            let labelled = as_measured(task, *line, &moved);
+            let left = task.left(*line, &moved, &labelled, &recomputed)?;
+            Some(whitened.cost_of(left))
+        };
+        let lines = terms.par_iter().zip(whitened);
+        let lines: Option<Vec<f64>> = lines.map(of_line).collect();
+        Some(lines?.iter().sum::<f64>() + priors_cost(task, &moved))
+    };
+    let mut part = 1.0;
+    while part > SHORTEST_PART {
+        if left(part).is_some_and(|left| left < now) {
+            return Some(part);
+        }
+        part *= 0.5;
+    }
+    None
+}
+
+/// Σ (ν/σ)²
+pub(crate) fn priors_cost(task: &Task<'_>, point: &Point) -> f64 {
+    let pulls = task.priors.iter().zip(&point.causes);
+    pulls
+        .map(|(prior, value)| (value / prior.standard_deviation).powi(2))
+        .sum()
 }
 
 /// Each line takes the part of the step that leaves least: near a structure's resonance it is not linear in the receptances.

@@ -31,10 +31,32 @@ impl Recomputations {
         priors: &[Prior],
         values: &[f64],
     ) -> Option<Self> {
+        Self::each(experiment, |computed, side| {
+            recomputed(computed, experiment, side, priors, values)
+        })
+    }
+
+    /// The same without derivatives.
+    pub(crate) fn values(
+        experiment: &Experiment<'_>,
+        priors: &[Prior],
+        values: &[f64],
+    ) -> Option<Self> {
+        Self::each(experiment, |computed, side| {
+            let change = change(experiment, side, priors, values);
+            Some(Recomputed {
+                receptances: computed.compute.changed(&change)?.receptances()?,
+                by_cause: Vec::new(),
+            })
+        })
+    }
+
+    fn each(
+        experiment: &Experiment<'_>,
+        of: impl Fn(&Computed<'_>, Side) -> Option<Recomputed>,
+    ) -> Option<Self> {
         let side = |side: Side| match experiment.side(side) {
-            Structure::Computed(computed) => {
-                recomputed(computed, experiment, side, priors, values).map(Some)
-            }
+            Structure::Computed(computed) => of(computed, side).map(Some),
             _ => Some(None),
         };
         Some(Self {

@@ -123,7 +123,7 @@ impl Diagnosis {
             }
             let start = Start {
                 unknowns: found.unknowns.clone(),
-                cause: Some((cause, of.value)),
+                causes: vec![(cause, of.value)],
             };
             let free = case.freed(cause, of.value);
             let trial = case.refitted(free, &start);
@@ -237,7 +237,7 @@ impl<'c> Case<'c> {
         };
         let start = Start {
             unknowns: found.unknowns.clone(),
-            cause: Some((free.cause, cause.value)),
+            causes: vec![(free.cause, cause.value)],
         };
         Some((suspect, start))
     }

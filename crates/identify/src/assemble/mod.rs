@@ -2,6 +2,7 @@
 
 mod axis;
 mod beam_anew;
+mod both_sides;
 mod known_mass;
 mod labelled;
 mod prediction;
@@ -55,6 +56,7 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
             b: further.b.clone(),
             assembly: further.file.clone(),
             points: further.points.clone(),
+            points_on_a: further.points_on_a,
             repeats: further.repeats.clone(),
             further: Vec::new(),
             ..study.clone()
@@ -67,7 +69,11 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
                 share(&mut lines.a, &earlier.a);
             }
             let same_points = earlier.points == lines.points;
-            if same_axis && same_points && earlier_study.1.is_same_measurement(&its_study.b) {
+            let same_b = earlier_study.1.is_same_measurement(&its_study.b);
+            // with points on A both structures are one
+            let same_a = earlier_study.0.is_same_measurement(&its_study.a);
+            let is_one = its_study.points_on_a > 0;
+            if same_axis && same_points && same_b && (same_a || !is_one) {
                 share(&mut lines.b, &earlier.b);
             }
         }

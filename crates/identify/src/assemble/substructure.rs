@@ -12,6 +12,7 @@ use super::super::lines::{Lines, independent};
 use super::super::receptances::{MeasuredSubstructure, Receptances, with_lost};
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
+use super::both_sides::as_one;
 use super::known_mass::{masses_at, with_masses};
 use super::labelled::{Completeness, Labelled, labelled_functions, relative_variances};
 use super::reader::{Reader, in_file};
@@ -29,10 +30,21 @@ pub(super) fn substructures(
     reader: &mut Reader,
 ) -> Result<Lines, IdentifyError> {
     let points = &study.points;
+    let (of_b, of_a) = study.points_by_side();
+    let a = joint_and_points(study, "a", of_a, axis, reader)?;
+    let b = joint_and_points(study, "b", of_b, axis, reader)?;
+    let (a, b) = if of_a.is_empty() {
+        (a, b)
+    } else {
+        let dofs = a.size() - of_a.len();
+        let still = ComplexMatrix::zeros(dofs, dofs);
+        let still = Receptances::Exact(vec![still; axis.frequency_hz.len()]);
+        (still, as_one(&a, &b, dofs, axis.frequency_hz))
+    };
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
-        a: joint_and_points(study, "a", &[], axis, reader)?,
-        b: joint_and_points(study, "b", points, axis, reader)?,
+        a,
+        b,
         assembly: Vec::new(),
         points: points.clone(),
         measured: Vec::new(),

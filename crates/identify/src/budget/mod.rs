@@ -1,5 +1,6 @@
 //! The estimate with the error budget: what the set-up of the test leaves unknown takes part in it.
 
+mod draws;
 mod experiment;
 mod explanation;
 mod together;
@@ -71,13 +72,11 @@ pub struct Systematic {
     pub without_smooth_fit: Vec<Side>,
     /// Whether the search came to rest.
     pub converged: bool,
+    /// Noise of everything measured.
+    levels: Levels,
 }
 
 impl Systematic {
-    /// What is said beside a bootstrap.
-    pub(super) const BESIDE_A_BOOTSTRAP: &'static str = "the bootstrap draws noise alone, about the estimate without errors of the \
-        set-up: it checks the deviations by noise alone; the intervals with the error budget are those of the estimate itself";
-
     /// What is said where no error of the set-up takes part although the study has a budget.
     pub(super) fn not_applied(apart: Option<Apart>) -> String {
         let why = match apart {
@@ -96,11 +95,7 @@ impl Systematic {
             return None;
         }
         let all = &together(study, all).ok()?;
-        let start: Vec<f64> = estimate
-            .joints
-            .iter()
-            .flat_map(|joint| joint.covariance.values.iter().copied())
-            .collect();
+        let start = free_unknowns(estimate);
         let data = (all.as_slice(), estimate.joint_numbers());
         let layout = study.layout();
         let mut levels = estimate.levels;
@@ -146,10 +141,9 @@ impl Systematic {
         }
         let all = &together(study, all).ok()?;
         let data = (all.as_slice(), estimate.joint_numbers());
-        let start = &estimate.covariance().values;
         let layout = study.layout();
         let place = (&layout, estimate.levels);
-        Self::at_levels(study, data, place, start, &explained)
+        Self::at_levels(study, data, place, &free_unknowns(estimate), &explained)
     }
 
     /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
@@ -240,6 +234,7 @@ impl Systematic {
             lines: (found.lines.0, lines.frequency_hz.len()),
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
+            levels,
         })
     }
 
@@ -359,6 +354,13 @@ impl Systematic {
         }
         warnings
     }
+}
+
+/// The unknowns of one joint after the other, free to be active.
+fn free_unknowns(estimate: &LinesEstimate) -> Vec<f64> {
+    let joints = estimate.joints.iter();
+    let values = joints.flat_map(|joint| joint.covariance.values.iter().copied());
+    values.collect()
 }
 
 /// Values of a cause in a unit for people.

@@ -4,7 +4,6 @@ use std::fmt;
 
 use super::super::lines::Lines;
 use super::super::study::{Study, Substructure};
-use super::super::torque::TorqueDependence;
 
 /// Lines are the same whose frequencies differ by less than this part.
 const CLOSE: f64 = 1e-5;
@@ -24,8 +23,11 @@ pub(in super::super) enum Apart {
         /// Number of the assembly, from 1.
         assembly: usize,
     },
-    /// Each torque has a joint of its own.
-    Joints,
+    /// This assembly was measured at points of A, too.
+    BothSides {
+        /// Number of the assembly, from 1.
+        assembly: usize,
+    },
     /// They have no two lines in common.
     Lines,
 }
@@ -43,8 +45,9 @@ impl fmt::Display for Apart {
                 "assembly {assembly} has other points than the first, and with several assemblies they take part only where the \
                  points are the same, in the same order"
             ),
-            Self::Joints => f.write_str(
-                "each torque has a joint of its own, and they take part where all assemblies have one joint",
+            Self::BothSides { assembly } => write!(
+                f,
+                "assembly {assembly} was measured at points of A, and they take part only where all points are on B"
             ),
             Self::Lines => f.write_str(
                 "the assemblies have no lines in common, and with several assemblies they take part only where they have",
@@ -67,8 +70,11 @@ pub(super) fn together(study: &Study, all: &[Lines]) -> Result<Vec<Lines>, Apart
 
 /// Of each assembly the lines that all of them have.
 fn common(study: &Study, all: &[Lines]) -> Result<Vec<Vec<usize>>, Apart> {
-    if all.len() > 1 && study.torques == TorqueDependence::Separate {
-        return Err(Apart::Joints);
+    let on_a = study.further.iter().map(|further| further.points_on_a);
+    let mut on_a = std::iter::once(study.points_on_a).chain(on_a);
+    if let Some(number) = on_a.position(|points| points > 0) {
+        let assembly = number + 1;
+        return Err(Apart::BothSides { assembly });
     }
     for (number, further) in study.further.iter().enumerate() {
         let assembly = number + 2;

@@ -41,8 +41,10 @@ pub struct Study {
     pub b: Substructure,
     /// File with the first assembly's FRFs.
     pub assembly: FrfFile,
-    /// Points of B at which the first assembly was measured.
+    /// Points at which the first assembly was measured: those of B, then those of A.
     pub points: Vec<Dof>,
+    /// How many of them, the last ones, are points of A.
+    pub points_on_a: usize,
     /// Further measurements of the first assembly's functions.
     pub repeats: Vec<FrfFile>,
     /// Tightening torque of the first assembly, N·m.
@@ -80,8 +82,10 @@ pub struct Study {
 pub struct FurtherAssembly {
     /// File with its FRFs.
     pub file: FrfFile,
-    /// Points of B at which it was measured.
+    /// Points at which it was measured: those of B, then those of A.
     pub points: Vec<Dof>,
+    /// How many of them, the last ones, are points of A.
+    pub points_on_a: usize,
     /// Further measurements of the same functions.
     pub repeats: Vec<FrfFile>,
     /// Tightening torque, N·m.
@@ -256,7 +260,17 @@ impl Substructure {
     }
 }
 
+/// The points of B, and those of A.
+fn by_side(points: &[Dof], on_a: usize) -> (&[Dof], &[Dof]) {
+    points.split_at(points.len().saturating_sub(on_a))
+}
+
 impl Study {
+    /// The points of B at which the first assembly was measured, and those of A.
+    pub(super) fn points_by_side(&self) -> (&[Dof], &[Dof]) {
+        by_side(&self.points, self.points_on_a)
+    }
+
     /// The substructures whose rotation at the joint is not given, by their keys: without it a joint model with rotation
     /// can neither be identified nor compared.
     #[must_use]
@@ -427,7 +441,8 @@ impl Study {
             };
             let assembly = FurtherAssembly {
                 file: measured_in(table.frf)?,
-                points: check::points(study, table.points)?,
+                points_on_a: table.points_on_a.len(),
+                points: check::points(study, table.points, table.points_on_a)?,
                 repeats: table
                     .repeats
                     .into_iter()
@@ -438,10 +453,15 @@ impl Study {
                 a: own("assembly.a", table.a, &a)?,
                 b: own("assembly.b", table.b, &b)?,
             };
-            check::positions(study, &assembly.points, &assembly.b)?;
+            let (of_b, of_a) = by_side(&assembly.points, assembly.points_on_a);
+            check::positions(study, "b", of_b, &assembly.b)?;
+            check::positions(study, "a", of_a, &assembly.a)?;
             assemblies.push(assembly);
         }
         check::torques(study, file.joint.torques, &assemblies)?;
+        if assemblies.iter().any(|assembly| assembly.points_on_a > 0) {
+            check::one_noise(study, file.noise.as_ref())?;
+        }
         let first = assemblies.remove(0);
         let frequency_range_hz = study.frequency_range_hz(&file.frequency)?;
         check::bands(study, &file.bands.0)?;
@@ -465,6 +485,7 @@ impl Study {
             b: first.b,
             assembly: first.file,
             points: first.points,
+            points_on_a: first.points_on_a,
             repeats: first.repeats,
             torque_n_m: first.torque_n_m,
             level: first.level,

@@ -175,7 +175,10 @@ pub(super) struct AssemblyTable {
     pub(super) units: Option<UnitsTable>,
     pub(super) averages: Option<f64>,
     pub(super) accelerometer_mass: Option<Stated>,
+    #[serde(default)]
     pub(super) points: Vec<Dof>,
+    #[serde(default)]
+    pub(super) points_on_a: Vec<Dof>,
     #[serde(default)]
     pub(super) repeats: Vec<PathBuf>,
     pub(super) torque: Option<f64>,
@@ -320,7 +323,7 @@ pub(super) struct NoiseTable {
     pub(super) b: LevelTable,
 }
 
-#[derive(Clone, Copy, Default, Deserialize)]
+#[derive(Clone, Copy, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LevelTable {
     pub(super) relative: Option<f64>,
@@ -329,7 +332,7 @@ pub(super) struct LevelTable {
 }
 
 /// A floor between translations, or one for each kind of function.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq)]
 pub(super) struct FloorKey(pub(super) StatedFloor);
 
 #[derive(Deserialize)]

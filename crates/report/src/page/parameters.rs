@@ -7,7 +7,7 @@ use bolted_joint_figures::html::{
     beside, cell, escaped, number_cell, quantity, shown, spread, table,
 };
 use bolted_joint_identify::{JointEstimate, Unknown};
-use bolted_joint_joint::with_symbols;
+use bolted_joint_joint::{Drawn, with_symbols};
 
 /// Digits of a parameter.
 const DIGITS: usize = 5;
@@ -128,10 +128,15 @@ fn symbol(name: &str) -> String {
 
 fn basis(report: &IdentificationReport<'_>) -> String {
     let joints = &report.found.estimate.joints;
-    let mut html = String::from(
+    let on_both_sides = report.found.estimate.equations_on_both_sides();
+    let equations = on_both_sides.map_or_else(
+        || "equation 3.21".to_owned(),
+        |equations| format!("equations {equations}"),
+    );
+    let mut html = format!(
         "<p>The estimate is that of maximum likelihood over all lines and functions together; its standard deviations follow \
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
-         over the bands (Tol, equation 3.21); it is given for comparison.",
+         over the bands (Tol, {equations}); it is given for comparison."
     );
     if joints.iter().any(JointEstimate::free_is_active) {
         html += " The free estimate is not passive. The estimate above is the passive joint that fits best; the interval is about \
@@ -249,9 +254,13 @@ fn bootstrap(report: &IdentificationReport<'_>, joint: &JointEstimate) -> String
         return String::new();
     };
     let mut html = format!(
-        "<h3>Bootstrap{}</h3>\n<p>{} from the fitted model, seed {}; the estimate converged on {} of them.</p>\n",
+        "<h3>Bootstrap{}</h3>\n<p>{} of {} from the fitted model, seed {}; the estimate converged on {} of them.</p>\n",
         place(joint),
         counted(result.draws, "draw"),
+        match result.drawn {
+            Drawn::Noise => "noise",
+            Drawn::NoiseAndSetUp => "noise and of errors of the set-up within the error budget",
+        },
         result.seed,
         result.converged
     );

@@ -144,7 +144,7 @@ impl Task<'_> {
         let mut rows = DMatrix::zeros(places.len(), unknowns + self.priors.len());
         for (t, of) in experiment.joint.entries.iter().enumerate() {
             for (e, place) in places.iter().enumerate() {
-                let by = coupled.by_stiffness(of, *place);
+                let by = smooth_coupled.by_stiffness(of, *place);
                 // K* = K (1 + jη) + jωC
                 rows[(e, first + t)] = by * Complex64::new(1.0, self.loss_factor(point));
                 rows[(e, first + count + t)] = by * Complex64::new(0.0, omega);

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::super::FrfFile;
 use super::super::Substructure;
 use super::super::set_up::Accelerometer;
-use super::super::tables::UnitsTable;
+use super::super::tables::{NoiseTable, UnitsTable};
 use super::stated::not_negative;
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_study::{Stated, StudyError, StudyText};
@@ -57,8 +57,14 @@ pub(crate) fn frf_file(
     })
 }
 
-pub(crate) fn points(study: &StudyText, points: Vec<Dof>) -> Result<Vec<Dof>, StudyError> {
-    let expected = "one or more measured points of B, three for the best result";
+/// The points of B, then those of A.
+pub(crate) fn points(
+    study: &StudyText,
+    of_b: Vec<Dof>,
+    of_a: Vec<Dof>,
+) -> Result<Vec<Dof>, StudyError> {
+    let points = [of_b, of_a].concat();
+    let expected = "one or more measured points of B, three for the best result, or points_on_a with points of A";
     study.ensure(
         !points.is_empty(),
         "assembly.points",
@@ -78,15 +84,24 @@ pub(crate) fn points(study: &StudyText, points: Vec<Dof>) -> Result<Vec<Dof>, St
     Ok(points)
 }
 
-/// Every point of the assembly has a place on the beam B, and on a measured structure where any point has.
+/// Every point of the assembly on the structure `[side]` has a place there if it is a beam, and if it is a measured structure where
+/// any point has.
 pub(crate) fn positions(
     study: &StudyText,
+    side: &str,
     points: &[Dof],
-    b: &Substructure,
+    structure: &Substructure,
 ) -> Result<(), StudyError> {
-    let (positions_m, origin) = match b {
+    let (positions_m, origin) = match structure {
         Substructure::Beam { positions_m, .. } => (positions_m, "the beam's first end"),
-        Substructure::Ground { .. } => return Ok(()),
+        Substructure::Ground { .. } => {
+            return study.ensure(
+                points.is_empty(),
+                "assembly.points_on_a",
+                "points of a ground",
+                "no such key: what does not move has no functions",
+            );
+        }
         Substructure::Measured { positions_m, .. } if positions_m.is_empty() => return Ok(()),
         Substructure::Measured { positions_m, .. } => {
             (positions_m, "any point along the structure")
@@ -98,12 +113,19 @@ pub(crate) fn positions(
         study.ensure(has_direction, "assembly.points", point, expected)?;
         study.ensure(
             positions_m.contains_key(point),
-            "b.points",
+            format_args!("{side}.points"),
             format_args!("no position of {point}"),
             format_args!("\"{point}\" = its distance from {origin} in m"),
         )?;
     }
     Ok(())
+}
+
+/// With points on A both structures' functions are one set, which has one noise.
+pub(crate) fn one_noise(study: &StudyText, noise: Option<&NoiseTable>) -> Result<(), StudyError> {
+    let differ = noise.is_some_and(|noise| noise.a != noise.b);
+    let expected = "the same of a and b, as assembly.points_on_a names points of A";
+    study.ensure(!differ, "noise", "a and b with different noise", expected)
 }
 
 pub(crate) fn torque(study: &StudyText, torque: Option<f64>) -> Result<Option<f64>, StudyError> {

@@ -1,0 +1,73 @@
+//! Parametric bootstrap of the estimate with the set-up's errors: causes drawn from their priors, noise with them, and all of it
+//! estimated anew.
+
+use bolted_joint_systematic::{
+    CauseEstimate, Estimate, Origin, Prior, Settings, Start, draw, estimate, estimate_near,
+};
+use nalgebra::DVector;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::super::bootstrap::Bootstrap;
+use super::super::lines::Lines;
+use super::super::lines_estimate::LinesEstimate;
+use super::super::parallel;
+use super::super::study::Study;
+use super::{MOST_LINES, MOST_LINES_OF_A_SEARCH, Systematic, experiment, together};
+
+impl Systematic {
+    /// The unknowns that are estimated from each draw, of those draws on which the search comes to rest. A draw begins at
+    /// the joint and the causes that it was made with and, where that leads to nothing that fits, as an identification
+    /// does. Many lines are thinned out, and their noise is as much less. `progress` is called after each.
+    pub(in super::super) fn draws(
+        &self,
+        study: &Study,
+        all: &[Lines],
+        plain: &LinesEstimate,
+        bootstrap: Bootstrap,
+        progress: &(dyn Fn() + Sync),
+    ) -> Vec<DVector<f64>> {
+        let Ok(all) = together(study, all) else {
+            return Vec::new();
+        };
+        let few: Vec<Lines> = all
+            .iter()
+            .map(|lines| lines.at_most(MOST_LINES_OF_A_SEARCH))
+            .collect();
+        let count = |lines: &[Lines]| lines.first().map_or(0, |lines| lines.frequency_hz.len());
+        let refined = count(&all).min(MOST_LINES).max(1);
+        let part = count(&few) as f64 / refined as f64;
+        let causes: Vec<CauseEstimate> = self.causes.iter().map(|(_, cause)| *cause).collect();
+        let priors: Vec<Prior> = causes.iter().map(|cause| cause.prior).collect();
+        let layout = study.layout();
+        let one = |&number: &u64| -> Option<DVector<f64>> {
+            let mut generator = ChaCha8Rng::seed_from_u64(bootstrap.seed);
+            generator.set_stream(number);
+            let mut normal = || StandardNormal.sample(&mut generator);
+            let joints = plain.joint_numbers();
+            let mut drawn = experiment::of(study, &few, joints, &layout, self.levels)?;
+            let origin = Origin {
+                unknowns: &self.unknowns,
+                causes: &causes,
+                scale: part * self.reduced_chi_squared.unwrap_or(1.0).max(1.0),
+            };
+            let start = Start {
+                causes: draw(&mut drawn, &origin, &mut normal)?,
+                unknowns: self.unknowns.clone(),
+            };
+            let settings = Settings::default();
+            // what leaves more than noise would be refused, too
+            let fits = |found: &Estimate| found.fits(&settings);
+            let near = estimate_near(&drawn, &priors, &start, &settings).filter(fits);
+            let found = near.or_else(|| {
+                let start = Start::without_causes(&self.unknowns);
+                estimate(&drawn, &priors, &start, &settings).filter(fits)
+            });
+            progress();
+            Some(DVector::from_vec(found?.unknowns))
+        };
+        let numbers: Vec<u64> = (0..bootstrap.draws as u64).collect();
+        parallel::map(&numbers, one).into_iter().flatten().collect()
+    }
+}

@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 
 mod assembled;
+mod chain;
 mod error;
 mod estimate;
 mod fit;
@@ -23,6 +24,10 @@ mod study;
 mod tables;
 mod together;
 
+pub use chain::{
+    Addition, Aim, Answer, Answers, Apart, ChainIdentification, ChainStudy, FoundJoint, Plan,
+    Planned, Reason, joints_sought,
+};
 pub use error::SpatialError;
 pub use estimate::{Group, SpatialIdentification, Unknown};
 pub use misfits::Misfit;

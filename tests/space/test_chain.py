@@ -76,17 +76,18 @@ def test_two_unknown_joints_are_told_apart(run, tmp_path):
 
 
 def test_two_unknown_joints_with_noise_are_in_their_intervals(run, tmp_path):
+    """eᵀ Σ⁻¹ e of the 42 numbers of a joint is χ² with 42 degrees of freedom: 42 ± 9, and the mean of 2 × 3 is 42 ± 3.7."""
     chain = Chain([FIRST, SECOND])
-    truth = np.concatenate([m[np.triu_indices(6)] for joint in (FIRST, SECOND) for m in joint])
-    errors = []
+    squares = []
     for draw in range(3):
         rng = np.random.default_rng(800 + draw)
         chain.write(tmp_path, FREQUENCIES[::2], EVERYWHERE, EVERYWHERE, [SOUGHT, SOUGHT], noise=1e-3, rng=rng)
-        unknowns = sum((joint["unknowns"] for joint in identified(run, tmp_path)["joints"]), [])
-        errors.append([(u["free"] - t) / u["standard_deviation"] for u, t in zip(unknowns, truth)])
-    # 84 unknowns in 3 tests
-    assert 0.8 < np.sqrt(np.mean(np.square(errors))) < 1.2
-    assert np.mean(np.abs(errors) < 1.96) > 0.9
+        for joint, truth in zip(identified(run, tmp_path)["joints"], (FIRST, SECOND)):
+            truth = np.concatenate([m[np.triu_indices(6)] for m in truth])
+            error = [(u["free"] - t) / u["standard_deviation"] for u, t in zip(joint["unknowns"], truth)]
+            correlation = joint["joint_file"]["uncertainty"]["correlation"]["matrix"]
+            squares.append(error @ np.linalg.solve(correlation, error))
+    assert np.mean(squares) == pytest.approx(42, abs=11), squares
 
 
 def test_a_light_and_stiff_part_between_them_hides_which_is_which(program, run, tmp_path):

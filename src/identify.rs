@@ -1,6 +1,7 @@
 //! `identify`: a study becomes a joint file.
 
 mod budget;
+pub(super) mod chain;
 mod lap;
 mod space;
 

@@ -1,8 +1,10 @@
 //! `respond`: what a test of a study's assembly would measure if its joint were the given one.
 
 mod assembly;
+mod chain;
 mod lap;
 mod picture;
+mod plan;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -26,21 +28,43 @@ use super::progress::Progress;
 /// `respond`
 #[derive(Debug, Args)]
 pub(super) struct RespondArguments {
-    /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, or of method `respond`, which names
-    /// laps and what is done to them; or an assembly file
+    /// The study (TOML): of the assembly that a test is for, whose file need not exist yet, of method `frf-space` with joints that
+    /// are known, or of method `respond`, which names laps and what is done to them; or an assembly file
     study: PathBuf,
+    /// Tell how well a test of a study of method `frf-space` will determine its joints, before it is made
+    #[arg(long)]
+    plan: bool,
+    /// So many sensors or impacts to add to a planned test, one after the other [default: 1]
+    #[arg(long, value_name = "NUMBER", requires = "plan")]
+    add: Option<usize>,
+    /// Numbers for which they are chosen, such as `k_x,c_rz` [default: all]
+    #[arg(
+        long = "for",
+        value_name = "NAMES",
+        requires = "plan",
+        value_delimiter = ','
+    )]
+    wanted: Vec<String>,
     /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
     joint: Option<PathBuf>,
     /// File to write: a table or, of an assembly, a universal file
-    #[arg(short, long, value_name = "NAME.csv|NAME.uff")]
-    output: PathBuf,
+    #[arg(
+        short,
+        long,
+        value_name = "NAME.csv|NAME.uff",
+        required_unless_present = "plan"
+    )]
+    output: Option<PathBuf>,
     /// Distance between the lines of an assembly, Hz [default: 0.25]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Also draw the response of laps
+    /// Also draw the response of laps, or of an assembly in space
     #[arg(long, value_name = "NAME.svg|NAME.html")]
     report: Option<PathBuf>,
+    /// Also write how far the joints' deviations let the functions of an assembly in space be off
+    #[arg(long, value_name = "NAME.csv")]
+    deviations: Option<PathBuf>,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
@@ -101,9 +125,23 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         return assembly::run(arguments, &text);
     }
     let method = text.method()?;
-    text.check_method(method, &[Method::Respond, Method::FrfDecoupling])?;
+    text.check_method(
+        method,
+        &[Method::Respond, Method::FrfDecoupling, Method::FrfSpace],
+    )?;
+    if arguments.plan {
+        return plan::run(arguments, &text);
+    }
+    if method == Method::FrfSpace {
+        return chain::run(arguments, &text);
+    }
+    if let Some(path) = &arguments.deviations {
+        let expected = "a study of method \"frf-space\"";
+        return Err(CliError::option("--deviations", path.display(), expected));
+    }
+    let output = output(arguments)?;
     if method == Method::Respond {
-        return lap::run(arguments, &text);
+        return lap::run(arguments, &text, output);
     }
     let Some(joint) = &arguments.joint else {
         return Err(CliError::option(
@@ -117,8 +155,8 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
             "none: the functions of an assembly are not drawn here, `identify --report` draws them";
         return Err(CliError::option("--report", report.display(), expected));
     }
-    let format = format(&arguments.output)?;
-    check_output(&arguments.output, &[&arguments.study, joint])?;
+    let format = format(output)?;
+    check_output(output, &[&arguments.study, joint])?;
     let noise = match &arguments.noise {
         Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
         None => None,
@@ -143,10 +181,10 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         None => "no noise".to_owned(),
     };
     match format {
-        Format::Table => write_file(&arguments.output, to_csv(&measured).as_bytes())?,
+        Format::Table => write_file(output, to_csv(&measured).as_bytes())?,
         Format::Universal => {
             let description = format!("computed, not measured: {}, {what}", study.name);
-            write_uff58(&measured, &arguments.output, &description)?;
+            write_uff58(&measured, output, &description)?;
         }
     }
     let functions = measured.functions().count();
@@ -156,7 +194,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     if arguments.json {
         let of_bands = |bands: &Bands| json!({ "yy": bands.yy, "ytheta": bands.ytheta, "thetatheta": bands.thetatheta });
         let mut value = json!({
-            "output": arguments.output.display().to_string(),
+            "output": output.display().to_string(),
             "functions": functions,
             "lines": frequency_hz.len(),
             "noise": what,
@@ -180,9 +218,18 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         frequency_hz[0],
         frequency_hz[frequency_hz.len() - 1],
         band_tables(&bands, &study),
-        arguments.output.display()
+        output.display()
     ))?;
     judged(joint, &study)
+}
+
+/// The file to write, which is there unless a test is planned.
+fn output(arguments: &RespondArguments) -> Result<&PathBuf, CliError> {
+    let expected = "a file to write";
+    arguments
+        .output
+        .as_ref()
+        .ok_or_else(|| CliError::option("--output", "nothing", expected))
 }
 
 /// Says of joints that are not to be relied on that they are not.

@@ -7,6 +7,7 @@ use serde_json::json;
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::space::{
     Change, Misfit, Role, SideConsistency, SpatialIdentification, SpatialStudy, Unknown,
+    joints_sought,
 };
 use bolted_joint::report::{SpatialReport, spatial_figure};
 use bolted_joint::study::StudyText;
@@ -14,7 +15,7 @@ use bolted_joint::study::StudyText;
 use super::super::error::CliError;
 use super::super::output::{Outputs, check_output, print, warn};
 use super::super::table::{Table, number};
-use super::IdentifyArguments;
+use super::{IdentifyArguments, chain};
 
 pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<(), CliError> {
     for (option, is_given) in [
@@ -25,6 +26,9 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
             let expected = "a study of method \"frf-decoupling\"";
             return Err(CliError::option(option, "it", expected));
         }
+    }
+    if joints_sought(study)? != 1 {
+        return chain::run(arguments, study);
     }
     let written = arguments.report.as_ref();
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
@@ -71,21 +75,10 @@ fn as_json(
     consistency: &[SideConsistency],
     arguments: &IdentifyArguments,
 ) -> serde_json::Value {
-    let unknown = |unknown: &Unknown| {
-        json!({
-            "name": unknown.name,
-            "value": unknown.value,
-            "free": unknown.free,
-            "standard_deviation": unknown.deviation,
-            "by_noise_alone": unknown.deviation_by_noise,
-            "interval_95": unknown.interval_95(),
-            "is_determined": unknown.is_determined,
-        })
-    };
     json!({
         "output": arguments.output.display().to_string(),
         "joint_file": file,
-        "unknowns": found.unknowns.iter().map(unknown).collect::<Vec<_>>(),
+        "unknowns": found.unknowns.iter().map(unknown_json).collect::<Vec<_>>(),
         "functions": found.functions,
         "lines": found.lines,
         "relative_rms": found.relative_rms,
@@ -124,6 +117,19 @@ fn as_json(
         })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
+    })
+}
+
+/// One number of a joint.
+pub(super) fn unknown_json(unknown: &Unknown) -> serde_json::Value {
+    json!({
+        "name": unknown.name,
+        "value": unknown.value,
+        "free": unknown.free,
+        "standard_deviation": unknown.deviation,
+        "by_noise_alone": unknown.deviation_by_noise,
+        "interval_95": unknown.interval_95(),
+        "is_determined": unknown.is_determined,
     })
 }
 

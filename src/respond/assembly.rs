@@ -20,6 +20,8 @@ const MODES_TOLD: usize = 12;
 pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), CliError> {
     for (option, given) in [
         ("--joint", arguments.joint.is_some()),
+        ("--plan", arguments.plan),
+        ("--deviations", arguments.deviations.is_some()),
         ("--step", arguments.step.is_some()),
         ("noise", arguments.noise.is_some()),
     ] {
@@ -29,15 +31,12 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
             return Err(CliError::option(option, "it", expected));
         }
     }
-    if !has_extension(&arguments.output, "csv") {
+    let output = super::output(arguments)?;
+    if !has_extension(output, "csv") {
         let expected = "a name that ends in .csv";
-        return Err(CliError::option(
-            "--output",
-            arguments.output.display(),
-            expected,
-        ));
+        return Err(CliError::option("--output", output.display(), expected));
     }
-    check_output(&arguments.output, &[&arguments.study])?;
+    check_output(output, &[&arguments.study])?;
     let picture = Picture::asked(arguments)?;
     let model = AssemblyModel::of(text)?;
     let Some(response) = &model.response else {
@@ -48,12 +47,12 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
     let answer = AssemblyAnswer::of(&model, response, &|share| progress.reached(share))?;
     drop(progress);
     let drawing = Picture::drawn(picture, &model.name, || answer.figure(&model.name))?;
-    write_file(&arguments.output, answer.to_csv().as_bytes())?;
+    write_file(output, answer.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }
     warn(&model.warnings);
-    let output = arguments.output.display();
+    let output = output.display();
     if arguments.json {
         let modes = answer.modes.iter().map(|mode| json!({ "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio }));
         let value = json!({

@@ -1,5 +1,7 @@
 //! `respond` with a study of method `respond`: how laps answer, as a table and a picture.
 
+use std::path::PathBuf;
+
 use serde_json::json;
 
 use bolted_joint::respond::{RespondStudy, ResponseTable};
@@ -11,7 +13,11 @@ use super::super::progress::Progress;
 use super::RespondArguments;
 use super::picture::{Picture, has_extension};
 
-pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(), CliError> {
+pub(super) fn run(
+    arguments: &RespondArguments,
+    study: &StudyText,
+    output: &PathBuf,
+) -> Result<(), CliError> {
     if let Some(joint) = &arguments.joint {
         let expected = "none: a study of method \"respond\" names its joint files in [[lap]]";
         return Err(CliError::option("--joint", joint.display(), expected));
@@ -24,22 +30,18 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         let expected = "nothing: noise is for the functions of an assembly";
         return Err(CliError::option("noise", "it", expected));
     }
-    if !has_extension(&arguments.output, "csv") {
+    if !has_extension(output, "csv") {
         let expected = "a name that ends in .csv";
-        return Err(CliError::option(
-            "--output",
-            arguments.output.display(),
-            expected,
-        ));
+        return Err(CliError::option("--output", output.display(), expected));
     }
-    check_output(&arguments.output, &[&arguments.study])?;
+    check_output(output, &[&arguments.study])?;
     let picture = Picture::asked(arguments)?;
     let study = RespondStudy::of(study)?;
     let progress = Progress::of_share("responding");
     let table = study.run(&|share| progress.reached(share))?;
     drop(progress);
     let drawing = Picture::drawn(picture, &study.name, || study.figure(&table))?;
-    write_file(&arguments.output, table.to_csv().as_bytes())?;
+    write_file(output, table.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }
@@ -48,7 +50,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
     warn(&warnings);
     if arguments.json {
         let value = json!({
-            "output": arguments.output.display().to_string(),
+            "output": output.display().to_string(),
             "report": arguments.report.as_ref().map(|path| path.display().to_string()),
             "series": summary(&table),
             "warnings": warnings,
@@ -60,7 +62,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         "{}: {} series, {rows} rows\nwrote {}",
         study.name,
         table.series.len(),
-        arguments.output.display()
+        output.display()
     ))?;
     judged(&study)
 }

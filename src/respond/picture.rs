@@ -35,7 +35,10 @@ impl<'a> Picture<'a> {
             let expected = "a name that ends in .svg or .html";
             return Err(CliError::option("--report", path.display(), expected));
         };
-        check_output(path, &[&arguments.study, &arguments.output])?;
+        let others: Vec<&PathBuf> = std::iter::once(&arguments.study)
+            .chain(&arguments.output)
+            .collect();
+        check_output(path, &others)?;
         Ok(Some(Self { path, kind }))
     }
 

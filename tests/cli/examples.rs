@@ -127,3 +127,27 @@ fn a_planned_test_identifies_the_joint_that_it_was_planned_with() {
         &[],
     );
 }
+
+#[test]
+fn a_test_in_space_is_planned_and_answers_beforehand() {
+    let bench = files_of("plan-in-space");
+    let planned = bench.done("respond study.toml --plan --step 60 --add 2 -o plan.csv");
+    let expected = [
+        "expected of 288 functions of the assembly at 30 lines",
+        "add next: ",
+        "then: ",
+    ];
+    has(&planned.stdout, &expected);
+    let table = bench.text("plan.csv");
+    assert_eq!(table.lines().count(), 1 + 42);
+    has(&table, &["joint,k_x,2e7,2e7,"]);
+    bench.done("respond study.toml --step 60 -o test.csv");
+    let functions = bench.text("test.csv");
+    let header = functions.lines().next().unwrap();
+    assert_eq!(header.split(',').count(), 1 + 2 * 18 * 16);
+    bench.fails("respond study.toml --plan", &["`frequency`", "--step"]);
+    bench.fails(
+        "respond study.toml --plan --step 60 --for k_q",
+        &["--for", "k_q", "k_x_ry"],
+    );
+}

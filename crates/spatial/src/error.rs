@@ -1,8 +1,12 @@
 //! Why no joint can be identified from functions that were read.
 
+use bolted_joint_frf::Dof;
 use bolted_joint_space::SpaceError;
+use bolted_joint_study::StudyError;
 use bolted_joint_virtual_point::VirtualPointError;
 use thiserror::Error;
+
+use crate::chain::OfInterface;
 
 impl SpatialError {
     /// Of the virtual point of a, 0, or of b, 1.
@@ -11,6 +15,12 @@ impl SpatialError {
             side: ["a", "b"][side],
             source,
         }
+    }
+}
+
+impl From<OfInterface> for SpatialError {
+    fn from(OfInterface { name, source }: OfInterface) -> Self {
+        Self::Interface { name, source }
     }
 }
 
@@ -60,6 +70,100 @@ pub enum SpatialError {
         "no start of the search gives finite functions of the assembly; check the units of the files and the interface's length"
     )]
     NoStart,
+    /// An interface of a chain.
+    #[error("{name}: {source}")]
+    Interface {
+        /// The table of the study with its sensors and impacts: `a`, `b.far`.
+        name: String,
+        /// What is wrong with it.
+        source: VirtualPointError,
+    },
+    /// Two joints look the same.
+    #[error(
+        "the functions do not tell {} and {} apart (canonical correlation {correlation}): the part between them is as good as rigid and \
+         without mass, and nothing is measured on it; measure on that part, or state one of the joints (known)", joints[0], joints[1]
+    )]
+    NotToldApart {
+        /// Their tables in the study.
+        joints: [String; 2],
+        /// Largest canonical correlation of what changes of both do.
+        correlation: f64,
+    },
+    /// Errors of a set-up beside several joints.
+    #[error(
+        "budget: found errors of sensors and impacts beside {sought} joints that are sought, expected budget = \"none\": they are \
+         estimated with one joint, and known ones"
+    )]
+    BudgetOfSeveral {
+        /// Joints that are sought.
+        sought: usize,
+    },
+    /// A plan without noise.
+    #[error(
+        "noise.relative: found nothing, expected the noise of the test to be planned, in parts of each function's r.m.s., such as 0.01"
+    )]
+    NoNoise,
+    /// A joint that is not said.
+    #[error(
+        "{joint}.expected: found nothing, expected what the joint is taken to be: a joint file, or {{ stiffness, damping }} of 6 × 6 \
+         numbers"
+    )]
+    NotExpected {
+        /// Its table in the study.
+        joint: String,
+    },
+    /// An expected joint that lacks what is sought.
+    #[error(
+        "{joint}.expected: found nothing in a motion of {name}, expected stiffness and damping in every motion of the model: a plan needs \
+         to know how large they are; take a model without that motion, or state what it may be"
+    )]
+    NothingExpected {
+        /// Its table in the study.
+        joint: String,
+        /// The unknown.
+        name: String,
+    },
+    /// No sensors, or no impacts.
+    #[error(
+        "assembly: found no {what}, expected some: sensors and impacts near the interfaces, or responses and references elsewhere on the \
+         parts"
+    )]
+    NoneOf {
+        /// `sensors` or `impacts`.
+        what: &'static str,
+    },
+    /// A DOF that nobody has.
+    #[error("assembly: found {dof}, expected DOFs of the {what} of the parts")]
+    NotThere {
+        /// `sensors` or `impacts`.
+        what: &'static str,
+        /// The DOF.
+        dof: Dof,
+    },
+    /// A candidate that cannot be.
+    #[error("{key}: there is no such candidate: {source}")]
+    Candidate {
+        /// Its key in the study.
+        key: String,
+        /// Why not.
+        source: Box<SpatialError>,
+    },
+    /// An unknown that there is not.
+    #[error("--for: found {found}, expected some of {expected}")]
+    NoSuchNumber {
+        /// What was asked for.
+        found: String,
+        /// What there is.
+        expected: String,
+    },
+    /// The study.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// Every joint is known.
+    #[error(
+        "joint: found every one known, expected one with a model to be sought; what the assembly answers says `bolted-joint respond`"
+    )]
+    AllKnown,
     /// The information matrix cannot be inverted.
     #[error(
         "the functions of the assembly do not tell the unknowns of the joint apart; measure with sensors on both sides, or take a model \

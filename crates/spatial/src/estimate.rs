@@ -279,7 +279,7 @@ impl SpatialStudy {
         if self.problem.tolerances.is_none() {
             return Vec::new();
         }
-        let sides = ["a", "b"].into_iter().zip(&self.problem.sides);
+        let sides = self.names.iter().zip(&self.problem.sides);
         let kinds = sides.flat_map(|(name, side)| {
             let parameters = side.parameters().into_iter();
             parameters.map(move |parameter| match parameter.place {

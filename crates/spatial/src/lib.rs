@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 
 mod assembled;
+mod chain;
 mod consistency;
 mod dyads;
 mod error;
@@ -34,6 +35,10 @@ mod study;
 mod tables;
 mod together;
 
+pub use chain::{
+    Addition, Aim, Answer, Answers, Apart, ChainIdentification, ChainStudy, FoundJoint, Plan,
+    Planned, Reason, joints_sought,
+};
 pub use consistency::SideConsistency;
 pub use error::SpatialError;
 pub use identification::{

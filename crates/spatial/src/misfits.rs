@@ -55,7 +55,7 @@ impl SpatialStudy {
             sides, tolerances, ..
         } = &self.problem;
         let mut misfits = Vec::new();
-        for (n, (name, side)) in ["a", "b"].into_iter().zip(sides).enumerate() {
+        for (n, (name, side)) in self.names.iter().zip(sides).enumerate() {
             let Interface::Points(set_up) = &side.interface else {
                 continue;
             };

@@ -5,17 +5,17 @@ use std::str::FromStr as _;
 
 use bolted_joint_frf::{Direction, Dof, FrfSet, ReadOptions, Sign, read_frfs};
 use bolted_joint_joint::InputFile;
-use bolted_joint_space::{Axes, JointModel, Mirrors};
-use bolted_joint_study::{Method, StudyError, StudyText, input_file};
-use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerance, Tolerances};
-use nalgebra::{DMatrix, Matrix3, Vector3};
-use num_complex::Complex64;
+use bolted_joint_space::{Axes, JointModel, Mirrors, Parametrisation};
+use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
+use nalgebra::{Matrix3, Vector3};
 
+use crate::chain::ChainStudy;
 use crate::problem::{Level, Observed, Problem};
-use crate::side::{Interface, MOTIONS, Side};
+use crate::side::{MOTIONS, Side};
 use crate::tables::{
-    BudgetTable, DeviationsTable, ImpactTable, JointTable, ModelName, NoBudget, NoiseTable,
-    SensorTable, SideTable, StudyFile,
+    BudgetTable, DeviationsTable, JointTable, ModelName, NoBudget, NoiseTable, SensorTable,
+    StudyFile,
 };
 
 /// Frequencies that are the same, in parts.
@@ -38,11 +38,13 @@ pub struct SpatialStudy {
     pub level: Level,
     /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
+    /// Tables with the sensors and impacts of both sides of the joint: `a` and `b`, or `b.far` and `c`.
+    pub(crate) names: [String; 2],
     pub(crate) problem: Problem,
 }
 
 /// Directions along an axis or about it, in the order of an interface's motions.
-const DIRECTIONS: [Direction; MOTIONS] = [
+pub(crate) const DIRECTIONS: [Direction; MOTIONS] = [
     Direction::X,
     Direction::Y,
     Direction::Z,
@@ -58,66 +60,36 @@ impl SpatialStudy {
     /// [`StudyError`] that names the file and the key or line.
     pub fn of(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
-        study.check_method(file.method, &[Method::FrfSpace])?;
-        study.check_name("name", &file.name)?;
         let reader = Reader { study };
-        let [from_hz, to_hz] = study.frequency_range_hz(&file.frequency)?;
-        let read = |key: &str, path: &Path| reader.functions(key, path, [from_hz, to_hz]);
-        let [a, b, assembly] = [
-            ("a.frf", &file.a.frf),
-            ("b.frf", &file.b.frf),
-            ("assembly.frf", &file.assembly.frf),
-        ]
-        .map(|(key, path)| read(key, path));
-        let (a, b, assembly) = (a?, b?, assembly?);
-        let frequency_hz = assembly.frequency_hz().to_vec();
-        for (key, set) in [("a.frf", &a), ("b.frf", &b)] {
-            reader.same_lines(key, set.frequency_hz(), &frequency_hz)?;
-        }
-        let sides = [
-            reader.side("a", &file.a, &a)?,
-            reader.side("b", &file.b, &b)?,
-        ];
-        let observed = reader.observed(&sides, &assembly)?;
-        let model = reader.model(&file.joint)?;
-        let length_m = study.positive(
-            "joint.length",
-            file.joint.length,
-            "about the size of the interface in m, such as 0.03",
-        )?;
-        let level = match file.noise.relative {
-            None => Level::OfResiduals,
-            Some(part) => Level::Relative(study.positive(
-                "noise.relative",
-                part,
-                "noise in parts of each function's r.m.s., such as 0.01",
-            )?),
+        let chain = ChainStudy::of(study, None)?;
+        let Some(assembly) = &chain.assembly else {
+            return study.refuse(
+                "assembly.frf",
+                "nothing",
+                "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`",
+            );
         };
         let noise = reader.noise(&file.noise)?;
-        let mut files = vec![study.record()];
-        for (role, path) in [
-            ("a", &file.a.frf),
-            ("b", &file.b.frf),
-            ("assembly", &file.assembly.frf),
-        ] {
-            let path = study.resolved(path);
-            files.push(input_file(role, &path, study.folder(), |_, _| {})?);
-        }
+        let (sides, joint) = chain.two_sides()?;
+        let observed = reader.observed(&sides, assembly)?;
+        let frequency_hz = chain.problem.frequency_hz.clone();
+        let level = reader.level(&file.noise)?;
         Ok(Self {
             path: study.path().to_owned(),
             name: file.name,
-            model: name(file.joint.model).to_owned(),
+            model: chain.models[0].clone(),
             notes: file.notes,
-            files,
+            files: chain.files,
             level,
             noise,
+            names: joint.names,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, &sides)?,
+                tolerances: reader.tolerances(&file.budget, has_places(&sides))?,
                 sides,
                 frequency_hz,
                 observed,
-                model,
-                length_m,
+                model: joint.model,
+                length_m: joint.length_m,
             },
         })
     }
@@ -129,12 +101,17 @@ impl SpatialStudy {
     }
 }
 
-struct Reader<'s> {
-    study: &'s StudyText,
+/// Whether anything about a set-up can be wrong.
+fn has_places(sides: &[Side; 2]) -> bool {
+    sides.iter().any(|side| !side.parameters().is_empty())
+}
+
+pub(crate) struct Reader<'s> {
+    pub(crate) study: &'s StudyText,
 }
 
 impl Reader<'_> {
-    fn functions(
+    pub(crate) fn functions(
         &self,
         key: &str,
         path: &Path,
@@ -166,7 +143,12 @@ impl Reader<'_> {
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
     }
 
-    fn same_lines(&self, key: &str, found: &[f64], expected: &[f64]) -> Result<(), StudyError> {
+    pub(crate) fn same_lines(
+        &self,
+        key: &str,
+        found: &[f64],
+        expected: &[f64],
+    ) -> Result<(), StudyError> {
         let are_same = found.len() == expected.len()
             && found
                 .iter()
@@ -180,110 +162,27 @@ impl Reader<'_> {
             are_same,
             key,
             ends(found),
-            format_args!("the lines of assembly.frf, {}", ends(expected)),
+            format_args!("the lines of the other files, {}", ends(expected)),
         )
     }
 
-    fn side(&self, name: &str, table: &SideTable, set: &FrfSet) -> Result<Side, StudyError> {
-        let (mut responses, mut references, interface) = match table.interface {
-            Some(node) => {
-                let has_places = !(table.sensors.is_empty() && table.impacts.is_empty());
-                self.study.ensure(
-                    !has_places,
-                    format_args!("{name}.interface"),
-                    format_args!("{node} beside sensors or impacts"),
-                    "either the node whose six motions are the interface's, or sensors and impacts near it",
-                )?;
-                let dofs = DIRECTIONS.map(|direction| Dof::new(node, direction, Sign::Plus));
-                (dofs.to_vec(), dofs.to_vec(), Interface::Node)
-            }
-            None => self.points(name, table)?,
-        };
-        for (key, own, more) in [
-            ("responses", &mut responses, &table.responses),
-            ("references", &mut references, &table.references),
-        ] {
-            for (place, text) in more.iter().enumerate() {
-                own.push(self.dof(format_args!("{name}.{key}[{place}]"), text)?);
-            }
-        }
-        let functions: Vec<Vec<Vec<Complex64>>> = responses
-            .iter()
-            .map(|&response| {
-                let row = references.iter().map(|&reference| {
-                    let function = set.receptance(response, reference);
-                    function.map(|function| function.values().to_vec())
-                });
-                row.collect::<Result<Vec<_>, _>>()
-            })
-            .collect::<Result<_, _>>()
-            .map_err(|source| {
-                StudyError::model(self.study.path(), Some(&format!("{name}.frf")), source)
-            })?;
-        let lines = (0..set.line_count())
-            .map(|line| {
-                DMatrix::from_fn(responses.len(), references.len(), |i, j| {
-                    functions[i][j][line]
-                })
-            })
-            .collect();
-        Ok(Side {
-            responses,
-            references,
-            lines,
-            interface,
+    /// The noise of the assembly's functions.
+    pub(crate) fn level(&self, table: &NoiseTable) -> Result<Level, StudyError> {
+        Ok(match table.relative {
+            None => Level::OfResiduals,
+            Some(part) => Level::Relative(self.study.positive(
+                "noise.relative",
+                part,
+                "noise in parts of each function's r.m.s., such as 0.01",
+            )?),
         })
     }
 
-    fn points(
+    pub(crate) fn sensor(
         &self,
-        name: &str,
-        table: &SideTable,
-    ) -> Result<(Vec<Dof>, Vec<Dof>, Interface), StudyError> {
-        let refused =
-            |key: String, source| StudyError::model(self.study.path(), Some(&key), source);
-        let (mut responses, mut references) = (Vec::new(), Vec::new());
-        let (mut sensors, mut impacts) = (Vec::new(), Vec::new());
-        for (place, sensor) in table.sensors.iter().enumerate() {
-            let key = format!("{name}.sensors[{place}]");
-            let (dofs, sensor) = self.sensor(&key, sensor)?;
-            responses.extend(dofs);
-            sensors.push(sensor);
-        }
-        for (place, impact) in table.impacts.iter().enumerate() {
-            let key = format!("{name}.impacts[{place}]");
-            let ImpactTable {
-                dof,
-                position,
-                direction,
-            } = impact;
-            let dof = self.dof(format_args!("{key}.dof"), dof)?;
-            let direction = self.direction(&key, dof, *direction)?;
-            references.push(dof);
-            let impact = Impact::new(Vector3::from(*position), direction, 1.0);
-            impacts.push(impact.map_err(|source| refused(key, source))?);
-        }
-        let set_up = SetUp::new(&sensors, &impacts).map_err(|source| {
-            let key = match sensors.is_empty() {
-                true => format!("{name}.sensors"),
-                false => format!("{name}.impacts"),
-            };
-            refused(key, source)
-        })?;
-        let side = Side {
-            responses,
-            references,
-            lines: Vec::new(),
-            interface: Interface::Points(set_up),
-        };
-        // what the places do not see is told at once
-        let none = vec![0.0; side.parameters().len()];
-        side.transformations(&none)
-            .map_err(|source| refused(name.to_owned(), source))?;
-        Ok((side.responses, side.references, side.interface))
-    }
-
-    fn sensor(&self, key: &str, table: &SensorTable) -> Result<(Vec<Dof>, Sensor), StudyError> {
+        key: &str,
+        table: &SensorTable,
+    ) -> Result<(Vec<Dof>, Sensor), StudyError> {
         let position = Vector3::from(table.position);
         let refused = |source| StudyError::model(self.study.path(), Some(key), source);
         match (table.node, &table.dof) {
@@ -317,7 +216,7 @@ impl Reader<'_> {
     }
 
     /// The direction that is given, or that of a DOF in the interface's axes.
-    fn direction(
+    pub(crate) fn direction(
         &self,
         key: &str,
         dof: Dof,
@@ -341,7 +240,7 @@ impl Reader<'_> {
         Ok(direction)
     }
 
-    fn dof(&self, key: impl std::fmt::Display, text: &str) -> Result<Dof, StudyError> {
+    pub(crate) fn dof(&self, key: impl std::fmt::Display, text: &str) -> Result<Dof, StudyError> {
         Dof::from_str(text).map_err(|refused| {
             self.study.refusal(
                 key,
@@ -384,13 +283,18 @@ impl Reader<'_> {
         Ok(observed)
     }
 
-    fn model(&self, table: &JointTable) -> Result<bolted_joint_space::Parametrisation, StudyError> {
+    pub(crate) fn model(
+        &self,
+        key: &str,
+        model: ModelName,
+        table: &JointTable,
+    ) -> Result<Parametrisation, StudyError> {
         let axis = table.axis.map_or(Vector3::z(), Vector3::from);
         let mirrors = match table.twisted {
             true => Mirrors::Lost,
             false => Mirrors::Kept,
         };
-        let model = match table.model {
+        let model = match model {
             ModelName::Translations => JointModel::Translations,
             ModelName::Diagonal => JointModel::Diagonal,
             ModelName::Bolt => JointModel::Bolt { axis, mirrors },
@@ -399,7 +303,7 @@ impl Reader<'_> {
                 line: self
                     .study
                     .needed(
-                        "joint.line",
+                        format_args!("{key}.line"),
                         table.line,
                         "the direction from one bolt to the other",
                     )?
@@ -407,9 +311,11 @@ impl Reader<'_> {
                 mirrors,
             },
             ModelName::BoltCircle => JointModel::BoltCircle {
-                bolts: self
-                    .study
-                    .needed("joint.bolts", table.bolts, "how many bolts there are")?,
+                bolts: self.study.needed(
+                    format_args!("{key}.bolts"),
+                    table.bolts,
+                    "how many bolts there are",
+                )?,
                 axis,
                 mirrors,
             },
@@ -418,7 +324,7 @@ impl Reader<'_> {
                 positions_m: self
                     .study
                     .needed(
-                        "joint.positions",
+                        format_args!("{key}.positions"),
                         table.positions.as_ref(),
                         "a place [x, y, z] in m for each bolt",
                     )?
@@ -431,13 +337,13 @@ impl Reader<'_> {
         };
         model
             .parametrisation()
-            .map_err(|source| StudyError::model(self.study.path(), Some("joint"), source))
+            .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
 
-    fn tolerances(
+    pub(crate) fn tolerances(
         &self,
         table: &BudgetTable,
-        sides: &[Side; 2],
+        has_places: bool,
     ) -> Result<Option<Tolerances>, StudyError> {
         let DeviationsTable {
             position,
@@ -461,7 +367,6 @@ impl Reader<'_> {
             rotation_rad: value("rotation", rotation, Tolerance::TYPICAL.rotation_rad)?,
             gain: value("gain", gain, Tolerance::TYPICAL.gain)?,
         };
-        let has_places = sides.iter().any(|side| !side.parameters().is_empty());
         Ok(has_places.then_some(Tolerances {
             sensors: tolerance,
             impacts: tolerance,
@@ -470,7 +375,7 @@ impl Reader<'_> {
 }
 
 /// As the study has it.
-fn name(model: ModelName) -> &'static str {
+pub(crate) fn model_name(model: ModelName) -> &'static str {
     match model {
         ModelName::Translations => "translations",
         ModelName::Diagonal => "diagonal",

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_study::{FrequencyTable, Method};
-use serde::Deserialize;
+use bolted_joint_study::{FrequencyTable, Method, one_or_more_tables};
+use serde::{Deserialize, Deserializer};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -12,22 +12,41 @@ pub(crate) struct StudyFile {
     pub(crate) name: String,
     #[serde(default)]
     pub(crate) notes: Vec<String>,
-    pub(crate) a: SideTable,
-    pub(crate) b: SideTable,
+    pub(crate) a: PartTable,
+    pub(crate) b: PartTable,
+    /// Further parts of a chain.
+    pub(crate) c: Option<PartTable>,
+    pub(crate) d: Option<PartTable>,
+    pub(crate) e: Option<PartTable>,
+    pub(crate) f: Option<PartTable>,
+    #[serde(default)]
     pub(crate) assembly: AssemblyTable,
-    pub(crate) joint: JointTable,
+    #[serde(deserialize_with = "joints")]
+    pub(crate) joint: Vec<JointTable>,
     #[serde(default)]
     pub(crate) frequency: FrequencyTable,
     #[serde(default)]
     pub(crate) noise: NoiseTable,
     #[serde(default)]
     pub(crate) budget: BudgetTable,
+    /// What a plan may add.
+    pub(crate) candidates: Option<CandidatesTable>,
+}
+
+fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointTable>, D::Error> {
+    one_or_more_tables(
+        deserializer,
+        "a table [joint], or [[joint]] for each joint of a chain",
+    )
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SideTable {
-    pub(crate) frf: PathBuf,
+pub(crate) struct PartTable {
+    /// Measured or computed functions.
+    pub(crate) frf: Option<PathBuf>,
+    /// Modes.
+    pub(crate) modal: Option<PathBuf>,
     /// Node whose six motions are those of the interface.
     pub(crate) interface: Option<u32>,
     #[serde(default)]
@@ -39,6 +58,50 @@ pub(crate) struct SideTable {
     pub(crate) responses: Vec<String>,
     #[serde(default)]
     pub(crate) references: Vec<String>,
+    /// The interface to the next part of a chain.
+    pub(crate) far: Option<InterfaceTable>,
+}
+
+/// An interface of a part that has two.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InterfaceTable {
+    pub(crate) interface: Option<u32>,
+    #[serde(default)]
+    pub(crate) sensors: Vec<SensorTable>,
+    #[serde(default)]
+    pub(crate) impacts: Vec<ImpactTable>,
+}
+
+/// What may be added to a test.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CandidatesTable {
+    #[serde(default)]
+    pub(crate) sensors: Vec<CandidateSensorTable>,
+    #[serde(default)]
+    pub(crate) impacts: Vec<CandidateImpactTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CandidateSensorTable {
+    /// The table that it would be added to: `a`, `b`, `b.far`.
+    pub(crate) to: String,
+    pub(crate) node: Option<u32>,
+    pub(crate) dof: Option<String>,
+    pub(crate) position: [f64; 3],
+    pub(crate) axes: Option<[[f64; 3]; 3]>,
+    pub(crate) direction: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CandidateImpactTable {
+    pub(crate) to: String,
+    pub(crate) dof: String,
+    pub(crate) position: [f64; 3],
+    pub(crate) direction: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -66,16 +129,25 @@ pub(crate) struct ImpactTable {
     pub(crate) direction: Option<[f64; 3]>,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AssemblyTable {
-    pub(crate) frf: PathBuf,
+    /// Left out while nothing is measured.
+    pub(crate) frf: Option<PathBuf>,
+    /// Which of the DOFs will be measured; all if left out. Of a plan alone.
+    pub(crate) responses: Option<Vec<String>>,
+    pub(crate) references: Option<Vec<String>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct JointTable {
-    pub(crate) model: ModelName,
+    /// Of a joint that is sought.
+    pub(crate) model: Option<ModelName>,
+    /// Joint file of one that is not.
+    pub(crate) known: Option<PathBuf>,
+    /// What a plan takes it to be.
+    pub(crate) expected: Option<ExpectedTable>,
     /// Of bolts.
     pub(crate) axis: Option<[f64; 3]>,
     /// From one of two bolts to the other.
@@ -88,7 +160,25 @@ pub(crate) struct JointTable {
     #[serde(default)]
     pub(crate) twisted: bool,
     /// About the size of the interface, m.
-    pub(crate) length: f64,
+    pub(crate) length: Option<f64>,
+}
+
+/// A joint file, or matrices.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected the path of a joint file, or a table with stiffness and damping (6 × 6)"
+)]
+pub(crate) enum ExpectedTable {
+    File(PathBuf),
+    Matrices(Box<MatricesTable>),
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MatricesTable {
+    pub(crate) stiffness: [[f64; 6]; 6],
+    pub(crate) damping: [[f64; 6]; 6],
 }
 
 #[derive(Clone, Copy, Deserialize)]

@@ -1,0 +1,29 @@
+//! Parts in a chain with joints between them, known and sought: spindle, holder and tool.
+//!
+//! [`ChainStudy`] is what a study says of them. It plans a test ([`ChainStudy::plan`]), gives what the assembly answers
+//! ([`ChainStudy::answers`]), and identifies several joints at once ([`ChainStudy::identify`]). A single joint that is sought is
+//! identified between two sides, with the known joints coupled into them ([`crate::SpatialStudy`]).
+
+mod apart;
+mod assembled;
+mod estimate;
+mod links;
+mod normal;
+mod part;
+pub(crate) mod plan;
+mod problem;
+mod reader;
+mod reduced;
+mod response;
+mod search;
+mod side;
+mod spread;
+mod starts;
+mod study;
+
+pub use apart::Apart;
+pub use estimate::{ChainIdentification, FoundJoint};
+pub use plan::{Addition, Aim, Plan, Planned, Reason};
+pub use response::{Answer, Answers};
+pub(crate) use side::OfInterface;
+pub use study::{ChainStudy, joints_sought};

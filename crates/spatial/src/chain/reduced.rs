@@ -1,0 +1,150 @@
+//! A chain with one joint that is sought, as two sides: the known joints are coupled into them.
+//!
+//! Y_C = Y − Y Sᵀ D (I + S Y Sᵀ D)⁻¹ S Y with S and D of the known joints of a side. Errors of sensors and impacts at these are not
+//! carried on; those at the joint that is sought are.
+
+use bolted_joint_frf::Dof;
+use bolted_joint_space::Parametrisation;
+use bolted_joint_study::StudyError;
+use nalgebra::DVector;
+
+use super::assembled::Assembled;
+use super::links::{Link, Links};
+use super::part::{Part, PartInterface};
+use super::problem::{Problem, Unknowns};
+use super::study::{ChainStudy, sides};
+use crate::side::{Interface, Side};
+
+/// The joint between the two sides.
+pub(crate) struct Between {
+    pub(crate) model: Parametrisation,
+    pub(crate) length_m: f64,
+    /// Tables with the sensors and impacts on both sides of it.
+    pub(crate) names: [String; 2],
+}
+
+impl ChainStudy {
+    /// What is before the joint that is sought, and what is behind it.
+    pub(crate) fn two_sides(&self) -> Result<([Side; 2], Between), StudyError> {
+        let sought = self.problem.links.sought();
+        let [joint] = sought.as_slice() else {
+            return self.text.refuse(
+                "joint",
+                format_args!("{} joints that are sought", sought.len()),
+                "one with a model; the others are known",
+            );
+        };
+        let at = joint.number;
+        let before = self.side(&self.parts[..=at], &self.problem.links.0[..at], at, false)?;
+        let behind = self.side(
+            &self.parts[at + 1..],
+            &self.problem.links.0[at + 1..],
+            at,
+            true,
+        )?;
+        let between = Between {
+            model: joint.model.clone(),
+            length_m: joint.link.length_m,
+            names: [(at, false), (at + 1, true)].map(|(part, is_behind)| {
+                interface_at(&self.parts[part], at, is_behind).name.clone()
+            }),
+        };
+        Ok(([before, behind], between))
+    }
+
+    /// Parts with known joints between them, the channels and impacts of one interface first.
+    fn side(
+        &self,
+        parts: &[Part],
+        links: &[Link],
+        at: usize,
+        is_behind: bool,
+    ) -> Result<Side, StudyError> {
+        // the end at the joint that is sought
+        let place = if is_behind { 0 } else { parts.len() - 1 };
+        let end = &parts[place];
+        let own = interface_at(end, at, is_behind);
+        let interface = own
+            .checked(&self.text)?
+            .map_or(Interface::Node, Interface::Points);
+        let frequency_hz = &self.problem.frequency_hz;
+        if parts.len() == 1 {
+            let alone = end.side(&self.text, frequency_hz)?;
+            return Ok(Side {
+                responses: alone.responses,
+                references: alone.references,
+                lines: alone.lines,
+                interface,
+            });
+        }
+        // the other interfaces are at known joints
+        let mut parts = parts.to_vec();
+        parts[place]
+            .interfaces
+            .retain(|interface| interface.name != own.name);
+        parts[place].beside = Some(own.clone());
+        let problem = Problem {
+            sides: sides(&self.text, &parts, frequency_hz)?,
+            frequency_hz: frequency_hz.clone(),
+            observed: Vec::new(),
+            links: Links(links.to_vec()),
+            tolerances: None,
+        };
+        let [a, b] = &problem.sides;
+        // the end part is the first of its side, or the last one
+        let first_of = |which: usize| {
+            let [own_side, skip] = match (place % 2, which) {
+                (0, 0) => [a.responses.len(), 0],
+                (0, _) => [a.references.len(), 0],
+                (_, 0) => [b.responses.len(), a.rows()],
+                (_, _) => [b.references.len(), a.columns()],
+            };
+            match is_behind {
+                true => skip,
+                false => skip + own_side - parts[place].counts()[which],
+            }
+        };
+        let order = |which: usize, of_a: usize, skip: usize, of_b: usize| -> Vec<usize> {
+            let near = first_of(which)..first_of(which) + own.counts()[which];
+            let all = (0..of_a).chain(skip..skip + of_b);
+            let rest = all.filter(|row| !near.contains(row));
+            near.clone().chain(rest).collect()
+        };
+        let rows = order(0, a.responses.len(), a.rows(), b.responses.len());
+        let columns = order(1, a.references.len(), a.columns(), b.references.len());
+        let refused = |source| StudyError::model(self.text.path(), Some("joint"), source);
+        let none = Unknowns(DVector::zeros(0));
+        let assembled = Assembled::new(&problem, &none).map_err(refused)?;
+        let mut lines = Vec::new();
+        for line in 0..frequency_hz.len() {
+            let whole = assembled.whole(line).map_err(refused)?;
+            let all = whole.receptance();
+            lines.push(all.select_rows(&rows).select_columns(&columns));
+        }
+        let dofs = |[of_a, of_b]: [&[Dof]; 2], skip: usize, order: &[usize]| -> Vec<Dof> {
+            let of = |&row: &usize| {
+                if row < skip {
+                    of_a[row]
+                } else {
+                    of_b[row - skip]
+                }
+            };
+            order.iter().map(of).collect()
+        };
+        Ok(Side {
+            responses: dofs([&a.responses, &b.responses], a.rows(), &rows),
+            references: dofs([&a.references, &b.references], a.columns(), &columns),
+            lines,
+            interface,
+        })
+    }
+}
+
+/// The interface of a part at the joint that is sought.
+fn interface_at(part: &Part, at: usize, is_behind: bool) -> &PartInterface {
+    match (is_behind, at) {
+        // behind the joint, and on the first part, it is the one interface that is not far
+        (true, _) | (false, 0) => &part.interfaces[0],
+        (false, _) => &part.interfaces[part.interfaces.len() - 1],
+    }
+}

@@ -1,0 +1,79 @@
+//! How well the unknowns of the joints are known: by noise, and with the errors of the set-up.
+
+use bolted_joint_virtual_point::Place;
+use nalgebra::DMatrix;
+
+use crate::chain::problem::Problem;
+use crate::fit::covariance;
+
+/// Information on an error of the set-up that is known, in parts of what there is.
+const KNOWN: f64 = 1e9;
+
+/// Covariances of the unknowns of the joints.
+pub(crate) struct Spread {
+    /// With the errors of the set-up.
+    pub(crate) all: DMatrix<f64>,
+    /// Of noise alone.
+    pub(crate) by_noise: DMatrix<f64>,
+    /// What each kind of errors of the set-up adds by itself.
+    pub(crate) groups: Vec<(String, DMatrix<f64>)>,
+}
+
+impl Spread {
+    /// From the information on joints and errors of the set-up together, and the covariance with a set-up that is known. None
+    /// where there is something that nothing is known of.
+    pub(crate) fn of(
+        problem: &Problem,
+        information: &DMatrix<f64>,
+        by_noise: DMatrix<f64>,
+    ) -> Option<Self> {
+        let (count, errors) = (problem.joint_count(), problem.error_count());
+        let all = covariance(information)?;
+        // θ follows η by −F_θθ⁻¹ F_θη
+        let own = information.view((0, 0), (count, count)).into_owned();
+        let follows = covariance(&own)? * information.view((0, count), (count, errors));
+        let with = |all: &DMatrix<f64>| {
+            let moved = &follows * all.view((count, count), (errors, errors));
+            &by_noise + moved * follows.transpose()
+        };
+        let joint = with(&all);
+        let groups = groups(problem)
+            .into_iter()
+            .map(|(name, columns)| {
+                // what is known of it no longer adds
+                let mut known = information.clone();
+                for column in columns {
+                    let place = count + column;
+                    known[(place, place)] += KNOWN * known[(place, place)];
+                }
+                let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
+                (name, &joint - without)
+            })
+            .collect();
+        Some(Self {
+            all: joint,
+            by_noise,
+            groups,
+        })
+    }
+}
+
+/// Sensors and impacts of each interface, with the places of their errors.
+fn groups(problem: &Problem) -> Vec<(String, Vec<usize>)> {
+    if problem.tolerances.is_none() {
+        return Vec::new();
+    }
+    let parameters = problem.sides.iter().flat_map(|side| side.parameters());
+    let kinds = parameters.map(|(placed, parameter)| match parameter.place {
+        Place::Sensor(_) | Place::Channel(_) => format!("sensors of {}", placed.name),
+        Place::Impact(_) => format!("impacts of {}", placed.name),
+    });
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for (place, kind) in kinds.enumerate() {
+        match groups.iter_mut().find(|(name, _)| *name == kind) {
+            Some((_, places)) => places.push(place),
+            None => groups.push((kind, vec![place])),
+        }
+    }
+    groups
+}

@@ -1,0 +1,262 @@
+//! A study of method `frf-space` with any number of parts and joints, whether or not anything was measured yet.
+
+use std::path::PathBuf;
+
+use bolted_joint_frf::{Dof, FrfSet};
+use bolted_joint_joint::InputFile;
+use bolted_joint_study::{Method, StudyError, StudyText, input_file};
+use nalgebra::Matrix6;
+
+use super::links::{Links, Numbers};
+use super::part::{Part, Source, file_of, joined};
+use super::plan::candidates::Candidate;
+use super::problem::{Observed, Problem};
+use super::response::Scatter;
+use super::side::Side;
+use crate::problem::Level;
+use crate::study::{Reader, model_name};
+use crate::tables::StudyFile;
+
+/// A checked study of parts in a chain with joints between them: two parts with one joint, or more.
+///
+/// A joint is sought or known. What is sought can be planned before an assembly is measured, and what is known answers.
+#[derive(Clone, Debug)]
+pub struct ChainStudy {
+    /// The study's own file.
+    pub path: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// Name of the model of each joint that is sought.
+    pub models: Vec<String>,
+    /// Remarks that go into joint files.
+    pub notes: Vec<String>,
+    /// The files behind the result.
+    pub files: Vec<InputFile>,
+    /// What is known of the noise.
+    pub level: Level,
+    pub(crate) text: StudyText,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) problem: Problem,
+    /// What was measured of the assembly.
+    pub(crate) assembly: Option<FrfSet>,
+    /// What each joint that is sought is taken to be: its table, and K and C where they are stated.
+    pub(crate) expected: Vec<(String, Option<[Matrix6<f64>; 2]>)>,
+    /// How far each joint scatters, where its file says so number by number.
+    pub(crate) scatters: Vec<Option<Scatter>>,
+    /// Which DOFs of the assembly will be measured; all if `None`.
+    pub(crate) planned: [Option<Vec<Dof>>; 2],
+    pub(crate) candidates: Option<Vec<Candidate>>,
+}
+
+impl ChainStudy {
+    /// A study from its text, with the files that it names; lines `step_hz` apart where none of these has any.
+    ///
+    /// # Errors
+    /// [`StudyError`] that names the file and the key or line.
+    pub fn of(study: &StudyText, step_hz: Option<f64>) -> Result<Self, StudyError> {
+        let file: StudyFile = study.tables()?;
+        study.check_method(file.method, &[Method::FrfSpace])?;
+        study.check_name("name", &file.name)?;
+        let reader = Reader { study };
+        let tables = [
+            ("a", Some(&file.a)),
+            ("b", Some(&file.b)),
+            ("c", file.c.as_ref()),
+            ("d", file.d.as_ref()),
+            ("e", file.e.as_ref()),
+            ("f", file.f.as_ref()),
+        ];
+        let tables = reader.chain(tables)?;
+        study.ensure(
+            file.joint.len() + 1 == tables.len(),
+            "joint",
+            format_args!(
+                "{} for {} parts",
+                counted(file.joint.len(), "joint"),
+                tables.len()
+            ),
+            format_args!("{}, one between each part and the next", tables.len() - 1),
+        )?;
+        let band_hz = study.frequency_range_hz(&file.frequency)?;
+        let assembly = match &file.assembly.frf {
+            Some(path) => Some(reader.functions("assembly.frf", path, band_hz)?),
+            None => None,
+        };
+        let is_measured = assembly.is_some();
+        let mut frequency_hz = assembly.as_ref().map(|set| set.frequency_hz().to_vec());
+        let mut parts = Vec::new();
+        for &(name, table) in &tables {
+            let source = reader.source(name, table, band_hz)?;
+            if let Source::Functions(set) = &source {
+                match &frequency_hz {
+                    None => frequency_hz = Some(set.frequency_hz().to_vec()),
+                    Some(expected) => {
+                        reader.same_lines(&format!("{name}.frf"), set.frequency_hz(), expected)?;
+                    }
+                }
+            }
+            parts.push(reader.part(name, table, source, is_measured)?);
+        }
+        let frequency_hz = match frequency_hz {
+            Some(frequency_hz) => frequency_hz,
+            None => reader.lines(&file.frequency, step_hz)?,
+        };
+        let sides = sides(study, &parts, &frequency_hz)?;
+        let (mut links, mut scatters) = (Vec::new(), Vec::new());
+        let (mut expected, mut models) = (Vec::new(), Vec::new());
+        for (n, table) in file.joint.iter().enumerate() {
+            let key = match file.joint.len() {
+                1 => "joint".to_owned(),
+                _ => format!("joint[{n}]"),
+            };
+            let (link, mut scatter) = reader.link(&key, table)?;
+            if let Numbers::Unknown(_) = link.numbers {
+                models.push(table.model.map_or("", model_name).to_owned());
+                let own = reader.expected(&key, table)?;
+                let (matrices, own) = own.map(|own| (own.matrices, own.scatter)).unzip();
+                expected.push((key.clone(), matrices));
+                scatter = own.flatten();
+            }
+            scatters.push(scatter);
+            links.push(link);
+        }
+        let level = reader.level(&file.noise)?;
+        let mut files = vec![study.record()];
+        let of_parts = tables.iter().map(|&(name, table)| (name, file_of(table)));
+        for (role, path) in of_parts.chain([("assembly", file.assembly.frf.as_ref())]) {
+            if let Some(path) = path {
+                let path = study.resolved(path);
+                files.push(input_file(role, &path, study.folder(), |_, _| {})?);
+            }
+        }
+        for (n, table) in file.joint.iter().enumerate() {
+            if let Some(path) = &table.known {
+                let path = study.resolved(path);
+                files.push(input_file(
+                    &format!("joint {}", n + 1),
+                    &path,
+                    study.folder(),
+                    |_, _| {},
+                )?);
+            }
+        }
+        let of = |key: &str, list: &Option<Vec<String>>| {
+            let list = list
+                .as_ref()
+                .map(|list| reader.dofs(&format!("assembly.{key}"), list));
+            list.transpose()
+        };
+        let planned = [
+            of("responses", &file.assembly.responses)?,
+            of("references", &file.assembly.references)?,
+        ];
+        let candidates = match &file.candidates {
+            Some(table) => Some(reader.candidates(table, &parts)?),
+            None => None,
+        };
+        Ok(Self {
+            path: study.path().to_owned(),
+            name: file.name,
+            models,
+            notes: file.notes,
+            files,
+            level,
+            text: study.clone(),
+            problem: Problem {
+                tolerances: reader.tolerances(&file.budget, has_places(&sides))?,
+                sides,
+                frequency_hz,
+                observed: Vec::new(),
+                links: Links(links),
+            },
+            parts,
+            assembly,
+            expected,
+            scatters,
+            planned,
+            candidates,
+        })
+    }
+
+    /// What was measured of the assembly, between rows and columns of both sides with their interfaces.
+    pub(crate) fn observed(&self) -> Result<Vec<Observed>, StudyError> {
+        let [a, b] = &self.problem.sides;
+        let places = |first: &[Dof], skip: usize, second: &[Dof]| -> Vec<(usize, Dof)> {
+            let own = first.iter().copied().enumerate();
+            let other = second.iter().copied().enumerate();
+            own.chain(other.map(|(n, dof)| (skip + n, dof))).collect()
+        };
+        let rows = places(&a.responses, a.rows(), &b.responses);
+        let columns = places(&a.references, a.columns(), &b.references);
+        let mut observed = Vec::new();
+        for &(row, response) in &rows {
+            for &(column, reference) in &columns {
+                let found = self
+                    .assembly
+                    .as_ref()
+                    .map(|all| all.receptance(response, reference));
+                // the transposed function is another datum only where it was measured
+                let Some(Ok(function)) = found else { continue };
+                if !function.is_reciprocal() {
+                    observed.push(Observed {
+                        at: [row, column],
+                        values: function.values().to_vec(),
+                    });
+                }
+            }
+        }
+        self.text.ensure(
+            !observed.is_empty(),
+            "assembly.frf",
+            "no function between DOFs of the parts",
+            "functions between sensors, impacts, responses and references of the parts; points have one number in all files",
+        )?;
+        Ok(observed)
+    }
+
+    /// How many joints are sought.
+    #[must_use]
+    pub fn sought(&self) -> usize {
+        self.problem.links.sought().len()
+    }
+}
+
+/// Whether anything about a set-up can be wrong.
+fn has_places(sides: &[Side; 2]) -> bool {
+    sides.iter().any(|side| !side.parameters().is_empty())
+}
+
+/// How many joints of a study are sought, and not known.
+///
+/// # Errors
+/// [`StudyError`] for what is no study of this kind.
+pub fn joints_sought(study: &StudyText) -> Result<usize, StudyError> {
+    let file: StudyFile = study.tables()?;
+    Ok(file
+        .joint
+        .iter()
+        .filter(|joint| joint.known.is_none())
+        .count())
+}
+
+/// Both sides of the joints: every second part belongs to the one, and the others to the other.
+pub(crate) fn sides(
+    study: &StudyText,
+    parts: &[Part],
+    frequency_hz: &[f64],
+) -> Result<[Side; 2], StudyError> {
+    let of = |first: usize| {
+        let own = parts.iter().skip(first).step_by(2);
+        let sides: Result<Vec<Side>, StudyError> =
+            own.map(|part| part.side(study, frequency_hz)).collect();
+        sides.map(joined)
+    };
+    Ok([of(0)?, of(1)?])
+}
+
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}

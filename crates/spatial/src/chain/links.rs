@@ -3,7 +3,7 @@
 use bolted_joint_space::{Entry, Parametrisation, Part, SpaceError};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::estimate::QUANTILE;
+use crate::identification::QUANTILE;
 use crate::side::MOTIONS;
 
 /// One joint.

@@ -121,6 +121,14 @@ impl ChainStudy {
             links.push(link);
         }
         let level = reader.level(&file.noise)?;
+        // their noise takes part where two measured structures are joined by one joint
+        let is_plain = file.joint.len() == 1 && file.assembly.frf.is_some();
+        for (key, given) in [("noise.a", file.noise.a), ("noise.b", file.noise.b)] {
+            if let Some(part) = given.filter(|_| !is_plain) {
+                let expected = "none for chains and plans: they take the noise of the assembly's functions alone";
+                return study.refuse(key, part, expected);
+            }
+        }
         let mut files = vec![study.record()];
         let of_parts = tables.iter().map(|&(name, table)| (name, file_of(table)));
         for (role, path) in of_parts.chain([("assembly", file.assembly.frf.as_ref())]) {

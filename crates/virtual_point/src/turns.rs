@@ -14,7 +14,7 @@ const SMALL: f64 = 1e-3;
 
 impl Places {
     /// Of derivatives by further changes at places that were displaced by `errors`, those by the errors themselves:
-    /// exp(φ + dφ) = exp(J dφ) exp(φ) with J = I + (1 − cos θ)/θ² [φ]× + (θ − sin θ)/θ³ [φ]×², θ = |φ| (the left
+    /// exp(φ + dφ) = exp(J dφ) exp(φ) with J = I + (1 − cos θ)/θ² \[φ\]× + (θ − sin θ)/θ³ \[φ\]×², θ = |φ| (the left
     /// Jacobian of rotations). They are in the order of [`Self::parameters`], whatever is derived.
     ///
     /// # Errors

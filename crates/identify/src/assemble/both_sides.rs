@@ -3,7 +3,9 @@
 //! Both structures, apart, are one structure, and the joint holds its motion u = y_B − y_A against the ground: with
 //! H_uu = H_jj + H_kk, H_us = H_ks and H_ur = −H_jr,
 //!
-//!     H^C = [H_ss 0; 0 H_rr] − H_pu (H_uu + K*⁻¹)⁻¹ H_up,   p = (s, r)
+//! ```text
+//! H^C = [H_ss 0; 0 H_rr] − H_pu (H_uu + K*⁻¹)⁻¹ H_up,   p = (s, r)
+//! ```
 //!
 //! is (3.14) to (3.17) of Tol at once, and decoupling from it is (3.18) to (3.21). So everything that works on functions at points
 //! of B alone works on these.

@@ -68,7 +68,7 @@ impl AssemblySteps {
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
             // h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
-            largest_angle: ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).powf(0.25),
+            largest_angle: ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt(),
             system,
             ladder,
             scratch,

@@ -231,7 +231,7 @@ impl<N: Number> Elongations<N> {
                 let cut = before.towards(&after, part).elongation;
                 let off = (own.elongation - cut).value().abs();
                 let width = (after.share - before.share).value();
-                off * width * own.share.value().powf(law.exponent.value())
+                off * width * Number::powf(own.share.value(), law.exponent.value())
             };
             let least = (0..self.count - 1)
                 .map(|index| (index, shift(index)))

@@ -1,6 +1,6 @@
 //! `respond` with a study of method `respond`: how laps answer, as a table and a picture.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use serde_json::json;
 
@@ -16,7 +16,7 @@ use super::picture::{Picture, has_extension};
 pub(super) fn run(
     arguments: &RespondArguments,
     study: &StudyText,
-    output: &PathBuf,
+    output: &Path,
 ) -> Result<(), CliError> {
     if let Some(joint) = &arguments.joint {
         let expected = "none: a study of method \"respond\" names its joint files in [[lap]]";

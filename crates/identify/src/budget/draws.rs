@@ -36,7 +36,7 @@ impl Systematic {
             .map(|lines| lines.at_most(MOST_LINES_OF_A_SEARCH))
             .collect();
         let count = |lines: &[Lines]| lines.first().map_or(0, |lines| lines.frequency_hz.len());
-        let refined = count(&all).min(MOST_LINES).max(1);
+        let refined = count(&all).clamp(1, MOST_LINES);
         let part = count(&few) as f64 / refined as f64;
         let causes: Vec<CauseEstimate> = self.causes.iter().map(|(_, cause)| *cause).collect();
         let priors: Vec<Prior> = causes.iter().map(|cause| cause.prior).collect();

@@ -7,8 +7,10 @@
 )]
 
 mod brake_reuss;
+mod decays;
 mod free_vibration;
 mod oscillator;
+mod passive;
 mod published_backbone;
 mod refusals;
 mod responses;

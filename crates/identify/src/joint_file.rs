@@ -241,6 +241,7 @@ impl Identification {
             free_estimate: (free != passive).then(|| FreeEstimate {
                 stiffness: rows(&free.stiffness),
                 damping: rows(&free.damping),
+                ..FreeEstimate::default()
             }),
             bootstrap: joint
                 .bootstrap

@@ -236,6 +236,7 @@ impl Uncertainty {
                     FreeEstimate {
                         stiffness: place.matrix(low.0, high.0),
                         damping: place.matrix(low.1, high.1),
+                        ..FreeEstimate::default()
                     }
                 },
             ),

@@ -288,8 +288,8 @@ pub struct Intervals {
     pub damping: Vec<Vec<[f64; 2]>>,
 }
 
-/// Matrices of a joint that may be active.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A joint that may be active.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FreeEstimate {
@@ -297,6 +297,15 @@ pub struct FreeEstimate {
     pub stiffness: Vec<Vec<f64>>,
     /// C, in its units.
     pub damping: Vec<Vec<f64>>,
+    /// All unknowns in the order of `correlation.unknowns`, in SI units, where the matrices are not all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unknowns: Vec<f64>,
+    /// χ² per degree of freedom.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced_chi_squared: Option<f64>,
+    /// By how much −2 ln L of the passive estimate is above that of this one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub price: Option<f64>,
 }
 
 /// What a bootstrap draws.

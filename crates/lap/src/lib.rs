@@ -14,10 +14,10 @@ pub use bolted_joint_dynamics::law::Term;
 pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
-    BackboneLine, BackbonePrediction, BackboneRun, Estimate, Fit, LapResponse, LapResponseStudy,
-    Model, ModelComparison, Noise, Place, Prediction, Resonance, ResonanceInterval,
-    ResponseUnknown, SineLine, SineRun, Slider, SliderParameter, SliderValues, TermSet, Use,
-    Values, fit_responses, measured_resonance, predicted_resonance,
+    AtLimit, BackboneLine, BackbonePrediction, BackboneRun, Estimate, Fit, LapResponse,
+    LapResponseStudy, Limit, Model, ModelComparison, Noise, NoiseIs, Place, Prediction, Resonance,
+    ResonanceInterval, ResponseUnknown, SineLine, SineRun, Slider, SliderParameter, SliderValues,
+    TermSet, Use, Values, fit_responses, measured_resonance, predicted_resonance,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

@@ -115,6 +115,7 @@ impl SpatialIdentification {
                 free_estimate: self.free.as_ref().map(|[stiffness, damping]| FreeEstimate {
                     stiffness: part(stiffness),
                     damping: part(damping),
+                    ..FreeEstimate::default()
                 }),
                 ..Uncertainty::default()
             }),

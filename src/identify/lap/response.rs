@@ -10,7 +10,7 @@ use super::super::super::progress::Progress;
 use super::super::super::table::{Table, number};
 use super::super::IdentifyArguments;
 use super::report_time;
-use bolted_joint::identify::lap::{LapResponse, LapResponseStudy, ModelComparison};
+use bolted_joint::identify::lap::{Fit, LapResponse, LapResponseStudy, ModelComparison};
 use bolted_joint::report::{LapResponseReport, level_figure};
 use bolted_joint::study::StudyText;
 
@@ -54,11 +54,18 @@ pub(in super::super) fn run(
             "estimates": found.estimates.iter().map(|estimate| json!({
                 "unknown": estimate.unknown.symbol(),
                 "value": estimate.value,
+                "free": estimate.free_value,
                 "standard_deviation": estimate.standard_deviation,
                 "interval_95": estimate.interval_95,
                 "identified": estimate.is_identified,
                 "unit": estimate.unknown.unit(),
             })).collect::<Vec<_>>(),
+            "passive": {
+                "reduced_chi_squared": found.fit.reduced_chi_squared(),
+                "held": found.fit.at_limits.iter().map(|at| at.limit).collect::<Vec<_>>(),
+                "free_reduced_chi_squared": found.free.as_ref().map(Fit::reduced_chi_squared),
+                "price": found.price,
+            },
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "models": found.comparison,
             "predictions": found.predictions,
@@ -72,14 +79,13 @@ pub(in super::super) fn run(
 
 /// What is to be said of a model beside its numbers.
 fn note(model: &ModelComparison) -> String {
-    let held = model.held.iter().map(|unknown| unknown.symbol());
-    let mut notes: Vec<String> = held
-        .map(|symbol| format!("{symbol} held at zero"))
-        .collect();
-    if !model.is_passive {
-        notes.push("active".to_owned());
+    let held: Vec<String> = model.held.iter().map(ToString::to_string).collect();
+    if held.is_empty() {
+        return String::new();
     }
-    notes.join(", ")
+    let price = format!("; free −2 ln L {:.1} lower", model.price);
+    let price = if model.is_passive { "" } else { &price };
+    format!("{} held at zero{price}", held.join(" and "))
 }
 
 fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
@@ -87,7 +93,11 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
         "{}\nterms that depend on amplitude: {}\n\n",
         found.name, found.model.terms
     );
-    let mut table = Table::new(&["", "identified", "± std. dev.", "95 % interval", "unit"]);
+    let mut header = vec!["", "identified", "± std. dev.", "95 % interval", "unit"];
+    if found.free.is_some() {
+        header.push("free estimate");
+    }
+    let mut table = Table::new(&header);
     for estimate in &found.estimates {
         let [low, high] = estimate.interval_95;
         let mut cells = vec![estimate.unknown.symbol().to_owned()];
@@ -101,25 +111,36 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
             cells.extend(["not identified", "", ""].map(str::to_owned));
         }
         cells.push(estimate.unknown.unit().into_owned());
+        if found.free.is_some() {
+            cells.push(number(estimate.free_value, 5));
+        }
         table.row(cells);
     }
     text += &table.render();
-    let reduced = found.fit.chi_squared / found.fit.degrees_of_freedom.max(1) as f64;
+    if let Some(free) = &found.free {
+        let _ = writeln!(
+            text,
+            "\nThe free estimate is active: χ² per degree of freedom {}, −2 ln L {:.1} lower. \"identified\" is the passive joint that \
+             fits best, and is what the file holds; the intervals are about the free one, and reach to it.",
+            number(free.reduced_chi_squared(), 4),
+            found.price
+        );
+    }
+    let reduced = found.fit.reduced_chi_squared();
     let noise: Vec<String> = study
         .noise_by_kind()
         .into_iter()
         .map(|(kind, part)| format!("{} % ({kind})", number(100.0 * part, 2)))
         .collect();
+    let of = match noise.is_empty() {
+        true => String::new(),
+        false => format!(" of {}", noise.join(", ")),
+    };
     let _ = writeln!(
         text,
-        "\nχ² per degree of freedom {} with {} noise of {}; {} of {} starts agree",
+        "\nχ² per degree of freedom {} with noise{of} ({}); {} of {} starts agree",
         number(reduced, 4),
-        if study.noise.is_stated {
-            "the stated"
-        } else {
-            "a nominal"
-        },
-        noise.join(", "),
+        study.noise_is().words(),
         found.starts.1,
         found.starts.0
     );

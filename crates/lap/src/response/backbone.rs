@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use bolted_joint_dynamics::law::Term;
 
 use super::data::{RESPONSE, Use};
-use super::decay::{DecayProblem, backbone_of};
+use super::decay::{DecayProblem, Following, ReadingErrors, backbone_of};
 use super::dynamic_stiffness::RelativeMotion;
+use super::fit::Data;
 use super::model::{Model, ResponseUnknown, Values};
 use super::study::Noise;
 use super::table::NumberTable;
@@ -25,6 +26,34 @@ pub struct BackboneRun {
     pub used_for: Use,
     /// Its points.
     pub lines: Vec<BackboneLine>,
+    /// Errors of the points where they were read from a free decay.
+    pub(super) errors: Option<ReadingErrors>,
+    /// How the correction of its points follows the model, where they are corrected.
+    pub(super) following: Option<Following>,
+}
+
+/// A residual with its derivatives by the model's unknowns.
+pub(super) type Row = (f64, Vec<f64>);
+
+impl BackboneRun {
+    /// Residuals in standard deviations with their derivatives by the model's unknowns.
+    pub(super) fn residuals(&self, model: &Model, values: &Values, noise: &Noise) -> Vec<Row> {
+        let deviations = self.lines.iter().map(|line| line.deviations(model, values));
+        match &self.errors {
+            None => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
+            Some(errors) => {
+                let (mut all, mut ratios): (Vec<Row>, Vec<Row>) = deviations
+                    .map(|own| (own.frequency, own.ratio.unwrap_or_default().plain))
+                    .unzip();
+                if let Some(following) = &self.following {
+                    following.follow(model, values, 0, &mut all);
+                    following.follow(model, values, 1, &mut ratios);
+                }
+                all.extend(ratios);
+                errors.whitened(&all)
+            }
+        }
+    }
 }
 
 /// One point of a backbone.
@@ -34,7 +63,7 @@ pub struct BackboneLine {
     pub amplitude_m: f64,
     /// Frequency, rad/s.
     pub omega: f64,
-    /// Damping ratio, where it was measured.
+    /// Damping ratio, where it was measured. Read from a decay it may be negative by noise.
     pub damping_ratio: Option<f64>,
     /// Force that holds the amplitude, N, where it was measured.
     pub force_n: Option<f64>,
@@ -46,13 +75,17 @@ impl BackboneLine {
         1 + usize::from(self.damping_ratio.is_some()) + usize::from(self.force_n.is_some())
     }
 
-    /// Residuals in standard deviations with their derivatives by the model's unknowns.
-    pub(super) fn residuals(
-        &self,
-        model: &Model,
-        values: &Values,
-        noise: &Noise,
-    ) -> Vec<(f64, Vec<f64>)> {
+    /// By how much the logarithm of the frequency and the damping ratio are above the model's.
+    pub(super) fn beyond(&self, model: &Model, values: &Values) -> [f64; 2] {
+        let own = self.deviations(model, values);
+        [
+            own.frequency.0,
+            own.ratio.map_or(0.0, |ratio| ratio.plain.0),
+        ]
+    }
+
+    /// What was measured less what the model has.
+    fn deviations(&self, model: &Model, values: &Values) -> Deviations {
         let z = RelativeMotion::fundamental(values).stiffness(self.amplitude_m, self.omega);
         // K = k/2 + k₁₂ + …, M = m/2, C = c/2 + c₁₂ + …
         let mass = 0.5 * values.mass;
@@ -74,48 +107,84 @@ impl BackboneLine {
             }
             ResponseUnknown::OtherModesReal | ResponseUnknown::OtherModesImaginary => [0.0; 3],
         };
-        let row = |by: [f64; 3], weight: f64| {
+        let row = |by: [f64; 3]| {
             let rows = model.unknowns.iter().map(|unknown| {
                 let [k, m, c] = parts(unknown);
-                -weight * (by[0] * k + by[1] * m + by[2] * c)
+                -(by[0] * k + by[1] * m + by[2] * c)
             });
             rows.collect::<Vec<f64>>()
         };
-        let mut residuals = Vec::new();
         // ω² = K/M
-        let weight = noise.frequency.recip();
         let found = 0.5 * (stiffness / mass).ln();
-        residuals.push((
-            weight * (self.omega.ln() - found),
-            row([0.5 / stiffness, -0.5 / mass, 0.0], weight),
-        ));
-        if let Some(ratio) = self.damping_ratio {
-            // ζ = C/(2 M ω)
-            let weight = noise.damping.recip();
-            let found = (damping / (2.0 * mass * self.omega)).ln();
-            residuals.push((
-                weight * (ratio.ln() - found),
-                row([0.0, -mass.recip(), damping.recip()], weight),
-            ));
-        }
-        if let Some(force) = self.force_n {
-            // F = C ω R/|d|
-            let weight = noise.damping.recip();
+        let frequency = (
+            self.omega.ln() - found,
+            row([0.5 / stiffness, -0.5 / mass, 0.0]),
+        );
+        // ζ = C/(2 M ω)
+        let ratio = self.damping_ratio.map(|ratio| {
+            let found = damping / (2.0 * mass * self.omega);
+            let by_mass = -found / mass;
+            OfRatio {
+                logarithm: (
+                    (ratio / found).ln(),
+                    row([0.0, -mass.recip(), damping.recip()]),
+                ),
+                plain: (
+                    ratio - found,
+                    row([0.0, by_mass, (2.0 * mass * self.omega).recip()]),
+                ),
+            }
+        });
+        // F = C ω R/|d|
+        let force = self.force_n.map(|force| {
             let load = model.relative_load().abs();
             let found = (damping * self.omega * self.amplitude_m / load).ln();
-            residuals.push((
-                weight * (force.ln() - found),
-                row([0.0, 0.0, damping.recip()], weight),
-            ));
+            (force.ln() - found, row([0.0, 0.0, damping.recip()]))
+        });
+        Deviations {
+            frequency,
+            ratio,
+            force,
         }
-        residuals
+    }
+}
+
+/// What one point has beyond the model: logarithms of frequency and force, and the damping ratio.
+struct Deviations {
+    frequency: Row,
+    ratio: Option<OfRatio>,
+    force: Option<Row>,
+}
+
+/// A damping ratio's deviation: of its logarithm, and as it is.
+#[derive(Default)]
+struct OfRatio {
+    logarithm: Row,
+    plain: Row,
+}
+
+impl Deviations {
+    /// In standard deviations that are parts of what was measured.
+    fn in_parts_of(self, noise: &Noise) -> Vec<Row> {
+        let weighted = |(deviation, by): Row, noise: f64| {
+            let by = by.into_iter().map(|entry| entry / noise).collect();
+            (deviation / noise, by)
+        };
+        let damping = self.ratio.map(|ratio| ratio.logarithm);
+        let of_damping = damping.into_iter().chain(self.force);
+        let of_damping = of_damping.map(|row| weighted(row, noise.damping));
+        let frequency = weighted(self.frequency, noise.frequency);
+        std::iter::once(frequency).chain(of_damping).collect()
     }
 }
 
 /// A start: a linear oscillator of the lowest point. Where nothing fixes the mass it is 1 kg, and named as not identified.
-pub(super) fn start(model: &Model, lines: &[BackboneLine], known: &Values) -> Option<Values> {
-    let lowest = lines
-        .iter()
+pub(super) fn start(model: &Model, data: Data<'_>, known: &Values) -> Option<Values> {
+    // what a decay tells at its end is the least certain of all
+    let is_told = |line: &&BackboneLine| line.damping_ratio.is_none_or(|ratio| ratio > 0.0);
+    let lowest = data
+        .points()
+        .filter(is_told)
         .min_by(|a, b| a.amplitude_m.total_cmp(&b.amplitude_m))?;
     let damping_of_force = lowest
         .force_n
@@ -189,7 +258,8 @@ pub(super) fn read_decay(
     path: &Path,
     band_hz: Option<[f64; 2]>,
     share: f64,
-) -> Result<Vec<BackboneLine>, LapError> {
+    noise: &Noise,
+) -> Result<(Vec<BackboneLine>, ReadingErrors), LapError> {
     let table = NumberTable::read(path)?;
     let (time, _) = table.required(&["time_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;
@@ -197,7 +267,12 @@ pub(super) fn read_decay(
     let samples: Vec<(f64, f64)> = rows
         .filter_map(|(_, values)| Some((values[time]?, values[response]?)))
         .collect();
-    let found = backbone_of(&samples, band_hz, order as i32, share);
+    // what is stated of curves is what a decay has beside the noise of its record
+    let stated = [noise.frequency, noise.damping].map(|part| match noise.is_of_curves {
+        true => part,
+        false => 0.0,
+    });
+    let found = backbone_of(&samples, band_hz, order as i32, share, stated);
     found.map_err(|problem| {
         let (found, expected) = match problem {
             DecayProblem::Uneven => (

@@ -1,63 +1,87 @@
 //! Which terms the data call for, by likelihood.
 
-use bolted_joint_dynamics::Linear;
 use serde::Serialize;
 
-use super::backbone::BackboneLine;
+use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use};
-use super::fit::{Data, Fit, fit};
-use super::model::{Model, ResponseUnknown};
+use super::decay::{corrected, followed};
+use super::fit::{self, Data, Fit, Kind};
+use super::model::Model;
+use super::passive::Limit;
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
 use crate::error::LapError;
 use bolted_joint_study::StudyError;
 
-/// A model beside the others.
+/// How often decays are read anew as the model of the fit before would be, while models are compared, …
+const READINGS: usize = 2;
+/// … and at most for the one that is chosen, until the estimate moves by less than this part of its deviations.
+const MOST_READINGS: usize = 8;
+const READ: f64 = 0.1;
+
+/// A model beside the others: the passive joint of it that fits best.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelComparison {
     /// Its terms.
     pub terms: TermSet,
-    /// Number of its unknowns.
+    /// Number of its unknowns, less the limits that it stands at.
     pub unknowns: usize,
     /// χ² per degree of freedom with the stated noise, or with 1 % where none is stated.
     pub reduced_chi_squared: f64,
     /// Schwarz's criterion less that of the best.
     pub bic_difference: f64,
-    /// Whether the joint takes energy at every amplitude that was fitted.
+    /// Whether the free estimate is passive as well: then the two are one.
     pub is_passive: bool,
-    /// Unknowns that are held at zero, since they would be negative.
-    pub held: Vec<ResponseUnknown>,
+    /// By how much −2 ln L is above that of the free estimate.
+    pub price: f64,
+    /// Limits that the estimate stands at: free it would exceed them.
+    pub held: Vec<Limit>,
 }
 
 /// A fitted candidate.
 pub(super) struct Candidate {
     pub(super) terms: TermSet,
+    /// The passive estimate.
     pub(super) fit: Fit,
+    /// The free one, where that is another and active.
+    pub(super) free: Option<Fit>,
     pub(super) starts: (usize, usize),
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
-    is_passive: bool,
-    held: Vec<ResponseUnknown>,
+    /// Backbones and decays as they were fitted.
+    backbones: Vec<BackboneRun>,
     bic: f64,
 }
 
 impl Candidate {
     /// The model that was fitted.
     pub(super) fn model(&self, study: &LapResponseStudy) -> Model {
-        let mut model = study.model(&self.terms);
-        model
-            .unknowns
-            .retain(|unknown| !self.held.contains(unknown));
         Model {
             harmonics: self.harmonics,
-            ..model
+            ..study.model(&self.terms)
         }
     }
 }
 
-/// Fits every candidate. The best by Schwarz's criterion of those that are passive, if one is, comes first in what is returned, the
-/// comparison is in the candidates' order.
+/// By how much −2 ln L of the passive estimate is above that of the free one.
+pub(super) fn price(fit: &Fit, free: Option<&Fit>, is_stated: bool) -> f64 {
+    free.map_or(0.0, |free| {
+        (deviance(fit, is_stated) - deviance(free, is_stated)).max(0.0)
+    })
+}
+
+/// −2 ln L = χ², or n ln(χ²/n) where the level of the noise is estimated, too.
+fn deviance(fit: &Fit, is_stated: bool) -> f64 {
+    let count = (fit.degrees_of_freedom + fit.information.nrows()) as f64;
+    match is_stated {
+        true => fit.chi_squared,
+        false => count * (fit.chi_squared / count).ln(),
+    }
+}
+
+/// Fits every candidate. The best by Schwarz's criterion comes first in what is returned, the comparison is in the candidates'
+/// order.
 pub(super) fn choose(
     study: &LapResponseStudy,
 ) -> Result<(Candidate, Vec<ModelComparison>), LapError> {
@@ -66,7 +90,7 @@ pub(super) fn choose(
         .iter()
         .filter(|run| run.used_for == Use::Fit)
         .collect();
-    let backbone = fitted_backbone(study);
+    let backbones = fitted_backbones(study);
     // The study's own choice counts, but all are compared.
     let mut all = TermSet::candidates();
     if let Some(own) = study.terms.as_ref().filter(|own| !all.contains(own)) {
@@ -75,7 +99,7 @@ pub(super) fn choose(
     let mut candidates = Vec::new();
     let mut failure = None;
     for terms in all {
-        match candidate(study, &runs, &backbone, terms) {
+        match candidate(study, &runs, &backbones, terms) {
             Ok(candidate) => candidates.push(candidate),
             Err(error) => failure = Some(failure.unwrap_or(error)),
         }
@@ -86,24 +110,30 @@ pub(super) fn choose(
         .fold(f64::INFINITY, f64::min);
     let comparison = candidates.iter().map(|candidate| ModelComparison {
         terms: candidate.terms.clone(),
-        unknowns: candidate.fit.information.nrows(),
+        unknowns: candidate.fit.information.nrows() - candidate.fit.at_limits.len(),
         reduced_chi_squared: candidate.fit.chi_squared
             / candidate.fit.degrees_of_freedom.max(1) as f64,
         bic_difference: candidate.bic - least,
-        is_passive: candidate.is_passive,
-        held: candidate.held.clone(),
+        is_passive: candidate.free.is_none(),
+        price: price(
+            &candidate.fit,
+            candidate.free.as_ref(),
+            study.noise.is_stated,
+        ),
+        held: candidate.fit.at_limits.iter().map(|at| at.limit).collect(),
     });
     let comparison: Vec<ModelComparison> = comparison.collect();
-    let any_is_passive = candidates.iter().any(|candidate| candidate.is_passive);
     let chosen = match &study.terms {
         Some(own) => candidates.into_iter().find(|one| one.terms == *own),
         None => candidates
             .into_iter()
-            .filter(|one| one.is_passive || !any_is_passive)
             .min_by(|one, other| one.bic.total_cmp(&other.bic)),
     };
     match chosen {
-        Some(chosen) => Ok((refined(study, chosen, &runs, &backbone), comparison)),
+        Some(chosen) => {
+            let read = read_to_the_end(study, chosen, &runs);
+            Ok((refined(study, read, &runs), comparison))
+        }
         None => {
             let reason = failure.unwrap_or(LapError::NoEstimate);
             Err(StudyError::model(&study.path, None, reason).into())
@@ -111,13 +141,46 @@ pub(super) fn choose(
     }
 }
 
+/// The candidate with decays that are read as its own would be.
+fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) -> Candidate {
+    let measured = fitted_backbones(study);
+    if measured.iter().all(|run| run.errors.is_none()) {
+        return candidate;
+    }
+    let model = candidate.model(study);
+    let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
+    let mut found = candidate;
+    for _ in 0..MOST_READINGS {
+        let read = measured.iter().map(|run| followed(&model, &found.fit, run));
+        let read: Vec<BackboneRun> = read.collect();
+        let backbones: Vec<&BackboneRun> = read.iter().collect();
+        let data = Data {
+            lines: &lines,
+            backbones: &backbones,
+        };
+        let before = found.fit.values;
+        let again = |kind| fit::fit(&model, data, &study.noise, &before, kind);
+        let Ok(fit) = again(Kind::Passive) else {
+            return found;
+        };
+        let free = match fit.at_limits.is_empty() {
+            true => None,
+            false => again(Kind::Free).ok(),
+        };
+        let moved = model.change(&before, &fit.values);
+        let moved = moved.dot(&(&fit.information * &moved));
+        found.free = free.filter(|free| free.chi_squared < fit.chi_squared);
+        found.fit = fit;
+        found.backbones = read;
+        if moved < READ * READ {
+            break;
+        }
+    }
+    found
+}
+
 /// The candidate with all harmonics that the study asks for.
-fn refined(
-    study: &LapResponseStudy,
-    candidate: Candidate,
-    runs: &[&SineRun],
-    backbone: &[BackboneLine],
-) -> Candidate {
+fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) -> Candidate {
     let model = Model {
         harmonics: study.harmonics,
         ..candidate.model(study)
@@ -129,79 +192,90 @@ fn refined(
     if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() {
         return candidate;
     }
+    let backbones = candidate.backbones.clone();
+    let backbones: Vec<&BackboneRun> = backbones.iter().collect();
     let data = Data {
         lines: &lines,
-        backbone,
+        backbones: &backbones,
     };
-    match fit(&model, data, &study.noise, &candidate.fit.values) {
-        Ok(fit) => Candidate {
-            fit,
-            harmonics: model.harmonics,
-            ..candidate
-        },
+    let again = |fitted: &Fit, kind| fit::fit(&model, data, &study.noise, &fitted.values, kind);
+    let Ok(fit) = again(&candidate.fit, Kind::Passive) else {
         // That of one harmonic stands, and the user is told.
-        Err(_) => candidate,
+        return candidate;
+    };
+    let from = candidate.free.as_ref().unwrap_or(&fit);
+    let free = match fit.at_limits.is_empty() {
+        true => None,
+        false => again(from, Kind::Free).ok(),
+    };
+    Candidate {
+        free: free.filter(|free| free.chi_squared < fit.chi_squared),
+        fit,
+        harmonics: model.harmonics,
+        ..candidate
     }
 }
 
-/// Points of all backbones that go into the estimate.
-pub(super) fn fitted_backbone(study: &LapResponseStudy) -> Vec<BackboneLine> {
-    let runs = study
-        .backbones
-        .iter()
-        .filter(|run| run.used_for == Use::Fit);
-    runs.flat_map(|run| run.lines.iter().copied()).collect()
-}
-
-/// Whether the joint takes energy up to the largest amplitude that was fitted.
-fn is_passive(fit: &Fit, backbone: &[BackboneLine]) -> bool {
-    let values = &fit.values;
-    let law = Linear {
-        stiffness: [[values.joint_stiffness]],
-        damping: [[values.joint_damping]],
-    }
-    .beside([values.terms]);
-    let largest = fit.largest_amplitude_m(backbone);
-    let [active] = law.active_amplitude();
-    values.joint_stiffness >= 0.0 && active.is_none_or(|from| from >= largest)
+/// All backbones and decays that go into the estimate.
+fn fitted_backbones(study: &LapResponseStudy) -> Vec<&BackboneRun> {
+    let runs = study.backbones.iter();
+    runs.filter(|run| run.used_for == Use::Fit).collect()
 }
 
 fn candidate(
     study: &LapResponseStudy,
     runs: &[&SineRun],
-    backbone: &[BackboneLine],
+    backbones: &[&BackboneRun],
     terms: TermSet,
 ) -> Result<Candidate, LapError> {
     // All models are compared in the closed form of one harmonic.
-    let mut model = Model {
+    let model = Model {
         harmonics: 1,
         ..study.model(&terms)
     };
-    let known = study.known_values();
-    let find = |model: &Model| start::best(model, runs, backbone, &study.noise, &known);
-    let (mut fit, mut tried, mut agreeing) = find(&model)?;
-    let mut held = Vec::new();
-    // beside a law that slips no damper is needed; one that pushes is none
-    if terms.slider().is_some() && fit.values.joint_damping < 0.0 {
-        held.push(ResponseUnknown::JointDamping);
-        model.unknowns.retain(|unknown| !held.contains(unknown));
-        (fit, tried, agreeing) = find(&model)?;
+    let (noise, known) = (&study.noise, study.known_values());
+    let (mut fit, tried, agreeing) =
+        start::best(&model, runs, backbones, noise, &known, Kind::Passive)?;
+    let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
+    let mut own: Vec<BackboneRun> = backbones.iter().map(|run| (*run).clone()).collect();
+    for _ in 0..READINGS {
+        if backbones.iter().all(|run| run.errors.is_none()) {
+            break;
+        }
+        let runs = backbones.iter();
+        own = runs
+            .map(|run| corrected(&model, &fit.values, run))
+            .collect();
+        let read: Vec<&BackboneRun> = own.iter().collect();
+        let data = Data {
+            lines: &lines,
+            backbones: &read,
+        };
+        fit = fit::fit(&model, data, noise, &fit.values, Kind::Passive)?;
     }
-    let unknowns = fit.information.nrows();
-    let count = (fit.degrees_of_freedom + unknowns) as f64;
-    // −2 ln L = χ², or n ln(χ²/n) where the level of the noise is estimated, too; Schwarz adds p ln n.
-    let deviance = if study.noise.is_stated {
-        fit.chi_squared
-    } else {
-        count * (fit.chi_squared / count).ln()
+    let read: Vec<&BackboneRun> = own.iter().collect();
+    // where no limit holds the passive estimate it is the free one, else the free one is downhill from it
+    let free = match fit.at_limits.is_empty() {
+        true => None,
+        false => {
+            let data = Data {
+                lines: &lines,
+                backbones: &read,
+            };
+            let free = fit::fit(&model, data, noise, &fit.values, Kind::Free).ok();
+            free.filter(|free| free.chi_squared < fit.chi_squared)
+        }
     };
+    let count = (fit.degrees_of_freedom + fit.information.nrows()) as f64;
+    // Schwarz adds p ln n; a limit takes an unknown away
+    let unknowns = fit.information.nrows() - fit.at_limits.len();
     Ok(Candidate {
         harmonics: 1,
-        is_passive: is_passive(&fit, backbone),
-        held,
         terms,
-        bic: deviance + unknowns as f64 * count.ln(),
+        bic: deviance(&fit, noise.is_stated) + unknowns as f64 * count.ln(),
         fit,
+        free,
         starts: (tried, agreeing),
+        backbones: own,
     })
 }

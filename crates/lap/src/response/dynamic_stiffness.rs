@@ -104,10 +104,6 @@ impl<'a> RelativeMotion<'a> {
             let slipping = slider.slipping(amplitude_m);
             value += slipping.value;
             by_log_amplitude += slipping.by_log_amplitude;
-            // what is left beside a law stiffer than the joint would push
-            if slider.stiffness() > values.joint_stiffness {
-                value = f64::NAN.into();
-            }
             (slider, slipping.by_unknown)
         });
         DynamicStiffness {

@@ -6,12 +6,13 @@ use bolted_joint_dynamics::law::Term;
 use nalgebra::DVector;
 
 use super::data::Use;
-use super::model::ResponseUnknown;
+use super::model::{ResponseUnknown, Values};
 use super::result::LapResponse;
 use super::study::LapResponseStudy;
 use bolted_joint_joint::{
-    Bodies, Body, Correlation, DofSet, Format, Friction, FunctionResidual, HigherTerms, Intervals,
-    Joint, JointFile, NoiseRecord, Residual, StandardDeviation, Uncertainty, Validity,
+    Bodies, Body, Correlation, DofSet, Format, FreeEstimate, Friction, FunctionResidual,
+    HigherTerms, Intervals, Joint, JointFile, NoiseRecord, Residual, StandardDeviation,
+    Uncertainty, Validity,
 };
 
 impl LapResponse {
@@ -22,10 +23,9 @@ impl LapResponse {
         let higher = HigherTerms::of(&[values.terms], vec![self.amplitude_m]);
         let mut terms = self.model.terms.terms().iter();
         let has_higher = terms.any(|term| *term != Term::CUBIC) || values.slider.is_some();
-        let of_slider = values.slider.map_or(0.0, |slider| slider.stiffness());
         let linear = Joint::linear(
             DofSet::TRANSLATION,
-            vec![vec![values.joint_stiffness - of_slider]],
+            vec![vec![values.spring().max(0.0)]],
             vec![vec![values.joint_damping]],
         );
         let friction = values.slider.and_then(|slider| {
@@ -83,14 +83,11 @@ impl LapResponse {
                 found.map_or([known, known], |estimate| estimate.interval_95),
             ]]
         };
-        let of_slider = self
-            .fit
-            .values
-            .slider
-            .map_or(0.0, |slider| slider.stiffness());
-        let stiffness = self.fit.values.joint_stiffness - of_slider;
-        let [deviation_of_stiffness, interval_of_stiffness] = self.stiffness_deviations();
-        let ends = [-1.0, 1.0].map(|side| stiffness + side * interval_of_stiffness);
+        let base = &self.free.as_ref().unwrap_or(&self.fit).values;
+        let (stiffness, free) = (self.fit.values.spring().max(0.0), base.spring());
+        let [deviation_of_stiffness, interval_of_stiffness] = self.stiffness_deviations(base);
+        let [low, high] = [-1.0, 1.0].map(|side| free + side * interval_of_stiffness);
+        let ends = [low.min(stiffness), high.max(stiffness)];
         let size = self.estimates.len();
         let deviation: Vec<f64> = self
             .estimates
@@ -143,13 +140,20 @@ impl LapResponse {
                 .into_iter()
                 .map(str::to_owned)
                 .collect(),
+            free_estimate: self.free.as_ref().map(|free| FreeEstimate {
+                stiffness: vec![vec![free.values.spring()]],
+                damping: vec![vec![free.values.joint_damping]],
+                unknowns: self.estimates.iter().map(|own| own.free_value).collect(),
+                reduced_chi_squared: Some(free.reduced_chi_squared()),
+                price: Some(self.price),
+            }),
             ..Uncertainty::default()
         })
     }
 
     /// Standard deviation of the file's stiffness, which is less by that of a law that slips, and half its interval of 95 %.
-    fn stiffness_deviations(&self) -> [f64; 2] {
-        let slider = self.fit.values.slider;
+    fn stiffness_deviations(&self, base: &Values) -> [f64; 2] {
+        let slider = base.slider;
         let by = |unknown: ResponseUnknown| match (unknown, slider) {
             (ResponseUnknown::JointStiffness, _) => 1.0,
             (ResponseUnknown::Slider(parameter), Some(slider)) => {
@@ -171,7 +175,7 @@ impl LapResponse {
             .iter()
             .map(|(_, lines, rms)| rms * rms * *lines as f64)
             .sum();
-        let reduced = self.fit.chi_squared / self.fit.degrees_of_freedom.max(1) as f64;
+        let reduced = self.fit.reduced_chi_squared();
         let level = if study.noise.is_stated {
             1.0
         } else {

@@ -3,14 +3,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::backbone::BackboneLine;
+use super::backbone::{BackboneLine, BackboneRun};
 use super::data::SineLine;
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{LineResidual, Model, Values};
+use super::passive::{Bound, Limit, Passive};
+use super::step::damped_step;
 use super::study::Noise;
 use crate::error::LapError;
 
 const STEPS: usize = 200;
+/// Steps of a first look.
+const FIRST_STEPS: usize = 12;
 /// Relative decrease of χ² that is none.
 const AT_REST: f64 = 1e-10;
 /// Longest step of the logarithm of an amplitude.
@@ -21,6 +25,9 @@ const HALVINGS: usize = 4;
 const SETTLED: f64 = 1e-8;
 const DAMPING: f64 = 1e-4;
 const MOST_DAMPING: f64 = 1e12;
+/// How often the largest displacement, which the limits go up to, follows the fit, and when it has come to rest.
+const FOLLOWED: usize = 6;
+const FOLLOWS: f64 = 1e-9;
 
 /// A fitted model.
 #[derive(Clone, Debug)]
@@ -35,29 +42,80 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// Information matrix of the unknowns in the order of the model's.
     pub information: DMatrix<f64>,
+    /// Largest amplitude of the relative motion that was fitted, m: a passive joint takes energy up to there.
+    pub amplitude_m: f64,
+    /// Limits that the estimate stands at because the joint has to be passive.
+    pub at_limits: Vec<AtLimit>,
+    /// By how much a further step within the limits would lower χ²: nothing where the conditions of Karush, Kuhn and Tucker hold.
+    pub left: f64,
 }
 
 impl Fit {
-    /// Largest amplitude of the relative motion that was fitted, beside that of a backbone, m.
-    pub(super) fn largest_amplitude_m(&self, backbone: &[BackboneLine]) -> f64 {
-        let of_backbone = backbone.iter().map(|line| line.amplitude_m);
-        let all = self.amplitudes_m.iter().copied().chain(of_backbone);
-        all.fold(0.0, f64::max)
+    /// χ² per degree of freedom.
+    #[must_use]
+    pub fn reduced_chi_squared(&self) -> f64 {
+        self.chi_squared / self.degrees_of_freedom.max(1) as f64
     }
+
+    /// Whether a limit of nothing else but this unknown holds the estimate.
+    pub(super) fn is_held(&self, place: usize) -> bool {
+        self.at_limits.iter().any(|at| {
+            let mut others = at.gradient.clone();
+            others[place] = 0.0;
+            at.gradient[place] != 0.0 && others.norm_squared() == 0.0
+        })
+    }
+
+    /// A covariance of the unknowns without the directions that the limits take away: Σ − ΣAᵀ(AΣAᵀ)⁻¹AΣ.
+    pub(super) fn within_limits(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut left = covariance.clone();
+        // one limit after the other
+        for at in &self.at_limits {
+            let along = &left * &at.gradient;
+            let variance = at.gradient.dot(&along);
+            if variance > 0.0 {
+                left.ger(-variance.recip(), &along, &along, 1.0);
+            }
+        }
+        left
+    }
+}
+
+/// A limit that an estimate stands at.
+#[derive(Clone, Debug)]
+pub struct AtLimit {
+    /// Which.
+    pub limit: Limit,
+    /// By how much χ² falls with what is limited, in the reciprocal of its unit; not negative.
+    pub multiplier: f64,
+    /// What is limited, by the unknowns.
+    pub(super) gradient: DVector<f64>,
 }
 
 /// What a model is fitted to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Data<'a> {
     pub(super) lines: &'a [SineLine],
-    pub(super) backbone: &'a [BackboneLine],
+    pub(super) backbones: &'a [&'a BackboneRun],
 }
 
-impl Data<'_> {
+impl<'a> Data<'a> {
     /// Numbers beyond the amplitudes.
     fn count(&self) -> usize {
-        2 * self.lines.len() + self.backbone.iter().map(BackboneLine::count).sum::<usize>()
+        2 * self.lines.len() + self.points().map(BackboneLine::count).sum::<usize>()
     }
+
+    /// Points of all backbones and decays.
+    pub(super) fn points(&self) -> impl Iterator<Item = &'a BackboneLine> + use<'a> {
+        self.backbones.iter().flat_map(|run| &run.lines)
+    }
+}
+
+/// Whether an estimate may be active.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Free,
+    Passive,
 }
 
 /// Everything about one place in the space of unknowns.
@@ -86,10 +144,9 @@ impl State {
             })
         });
         let (log_amplitudes, lines): (Vec<f64>, Vec<LineResidual>) = settled.unzip();
-        let backbone: Vec<(f64, Vec<f64>)> = data
-            .backbone
-            .iter()
-            .flat_map(|line| line.residuals(model, &values, noise))
+        let runs = data.backbones.iter();
+        let backbone: Vec<(f64, Vec<f64>)> = runs
+            .flat_map(|run| run.residuals(model, &values, noise))
             .collect();
         let squares = lines.iter().flat_map(|line| line.residual);
         let squares = squares.chain(backbone.iter().map(|(residual, _)| *residual));
@@ -135,12 +192,69 @@ fn settled(mut log_amplitude: f64, residual: impl Fn(f64) -> LineResidual) -> (f
     (log_amplitude, line)
 }
 
-/// Fits the model from a start.
+/// Fits the model from a start. A passive joint is so up to the largest displacement that was fitted, which a fit moves a
+/// little: then it is fitted again.
 pub(super) fn fit(
     model: &Model,
     data: Data<'_>,
     noise: &Noise,
     start: &Values,
+    kind: Kind,
+) -> Result<Fit, LapError> {
+    let mut largest_m = largest(model, data, start);
+    let mut found = fit_up_to(model, data, noise, start, (kind, largest_m, STEPS))?;
+    for _ in 0..FOLLOWED {
+        let is_there = (found.amplitude_m / largest_m - 1.0).abs() < FOLLOWS;
+        // no other limit moves with that displacement
+        let is_at_end = |at: &AtLimit| match at.limit {
+            Limit::JointDamping(at_m) => at_m >= (1.0 - FOLLOWS) * largest_m,
+            _ => false,
+        };
+        if kind == Kind::Free || is_there || !found.at_limits.iter().any(is_at_end) {
+            break;
+        }
+        largest_m = found.amplitude_m;
+        found = fit_up_to(model, data, noise, &found.values, (kind, largest_m, STEPS))?;
+    }
+    if kind == Kind::Passive && !found.at_limits.is_empty() {
+        let passive = Passive {
+            model,
+            amplitude_m: largest_m,
+        };
+        found.values = passive.clear_of_rounding(&found.values);
+        found.amplitude_m = found.amplitude_m.min(largest_m);
+    }
+    Ok(found)
+}
+
+/// Where the first few steps from a start lead: that tells which starts are worth the rest.
+pub(super) fn glanced(
+    model: &Model,
+    data: Data<'_>,
+    noise: &Noise,
+    start: &Values,
+    kind: Kind,
+) -> Result<Fit, LapError> {
+    let largest_m = largest(model, data, start);
+    fit_up_to(model, data, noise, start, (kind, largest_m, FIRST_STEPS))
+}
+
+/// Largest displacement that a start makes of the data, m.
+fn largest(model: &Model, data: Data<'_>, start: &Values) -> f64 {
+    let of_lines = data
+        .lines
+        .iter()
+        .map(|line| model.relative_amplitude(start, line));
+    let of_points = data.points().map(|line| line.amplitude_m);
+    of_lines.chain(of_points).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+fn fit_up_to(
+    model: &Model,
+    data: Data<'_>,
+    noise: &Noise,
+    start: &Values,
+    (kind, largest_m, most_steps): (Kind, f64, usize),
 ) -> Result<Fit, LapError> {
     let unknowns = model.unknowns.len();
     if data.count() <= unknowns {
@@ -149,26 +263,35 @@ pub(super) fn fit(
             unknowns,
         });
     }
+    let passive = (kind == Kind::Passive).then_some(Passive {
+        model,
+        amplitude_m: largest_m,
+    });
+    let start = passive.map_or(*start, |passive| passive.within(*start));
     let amplitudes = data.lines.iter().map(|line| {
         model
-            .relative_amplitude(start, line)
+            .relative_amplitude(&start, line)
             .max(f64::MIN_POSITIVE)
             .ln()
     });
-    let mut state = State::new(model, data, noise, *start, amplitudes.collect());
+    let mut state = State::new(model, data, noise, start, amplitudes.collect());
     if !state.chi_squared.is_finite() {
         return Err(LapError::NoEstimate);
     }
+    let bounds = |state: &State| -> Vec<Bound> {
+        passive.map_or_else(Vec::new, |passive| passive.bounds(&state.values))
+    };
     let mut damping = DAMPING;
-    for _ in 0..STEPS {
+    for _ in 0..most_steps {
         let (information, gradient) = normal_equations(&state, unknowns);
+        let limits = bounds(&state);
         let mut accepted = false;
         while damping < MOST_DAMPING {
-            let Some(step) = damped_step(&information, &gradient, damping) else {
+            let Some(step) = damped_step(&information, &gradient, &limits, damping) else {
                 damping *= 10.0;
                 continue;
             };
-            let trial = moved(model, data, noise, &state, &step);
+            let trial = moved(model, data, noise, &state, &step.change, passive.as_ref());
             if trial.chi_squared.is_finite() && trial.chi_squared <= state.chi_squared {
                 accepted = state.chi_squared - trial.chi_squared > AT_REST * state.chi_squared;
                 state = trial;
@@ -181,15 +304,33 @@ pub(super) fn fit(
             break;
         }
     }
-    let (information, _) = normal_equations(&state, unknowns);
+    let (information, gradient) = normal_equations(&state, unknowns);
     let is_usable = information.iter().all(|entry| entry.is_finite());
     is_usable.then_some(()).ok_or(LapError::NoEstimate)?;
+    let limits = bounds(&state);
+    let last = damped_step(&information, &gradient, &limits, 1e-12);
+    let multipliers = last.as_ref().map(|step| step.multipliers.clone());
+    let at_limits = limits
+        .into_iter()
+        .zip(multipliers.unwrap_or_default())
+        .filter(|(_, multiplier)| *multiplier > 0.0)
+        .map(|(bound, multiplier)| AtLimit {
+            limit: bound.limit,
+            multiplier: 2.0 * multiplier,
+            gradient: bound.gradient,
+        });
+    let of_points = data.points().map(|line| line.amplitude_m);
+    let amplitudes_m: Vec<f64> = state.log_amplitudes.iter().map(|log| log.exp()).collect();
+    let largest = amplitudes_m.iter().copied().chain(of_points);
     Ok(Fit {
         values: state.values,
-        amplitudes_m: state.log_amplitudes.iter().map(|log| log.exp()).collect(),
+        amplitude_m: largest.fold(0.0, f64::max),
+        amplitudes_m,
         chi_squared: state.chi_squared,
         degrees_of_freedom: data.count() - unknowns,
         information,
+        at_limits: at_limits.collect(),
+        left: last.map_or(f64::INFINITY, |step| -gradient.dot(&step.change)),
     })
 }
 
@@ -223,28 +364,6 @@ fn normal_equations(state: &State, unknowns: usize) -> (DMatrix<f64>, DVector<f6
     (information, gradient)
 }
 
-/// −(H + λ diag H)⁻¹ g, scaled to a unit diagonal.
-fn damped_step(
-    information: &DMatrix<f64>,
-    gradient: &DVector<f64>,
-    damping: f64,
-) -> Option<DVector<f64>> {
-    let scale = information.diagonal().map(|entry| {
-        if entry > 0.0 {
-            entry.sqrt().recip()
-        } else {
-            1.0
-        }
-    });
-    let size = gradient.len();
-    let scaled = DMatrix::from_fn(size, size, |i, j| {
-        let own = information[(i, j)] * scale[i] * scale[j];
-        if i == j { own + damping } else { own }
-    });
-    let step = scaled.cholesky()?.solve(&-gradient.component_mul(&scale));
-    Some(step.component_mul(&scale))
-}
-
 /// The state after a step of the unknowns, with the amplitudes following.
 fn moved(
     model: &Model,
@@ -252,12 +371,16 @@ fn moved(
     noise: &Noise,
     state: &State,
     step: &DVector<f64>,
+    passive: Option<&Passive<'_>>,
 ) -> State {
     let mut values = state.values;
     for (unknown, change) in model.unknowns.iter().zip(step.iter()) {
         if let Some(place) = values.place(*unknown) {
             *place += change;
         }
+    }
+    if let Some(passive) = passive {
+        values = passive.within(values);
     }
     let lines = state.lines.iter().zip(&state.log_amplitudes);
     let log_amplitudes = lines.map(|(line, log_amplitude)| {

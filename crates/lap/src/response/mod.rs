@@ -13,10 +13,12 @@ mod dynamic_stiffness;
 mod file;
 mod fit;
 mod model;
+mod passive;
 mod prediction;
 mod result;
 mod slider;
 mod start;
+mod step;
 mod study;
 mod table;
 mod terms;
@@ -25,8 +27,9 @@ mod warnings;
 pub use backbone::{BackboneLine, BackboneRun};
 pub use choice::ModelComparison;
 pub use data::{SineLine, SineRun, Use};
-pub use fit::Fit;
+pub use fit::{AtLimit, Fit};
 pub use model::{Model, ResponseUnknown, Values};
+pub use passive::Limit;
 pub use prediction::{
     BackbonePrediction, Prediction, Resonance, ResonanceInterval, measured_resonance,
     predicted_resonance,
@@ -34,5 +37,5 @@ pub use prediction::{
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};
 pub use start::fit_responses;
-pub use study::{LapResponseStudy, Noise, Place};
+pub use study::{LapResponseStudy, Noise, NoiseIs, Place};
 pub use terms::TermSet;

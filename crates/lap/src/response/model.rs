@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use bolted_joint_dynamics::{Polynomial, law::Term};
+use nalgebra::DVector;
 use num_complex::Complex64;
 use serde::Serialize;
 
@@ -113,6 +114,13 @@ impl Values {
         self.terms.coefficient(term)
     }
 
+    /// What the joint's linear spring has: k12, less the stiffness of a law that slips, N/m.
+    #[must_use]
+    pub fn spring(&self) -> f64 {
+        let of_slider = self.slider.map_or(0.0, |slider| slider.stiffness());
+        self.joint_stiffness - of_slider
+    }
+
     /// K = k/2 + k12: linear stiffness of the relative motion, N/m.
     #[must_use]
     pub fn relative_stiffness(&self) -> f64 {
@@ -177,6 +185,16 @@ pub(super) struct LineResidual {
 }
 
 impl Model {
+    /// By how much the unknowns are more in the second than in the first, as they are searched.
+    pub(super) fn change(&self, from: &Values, to: &Values) -> DVector<f64> {
+        let (mut from, mut to) = (*from, *to);
+        let change = self.unknowns.iter().map(|&unknown| {
+            let pair = from.place(unknown).zip(to.place(unknown));
+            pair.map_or(0.0, |(from, to)| *to - *from)
+        });
+        DVector::from_iterator(self.unknowns.len(), change)
+    }
+
     /// Half the difference of the loads on a and b, and their sum, at a unit force.
     fn loads(&self) -> (f64, f64) {
         match self.drive {

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::backbone::BackboneRun;
 use super::data::{SineRun, Use, wrapped};
 use super::dynamic_stiffness::RelativeMotion;
+use super::fit::Fit;
 use super::model::{Model, Values};
 
 const ITERATIONS: usize = 100;
@@ -53,8 +54,8 @@ pub struct ResonanceInterval {
     pub displacement_m: [f64; 2],
 }
 
-/// How a resonance changes with the unknowns, each in its standard deviations: Hz, and the logarithm of the displacement's
-/// amplitude.
+/// How a resonance changes along the directions of the unknowns, each in its standard deviations: Hz, and the logarithm of the
+/// displacement's amplitude.
 #[derive(Clone, Debug, PartialEq)]
 struct Gradients {
     by_unknown: [DVector<f64>; 2],
@@ -69,13 +70,14 @@ impl Prediction {
     /// Of all runs; `covariance` is that of the unknowns as they are searched.
     pub(super) fn of_all(
         model: &Model,
-        values: &Values,
+        fit: &Fit,
         runs: &[SineRun],
         covariance: &DMatrix<f64>,
     ) -> Vec<Self> {
+        let directions = directions(&fit.within_limits(covariance));
         let runs = runs.iter();
         let mut all: Vec<Self> = runs
-            .filter_map(|run| Self::of(model, values, run, covariance))
+            .filter_map(|run| Self::of(model, &fit.values, run, &directions))
             .collect();
         expect(&mut all);
         all
@@ -85,12 +87,12 @@ impl Prediction {
         model: &Model,
         values: &Values,
         run: &SineRun,
-        covariance: &DMatrix<f64>,
+        directions: &DMatrix<f64>,
     ) -> Option<Self> {
         let measured = measured_resonance(run)?;
         let predicted = predicted_resonance(model, values, &measured);
         let gradients =
-            predicted.and_then(|at| gradients(model, values, &measured, &at, covariance));
+            predicted.and_then(|at| gradients(model, values, &measured, &at, directions));
         Some(Self {
             run: run.name.clone(),
             left_out: run.used_for == Use::Predict,
@@ -115,19 +117,45 @@ impl Prediction {
     }
 }
 
-/// How a resonance changes with the unknowns, by differences.
+/// Directions of the unknowns, each as long as its standard deviation: columns L with a covariance of L Lᵀ. A direction that
+/// limits have taken away is none.
+fn directions(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let scale = covariance.diagonal().map(|variance| match variance > 0.0 {
+        true => variance.sqrt(),
+        false => 0.0,
+    });
+    let size = scale.len();
+    let correlation = DMatrix::from_fn(size, size, |i, j| {
+        let by = scale[i] * scale[j];
+        if by > 0.0 {
+            covariance[(i, j)] / by
+        } else {
+            0.0
+        }
+    });
+    let eigen = correlation.symmetric_eigen();
+    let lengths = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
+    let kept: Vec<usize> = (0..size).filter(|&n| lengths[n] > ACCURACY).collect();
+    DMatrix::from_fn(size, kept.len(), |i, n| {
+        scale[i] * eigen.eigenvectors[(i, kept[n])] * lengths[kept[n]]
+    })
+}
+
+/// How a resonance changes along the unknowns' directions, by differences.
 fn gradients(
     model: &Model,
     values: &Values,
     measured: &Resonance,
     predicted: &Resonance,
-    covariance: &DMatrix<f64>,
+    directions: &DMatrix<f64>,
 ) -> Option<Gradients> {
-    let none = DVector::zeros(covariance.nrows());
+    let none = DVector::zeros(directions.ncols());
     let mut by_unknown = [none.clone(), none];
-    for (place, unknown) in model.unknowns.iter().enumerate() {
+    for (place, direction) in directions.column_iter().enumerate() {
         let mut moved = *values;
-        *moved.place(*unknown)? += PART * covariance[(place, place)].sqrt();
+        for (unknown, change) in model.unknowns.iter().zip(direction.iter()) {
+            *moved.place(*unknown)? += PART * change;
+        }
         let found = predicted_resonance(model, &moved, measured)?;
         by_unknown[0][place] = (found.frequency_hz - predicted.frequency_hz) / PART;
         by_unknown[1][place] = (found.displacement_m / predicted.displacement_m).ln() / PART;
@@ -235,7 +263,7 @@ impl BackbonePrediction {
             let omega = ((z.re + mass * line.omega * line.omega) / mass).sqrt();
             squares += ((omega - line.omega) / TAU).powi(2);
             let ratio = z.im / (2.0 * mass * line.omega * line.omega);
-            of_damping.extend(line.damping_ratio.map(|own| (ratio / own - 1.0).powi(2)));
+            of_damping.extend(line.damping_ratio.map(|own| (own / ratio - 1.0).powi(2)));
         }
         let mean = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
         let damping_error = mean(of_damping.iter().sum(), of_damping.len());

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::super::input;
 use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
+use super::decay::corrected;
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::prediction::{BackbonePrediction, Prediction};
@@ -30,9 +31,11 @@ pub struct Estimate {
     pub unknown: ResponseUnknown,
     /// Its value in its SI unit.
     pub value: f64,
-    /// One standard deviation.
+    /// The value that it has where the joint is free to be active; the same where it need not be.
+    pub free_value: f64,
+    /// One standard deviation, of the free estimate.
     pub standard_deviation: f64,
-    /// Interval of 95 %.
+    /// Interval of 95 %: that of the free estimate, extended to the passive one where that lies beyond it.
     pub interval_95: [f64; 2],
     /// Whether the data determine it.
     pub is_identified: bool,
@@ -45,8 +48,12 @@ pub struct LapResponse {
     pub name: String,
     /// The model.
     pub model: Model,
-    /// The fit.
+    /// The fit, of a joint that is passive.
     pub fit: Fit,
+    /// The fit that is free to be active, where it is.
+    pub free: Option<Fit>,
+    /// By how much −2 ln L of the passive fit is above that of the free one.
+    pub price: f64,
     /// The unknowns.
     pub estimates: Vec<Estimate>,
     /// Covariance of the unknowns.
@@ -78,49 +85,56 @@ impl LapResponse {
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
         let (chosen, comparison) = choice::choose(study)?;
         let model = chosen.model(study);
-        let fit = chosen.fit;
-        let reduced = fit.chi_squared / fit.degrees_of_freedom.max(1) as f64;
+        let (fit, free) = (chosen.fit, chosen.free);
+        // Errors are those of the free estimate: what the limits add to the residual is no noise.
+        let base = free.as_ref().unwrap_or(&fit);
+        let reduced = base.reduced_chi_squared();
         let factor = if study.noise.is_stated {
             reduced.max(1.0)
         } else {
             reduced
         };
         // The covariance of χ²'s information is its inverse; the function gives half of it.
-        let searched = 2.0 * factor * unit_covariance(&fit.information);
-        let by_searched = by_searched(&model, &fit.values);
-        let covariance = &by_searched * &searched * by_searched.transpose();
-        let amplitude_m = fit.largest_amplitude_m(&choice::fitted_backbone(study));
+        let searched = |fit: &Fit| 2.0 * factor * unit_covariance(&fit.information);
+        let by_searched = by_searched(&model, &base.values);
+        let covariance = &by_searched * searched(base) * by_searched.transpose();
+        let amplitude_m = fit.amplitude_m;
         let quantile = if study.noise.is_stated {
             NORMAL_975
         } else {
             student_975(fit.degrees_of_freedom)
         };
         let estimates = model.unknowns.iter().enumerate().map(|(place, &unknown)| {
-            let value = fit.values.of(unknown);
+            let (value, free_value) = (fit.values.of(unknown), base.values.of(unknown));
             let deviation = covariance[(place, place)].sqrt();
-            let interval_95 = match unknown {
+            let [low, high] = match unknown {
                 // positive by their nature, and searched as logarithms
                 ResponseUnknown::Slider(parameter) if parameter != SliderParameter::Exponent => {
-                    let factor = (quantile * deviation / value).exp();
-                    [value / factor, value * factor]
+                    let factor = (quantile * deviation / free_value).exp();
+                    [free_value / factor, free_value * factor]
                 }
-                _ => [value - quantile * deviation, value + quantile * deviation],
+                _ => [-1.0, 1.0].map(|side| free_value + side * quantile * deviation),
             };
+            // a value at its limit is known by that
+            let is_held = fit.is_held(place) && value == 0.0;
             Estimate {
                 unknown,
                 value,
+                free_value,
                 standard_deviation: deviation,
-                interval_95,
-                is_identified: is_identified(unknown, deviation, &fit.values, amplitude_m),
+                interval_95: [low.min(value), high.max(value)],
+                is_identified: is_held
+                    || is_identified(unknown, deviation, &fit.values, amplitude_m),
             }
         });
         let estimates = estimates.collect();
         let predictions = match model.sees_sum() {
             true => Vec::new(),
-            false => Prediction::of_all(&model, &fit.values, &study.sines, &searched),
+            false => Prediction::of_all(&model, &fit, &study.sines, &searched(&fit)),
         };
         let backbones = study.backbones.iter();
-        let of_backbones = backbones.map(|run| BackbonePrediction::of(&fit.values, run));
+        let of_backbones = backbones
+            .map(|run| BackbonePrediction::of(&fit.values, &corrected(&model, &fit.values, run)));
         let of_backbones = of_backbones.collect();
         let role = |used: Use, what: &str| match used {
             Use::Fit => what.to_owned(),
@@ -145,8 +159,10 @@ impl LapResponse {
                 study.notes.clone(),
                 watch,
             )?,
+            price: choice::price(&fit, free.as_ref(), study.noise.is_stated),
             model,
             fit,
+            free,
             estimates,
             covariance,
             quantile,

@@ -212,6 +212,26 @@ impl SliderValues {
         all.into_iter().map(|n| (n.value, n.change)).collect()
     }
 
+    /// Its load at a displacement (m) that it came to straight from rest, N.
+    pub(super) fn first_loading(&self) -> Box<dyn Fn(f64) -> f64> {
+        match self.law(self.logs) {
+            Valued::Jenkins(law) => Box::new(move |u| law.load(&[0.0], u, 0.0)),
+            Valued::Iwan(law) => Box::new(move |u| law.load::<f64>(&[], u, 0.0)),
+        }
+    }
+
+    /// Makes it softer where it is stiffer than this, N/m.
+    pub(super) fn soften_to(&mut self, stiffness: f64) {
+        // K_T grows with the first unknown's exponential
+        self.logs[0] += (stiffness / self.stiffness()).ln().min(0.0);
+    }
+
+    /// Derivatives of K_T by the unknowns.
+    pub(super) fn stiffness_by_unknowns(&self) -> [f64; MOST] {
+        let logs = std::array::from_fn(|i| Dual::<MOST>::along(self.logs[i], i));
+        self.stiffness_of(logs).change
+    }
+
     /// Derivatives of K_T by its parameters, in the order of [`Slider::parameters`].
     pub(super) fn stiffness_by_parameters(&self) -> Vec<f64> {
         let parameters = self.slider.parameters().iter();
@@ -359,116 +379,4 @@ impl Serialize for SliderParameter {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn all() -> [SliderValues; 3] {
-        let a = 3e-4;
-        [
-            SliderValues::jenkins(2e5, 20.0, a),
-            SliderValues::iwan(Slider::MicroSlip, 3e4, -0.4, [1.0, 1.0], a),
-            SliderValues::iwan(Slider::Iwan, 3e4, -0.4, [0.7, 0.3], a),
-        ]
-    }
-
-    #[test]
-    fn derivatives_are_those_of_differences() {
-        for values in all() {
-            let amplitude = 2.6e-4;
-            let found = values.slipping(amplitude);
-            let step = 1e-6;
-            let size = found.value.norm();
-            let by_log = (values.slipping(amplitude * f64::exp(step)).value
-                - values.slipping(amplitude * f64::exp(-step)).value)
-                / (2.0 * step);
-            assert!(
-                (by_log - found.by_log_amplitude).norm() < 1e-6 * size,
-                "{values:?}"
-            );
-            for i in 0..values.slider.parameters().len() {
-                let moved = |by: f64| {
-                    let mut moved = values;
-                    moved.logs[i] += by;
-                    moved
-                };
-                let (above, below) = (moved(step), moved(-step));
-                let by = (above.slipping(amplitude).value - below.slipping(amplitude).value)
-                    / (2.0 * step);
-                assert!(
-                    (by - found.by_unknown[i]).norm() < 1e-6 * size,
-                    "{values:?} {i}"
-                );
-                for (n, (value, change)) in values.parameters().into_iter().enumerate() {
-                    let [above, below] = [above, below].map(|of| of.parameters()[n].0);
-                    let by = (above - below) / (2.0 * step);
-                    assert!(
-                        (by - change[i]).abs() < 1e-6 * value.abs(),
-                        "{values:?} {n} {i}"
-                    );
-                }
-            }
-        }
-    }
-
-    /// D = 4 R U^(χ+3)/((χ+2)(χ+3)) (Segalman), which is π U² Im z.
-    #[test]
-    fn small_motion_has_its_power_of_heat() {
-        let values = all()[1];
-        let parameters = values.parameters();
-        let (density, exponent) = (parameters[0].0, parameters[1].0);
-        for amplitude in [1e-6_f64, 1e-5, 1e-4, 3e-4] {
-            let heat =
-                std::f64::consts::PI * amplitude.powi(2) * values.slipping(amplitude).value.im;
-            let expected = 4.0 * density * amplitude.powf(exponent + 3.0)
-                / ((exponent + 2.0) * (exponent + 3.0));
-            assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
-        }
-    }
-
-    #[test]
-    fn the_stiffness_follows_its_parameters() {
-        for values in all() {
-            let step = 1e-6;
-            for i in 0..values.slider.parameters().len() {
-                let moved = |by: f64| {
-                    let mut moved = values;
-                    moved.logs[i] += by;
-                    moved
-                };
-                let difference = moved(step).stiffness() - moved(-step).stiffness();
-                let by_parameters = values.stiffness_by_parameters();
-                let parts = by_parameters.iter().zip(values.parameters());
-                let expected: f64 = parts.map(|(by, (_, change))| by * change[i]).sum();
-                let error = (difference / (2.0 * step) - expected).abs();
-                assert!(error < 1e-6 * values.stiffness(), "{values:?} {i}: {error}");
-            }
-        }
-    }
-
-    /// The closed forms beside the quadrature over a loop of the law itself.
-    #[test]
-    fn closed_forms_are_those_of_the_loop() {
-        for values in all() {
-            for amplitude in [3e-5, 9e-5, 1.9e-4, 2.1e-4, 4e-4] {
-                let found = values.slipping(amplitude).value;
-                let of_loop = match values.law(values.logs) {
-                    Valued::Jenkins(law) => {
-                        let knee = law.slip_force / law.stiffness;
-                        masing_fundamental(|u| law.load(&[0.0], u, 0.0), knee, amplitude)
-                    }
-                    Valued::Iwan(law) => {
-                        let span = law.nonlinear_amplitude(0.0, 0.0);
-                        masing_fundamental(|u| law.load::<f64>(&[], u, 0.0), span, amplitude)
-                    }
-                };
-                let real = of_loop.in_phase / amplitude - values.stiffness();
-                let expected = Complex64::new(real, -of_loop.quadrature / amplitude);
-                let error = (found - expected).norm();
-                assert!(
-                    error < 1e-11 * values.stiffness(),
-                    "{values:?} {amplitude}: {found} {expected}"
-                );
-            }
-        }
-    }
-}
+mod tests;

@@ -4,9 +4,9 @@ use bolted_joint_dynamics::{Polynomial, law::Term};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use super::backbone::BackboneLine;
+use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun};
-use super::fit::{Data, Fit, fit};
+use super::fit::{Data, Fit, Kind, fit, glanced};
 use super::model::{Model, ResponseUnknown, Values};
 use super::slider::{Slider, SliderValues};
 use super::study::Noise;
@@ -18,30 +18,42 @@ const RATIOS: [f64; 9] = [1e-4, 3e-4, 1e-3, 3e-3, 6e-3, 0.012, 0.025, 0.05, 0.1]
 /// Share of the joint's stiffness that a cubic spring starts with at the largest amplitude, of either sign.
 const CUBIC_SHARE: f64 = 0.02;
 
+/// Starts that are followed to their end, if more are tried: those that are best after a few steps.
+const MOST_STARTS: usize = 4;
+
 /// Fits the model from all starts and keeps the best, with the number of starts and of those that came to it.
 pub(super) fn best(
     model: &Model,
     runs: &[&SineRun],
-    backbone: &[BackboneLine],
+    backbones: &[&BackboneRun],
     noise: &Noise,
     known: &Values,
+    kind: Kind,
 ) -> Result<(Fit, usize, usize), LapError> {
     let lines = lines_of(runs);
     let data = Data {
         lines: &lines,
-        backbone,
+        backbones,
     };
     let mut starts = starts(model, runs, &lines, noise, known);
     if starts.is_empty() {
-        starts.extend(super::backbone::start(model, backbone, known));
+        starts.extend(super::backbone::start(model, data, known));
     }
     if let Some(slider) = model.terms.slider() {
         starts = with_slider(model, data, slider, &starts);
     }
     let tried = starts.len();
+    if tried > MOST_STARTS {
+        let glance = |start: &Values| glanced(model, data, noise, start, kind).ok();
+        let mut seen: Vec<Fit> = starts.iter().filter_map(glance).collect();
+        seen.retain(|fit| fit.chi_squared.is_finite());
+        seen.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+        let best = seen.iter().take(MOST_STARTS);
+        starts = best.map(|fit| fit.values).collect();
+    }
     let mut fits: Vec<Fit> = Vec::new();
     for start in &starts {
-        match fit(model, data, noise, start) {
+        match fit(model, data, noise, start, kind) {
             Ok(fit) if fit.values.mass > 0.0 => fits.push(fit),
             Err(error @ LapError::TooFewLines { .. }) => return Err(error),
             _ => {}
@@ -56,7 +68,8 @@ pub(super) fn best(
     Ok((best, tried, agreeing))
 }
 
-/// Fits a model to runs from the starts that the data suggest. `known` holds the values of what is not among the model's unknowns.
+/// Fits a model to runs from the starts that the data suggest, free to be active. `known` holds the values of what is not among
+/// the model's unknowns.
 ///
 /// # Errors
 /// [`LapError`] if there are too few lines or no start leads anywhere.
@@ -72,16 +85,16 @@ pub fn fit_responses(
         harmonics: 1,
         ..model.clone()
     };
-    let (found, ..) = best(&closed, &runs, &[], noise, known)?;
+    let (found, ..) = best(&closed, &runs, &[], noise, known, Kind::Free)?;
     if model.harmonics == 1 {
         return Ok(found);
     }
     let lines = lines_of(&runs);
     let data = Data {
         lines: &lines,
-        backbone: &[],
+        backbones: &[],
     };
-    fit(model, data, noise, &found.values)
+    fit(model, data, noise, &found.values, Kind::Free)
 }
 
 fn lines_of(runs: &[&SineRun]) -> Vec<SineLine> {
@@ -106,10 +119,12 @@ fn starts(
         .flatten()
     {
         starts.push(start);
-        starts.push(Values {
-            terms: Polynomial::NONE,
-            ..start
-        });
+        if start.terms != Polynomial::NONE {
+            starts.push(Values {
+                terms: Polynomial::NONE,
+                ..start
+            });
+        }
     }
     starts
 }
@@ -151,7 +166,7 @@ fn with_slider(model: &Model, data: Data<'_>, slider: Slider, starts: &[Values])
         (amplitude, line.omega, first.relative_damping())
     });
     // C = 2ζωM of the relative mode, M = m/2
-    let of_backbone = data.backbone.iter().map(|line| {
+    let of_backbone = data.points().map(|line| {
         let ratio = line.damping_ratio.unwrap_or(0.0);
         let damping = ratio * line.omega * first.mass;
         (
@@ -395,9 +410,11 @@ fn two_resonances(
     };
     let data = Data {
         lines: &lines,
-        backbone: &[],
+        backbones: &[],
     };
-    let fitted = fit(&linear, data, noise, &start).ok().map(|fit| fit.values);
+    let fitted = fit(&linear, data, noise, &start, Kind::Free)
+        .ok()
+        .map(|fit| fit.values);
     Some(fitted.filter(|values| values.mass > 0.0).unwrap_or(start))
 }
 

@@ -1,7 +1,7 @@
 //! What the reader of a lap model identified from responses should know before using it.
 
 use super::result::LapResponse;
-use super::study::LapResponseStudy;
+use super::study::{LapResponseStudy, NoiseIs};
 
 /// χ² per degree of freedom from which on a stated noise does not explain the residual.
 const TOO_LARGE: f64 = 1.5;
@@ -11,6 +11,8 @@ const FAR_TOO_LARGE: f64 = 9.0;
 const TOO_SMALL: f64 = 0.3;
 /// Difference of Schwarz's criterion that is strong evidence.
 const STRONG: f64 = 10.0;
+/// By how much −2 ln L of the passive estimate may be above the free one's by chance: five standard deviations.
+const CHANCE: f64 = 25.0;
 /// Errors of the resonance of a run left out that are worth a word: frequency in Hz, relative amplitude.
 const FREQUENCY_HZ: f64 = 0.1;
 const AMPLITUDE: f64 = 0.1;
@@ -27,42 +29,14 @@ impl LapResponse {
                 open.join(", ")
             ));
         }
-        let reduced = self.fit.chi_squared / self.fit.degrees_of_freedom.max(1) as f64;
-        if study.noise.is_stated && reduced > TOO_LARGE {
-            warnings.push(format!(
-                "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
-            ));
-        }
-        if !study.noise.is_stated && reduced > FAR_TOO_LARGE {
-            warnings.push(format!(
-                "the residual is {:.1} times the noise that is taken where none is stated: χ² per degree of freedom {reduced:.3}; all \
-                 standard deviations were raised, but they hold only if the residual is noise: state [noise], or look at the residual for \
-                 what the model leaves out",
-                reduced.sqrt()
-            ));
-        }
-        if study.noise.is_stated && reduced < TOO_SMALL {
-            warnings.push(format!(
-                "the residual is much less than the stated noise: χ² per degree of freedom {reduced:.3}; the standard deviations are \
-                 those of the stated noise"
-            ));
-        }
+        warnings.extend(self.of_price());
+        warnings.extend(self.of_residual(study));
         let is_of_one = self.fit.values.slider.is_none();
         if is_of_one && self.model.harmonics < study.harmonics && !study.sines.is_empty() {
             warnings.push(format!(
                 "the estimate is that of one harmonic: with {} harmonics it did not converge",
                 study.harmonics
             ));
-        }
-        for (name, value) in [
-            ("k", self.fit.values.support_stiffness),
-            ("c", self.fit.values.support_damping),
-        ] {
-            if value < 0.0 {
-                warnings.push(format!(
-                    "{name} of the supports came out as {value:.3e}, which no passive support has; the joint file holds zero"
-                ));
-            }
         }
         let own = self
             .comparison
@@ -75,14 +49,8 @@ impl LapResponse {
         if let (Some(own), Some(best)) = (own, best)
             && own.bic_difference > STRONG
         {
-            let why_not = match best.is_passive {
-                true => "",
-                false => {
-                    ", but that joint would feed energy within the amplitudes that were fitted"
-                }
-            };
             warnings.push(format!(
-                "the terms \"{}\" explain the data better than \"{}\": BIC {:.1} lower{why_not}",
+                "the terms \"{}\" explain the data better than \"{}\": BIC {:.1} lower",
                 best.terms, own.terms, own.bic_difference
             ));
         }
@@ -112,5 +80,61 @@ impl LapResponse {
             }
         }
         warnings
+    }
+
+    /// What it costs that the joint is passive.
+    fn of_price(&self) -> Option<String> {
+        let free = self.free.as_ref()?;
+        let limits: Vec<String> = self
+            .fit
+            .at_limits
+            .iter()
+            .map(|at| at.limit.to_string())
+            .collect();
+        let cause = match self.price > CHANCE {
+            true => {
+                ", far more than noise explains: the data themselves feed energy; look at the phase and its sign, at what else \
+                 drives the structure, and at what the model leaves out"
+            }
+            false => "",
+        };
+        Some(format!(
+            "the free estimate would feed energy; the joint is the passive one that fits best, which holds {} at zero: χ² per \
+             degree of freedom {:.4} in place of {:.4}, −2 ln L higher by {:.1}{cause}",
+            limits.join(" and "),
+            self.fit.reduced_chi_squared(),
+            free.reduced_chi_squared(),
+            self.price
+        ))
+    }
+
+    /// Whether the residual is what the noise should leave; a joint that has to be passive may leave more.
+    fn of_residual(&self, study: &LapResponseStudy) -> Option<String> {
+        let reduced = self
+            .free
+            .as_ref()
+            .unwrap_or(&self.fit)
+            .reduced_chi_squared();
+        let times = reduced.sqrt();
+        match study.noise_is() {
+            NoiseIs::Stated if reduced > TOO_LARGE => Some(format!(
+                "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
+            )),
+            NoiseIs::Stated if reduced < TOO_SMALL => Some(format!(
+                "the residual is much less than the stated noise: χ² per degree of freedom {reduced:.3}; the standard deviations are \
+                 those of the stated noise"
+            )),
+            NoiseIs::OfRecords if reduced > TOO_LARGE => Some(format!(
+                "the residual is {times:.1} times what the noise of the decays' records explains: χ² per degree of freedom \
+                 {reduced:.3}; all standard deviations were raised, but they hold only if the residual is noise: look at what the model \
+                 leaves out"
+            )),
+            NoiseIs::Nominal if reduced > FAR_TOO_LARGE => Some(format!(
+                "the residual is {times:.1} times the noise that is taken where none is stated: χ² per degree of freedom {reduced:.3}; \
+                 all standard deviations were raised, but they hold only if the residual is noise: state [noise], or look at the \
+                 residual for what the model leaves out"
+            )),
+            _ => None,
+        }
     }
 }

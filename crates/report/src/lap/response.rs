@@ -8,7 +8,7 @@ use bolted_joint_figures::html::{
 };
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
-use bolted_joint_lap::{LapResponse, LapResponseStudy, SineRun, Use};
+use bolted_joint_lap::{LapResponse, LapResponseStudy, NoiseIs, SineRun, Use};
 
 /// Points of a computed curve.
 const POINTS: usize = 400;
@@ -67,34 +67,49 @@ impl LapResponseReport<'_> {
                 .concat(),
                 false => "<td colspan=\"3\">not identified</td>".to_owned(),
             };
+            let free = match &self.found.free {
+                Some(_) => number_cell(&beside(estimate.free_value, deviation)),
+                None => String::new(),
+            };
             format!(
-                "<th scope=\"row\">{}</th>{values}{}",
+                "<th scope=\"row\">{}</th>{values}{}{free}",
                 escaped(estimate.unknown.symbol()),
                 cell(&estimate.unknown.unit())
             )
         });
         let rows: Vec<String> = rows.collect();
-        let reduced = self.found.fit.chi_squared / self.found.fit.degrees_of_freedom.max(1) as f64;
+        let mut header = vec!["", "Estimate", "Std. dev.", "95 % interval", "Unit"];
+        let free = self.found.free.as_ref().map_or_else(String::new, |free| {
+            header.push("Free estimate");
+            format!(
+                "<p>The free estimate is active: χ² per degree of freedom {}, −2 ln L {} lower. The passive joint that fits best is \
+                 the estimate, and is what the joint file holds. The intervals are about the free one, and reach to it.</p>\n",
+                shown(free.reduced_chi_squared(), 4),
+                shown(self.found.price, 3)
+            )
+        });
+        let reduced = self.found.fit.reduced_chi_squared();
         let parts: Vec<String> = self
             .study
             .noise_by_kind()
             .into_iter()
             .map(|(kind, part)| format!("{} % of the {kind}", shown(100.0 * part, 3)))
             .collect();
-        let noise = match self.study.noise.is_stated {
-            true => "stated",
-            false => "nominal, and the intervals follow the residual",
+        let noise = match self.study.noise_is() {
+            NoiseIs::Stated => "stated",
+            NoiseIs::OfRecords => "that of the records, and the intervals follow the residual",
+            NoiseIs::Nominal => "nominal, and the intervals follow the residual",
+        };
+        let of = match parts.is_empty() {
+            true => String::new(),
+            false => format!(" of {}", parts.join(", ")),
         };
         format!(
-            "<h2>Identified parameters</h2>\n{}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise of {} \
+            "<h2>Identified parameters</h2>\n{}{free}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise{of} \
              ({noise}); {} of {} starts agree.</p>\n",
-            table(
-                &["", "Estimate", "Std. dev.", "95 % interval", "Unit"],
-                &rows
-            ),
+            table(&header, &rows),
             escaped(&self.found.model.terms.to_string()),
             shown(reduced, 4),
-            parts.join(", "),
             self.found.starts.1,
             self.found.starts.0,
         )
@@ -203,10 +218,13 @@ impl LapResponseReport<'_> {
                 number_cell(&model.unknowns.to_string()),
                 number_cell(&shown(model.reduced_chi_squared, 4)),
                 number_cell(&format!("{:.1}", model.bic_difference)),
-                cell(match model.is_passive {
-                    _ if model.terms == self.found.model.terms => "used",
-                    true => "",
-                    false => "active",
+                number_cell(&match model.is_passive {
+                    true => String::new(),
+                    false => format!("{:.1}", model.price),
+                }),
+                cell(match model.terms == self.found.model.terms {
+                    true => "used",
+                    false => "",
                 }),
             ]
             .concat()
@@ -215,7 +233,14 @@ impl LapResponseReport<'_> {
         format!(
             "<h2>Models by likelihood</h2>\n{}",
             table(
-                &["Terms", "Unknowns", "χ²/ν", "BIC above the best", ""],
+                &[
+                    "Terms",
+                    "Unknowns",
+                    "χ²/ν",
+                    "BIC above the best",
+                    "Price of passivity in −2 ln L",
+                    ""
+                ],
                 &rows
             )
         )

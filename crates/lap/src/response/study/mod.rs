@@ -1,17 +1,24 @@
 //! A study of method `lap-response`, read with its data and checked before anything is computed.
 
+mod checks;
+mod noise;
+mod tables;
+
 use std::path::{Path, PathBuf};
 
-use bolted_joint_dynamics::law::Term;
 use serde::{Deserialize, Serialize};
 
+use self::checks::{band_hz, known, terms_of};
+use self::noise::noise;
+use self::tables::StudyFile;
 use super::backbone::{BackboneRun, read_backbone, read_decay};
-use super::data::{PhaseOf, SineLine, SineOptions, SineRun, Use, read_sine};
+use super::data::{SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
-use super::slider::Slider;
-use super::terms::{NamedTerm, TermSet};
+use super::terms::TermSet;
 use crate::error::LapError;
-use bolted_joint_study::{FrequencyTable, Method, StudyError, StudyText};
+use bolted_joint_study::{Method, StudyText};
+
+pub use self::noise::Noise;
 
 /// Where a force acts or a motion is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,65 +32,9 @@ pub enum Place {
     Relative,
 }
 
-/// Standard deviations of what was measured, as fractions of it: of the complex errors of response and force, so that each part and
-/// each logarithm and angle has the √2-th part.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Noise {
-    /// Of the response.
-    pub response: f64,
-    /// Of the force.
-    pub force: f64,
-    /// Part of the response's that does not depend on it, m.
-    pub floor_m: f64,
-    /// Of the frequencies of a backbone.
-    pub frequency: f64,
-    /// Of damping ratios and forces of a backbone.
-    pub damping: f64,
-    /// Whether the study stated them; else their common factor is estimated from the residual.
-    pub is_stated: bool,
-}
-
-impl Noise {
-    /// Stated noise of force and response.
-    #[must_use]
-    pub fn stated(response: f64, force: f64) -> Self {
-        Self {
-            response,
-            force,
-            is_stated: true,
-            ..Self::default()
-        }
-    }
-
-    /// Reciprocal standard deviations of ln F, ln x and the phase. A force without error would leave its line without an amplitude
-    /// to adjust, so that it has a very small one.
-    pub(super) fn weights(&self, line: &SineLine) -> [f64; 3] {
-        let floor = self.floor_m / line.displacement_m;
-        let response = self.response * self.response + floor * floor;
-        let force = (self.force * self.force).max(EXACT * EXACT * response);
-        [force, response, force + response].map(|variance| (0.5 * variance).sqrt().recip())
-    }
-}
-
 /// Highest harmonic where the study names none, and the highest that it may name.
 const HARMONICS: usize = 3;
 const MOST_HARMONICS: usize = 99;
-
-/// A force without error counts as one with this part of the response's.
-const EXACT: f64 = 1e-4;
-
-impl Default for Noise {
-    fn default() -> Self {
-        Self {
-            response: 0.01,
-            force: 0.01,
-            floor_m: 0.0,
-            frequency: 1e-4,
-            damping: 0.01,
-            is_stated: false,
-        }
-    }
-}
 
 /// A validated study of method `lap-response`, with its data.
 #[derive(Clone, Debug)]
@@ -116,89 +67,27 @@ pub struct LapResponseStudy {
     pub notes: Vec<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StudyFile {
-    method: Method,
-    name: String,
-    #[serde(default)]
-    notes: Vec<String>,
-    torque: Option<f64>,
-    model: ModelTable,
-    #[serde(default)]
-    known: KnownTable,
-    #[serde(default)]
-    noise: NoiseTable,
-    #[serde(default)]
-    frequency: FrequencyTable,
-    #[serde(default)]
-    sine: Vec<SineTable>,
-    #[serde(default)]
-    backbone: Vec<FileTable>,
-    #[serde(default)]
-    decay: Vec<DecayTable>,
+/// Where the level of the noise is from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoiseIs {
+    /// The study states it.
+    Stated,
+    /// Decays alone are fitted, and their records tell it.
+    OfRecords,
+    /// A nominal one, which the residual scales.
+    Nominal,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ModelTable {
-    drive: Place,
-    response: Place,
-    terms: Option<Vec<NamedTerm>>,
-    harmonics: Option<usize>,
-    #[serde(default)]
-    other_modes: bool,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct KnownTable {
-    k: Option<f64>,
-    m: Option<f64>,
-    c: Option<f64>,
-    k12: Option<f64>,
-    c12: Option<f64>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NoiseTable {
-    response: Option<f64>,
-    force: Option<f64>,
-    floor_m: Option<f64>,
-    frequency: Option<f64>,
-    damping: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SineTable {
-    file: PathBuf,
-    name: Option<String>,
-    #[serde(default, rename = "use")]
-    used_for: Use,
-    phase_of: Option<PhaseOf>,
-    phase_sign: Option<i8>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FileTable {
-    file: PathBuf,
-    name: Option<String>,
-    #[serde(default, rename = "use")]
-    used_for: Use,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DecayTable {
-    file: PathBuf,
-    name: Option<String>,
-    #[serde(default, rename = "use")]
-    used_for: Use,
-    /// Hz
-    band: Option<[f64; 2]>,
+impl NoiseIs {
+    /// In a word or a few.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Stated => "stated",
+            Self::OfRecords => "the records' own",
+            Self::Nominal => "nominal",
+        }
+    }
 }
 
 /// A run's name: the stated one, or the file's.
@@ -224,8 +113,25 @@ impl LapResponseStudy {
             ("damping", self.noise.damping),
         ];
         let sines = of_sines.iter().filter(|_| !self.sines.is_empty());
-        let curves = of_curves.iter().filter(|_| !self.backbones.is_empty());
+        let is_told = |run: &BackboneRun| run.errors.is_none() || self.noise.is_of_curves;
+        let has_curves = self.backbones.iter().any(is_told);
+        let curves = of_curves.iter().filter(|_| has_curves);
         sines.chain(curves).copied().collect()
+    }
+
+    /// Where the level of the noise is from.
+    #[must_use]
+    pub fn noise_is(&self) -> NoiseIs {
+        let is_fitted = |used_for: Use| used_for == Use::Fit;
+        let has_sines = self.sines.iter().any(|run| is_fitted(run.used_for));
+        let mut backbones = self.backbones.iter().filter(|run| is_fitted(run.used_for));
+        if self.noise.is_stated {
+            NoiseIs::Stated
+        } else if !has_sines && backbones.all(|run| run.errors.is_some()) {
+            NoiseIs::OfRecords
+        } else {
+            NoiseIs::Nominal
+        }
     }
 
     /// Reads and checks a study and its data.
@@ -244,7 +150,11 @@ impl LapResponseStudy {
         let file: StudyFile = study.tables()?;
         study.check_method(file.method, &[Method::LapResponse])?;
         study.check_name("name", &file.name)?;
-        let noise = noise(study, &file.noise)?;
+        let is_fitted = |used_for: Use| used_for == Use::Fit;
+        let has_sines = file.sine.iter().any(|own| is_fitted(own.used_for));
+        let has_curves = file.backbone.iter().any(|own| is_fitted(own.used_for))
+            || file.decay.iter().any(|own| is_fitted(own.used_for));
+        let noise = noise(study, &file.noise, [has_sines, has_curves])?;
         let terms = file.model.terms.as_deref();
         let terms = terms.map(|named| terms_of(study, named)).transpose()?;
         if let Some(torque) = file.torque {
@@ -287,6 +197,8 @@ impl LapResponseStudy {
             Ok::<_, LapError>(BackboneRun {
                 name: name_of(table.name, &table.file),
                 lines: read_backbone(&path, share)?,
+                errors: None,
+                following: None,
                 path,
                 used_for: table.used_for,
             })
@@ -294,9 +206,12 @@ impl LapResponseStudy {
         let decays = file.decay.into_iter().map(|table| {
             let path = study.resolved(&table.file);
             let band_hz = table.band.map(|band| band_hz(study, band)).transpose()?;
+            let (lines, errors) = read_decay(&path, band_hz, share, &noise)?;
             Ok(BackboneRun {
                 name: name_of(table.name, &table.file),
-                lines: read_decay(&path, band_hz, share)?,
+                lines,
+                errors: Some(errors),
+                following: None,
                 path,
                 used_for: table.used_for,
             })
@@ -386,97 +301,4 @@ impl LapResponseStudy {
         }
         values
     }
-}
-
-/// The terms that a study names.
-fn terms_of(study: &StudyText, named: &[NamedTerm]) -> Result<TermSet, StudyError> {
-    let mut terms: Vec<Term> = Vec::new();
-    let mut sliders: Vec<Slider> = Vec::new();
-    for name in named {
-        match *name {
-            NamedTerm::Term(term) => {
-                let found = format!("{} twice", term.row().symbol);
-                let is_new = !terms.contains(&term);
-                study.ensure(is_new, "model.terms", found, "every term once")?;
-                terms.push(term);
-            }
-            NamedTerm::Slider(slider) => sliders.push(slider),
-        }
-    }
-    let names: Vec<&str> = sliders.iter().map(|slider| slider.name()).collect();
-    let expected = "one law that slips at most";
-    study.ensure(
-        sliders.len() < 2,
-        "model.terms",
-        names.join(" and "),
-        expected,
-    )?;
-    let set = TermSet::of(&terms);
-    Ok(sliders.into_iter().fold(set, TermSet::beside))
-}
-
-fn known(study: &StudyText, file: &StudyFile) -> Result<Vec<(ResponseUnknown, f64)>, StudyError> {
-    let table = &file.known;
-    let all = [
-        (ResponseUnknown::Mass, table.m),
-        (ResponseUnknown::SupportStiffness, table.k),
-        (ResponseUnknown::SupportDamping, table.c),
-        (ResponseUnknown::JointStiffness, table.k12),
-        (ResponseUnknown::JointDamping, table.c12),
-    ];
-    let mut known = Vec::new();
-    for (unknown, value) in all {
-        let Some(value) = value else { continue };
-        let is_there = unknown != ResponseUnknown::Mass || value != 0.0;
-        study.ensure(
-            is_there && value >= 0.0 && value.is_finite(),
-            format_args!("known.{}", unknown.symbol()),
-            value,
-            format_args!(
-                "a value in {} that is not negative, a mass above zero",
-                unknown.unit()
-            ),
-        )?;
-        known.push((unknown, value));
-    }
-    Ok(known)
-}
-
-fn band_hz(study: &StudyText, [from, to]: [f64; 2]) -> Result<[f64; 2], StudyError> {
-    let is_band = from >= 0.0 && to > from && to.is_finite();
-    let expected = "[lowest, highest] frequency in Hz, such as [60, 100]";
-    study.ensure(
-        is_band,
-        "decay.band",
-        format_args!("[{from}, {to}]"),
-        expected,
-    )?;
-    Ok([from, to])
-}
-
-fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, StudyError> {
-    for (name, value, may_vanish) in [
-        ("response", table.response, false),
-        ("force", table.force, true),
-        ("floor_m", table.floor_m, true),
-        ("frequency", table.frequency, false),
-        ("damping", table.damping, false),
-    ] {
-        let Some(value) = value else { continue };
-        let key = format!("noise.{name}");
-        study.not_negative(&key, value, "a number that is not negative")?;
-        let expected = "a fraction above zero: a measurement has errors";
-        study.ensure(may_vanish || value != 0.0, key, value, expected)?;
-    }
-    let otherwise = Noise::default();
-    let response = table.response.unwrap_or(otherwise.response);
-    Ok(Noise {
-        response,
-        // What is not said of the force is as of the response.
-        force: table.force.unwrap_or(response),
-        floor_m: table.floor_m.unwrap_or(0.0),
-        frequency: table.frequency.unwrap_or(otherwise.frequency),
-        damping: table.damping.unwrap_or(otherwise.damping),
-        is_stated: table.response.is_some() || table.frequency.is_some(),
-    })
 }

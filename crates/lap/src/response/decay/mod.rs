@@ -1,0 +1,215 @@
+//! Free decays of one mode: amplitude, frequency and damping over time, by complex demodulation.
+//!
+//! A record is multiplied by a rotating phasor and averaged under a Gaussian window. What is left is the mode's complex
+//! amplitude; its logarithm falls and turns as the mode decays and oscillates. Other modes are told from the spectrum:
+//! where one is in the way, the record is refused.
+
+mod errors;
+mod simulated;
+mod spectrum;
+mod stretch;
+
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex64;
+
+use self::spectrum::Spectrum;
+use self::stretch::{Part, Point, Stretch, covariance};
+use super::backbone::BackboneLine;
+
+pub(super) use self::errors::ReadingErrors;
+pub(super) use self::simulated::{Following, corrected, followed};
+
+/// Half-periods that a point of the backbone is read over.
+const HALF_PERIODS: usize = 10;
+/// Distances between samples may differ by this part of their mean: files round their times.
+const UNEVEN: f64 = 0.02;
+/// What is left of a mode at the edge of the band.
+const AT_THE_EDGE: f64 = 1e-4;
+/// Half the width of the band around a record's only mode, in its frequency.
+const HALF_WIDTH: f64 = 0.5;
+/// Half the width of the window in standard deviations.
+const WINDOW: f64 = 4.0;
+/// Amplitudes below so many times their noise, or what the window lets through of other modes, are left out.
+const LEAST: f64 = 20.0;
+/// What reading over ten half-periods leaves uncertain without any noise: part of the frequency and of the damping ratio.
+const READING: [f64; 2] = [1e-5, 2e-3];
+/// How often the phasor is tuned to the mode.
+const TUNINGS: usize = 3;
+
+/// Why a record has no backbone.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum DecayProblem {
+    /// Times do not ascend evenly.
+    Uneven,
+    /// Nothing stands out of the noise.
+    NoMode,
+    /// Several modes, with their frequencies, Hz, the highest first.
+    Several(Vec<f64>),
+    /// So many points of a backbone.
+    TooShort(usize),
+}
+
+/// The backbone of a free decay, with its errors: samples of time (s) and of the `order`-th derivative of displacement, of which
+/// the relative motion has the part `share`. `band_hz` holds the mode and no other; without it the record must have one mode alone.
+/// Beside the noise of the record frequencies and damping ratios have errors of the parts `beside`.
+pub(super) fn backbone_of(
+    samples: &[(f64, f64)],
+    band_hz: Option<[f64; 2]>,
+    order: i32,
+    share: f64,
+    beside: [f64; 2],
+) -> Result<(Vec<BackboneLine>, ReadingErrors), DecayProblem> {
+    let record = Record::of(samples)?;
+    let spectrum = Spectrum::of(&record);
+    let mode_hz = spectrum.only_mode(band_hz)?;
+    let stretches = record.tuned(mode_hz, band_hz, spectrum.noise);
+    let lines = stretches.lines(order, share);
+    if lines.len() < 2 {
+        return Err(DecayProblem::TooShort(lines.len()));
+    }
+    let errors = stretches.errors(&lines, beside);
+    let errors = errors.ok_or(DecayProblem::TooShort(lines.len()))?;
+    Ok((lines, errors))
+}
+
+/// Samples at equal distances.
+struct Record {
+    interval_s: f64,
+    values: Vec<f64>,
+}
+
+impl Record {
+    fn of(samples: &[(f64, f64)]) -> Result<Self, DecayProblem> {
+        let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+            return Err(DecayProblem::NoMode);
+        };
+        let interval_s = (last.0 - first.0) / (samples.len().max(2) - 1) as f64;
+        let is_even = |pair: &[(f64, f64)]| {
+            let own = pair[1].0 - pair[0].0;
+            (own - interval_s).abs() <= UNEVEN * interval_s
+        };
+        if !(interval_s > 0.0 && samples.windows(2).all(is_even)) {
+            return Err(DecayProblem::Uneven);
+        }
+        let mean = samples.iter().map(|(_, value)| value).sum::<f64>() / samples.len() as f64;
+        Ok(Self {
+            interval_s,
+            values: samples.iter().map(|(_, value)| value - mean).collect(),
+        })
+    }
+
+    /// The stretches of the mode at `mode_hz`, seen from a phasor that turns with it.
+    fn tuned(&self, mode_hz: f64, band_hz: Option<[f64; 2]>, noise: f64) -> Stretches {
+        let mut omega = TAU * mode_hz;
+        let edge_hz = band_hz.map_or(HALF_WIDTH * mode_hz, |[from, to]| {
+            (mode_hz - from).min(to - mode_hz)
+        });
+        // exp(−½ (Δω σ)²) at the edge
+        let sigma_s = (-2.0 * AT_THE_EDGE.ln()).sqrt() / (TAU * edge_hz);
+        // of white noise under the window: 2σ √(Δt/(2√π σ_t))
+        let of_noise = 2.0 * noise * (self.interval_s / (2.0 * PI.sqrt() * sigma_s)).sqrt();
+        for _ in 1..TUNINGS {
+            // where the amplitude is large there is most to lose
+            let stretches = self.stretches(omega, sigma_s, of_noise);
+            omega += stretches.first().map_or(0.0, |first| first.detuning);
+        }
+        let stretches = self.stretches(omega, sigma_s, of_noise);
+        Stretches {
+            omega,
+            sigma_s,
+            of_noise,
+            stretches,
+        }
+    }
+
+    /// What the record is over ten half-periods at a time, as seen from a phasor that turns with `omega`.
+    fn stretches(&self, omega: f64, sigma_s: f64, of_noise: f64) -> Vec<Stretch> {
+        let points = self.points(omega, sigma_s, of_noise);
+        let whole = points.chunks_exact(HALF_PERIODS);
+        whole.map(|chunk| Stretch::of(chunk, sigma_s)).collect()
+    }
+
+    /// The mode's complex amplitudes at half-periods, as long as they are clear of noise and of other modes.
+    fn points(&self, omega: f64, sigma_s: f64, of_noise: f64) -> Vec<Point> {
+        let half_period_s = 0.5 * TAU / omega;
+        let reach_s = WINDOW * sigma_s;
+        let duration_s = self.interval_s * (self.values.len() - 1) as f64;
+        let count = ((duration_s - 2.0 * reach_s) / half_period_s).floor();
+        if count.is_nan() || count < HALF_PERIODS as f64 {
+            return Vec::new();
+        }
+        let is_clear =
+            |point: &Point| point.z.norm() > LEAST * of_noise.max(AT_THE_EDGE * point.largest);
+        (0..=count as usize)
+            .map(|index| {
+                let time_s = reach_s + half_period_s * index as f64;
+                self.demodulated(time_s, omega, sigma_s)
+            })
+            .take_while(is_clear)
+            .collect()
+    }
+
+    /// 2 Σ x w e^{−jωt}/Σ w about a time, with a Gaussian w.
+    fn demodulated(&self, time_s: f64, omega: f64, sigma_s: f64) -> Point {
+        let reach_s = WINDOW * sigma_s;
+        let from = ((time_s - reach_s) / self.interval_s).ceil().max(0.0) as usize;
+        let to = ((time_s + reach_s) / self.interval_s).floor() as usize;
+        let (mut sum, mut weights, mut largest) = (Complex64::ZERO, 0.0, 0.0_f64);
+        for (index, value) in self.values.iter().enumerate().take(to + 1).skip(from) {
+            let t = self.interval_s * index as f64;
+            let distance = (t - time_s) / sigma_s;
+            let weight = (-0.5 * distance * distance).exp();
+            sum += Complex64::cis(-omega * t) * (weight * value);
+            weights += weight;
+            largest = largest.max(value.abs());
+        }
+        Point {
+            time_s,
+            z: 2.0 * sum / weights,
+            largest,
+        }
+    }
+}
+
+/// A mode's decay, stretch by stretch, as seen from a phasor that turns with `omega`.
+struct Stretches {
+    omega: f64,
+    /// Of the window.
+    sigma_s: f64,
+    /// Root mean square of the noise of a complex amplitude.
+    of_noise: f64,
+    stretches: Vec<Stretch>,
+}
+
+impl Stretches {
+    /// Points of the backbone.
+    fn lines(&self, order: i32, share: f64) -> Vec<BackboneLine> {
+        let line = |stretch: &Stretch| {
+            let natural = (self.omega + stretch.detuning).hypot(stretch.decay);
+            BackboneLine {
+                amplitude_m: stretch.amplitude / natural.powi(order) / share.abs(),
+                omega: natural,
+                damping_ratio: Some(stretch.decay / natural),
+                force_n: None,
+            }
+        };
+        self.stretches.iter().map(line).collect()
+    }
+
+    /// Errors of these points; `None` where they have no definite covariance.
+    fn errors(&self, lines: &[BackboneLine], beside: [f64; 2]) -> Option<ReadingErrors> {
+        let noise = (self.sigma_s, self.of_noise);
+        let of = |parts: [Part; 2]| covariance(&self.stretches, noise, parts);
+        let parts = [
+            of([Part::Slope, Part::Slope]),
+            of([Part::Mean, Part::Mean]),
+            of([Part::Mean, Part::Slope]),
+        ];
+        let beside = [0, 1].map(|kind| READING[kind].hypot(beside[kind]));
+        ReadingErrors::of(lines, self.sigma_s, parts, beside)
+    }
+}
+
+#[cfg(test)]
+mod tests;

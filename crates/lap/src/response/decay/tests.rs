@@ -1,0 +1,106 @@
+//! Decays whose numbers are known: linear ones in closed form.
+
+use super::*;
+
+fn lines_of(
+    samples: &[(f64, f64)],
+    band_hz: Option<[f64; 2]>,
+    order: i32,
+    share: f64,
+) -> Result<Vec<BackboneLine>, DecayProblem> {
+    backbone_of(samples, band_hz, order, share, [0.0; 2]).map(|(lines, _)| lines)
+}
+
+/// x = e^(−ζω₀t) cos ω_d t, sampled; amplitude, ζ, frequency in Hz.
+fn decaying(modes: &[(f64, f64, f64)], count: u32, interval_s: f64) -> Vec<(f64, f64)> {
+    let value = |t: f64| -> f64 {
+        let of_mode = |&(amplitude, ratio, hz): &(f64, f64, f64)| {
+            let omega = TAU * hz;
+            let damped = omega * f64::sqrt(1.0 - ratio * ratio);
+            amplitude * (-ratio * omega * t).exp() * (damped * t).cos()
+        };
+        modes.iter().map(of_mode).sum()
+    };
+    let times = (0..count).map(|n| f64::from(n) * interval_s);
+    times.map(|t| (t, value(t))).collect()
+}
+
+#[test]
+fn a_linear_decay_has_its_frequency_and_damping() {
+    let samples = decaying(&[(2e-4, 0.004, 81.2)], 20_000, 1e-4);
+    let lines = lines_of(&samples, None, 0, 1.0).unwrap();
+    assert!(lines.len() > 20, "{}", lines.len());
+    for line in &lines {
+        assert!(
+            (line.omega / (TAU * 81.2) - 1.0).abs() < 1e-6,
+            "{}",
+            line.omega
+        );
+        let ratio = line.damping_ratio.unwrap();
+        assert!((ratio / 0.004 - 1.0).abs() < 1e-3, "{ratio}");
+    }
+    // A falls by e^(−ζωT) over five periods T
+    for pair in lines.windows(2) {
+        let fall = pair[1].amplitude_m / pair[0].amplitude_m;
+        assert!(
+            (fall / (-0.004 * TAU * 5.0_f64).exp() - 1.0).abs() < 1e-4,
+            "{fall}"
+        );
+    }
+}
+
+#[test]
+fn amplitudes_are_those_of_the_displacement_whatever_was_measured() {
+    let samples = decaying(&[(3.0, 0.002, 50.0)], 40_000, 1e-4);
+    let lines = lines_of(&samples, None, 2, 0.5).unwrap();
+    let first = lines[0];
+    // back to time zero: the first stretch is in the middle of ten half-periods behind the window
+    let omega = TAU * 50.0;
+    let sigma_s = (-2.0 * AT_THE_EDGE.ln()).sqrt() / (TAU * 25.0);
+    let at_s = WINDOW * sigma_s + 4.5 * 0.01;
+    let expected = 3.0 * (-0.002 * omega * at_s).exp() / omega.powi(2) / 0.5;
+    assert!(
+        (first.amplitude_m / expected - 1.0).abs() < 2e-3,
+        "{first:?} {expected}"
+    );
+}
+
+#[test]
+fn two_modes_are_told_and_a_band_takes_one_of_them() {
+    let modes = [(2e-4, 0.004, 81.2), (5e-5, 0.003, 204.0)];
+    let samples = decaying(&modes, 20_000, 1e-4);
+    let Err(DecayProblem::Several(found)) = lines_of(&samples, None, 0, 1.0) else {
+        panic!("two modes pass for one");
+    };
+    assert!(
+        (found[0] - 81.2).abs() < 0.5 && (found[1] - 204.0).abs() < 0.5,
+        "{found:?}"
+    );
+    for ((_, ratio, hz), band) in modes.into_iter().zip([[50.0, 112.0], [150.0, 260.0]]) {
+        for line in lines_of(&samples, Some(band), 0, 1.0).unwrap() {
+            assert!(
+                (line.omega / (TAU * hz) - 1.0).abs() < 2e-4,
+                "{}",
+                line.omega / TAU
+            );
+            let found = line.damping_ratio.unwrap();
+            assert!((found / ratio - 1.0).abs() < 0.02, "{found}");
+        }
+    }
+    // both in the band, or neither
+    let both = lines_of(&samples, Some([50.0, 300.0]), 0, 1.0);
+    assert!(matches!(both, Err(DecayProblem::Several(_))));
+    let samples = decaying(&modes[..1], 20_000, 1e-4);
+    let none = lines_of(&samples, Some([300.0, 400.0]), 0, 1.0);
+    assert!(none.is_err());
+}
+
+#[test]
+fn what_is_no_decay_is_refused() {
+    let samples = decaying(&[(2e-4, 0.004, 81.2)], 20_000, 1e-4);
+    let short = lines_of(&samples[..500], None, 0, 1.0);
+    assert!(matches!(short, Err(DecayProblem::TooShort(_))), "{short:?}");
+    let mut uneven = samples;
+    uneven[7].0 += 3e-5;
+    assert_eq!(lines_of(&uneven, None, 0, 1.0), Err(DecayProblem::Uneven));
+}

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use super::block::Block;
 use super::lines::Lines;
+use super::motions::Motions;
 use super::noise::{Floor, Noise, Of};
 use super::receptances::MeasuredSubstructure;
 use super::used::Chosen;
@@ -78,6 +79,8 @@ pub(super) struct Group {
     pub(super) assemblies: Vec<usize>,
     pub(super) blocks: Vec<Block>,
     pub(super) sources: Vec<Source>,
+    /// What the sources move.
+    pub(super) motions: Motions,
 }
 
 /// Assemblies of a group with the lines that are taken of them.
@@ -115,6 +118,7 @@ impl Group {
             .into_iter()
             .map(|(members, mut group)| {
                 group.add_sources(&members, noise);
+                group.motions = Motions::of(&group.blocks, &group.sources);
                 group
             })
             .collect()
@@ -127,6 +131,7 @@ impl Group {
             assemblies: vec![assembly],
             blocks: vec![block.clone()],
             sources: Vec::new(),
+            motions: Motions::default(),
         })
     }
 

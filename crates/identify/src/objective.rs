@@ -14,14 +14,15 @@ use std::sync::Arc;
 use nalgebra::DVector;
 use num_complex::Complex64;
 
+use super::corrected::{Piece, Variances};
 use super::group::Group;
 use super::independent;
 use super::layout::Place;
-use super::line::{Line, Variances};
+use super::line::{self, Line};
 use super::noise::{Levels, Size};
 use super::normal::Normal;
 use super::parallel;
-use super::weights::{line_variances, source_variances};
+use super::weights::source_variances;
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
@@ -49,9 +50,14 @@ impl Weights {
     }
 
     /// All variances of one line; those of the sources are put into `sources`.
-    fn at<'w>(&'w self, group: &Group, line: usize, sources: &'w mut Vec<f64>) -> Variances<'w> {
+    fn at<'w>(
+        &'w self,
+        group: &Group,
+        line: usize,
+        sources: &'w mut Vec<f64>,
+    ) -> line::Variances<'w> {
         source_variances(group, self.levels, line, sources);
-        Variances {
+        line::Variances {
             entries: self.of_entries(group, line),
             sources,
         }
@@ -160,23 +166,40 @@ impl Objective<'_> {
         corrections: &mut [Complex64],
         normal: &mut Normal,
     ) -> Option<()> {
-        let count = group.sources.len();
-        let pieces: Vec<_> = corrections.chunks_mut(count * PIECE).enumerate().collect();
-        let sums = parallel::map_each(pieces, |(piece, corrections)| {
-            let mut line = Line::new(group, self.entries);
+        let (count, size) = (group.sources.len(), group.entries());
+        let variances = weights.entries.chunks(size * PIECE);
+        let pieces = corrections.chunks_mut(count * PIECE).zip(variances);
+        let pieces: Vec<_> = pieces.enumerate().collect();
+        let sums = parallel::map_each(pieces, |(number, (corrections, variances))| {
             let mut normal = Normal::zero(unknowns.len());
-            let mut sources = Vec::new();
-            for (index, delta) in (piece * PIECE..).zip(corrections.chunks_mut(count)) {
-                let variances = weights.at(group, index, &mut sources);
-                line.settle(index, variances, unknowns, delta)?;
-                line.add_to(&mut normal);
-            }
+            self.piece(group, weights.levels, unknowns, number).settle(
+                Variances::Held(variances),
+                corrections,
+                &mut normal,
+            )?;
             Some(normal)
         });
         for sum in sums {
             normal.add(&sum?);
         }
         Some(())
+    }
+
+    /// The lines that one processor takes at a time.
+    fn piece<'p>(
+        &'p self,
+        group: &'p Group,
+        levels: Levels,
+        unknowns: &'p DVector<f64>,
+        number: usize,
+    ) -> Piece<'p> {
+        Piece {
+            group,
+            entries: self.entries,
+            unknowns: unknowns.as_slice(),
+            levels,
+            first: number * PIECE,
+        }
     }
 
     /// The same with the variances that `levels` give at `unknowns`, which it returns.
@@ -196,22 +219,12 @@ impl Objective<'_> {
             .enumerate()
             .collect();
         let sums = parallel::map_each(pieces, |(piece, (corrections, entries))| {
-            let mut line = Line::new(group, self.entries);
             let mut normal = Normal::zero(unknowns.len());
-            let mut scatter = 0.0;
-            let mut sources = Vec::new();
-            let own = corrections.chunks_mut(count).zip(entries.chunks_mut(size));
-            for (index, (delta, entries)) in (piece * PIECE..).zip(own) {
-                line.linearise(index, unknowns.as_slice(), delta)?;
-                scatter += line_variances(group, &line, levels, entries)?;
-                source_variances(group, levels, index, &mut sources);
-                let variances = Variances {
-                    entries,
-                    sources: &sources,
-                };
-                line.settle_linearised(variances, unknowns, delta)?;
-                line.add_to(&mut normal);
-            }
+            let scatter = self.piece(group, levels, unknowns, piece).settle(
+                Variances::Renewed(entries),
+                corrections,
+                &mut normal,
+            )?;
             Some((normal, scatter))
         });
         let mut all = 0.0;
@@ -225,6 +238,23 @@ impl Objective<'_> {
             levels,
             scatter: all,
         })
+    }
+
+    /// Variances of y − H^C with the substructures as measured, the errors of these included, for each entry of all blocks of a
+    /// group that has sources, line by line.
+    pub(super) fn marginal_variances(
+        &self,
+        group: &Group,
+        levels: Levels,
+        unknowns: &DVector<f64>,
+    ) -> Option<Vec<f64>> {
+        let pieces = parallel::pieces(group.lines(), PIECE);
+        let of_piece = |lines: &Range<usize>| {
+            self.piece(group, levels, unknowns, lines.start / PIECE)
+                .marginal_variances(lines.len())
+        };
+        let all: Option<Vec<Vec<f64>>> = parallel::map(&pieces, of_piece).into_iter().collect();
+        Some(all?.concat())
     }
 
     /// Whether all entries have errors of their own: no substructure's error is an unknown.

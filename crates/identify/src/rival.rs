@@ -43,8 +43,7 @@ impl Problem<'_> {
         let weights = {
             let entries = own.places();
             let whole = whole.objective(&entries);
-            let state = whole.unweighted(found.unknowns.clone(), None);
-            whole.marginal_weights(found.levels, &state)?
+            whole.marginal_weights(found.levels, &found.unknowns)?
         };
         let entries = other.places();
         let exact = self.data.thinned.objective(&entries);

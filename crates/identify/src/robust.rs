@@ -28,8 +28,7 @@ pub(super) fn robust(
     let mut converged = false;
     let mut rest = None;
     for _ in 0..ROUNDS {
-        let before = whole.unweighted(unknowns.clone(), None);
-        let weights = whole.marginal_weights(first, &before)?;
+        let weights = whole.marginal_weights(first, &unknowns)?;
         let state = minimum(exact, &weights, &unknowns)?;
         let moved = relative_change(&unknowns, &state.unknowns, &state.normal.scale());
         unknowns.clone_from(&state.unknowns);

@@ -4,9 +4,13 @@
 //! get more weight, which biases the damping. Those of the substructures come from what was measured, so that they stay as they
 //! are while the corrections change.
 
+use nalgebra::DVector;
+
 use super::group::{Group, Side, Source};
+use super::independent;
 use super::line::Line;
 use super::noise::{Floor, Levels, Noise, Of, Sample, Size, most_likely_level};
+use super::normal::Normal;
 use super::objective::{Objective, State, Weights};
 
 /// No measured receptance of an assembly is taken for better than this fraction of itself.
@@ -42,36 +46,34 @@ impl Objective<'_> {
     }
 
     /// Variances of y − H^C with the substructures as measured, the errors of these included, one group for each block.
-    pub(super) fn marginal_weights(&self, levels: Levels, state: &State) -> Option<Vec<Weights>> {
-        let weights = self.weights(levels, state)?;
+    pub(super) fn marginal_weights(
+        &self,
+        levels: Levels,
+        unknowns: &DVector<f64>,
+    ) -> Option<Vec<Weights>> {
         let mut all: Vec<Weights> = Vec::new();
-        let mut first_of_group = Vec::new();
         for group in self.groups {
-            first_of_group.push(all.len());
-            all.extend(group.blocks.iter().map(|_| Weights {
-                entries: Vec::new(),
+            let of_group = if group.sources.is_empty() {
+                let mut normal = Normal::zero(unknowns.len());
+                let unknowns = unknowns.as_slice();
+                independent::renew(group, self.entries, unknowns, levels, &mut normal)?.entries
+            } else {
+                self.marginal_variances(group, levels, unknowns)?
+            };
+            let mut of_blocks: Vec<Vec<f64>> = vec![Vec::new(); group.blocks.len()];
+            for mut of_line in of_group.chunks_exact(group.entries()) {
+                for (block, own) in group.blocks.iter().zip(&mut of_blocks) {
+                    let (of_block, rest) = of_line.split_at(block.entries.len());
+                    own.extend_from_slice(of_block);
+                    of_line = rest;
+                }
+            }
+            all.extend(of_blocks.into_iter().map(|entries| Weights {
+                entries,
                 levels,
                 scatter: 0.0,
             }));
         }
-        let mut sources = Vec::new();
-        self.visit(None, state, &mut |number, line| {
-            let group = &self.groups[number];
-            let weights = &weights[number];
-            source_variances(group, levels, line.index, &mut sources);
-            let size = line.computed.len();
-            let mut at = 0;
-            for (b, block) in group.blocks.iter().enumerate() {
-                for e in at..at + block.entries.len() {
-                    let mut variance = weights.entries[line.index * size + e];
-                    for (s, of_source) in sources.iter().enumerate() {
-                        variance += line.by_source[s * size + e].norm_sqr() * of_source;
-                    }
-                    all[first_of_group[number] + b].entries.push(variance);
-                }
-                at += block.entries.len();
-            }
-        })?;
         Some(all)
     }
 
@@ -181,7 +183,7 @@ pub(super) fn line_variances(
         let power = if group.sources.is_empty() {
             entry.power
         } else {
-            entry.held_power()
+            held_power(entry.power, entry.measured)
         };
         let variance = of_one(levels.assembly, entry.floor, entry.known, power);
         usable &= variance.is_finite() && variance > 0.0;
@@ -234,14 +236,12 @@ struct EntryView {
 /// no less than its reciprocal: while they are on their way it can be next to nothing.
 const MOST_APART: f64 = 4.0;
 
-impl EntryView {
-    fn held_power(&self) -> f64 {
-        if self.measured > 0.0 {
-            let limits = [self.measured / MOST_APART, self.measured * MOST_APART];
-            self.power.clamp(limits[0], limits[1])
-        } else {
-            self.power
-        }
+/// |H^C|² as computed, held near what was measured.
+pub(super) fn held_power(power: f64, measured: f64) -> f64 {
+    if measured > 0.0 {
+        power.clamp(measured / MOST_APART, measured * MOST_APART)
+    } else {
+        power
     }
 }
 

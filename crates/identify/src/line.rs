@@ -1,18 +1,13 @@
 //! One line of the assemblies of a group: receptances, residuals and derivatives, and how they are whitened.
 
-mod corrections;
-mod row_products;
-
 use num_complex::Complex64;
 
 use super::group::Group;
 use super::kernel::Kernel;
 use super::layout::Place;
 use super::noise::Size;
-use super::normal::Normal;
-use super::strip::{ENTRIES_OF_ONE, MOST_ENTRIES};
+use super::strip::MOST_ENTRIES;
 use super::weights::of_one;
-use row_products::{RowProducts, add_coupling};
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
@@ -41,8 +36,6 @@ pub(super) struct Line<'g> {
     factor: Vec<Complex64>,
     /// Σ|r̃|²/|H^C|², before whitening.
     pub(super) relative_power: f64,
-    signal: f64,
-    trial: Vec<Complex64>,
 }
 
 /// Variances of one line.
@@ -81,8 +74,6 @@ impl<'g> Line<'g> {
                 }
             ],
             relative_power: 0.0,
-            signal: 0.0,
-            trial: Vec::new(),
         }
     }
 
@@ -116,22 +107,11 @@ impl<'g> Line<'g> {
         unknowns: &[f64],
         delta: &[Complex64],
     ) -> Option<()> {
-        self.compute(index, unknowns, delta, true)
-    }
-
-    /// The same, the derivatives being left as they are unless they are wanted.
-    fn compute(
-        &mut self,
-        index: usize,
-        unknowns: &[f64],
-        delta: &[Complex64],
-        derivatives: bool,
-    ) -> Option<()> {
         self.index = index;
         self.omega = self.group.blocks.first()?.omega[index];
         self.unknowns = unknowns.len();
         let size = self.computed.len();
-        if derivatives && self.joints.len() > 1 {
+        if self.joints.len() > 1 {
             self.by_joint.fill([ZERO; MOST_ENTRIES]);
         }
         let mut at = 0;
@@ -173,9 +153,6 @@ impl<'g> Line<'g> {
                 let computed = self.kernel.receptance(own, entry);
                 self.computed[at + e] = computed;
                 self.residual[at + e] = measured[e] - computed;
-                if !derivatives {
-                    continue;
-                }
                 for (t, &place) in self.joint_entries.iter().enumerate() {
                     self.by_joint[slot + at + e][t] = self.kernel.by_stiffness(entry, place);
                 }
@@ -251,8 +228,6 @@ impl<'g> Line<'g> {
     }
 
     fn whiten_residual(&mut self, variances: Variances<'_>, delta: &[Complex64]) -> Option<()> {
-        let powers = self.computed.iter().zip(variances.entries);
-        self.signal = powers.map(|(h, variance)| h.norm_sqr() / variance).sum();
         self.add_corrections(delta);
         self.measure();
         self.factorise(variances)?;
@@ -273,11 +248,6 @@ impl<'g> Line<'g> {
                 }
             }
         }
-    }
-
-    /// Σ|r|² of the whitened residual.
-    fn residual_cost(&self) -> f64 {
-        self.residual.iter().map(|r| r.norm_sqr()).sum()
     }
 
     fn factorise(&mut self, variances: Variances<'_>) -> Option<()> {
@@ -330,37 +300,6 @@ impl<'g> Line<'g> {
         self.joints.partition_point(|&other| other < joint)
     }
 
-    /// Adds the whitened line to the normal equations (lower triangle).
-    pub(super) fn add_to(&self, normal: &mut Normal) {
-        normal.cost += self.residual_cost();
-        normal.signal += self.signal;
-        if self.joint_entries.len() <= ENTRIES_OF_ONE {
-            self.add_rows_to::<ENTRIES_OF_ONE>(normal);
-        } else {
-            self.add_rows_to::<MOST_ENTRIES>(normal);
-        }
-    }
-
-    fn add_rows_to<const E: usize>(&self, normal: &mut Normal) {
-        let count = self.joint_entries.len();
-        let own_rows = || self.by_joint.chunks_exact(self.residual.len());
-        for (slot, (rows, &joint)) in own_rows().zip(&self.joints).enumerate() {
-            let first = self.first_unknown(joint);
-            let mut products = RowProducts::<E>::new();
-            for (residual, row) in self.residual.iter().zip(rows) {
-                if let Some(row) = row.first_chunk::<E>() {
-                    products.add(*residual, row, count);
-                }
-            }
-            products.add_to(normal, self.omega, count, first);
-            // Common errors of the substructures couple the joints of assemblies that share them.
-            for (others, &other) in own_rows().zip(&self.joints).take(slot) {
-                let first = (first, self.first_unknown(other));
-                add_coupling(normal, self.omega, count, first, rows.iter().zip(others));
-            }
-        }
-    }
-
     /// Jᵀr of this whitened line by the unknowns: what it adds to the gradient.
     pub(super) fn score(&self) -> Vec<f64> {
         let count = self.joint_entries.len();
@@ -386,17 +325,6 @@ fn forward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
         let mut value = x[row];
         for column in 0..row {
             value -= factor[row * size + column] * x[column];
-        }
-        x[row] = value / factor[row * size + row].re;
-    }
-}
-
-/// x ← L⁻ᴴ x
-fn backward(factor: &[Complex64], size: usize, x: &mut [Complex64]) {
-    for row in (0..size).rev() {
-        let mut value = x[row];
-        for other in row + 1..size {
-            value -= factor[other * size + row].conj() * x[other];
         }
         x[row] = value / factor[row * size + row].re;
     }

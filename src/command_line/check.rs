@@ -227,6 +227,7 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         let Program {
             path: program,
             mut arguments,
+            ..
         } = program()?;
         arguments.push(RUN_LIBRARY.to_owned());
         let runner = Runner {

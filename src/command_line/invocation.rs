@@ -13,6 +13,8 @@ pub struct Program {
     pub path: PathBuf,
     /// Its arguments before the name of a command.
     pub arguments: Vec<String>,
+    /// The folder with FMU libraries for other platforms that it brings along, if it does: what `export --platforms` takes.
+    pub platforms: Option<PathBuf>,
 }
 
 impl Program {
@@ -24,6 +26,7 @@ impl Program {
         Ok(Self {
             path: env::current_exe()?,
             arguments: Vec::new(),
+            platforms: None,
         })
     }
 }
@@ -93,4 +96,9 @@ pub(super) fn with_kept<T>(take: impl FnOnce(&mut Answer) -> T) -> Option<T> {
 pub(super) fn program() -> io::Result<Program> {
     let program = UNDER_WAY.with_borrow(|under_way| Some(under_way.as_ref()?.program.clone()));
     program.map_or_else(Program::current, Ok)
+}
+
+/// The FMU libraries for other platforms that this program brings along.
+pub(super) fn platforms() -> Option<PathBuf> {
+    UNDER_WAY.with_borrow(|under_way| under_way.as_ref()?.program.platforms.clone())
 }

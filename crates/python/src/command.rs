@@ -15,14 +15,18 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 /// As much as the first thread of a process has.
 const STACK_BYTES: usize = 8 << 20;
 
+/// Executable, arguments before a command's name, folder of FMU libraries.
+type Started = (PathBuf, Vec<String>, Option<PathBuf>);
+
 /// Runs the program `bolted-joint` with these arguments; gives its exit code.
 ///
-/// `python` is how Python starts this module anew: the executable, and its arguments.
+/// `python` is how Python starts this module anew, the executable and its arguments, and the folder of FMU libraries that
+/// the module brings along.
 #[pyfunction]
 pub(super) fn main(
     py: Python<'_>,
     arguments: Vec<OsString>,
-    python: (PathBuf, Vec<String>),
+    python: Started,
 ) -> PyResult<u8> {
     in_thread(py, move || {
         command_line::main_of(program(python), arguments)
@@ -36,7 +40,7 @@ pub(super) fn main(
 pub(super) fn call(
     py: Python<'_>,
     arguments: Vec<OsString>,
-    python: (PathBuf, Vec<String>),
+    python: Started,
 ) -> PyResult<(u8, String, Vec<String>)> {
     let call = Call {
         arguments,
@@ -50,8 +54,12 @@ pub(super) fn call(
     Ok((exit_code, printed, messages))
 }
 
-fn program((path, arguments): (PathBuf, Vec<String>)) -> Program {
-    Program { path, arguments }
+fn program((path, arguments, platforms): Started) -> Program {
+    Program {
+        path,
+        arguments,
+        platforms,
+    }
 }
 
 /// Does `work` in a thread of its own while Python's other threads run, and listens for Ctrl-C meanwhile.

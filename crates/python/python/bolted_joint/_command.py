@@ -5,12 +5,16 @@ import os
 import sys
 import warnings
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from . import _native
 
-#: How this module is started in a process of its own, which `check` does to run an FMU's library.
-PYTHON = (sys.executable, ["-m", "bolted_joint"])
+_PLATFORMS = Path(__file__).with_name("platforms")
+
+#: How this module is started in a process of its own, which `check` does to run an FMU's library; and FMU libraries for
+#: other platforms, where the wheel has them.
+PYTHON = (sys.executable, ["-m", "bolted_joint"], str(_PLATFORMS) if _PLATFORMS.is_dir() else None)
 
 _NOT_USABLE = 3
 
@@ -29,7 +33,7 @@ def path_of(path: str | os.PathLike[str]) -> str:
     return os.path.join(".", text) if text.startswith("-") else text
 
 
-def run(arguments: Iterable[str], stacklevel: int = 3) -> Any:
+def run(arguments: Iterable[str], hidden: str = "", stacklevel: int = 3) -> Any:
     """Runs a command that prints JSON, and gives what it prints.
 
     Its warnings become Python's, its error an exception.
@@ -38,6 +42,8 @@ def run(arguments: Iterable[str], stacklevel: int = 3) -> Any:
     ----------
     arguments : iterable of str
         The command's name, and its arguments without ``--json``.
+    hidden : str
+        What messages do not show: the folder of files that nobody but this module knows of.
     stacklevel : int
         How many calls above this one the user's call is.
 
@@ -51,6 +57,8 @@ def run(arguments: Iterable[str], stacklevel: int = 3) -> Any:
     exit_code, printed, messages = _native.call([*arguments, "--json"], PYTHON)
     errors = []
     for message in messages:
+        if hidden:
+            message = message.replace(hidden, "")
         if message.startswith("warning: "):
             warnings.warn(message.removeprefix("warning: "), UserWarning, stacklevel=stacklevel)
         else:

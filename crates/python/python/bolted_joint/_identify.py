@@ -118,7 +118,7 @@ def identify(
     NotUsableWarning
         If the result is not to be relied on.
     """
-    with as_file(study) as path, tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
         if bootstrap is not None:
@@ -129,7 +129,7 @@ def identify(
             arguments += ["--no-rivals"]
         if report:
             arguments += ["--report", str(page)]
-        details = run(arguments)
+        details = run(arguments, hidden)
         joints = {
             file.name.removeprefix("identified").removesuffix("joint.json").strip("."): Joint.read(file)
             for file in sorted(Path(folder).glob("*.joint.json"))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from os import PathLike
 
 _Curve = tuple[str, str, bytes, bytes]
-_Python = tuple[str, list[str]]
+_Python = tuple[str, list[str], str | None]
 
 def main(arguments: Sequence[str], python: _Python) -> int: ...
 def call(arguments: Sequence[str], python: _Python) -> tuple[int, str, list[str]]: ...

@@ -53,10 +53,10 @@ def predict(study: AnyStudy, *, report: bool = False) -> Prediction:
     BoltedJointError
         If the study or its files cannot be used.
     """
-    with as_file(study) as path, tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "predicted.joint.json"), Path(folder, "report.html")
         arguments = ["predict", path, "-o", str(output)]
         if report:
             arguments += ["--report", str(page)]
-        details = run(arguments)
+        details = run(arguments, hidden)
         return Prediction(Joint.read(output), details, page.read_text(encoding="utf-8") if report else "")

@@ -33,11 +33,11 @@ def respond(study: AnyStudy, joint: Joint, *, step_hz: float | None = None) -> F
     """
     if not isinstance(joint, Joint):
         raise BoltedJointError(f"joint: found {type(joint).__name__}, expected a Joint; Joint.read(path) reads one")
-    with as_file(study) as path, tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         given, output = Path(folder, "given.joint.json"), Path(folder, "responses.csv")
         joint.save(given)
         arguments = ["respond", path, "--joint", str(given), "-o", str(output)]
         if step_hz is not None:
             arguments += ["--step", repr(float(step_hz))]
-        run(arguments)
+        run(arguments, hidden)
         return read(output)

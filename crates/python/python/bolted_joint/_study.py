@@ -71,10 +71,13 @@ AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
 
 
 @contextlib.contextmanager
-def as_file(study: AnyStudy) -> Iterator[str]:
-    """The path of a study's file while the context lasts; made for the time where the study is a dictionary."""
+def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
+    """The path of a study's file while the context lasts, and what of it messages need not show.
+
+    Where the study is a dictionary, files are made for the time.
+    """
     if not isinstance(study, Mapping):
-        yield path_of(study)
+        yield path_of(study), ""
         return
     folder = study.folder if isinstance(study, Study) else Path.cwd()
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
@@ -85,7 +88,7 @@ def as_file(study: AnyStudy) -> Iterator[str]:
             raise BoltedJointError(str(error)) from error
         path = Path(temporary, "study.toml")
         path.write_text(text, encoding="utf-8")
-        yield str(path)
+        yield str(path), temporary + os.sep
 
 
 class _Tables:
@@ -98,7 +101,10 @@ class _Tables:
 
     def written(self, value: Any, key: str) -> Any:
         if isinstance(value, Mapping):
-            return {str(name): self.written(inner, _joined(key, str(name))) for name, inner in value.items()}
+            tables = {str(name): self.written(inner, f"{key}.{name}") for name, inner in value.items()}
+            if isinstance(value.get("frf"), Functions):
+                tables.setdefault("units", {"length": "m", "force": "N"})
+            return tables
         if isinstance(value, Functions):
             path = self.new(key, ".npz")
             value.save(path)
@@ -137,6 +143,3 @@ class _Tables:
         self.names.add(name)
         return self.temporary / (name + ending)
 
-
-def _joined(key: str, name: str) -> str:
-    return f"{key}.{name}"

@@ -15,10 +15,10 @@ def test_measured_and_identified_functions_are_drawn(demo, tmp_path):
     above, below = figure.axes
     curves = {line.get_label(): line for line in above.lines}
     measured = bolted_joint.read(demo / "assembly.uff")
-    np.testing.assert_array_equal(
-        curves["11:+Y/11:+Y measured"].get_ydata(), np.abs(measured["11:+Y", "11:+Y"])
-    )
-    assert "11:+Y/11:+Y identified" in curves
+    # the tip of the beam moves most
+    curve = curves["13:+Y/13:+Y measured"]
+    np.testing.assert_array_equal(curve.get_ydata(), np.abs(measured["13:+Y", "13:+Y"]))
+    assert "13:+Y/13:+Y identified" in curves
     assert above.get_ylabel() == "receptance, SI" and below.get_xlabel() == "frequency, Hz"
     figure.savefig(tmp_path / "functions.png")
     joint = found.joint.plot()

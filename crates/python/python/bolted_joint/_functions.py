@@ -88,7 +88,8 @@ class Functions:
     @property
     def measured(self) -> NDArray[np.bool_]:
         """Which functions there are: array of shape (R, P)."""
-        return ~np.isnan(self.values).all(axis=0)
+        missing: NDArray[np.bool_] = np.asarray(np.isnan(self.values).all(axis=0))
+        return np.logical_not(missing)
 
     def select(
         self,
@@ -101,9 +102,9 @@ class Functions:
         responses = self.responses if responses is None else tuple(responses)
         references = self.references if references is None else tuple(references)
         lines = (self.frequency_hz >= from_hz) & (self.frequency_hz <= to_hz)
-        rows = [_index(self.responses, name) for name in responses]
-        columns = [_index(self.references, name) for name in references]
-        part = np.ix_(lines, rows, columns)
+        rows = np.array([_index(self.responses, name) for name in responses], dtype=np.intp)
+        columns = np.array([_index(self.references, name) for name in references], dtype=np.intp)
+        part = np.ix_(np.flatnonzero(lines), rows, columns)
         return Functions(
             self.frequency_hz[lines],
             self.values[part],

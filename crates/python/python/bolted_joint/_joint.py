@@ -165,21 +165,18 @@ class Joint:
 
     def _rows(self) -> list[tuple[str, str, str]]:
         size = len(self.dofs)
-        matrices = [
-            (self.stiffness, self.stiffness_deviation),
-            (self.damping, self.damping_deviation),
+        deviations = [self.stiffness_deviation, self.damping_deviation]
+        shown = [
+            [
+                with_deviation(values[entry], 0.0 if deviation is None else deviation[entry])
+                for values, deviation in zip((self.stiffness, self.damping), deviations, strict=True)
+            ]
+            for entry in zip(*np.triu_indices(size), strict=True)
         ]
-        return [
-            (
-                f"{self.dofs[row]}, {self.dofs[column]}",
-                *(
-                    with_deviation(values[row, column], 0.0 if deviations is None else deviations[row, column])
-                    for values, deviations in matrices
-                ),
-            )
-            for row in range(size)
-            for column in range(row, size)
-        ]  # type: ignore[return-value]
+        names = [
+            f"{self.dofs[row]}, {self.dofs[column]}" for row, column in zip(*np.triu_indices(size), strict=True)
+        ]
+        return [(name, stiffness, damping) for name, (stiffness, damping) in zip(names, shown, strict=True)]
 
     def _uncertain(self, what: str, matrix: str) -> NDArray[np.float64] | None:
         entries = self.data.get("uncertainty", {}).get(what)

@@ -23,11 +23,7 @@ type Started = (PathBuf, Vec<String>, Option<PathBuf>);
 /// `python` is how Python starts this module anew, the executable and its arguments, and the folder of FMU libraries that
 /// the module brings along.
 #[pyfunction]
-pub(super) fn main(
-    py: Python<'_>,
-    arguments: Vec<OsString>,
-    python: Started,
-) -> PyResult<u8> {
+pub(super) fn main(py: Python<'_>, arguments: Vec<OsString>, python: Started) -> PyResult<u8> {
     in_thread(py, move || {
         command_line::main_of(program(python), arguments)
     })

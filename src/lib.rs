@@ -46,6 +46,11 @@
 //! Each of these is a crate of its own; this one gives them one name.
 #![forbid(unsafe_code)]
 
+// the command line calls the crates by the names that everybody has for them
+extern crate self as bolted_joint;
+
+pub mod command_line;
+
 pub use bolted_joint_assembly as assembly;
 pub use bolted_joint_check as check;
 pub use bolted_joint_cosimulation as cosimulation;

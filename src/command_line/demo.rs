@@ -41,9 +41,9 @@ pub(super) struct DemoArguments {
     noise: f64,
 }
 
-const STUDY: &str = include_str!("../examples/tol-m10x16/study.toml");
-const MODES: &str = include_str!("../examples/tol-m10x16/a-modes.toml");
-const PIRDAYR: &str = include_str!("../examples/pirdayr-ex03/pirdayr-ex03.joint.json");
+const STUDY: &str = include_str!("../../examples/tol-m10x16/study.toml");
+const MODES: &str = include_str!("../../examples/tol-m10x16/a-modes.toml");
+const PIRDAYR: &str = include_str!("../../examples/pirdayr-ex03/pirdayr-ex03.joint.json");
 
 /// Lines of the thesis's measurement: 0.25 Hz apart up to 512 Hz.
 const LINE_SPACING_HZ: f64 = 0.25;

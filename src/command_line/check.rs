@@ -16,6 +16,7 @@ use bolted_joint::joint::JointFile;
 
 use super::communication_step::{NeighbourArguments, communication_step};
 use super::error::CliError;
+use super::invocation::{Program, program};
 use super::output::print;
 use super::table::number;
 
@@ -223,9 +224,15 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         facts.push("run: left out".to_owned());
         details.insert("run".to_owned(), Value::Null);
     } else {
+        let Program {
+            path: program,
+            mut arguments,
+            ..
+        } = program()?;
+        arguments.push(RUN_LIBRARY.to_owned());
         let runner = Runner {
-            program: std::env::current_exe()?,
-            arguments: vec![RUN_LIBRARY.to_owned()],
+            program,
+            arguments,
             time_limit: TIME_LIMIT,
         };
         let report = check::run(path, &inspection, &runner)?;

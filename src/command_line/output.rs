@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use bolted_joint_files::whole_file;
 
 use super::error::CliError;
+use super::invocation::with_kept;
 
 /// Refuses an output that cannot be written or would replace an input, before anything is computed.
 pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliError> {
@@ -67,7 +68,9 @@ pub(super) fn check_outputs<'a>(
 
 /// Prints a line to stderr; a stderr that nobody reads is no reason to stop.
 pub(super) fn message(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    if with_kept(|kept| kept.messages.push(text.to_owned())).is_none() {
+        let _ = writeln!(io::stderr(), "{text}");
+    }
 }
 
 /// Prints warnings to stderr.
@@ -92,6 +95,9 @@ pub(super) fn write_file(path: &Path, contents: &[u8]) -> Result<(), CliError> {
 
 /// Prints a result to stdout.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
+    if with_kept(|kept| kept.printed.push_str(text)).is_some() {
+        return Ok(());
+    }
     let mut stdout = io::stdout().lock();
     stdout.write_all(text.as_bytes())?;
     if !text.ends_with('\n') {

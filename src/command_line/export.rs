@@ -12,6 +12,7 @@ use bolted_joint::export::{
 use bolted_joint::joint::JointFile;
 
 use super::error::CliError;
+use super::invocation::platforms;
 use super::output::{check_output, message, print};
 use super::table::number;
 
@@ -97,7 +98,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let options = ExportOptions {
         version: arguments.fmi.into(),
         step_size_max_s: arguments.step_size_max,
-        platforms: arguments.platforms.clone(),
+        platforms: arguments.platforms.clone().or_else(platforms),
         preload_n_m: arguments.preload,
         extrapolate: arguments.extrapolate,
         allow_active: arguments.allow_active,
@@ -129,7 +130,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
         interface,
         version: fmu::FmiVersion::default(),
         step_size_max_s: None,
-        platforms: None,
+        platforms: platforms(),
         preload_n_m: None,
         extrapolate: false,
         allow_active: false,

@@ -1,0 +1,44 @@
+"""Bolted joints from frequency response functions, and FMUs from joints.
+
+The functions here do what the command line ``bolted-joint`` does, in the same words and to the same bits:
+
+=================  ==================================================================
+`read`             a file of functions as arrays
+`identify`         a study becomes a joint
+`predict`          a joint from surfaces, materials and bolts
+`respond`          what a test of the assembly would measure with a joint
+`export`           a joint becomes an FMU
+`check`            is a joint file or an FMU what it should be
+`Joint`            a joint file as an object
+`Study`            a study file as a dictionary
+=================  ==================================================================
+
+All numbers are in SI units without prefixes. Arrays of functions have the frequency axis first.
+"""
+
+from ._command import BoltedJointError, NotUsableWarning
+from ._fmu import Checked, Fmu, check, export
+from ._functions import Functions, read
+from ._identify import Identification, identify
+from ._joint import Joint
+from ._predict import Prediction, predict
+from ._respond import respond
+from ._study import Study
+
+__all__ = [
+    "BoltedJointError",
+    "Checked",
+    "Fmu",
+    "Functions",
+    "Identification",
+    "Joint",
+    "NotUsableWarning",
+    "Prediction",
+    "Study",
+    "check",
+    "export",
+    "identify",
+    "predict",
+    "read",
+    "respond",
+]

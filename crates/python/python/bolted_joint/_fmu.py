@@ -1,0 +1,150 @@
+"""`export` and `check`: from a joint to an FMU, and whether it is what it should be."""
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ._command import BoltedJointError, path_of, run
+from ._joint import Joint
+
+
+class Fmu:
+    """An FMU that was written.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Where it lies.
+    details : dict
+        All that ``bolted-joint export --json`` prints.
+    """
+
+    def __init__(self, path: Path, details: dict[str, Any]):
+        self.path = path
+        self.details = details
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def __repr__(self) -> str:
+        return f"<Fmu {str(self.path)!r}>"
+
+
+def export(
+    joint: Joint | str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    *,
+    interface: str = "element",
+    fmi: int = 3,
+    step_size_max_s: float | None = None,
+    preload_n_m: float | None = None,
+    extrapolate: bool = False,
+    platforms: str | os.PathLike[str] | None = None,
+    allow_active: bool = False,
+    unusable: bool = False,
+) -> Fmu:
+    """Writes an FMU from a joint.
+
+    Parameters
+    ----------
+    joint : Joint or path
+        The joint, or its file.
+    path : path
+        The FMU to write.
+    interface : {"element", "lap"}
+        The massless joint between two structures (motion in, force out), or two bodies with the joint between them.
+    fmi : {3, 2}
+        Version of the FMI standard.
+    step_size_max_s : float, optional
+        Longest Runge–Kutta step of a lap, s.
+    preload_n_m : float, optional
+        Preload at which a joint over the preload is frozen, N·m.
+    extrapolate : bool
+        Hold a joint over the preload beyond the ends of its table.
+    platforms : path, optional
+        Folder with libraries for other platforms.
+    allow_active, unusable : bool
+        Export a joint that can feed energy into a simulation, or one that is not to be relied on.
+
+    Returns
+    -------
+    Fmu
+
+    Raises
+    ------
+    BoltedJointError
+        If the joint cannot be exported.
+    """
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        if isinstance(joint, Joint):
+            given = str(Path(folder, "given.joint.json"))
+            joint.save(given)
+        else:
+            given = path_of(joint)
+        arguments = ["export", given, "-o", path_of(path), "--as", interface, "--fmi", str(fmi)]
+        for option, value in [
+            ("--step-size-max", step_size_max_s),
+            ("--preload", preload_n_m),
+            ("--platforms", platforms),
+        ]:
+            if value is not None:
+                arguments += [option, os.fspath(value) if isinstance(value, str | os.PathLike) else repr(float(value))]
+        for option, asked in [
+            ("--extrapolate", extrapolate),
+            ("--allow-active", allow_active),
+            ("--unusable", unusable),
+        ]:
+            if asked:
+                arguments.append(option)
+        return Fmu(Path(path), run(arguments))
+
+
+class Checked:
+    """What was looked at, and what is wrong with it.
+
+    Attributes
+    ----------
+    sound : bool
+        Whether nothing is wrong.
+    facts, findings : tuple of str
+        What it is, and what is wrong with it.
+    details : dict
+        All that ``bolted-joint check --json`` prints.
+    """
+
+    def __init__(self, details: dict[str, Any]):
+        self.details = details
+        self.sound = bool(details["sound"])
+        self.facts: tuple[str, ...] = tuple(details["facts"])
+        self.findings: tuple[str, ...] = tuple(details["findings"])
+
+    def __repr__(self) -> str:
+        return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}>"
+
+
+def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
+    """Checks a joint or an FMU, and runs the FMU's library for a moment in a process of its own.
+
+    Parameters
+    ----------
+    what : Joint, Fmu or path
+        What to check.
+    run_library : bool
+        Whether the FMU's library is run.
+
+    Raises
+    ------
+    BoltedJointError
+        If something is wrong with it: the message has the findings.
+    """
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        if isinstance(what, Joint):
+            path = str(Path(folder, "given.joint.json"))
+            what.save(path)
+        else:
+            path = path_of(what)
+        return Checked(run(["check", path, *([] if run_library else ["--no-run"])]))
+
+
+__all__ = ["BoltedJointError", "Checked", "Fmu", "check", "export"]

@@ -1,0 +1,145 @@
+"""Studies as dictionaries, with arrays where a file would have paths."""
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._command import BoltedJointError, path_of
+from ._functions import Functions
+from ._joint import Joint
+
+#: Keys whose texts are never paths.
+_TEXTS = ("name", "notes", "method", "model")
+
+
+class Study(dict[str, Any]):
+    """A study as a dictionary that knows the folder its paths are relative to.
+
+    Where a study file has the path of a file of functions or of a joint file, there may be `Functions` or a `Joint`.
+
+    Parameters
+    ----------
+    tables : mapping, optional
+        The study's tables, as its TOML has them.
+    folder : path, optional
+        What paths in it are relative to; the current folder if it is left out.
+
+    Examples
+    --------
+    >>> study = Study.read("study.toml")
+    >>> study["assembly"]["frf"] = Functions(f, values, ["11:+Y"], ["11:+Y"])
+    >>> identify(study).joint.stiffness
+    """
+
+    def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] = "."):
+        super().__init__(tables)
+        self.folder = Path(folder).resolve()
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> "Study":
+        """Reads a study's file (TOML).
+
+        Raises
+        ------
+        BoltedJointError
+            For what is not TOML, with line and column.
+        """
+        path = Path(path)
+        try:
+            return cls.parse(path.read_text(encoding="utf-8"), path.parent)
+        except (OSError, UnicodeDecodeError, BoltedJointError) as error:
+            raise BoltedJointError(f"{path}: {error}") from error
+
+    @classmethod
+    def parse(cls, text: str, folder: str | os.PathLike[str] = ".") -> "Study":
+        """A study from its text (TOML)."""
+        try:
+            return cls(json.loads(_native.to_json(text)), folder)
+        except ValueError as error:
+            raise BoltedJointError(str(error)) from error
+
+
+#: What the functions of this module take for a study.
+AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
+
+
+@contextlib.contextmanager
+def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
+    """The path of a study's file while the context lasts, and what of it messages need not show.
+
+    Where the study is a dictionary, files are made for the time.
+    """
+    if not isinstance(study, Mapping):
+        yield path_of(study), ""
+        return
+    folder = study.folder if isinstance(study, Study) else Path.cwd()
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
+        tables = _Tables(folder, Path(temporary)).written(study, "study")
+        try:
+            text = _native.to_toml(json.dumps(tables, allow_nan=False))
+        except ValueError as error:
+            raise BoltedJointError(str(error)) from error
+        path = Path(temporary, "study.toml")
+        path.write_text(text, encoding="utf-8")
+        yield str(path), temporary + os.sep
+
+
+class _Tables:
+    """Makes of a dictionary's values what TOML has words for; arrays of functions and joints become files."""
+
+    def __init__(self, folder: Path, temporary: Path):
+        self.folder = folder
+        self.temporary = temporary
+        self.names: set[str] = set()
+
+    def written(self, value: Any, key: str) -> Any:
+        if isinstance(value, Mapping):
+            tables = {str(name): self.written(inner, f"{key}.{name}") for name, inner in value.items()}
+            if isinstance(value.get("frf"), Functions):
+                tables.setdefault("units", {"length": "m", "force": "N"})
+            return tables
+        if isinstance(value, Functions):
+            path = self.new(key, ".npz")
+            value.save(path)
+            return str(path)
+        if isinstance(value, Joint):
+            path = self.new(key, ".joint.json")
+            value.save(path)
+            return str(path)
+        if isinstance(value, os.PathLike):
+            return str(self.folder / value)
+        if isinstance(value, str):
+            return self.text(value, key)
+        if isinstance(value, np.ndarray | np.generic):
+            return self.written(value.tolist(), key)
+        if isinstance(value, Sequence):
+            return [self.written(inner, key) for inner in value]
+        return value
+
+    def text(self, value: str, key: str) -> str:
+        """A text; the whole path if it names a file."""
+        if key.rsplit(".")[-1] in _TEXTS or not value:
+            return value
+        path = self.folder / value
+        try:
+            return str(path) if path.is_file() else value
+        except OSError:
+            return value
+
+    def new(self, key: str, ending: str) -> Path:
+        """A path for a table's file, named after the table."""
+        stem = key.removeprefix("study.").removesuffix(".frf").replace(".", "-")
+        name, number = stem, 1
+        while name in self.names:
+            number += 1
+            name = f"{stem}-{number}"
+        self.names.add(name)
+        return self.temporary / (name + ending)
+

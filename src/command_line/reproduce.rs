@@ -294,7 +294,12 @@ fn document(found: &[Reproduction], draws: &Draws) -> String {
          Ş. Tol, *Dynamic Modeling of Structural Joints*, MSc thesis, Middle East Technical University, 2012: published values \
          beside those that come out here. Written by\n\n    bolted-joint reproduce --markdown --draws {} --seed {}{}\n\n\
          Obtained values are means over {} draws of the noise, with the standard deviation of one draw, where there is noise; \
-         errors are those against the true joint, which is known where the assembly is synthesised.\n",
+         errors are those against the true joint, which is known where the assembly is synthesised.\n\n\
+         In short: where the thesis gives all that a table rests on, what is published comes out within two standard deviations of one draw. \
+         Rotations by differences and initial estimates come out as published, and neither is the joint: noise and differences \
+         hide a singular value. What depends on a length or a place that only a figure shows does not come out to the digit; \
+         under each table stands what is not given. [Theory](theory.md#7a-the-published-tables-computed-anew) has the reasons \
+         in one place.\n",
         draws.count,
         draws.seed,
         samples
@@ -303,6 +308,11 @@ fn document(found: &[Reproduction], draws: &Draws) -> String {
             .collect::<String>(),
         draws.count,
     );
+    text += "\n## Contents\n\n";
+    for found in found {
+        let heading = found.table.to_string();
+        let _ = writeln!(text, "* [{heading}](#{})", anchor(&heading));
+    }
     for found in found {
         let _ = writeln!(text, "\n## {}\n", found.table);
         let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
@@ -318,6 +328,15 @@ fn document(found: &[Reproduction], draws: &Draws) -> String {
         }
     }
     text
+}
+
+/// What a link to a heading ends in, as GitHub makes it.
+fn anchor(heading: &str) -> String {
+    let heading = heading.to_lowercase().replace(' ', "-");
+    heading
+        .chars()
+        .filter(|character| character.is_alphanumeric() || matches!(character, '-' | '_'))
+        .collect()
 }
 
 /// Significant digits of a computed number, and most of a given one.

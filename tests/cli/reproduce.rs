@@ -40,6 +40,11 @@ fn quick_tables_are_in_the_document_as_the_command_writes_them() {
     let before: Vec<&str> = document.split("\n## ").collect();
     let (first, tables) = written.split_once("\n## ").unwrap();
     assert_eq!(first, before[0]);
+    let (contents, tables) = tables.split_once("\n## ").unwrap();
+    assert!(contents.starts_with("Contents\n"));
+    for line in contents.lines().filter(|line| line.starts_with('*')) {
+        assert!(before[1].contains(line), "{line}");
+    }
     let tables: Vec<&str> = tables.split("\n## ").map(str::trim).collect();
     assert_eq!(tables.len(), keys.len());
     for (key, table) in keys.into_iter().zip(tables) {

@@ -155,6 +155,15 @@ fn row(case: Case) {
     );
 }
 
+/// Prints the row of one case.
+pub(crate) fn one(lines: usize, points: usize, bolts: usize) {
+    row(Case {
+        lines,
+        points,
+        bolts,
+    });
+}
+
 /// Prints the rows of the table, of one quantity or of all three.
 pub(crate) fn table(chosen: Option<&str>) {
     println!("| lines | points | bolts | noise on the assembly | noise on everything |");

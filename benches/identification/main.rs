@@ -6,7 +6,7 @@
 //! the substructures are measured, too. It fails where both do not find the same joint there.
 //! `-- write FILE` and `-- write-measured FILE` write the data that the scripts read, `-- repeat COUNT` and
 //! `-- repeat-measured COUNT` identify them so many times, for a profiler.
-//! `-- growth [lines|points|bolts]` prints how the time grows with these.
+//! `-- growth [lines|points|bolts]` prints how the time grows with these, `-- growth LINES POINTS BOLTS` one row.
 //! `-- table [DRAWS [CASE]]` prints the errors of stiff and soft joints with light and heavy damping over many draws of
 //! noise, of the cases whose names hold the words CASE.
 
@@ -62,6 +62,10 @@ fn main() {
         }
         ["against-measured", python] => measured_beside::against(python),
         ["growth"] => growth::table(None),
+        ["growth", lines, points, bolts] => {
+            let [lines, points, bolts] = [lines, points, bolts].map(|word| word.parse().unwrap());
+            growth::one(lines, points, bolts);
+        }
         ["growth", quantity] => growth::table(Some(quantity)),
         ["repeat-measured", count] => measured_beside::repeat(count.parse().unwrap()),
         ["repeat", count] => drop(repeat(count.parse().unwrap(), BandChoice::Automatic)),

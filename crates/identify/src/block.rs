@@ -7,11 +7,10 @@ use std::ops::Range;
 
 use num_complex::Complex64;
 
-use bolted_joint_frf::structure::ComplexMatrix;
-
 use super::layout::Place;
 use super::lines::Lines;
 use super::noise::{Floor, Noise, Of};
+use super::receptances::Function;
 use super::used::Chosen;
 
 /// One entry of the symmetric H^C_ss, measured once or more often.
@@ -115,8 +114,9 @@ impl Block {
             entries,
         };
         let variances = variances(lines, &places);
+        let functions = Functions::of(lines, &block);
         for &line in &chosen.lines {
-            block.push_substructures(lines, line);
+            functions.push(&mut block, line);
             block.push_assembly(lines, &places, variances.as_deref(), line);
         }
         let of_dof = |dof: usize| {
@@ -136,23 +136,6 @@ impl Block {
         };
         block.dynamic_stiffness = (0..dofs).map(of_dof).collect();
         block
-    }
-
-    fn push_substructures(&mut self, lines: &Lines, line: usize) {
-        let (a, b) = (lines.a.at(line), lines.b.at(line));
-        let (a, b) = (Columns::of(&a), Columns::of(&b));
-        let dofs = self.dofs;
-        for i in 0..dofs {
-            let row = (0..dofs).map(|j| a.symmetric(i, j) + b.symmetric(i, j));
-            self.free.extend(row);
-        }
-        for point in dofs..dofs + self.points {
-            let column = (0..dofs).map(|i| b.symmetric(i, point));
-            self.transfer.extend(column);
-        }
-        let own = self.entries.iter();
-        self.own
-            .extend(own.map(|entry| b.symmetric(dofs + entry.row, dofs + entry.column)));
     }
 
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
@@ -232,24 +215,39 @@ impl Block {
     }
 }
 
-/// A square matrix as it is stored, column by column: there are many to go through.
-struct Columns<'m> {
-    values: &'m [Complex64],
-    size: usize,
+/// What a block has of the substructures.
+struct Functions<'l> {
+    /// H_jj and H_kk, row by row.
+    free: Vec<[Function<'l>; 2]>,
+    transfer: Vec<Function<'l>>,
+    own: Vec<Function<'l>>,
 }
 
-impl<'m> Columns<'m> {
-    fn of(matrix: &'m ComplexMatrix) -> Self {
+impl<'l> Functions<'l> {
+    fn of(lines: &'l Lines, block: &Block) -> Self {
+        let dofs = block.dofs;
+        let joint = (0..dofs).flat_map(|i| (0..dofs).map(move |j| (i, j)));
+        let points = dofs..dofs + block.points;
+        let transfer = points.flat_map(|point| (0..dofs).map(move |i| (i, point)));
+        let own = block.entries.iter();
+        let of_b = |(i, j)| lines.b.function(i, j);
         Self {
-            values: matrix.as_slice(),
-            size: matrix.nrows(),
+            free: joint
+                .map(|(i, j)| [lines.a.function(i, j), of_b((i, j))])
+                .collect(),
+            transfer: transfer.map(of_b).collect(),
+            own: own
+                .map(|entry| of_b((dofs + entry.row, dofs + entry.column)))
+                .collect(),
         }
     }
 
-    /// Mean of the entry and its transpose.
-    #[inline(always)]
-    fn symmetric(&self, i: usize, j: usize) -> Complex64 {
-        (self.values[i + j * self.size] + self.values[j + i * self.size]) * 0.5
+    fn push(&self, block: &mut Block, line: usize) {
+        let free = self.free.iter().map(|[a, b]| a.at(line) + b.at(line));
+        block.free.extend(free);
+        let at = |function: &Function<'_>| function.at(line);
+        block.transfer.extend(self.transfer.iter().map(at));
+        block.own.extend(self.own.iter().map(at));
     }
 }
 

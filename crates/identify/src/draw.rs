@@ -19,7 +19,7 @@ pub(super) fn draw(
 ) -> Option<Vec<Group>> {
     let mut drawn = objective.groups.to_vec();
     let mut variances = Vec::new();
-    objective.visit(None, state, &mut |number, line| {
+    objective.visit(state, &mut |number, line| {
         let group = &mut drawn[number];
         let weights = &weights[number];
         let size = line.computed.len();

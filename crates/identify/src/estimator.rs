@@ -269,15 +269,16 @@ pub(super) fn first_levels(noise: &Noise) -> Levels {
     })
 }
 
-/// Where the cost with these weights is lowest, roughly.
+/// Where the cost with these weights is lowest, roughly, and whether the iteration came to rest there.
 pub(super) fn minimum(
     objective: &Objective<'_>,
     weights: &[Weights],
     start: &DVector<f64>,
-) -> Option<State> {
+) -> Option<(State, bool)> {
     let state = objective.at(weights, start.clone(), None)?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
-    Some(levenberg_marquardt(objective, weights, &Free, start, state, control).state)
+    let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);
+    Some((rest.state, rest.settled))
 }
 
 /// Where an iteration with held weights came to rest.

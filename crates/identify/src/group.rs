@@ -32,12 +32,8 @@ impl Side {
 pub(super) struct Pattern {
     /// Row by row.
     pub(super) free: Vec<f64>,
-    /// What of that is not zero, with row and column.
-    pub(super) entries_of_free: Vec<(usize, usize, f64)>,
     /// A column for each point; empty if it does not enter.
     pub(super) transfer: Vec<f64>,
-    /// DOFs of the joint at which that is not zero.
-    pub(super) dofs_of_transfer: Vec<usize>,
     /// For each entry; empty if it does not enter.
     pub(super) own: Vec<f64>,
 }
@@ -213,14 +209,6 @@ impl Group {
         self.blocks.first().map_or(0, Block::lines)
     }
 
-    /// The joints of its assemblies, ascending.
-    pub(super) fn joints(&self) -> Vec<usize> {
-        let mut joints: Vec<usize> = self.blocks.iter().map(|block| block.joint).collect();
-        joints.sort_unstable();
-        joints.dedup();
-        joints
-    }
-
     /// DOFs of its joints.
     pub(super) fn dofs(&self) -> usize {
         self.blocks.first().map_or(0, |block| block.dofs)
@@ -256,15 +244,7 @@ fn pattern(
     (p, q): (usize, usize),
     block: &Block,
 ) -> Pattern {
-    let w = measured.transformation();
-    let change = |i: usize, j: usize| {
-        let once = w[(i, p)] * w[(j, q)];
-        if p == q {
-            once
-        } else {
-            once + w[(i, q)] * w[(j, p)]
-        }
-    };
+    let change = |i: usize, j: usize| measured.share((i, j), (p, q));
     let dofs = block.dofs;
     let mut transfer = Vec::new();
     let mut own = Vec::new();
@@ -286,15 +266,8 @@ fn pattern(
         }
     }
     let every = (0..dofs).flat_map(|i| (0..dofs).map(move |j| (i, j)));
-    let free: Vec<f64> = every.clone().map(|(i, j)| change(i, j)).collect();
-    let shares = every.zip(&free).map(|((i, j), share)| (i, j, *share));
-    let moves = |dof: &usize| {
-        let mut of_points = transfer.iter().skip(*dof).step_by(dofs);
-        of_points.any(|share| *share != 0.0)
-    };
+    let free: Vec<f64> = every.map(|(i, j)| change(i, j)).collect();
     Pattern {
-        entries_of_free: shares.filter(|(_, _, share)| *share != 0.0).collect(),
-        dofs_of_transfer: (0..dofs).filter(moves).collect(),
         free,
         transfer,
         own,

@@ -1,12 +1,11 @@
 //! H^C_ss of a joint at one line, or at several side by side, with what its derivatives are made of.
 //!
 //! With symmetric matrices (Tol 3.17), Q = (I + F K*)⁻¹ H_ks, X = Z⁻¹ H_ks = K* Q and F = H_jj + H_kk:
-//! H^C_ss = H_ss − H_sk X, its derivative by K* is −Qᵀ dK* Q, by F it is +Xᵀ dF X, by H_ks −(dH_skᵀ X + Xᵀ dH_ks).
+//! H^C_ss = H_ss − H_sk X, its derivative by K* is −Qᵀ dK* Q.
 
 use num_complex::Complex64;
 
 use super::block::Entry;
-use super::group::Pattern;
 use super::lanes::Number;
 use super::layout::Place;
 
@@ -113,21 +112,6 @@ impl Kernel {
         let p = self.column(&self.q, entry.row);
         let q = self.column(&self.q, entry.column);
         -place.all().map(|at| through(p, q, at)).sum::<Complex64>()
-    }
-
-    /// Derivative of H^C at `entry` by a measured receptance that enters F, H_ks and H_ss as the pattern says.
-    pub(super) fn by_source(&self, entry: Entry, pattern: &Pattern, own: f64) -> Complex64 {
-        let x = self.column(&self.x, entry.row);
-        let y = self.column(&self.x, entry.column);
-        let mut derivative = Complex64::from(own);
-        for &(i, j, share) in &pattern.entries_of_free {
-            derivative += x[i] * y[j] * share;
-        }
-        for &i in &pattern.dofs_of_transfer {
-            let share = |point: usize| pattern.transfer[point * self.dofs + i];
-            derivative -= share(entry.row) * y[i] + share(entry.column) * x[i];
-        }
-        derivative
     }
 }
 

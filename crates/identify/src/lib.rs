@@ -54,6 +54,7 @@ mod rival;
 mod robust;
 mod roughness;
 mod search;
+mod seen;
 mod sensitivity;
 mod slips;
 mod starts;

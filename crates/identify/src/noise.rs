@@ -202,6 +202,11 @@ pub(super) struct Size {
 }
 
 impl Size {
+    const NONE: Self = Self {
+        relative: 0.0,
+        floor: 0.0,
+    };
+
     /// Both parts multiplied by a factor.
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self {
@@ -224,6 +229,13 @@ pub(super) struct Levels {
 }
 
 impl Levels {
+    /// No noise.
+    pub(super) const EXACT: Self = Self {
+        assembly: Size::NONE,
+        a: Size::NONE,
+        b: Size::NONE,
+    };
+
     pub(super) fn of(self, of: Of) -> Size {
         match of {
             Of::Assembly => self.assembly,

@@ -18,17 +18,15 @@ use super::corrected::{Piece, Variances};
 use super::group::Group;
 use super::independent;
 use super::layout::Place;
-use super::line::{self, Line};
-use super::noise::{Levels, Size};
+use super::noise::Levels;
 use super::normal::Normal;
 use super::parallel;
-use super::weights::source_variances;
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
 /// Lines with corrections that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on
 /// how many processors there are.
-const PIECE: usize = 64;
+pub(super) const PIECE: usize = 64;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.
@@ -43,24 +41,10 @@ pub(super) struct Weights {
 }
 
 impl Weights {
-    /// σ_C² of one line.
-    fn of_entries(&self, group: &Group, line: usize) -> &[f64] {
+    /// σ_C² of some lines.
+    pub(super) fn of_entries(&self, group: &Group, lines: Range<usize>) -> &[f64] {
         let size = group.entries();
-        &self.entries[line * size..(line + 1) * size]
-    }
-
-    /// All variances of one line; those of the sources are put into `sources`.
-    fn at<'w>(
-        &'w self,
-        group: &Group,
-        line: usize,
-        sources: &'w mut Vec<f64>,
-    ) -> line::Variances<'w> {
-        source_variances(group, self.levels, line, sources);
-        line::Variances {
-            entries: self.of_entries(group, line),
-            sources,
-        }
+        &self.entries[lines.start * size..lines.end * size]
     }
 }
 
@@ -73,15 +57,6 @@ pub(super) struct State {
     pub(super) unknowns: DVector<f64>,
     pub(super) corrections: Corrections,
     pub(super) normal: Normal,
-}
-
-/// How lines whose entries have errors of their own are divided by σ.
-#[derive(Clone, Copy)]
-enum Whitening<'w> {
-    None,
-    Held(&'w Weights),
-    /// By what the level makes of the computed receptance.
-    Renewed(Size),
 }
 
 /// The model with data and weights.
@@ -186,7 +161,7 @@ impl Objective<'_> {
     }
 
     /// The lines that one processor takes at a time.
-    fn piece<'p>(
+    pub(super) fn piece<'p>(
         &'p self,
         group: &'p Group,
         levels: Levels,
@@ -283,129 +258,6 @@ impl Objective<'_> {
             all.push(weights);
         }
         Some((all, state(unknowns, corrections, normal)?))
-    }
-
-    /// Calls `visit` with each line of each group as it is at `state`: computed and, with `weights`, whitened. Derivatives by
-    /// the joint are there only where there are sources.
-    pub(super) fn visit(
-        &self,
-        weights: Option<&[Weights]>,
-        state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_>),
-    ) -> Option<()> {
-        for (number, group) in self.groups.iter().enumerate() {
-            let weights = weights.map(|weights| &weights[number]);
-            if group.sources.is_empty() {
-                let held = weights.map_or(Whitening::None, Whitening::Held);
-                let all = 0..group.lines();
-                self.visit_independent(group, held, state, all, &mut |line| visit(number, line))?;
-            } else {
-                self.visit_linearised(number, weights, state, &mut |line| visit(number, line))?;
-            }
-        }
-        Some(())
-    }
-
-    /// What `visit` gathers of each group's lines as they are at `state`, whitened by the variances that `levels` give there. It begins with
-    /// nothing gathered for each piece of consecutive lines.
-    pub(super) fn gather_whitened<T: Default + Send>(
-        &self,
-        levels: Levels,
-        state: &State,
-        visit: impl Fn(&mut T, &Line<'_>) + Sync,
-    ) -> Option<Vec<Vec<T>>> {
-        if !self.is_independent() {
-            let weights = self.weights(levels, state)?;
-            let mut gathered: Vec<Vec<T>> =
-                self.groups.iter().map(|_| vec![T::default()]).collect();
-            self.visit(Some(&weights), state, &mut |group, line| {
-                visit(&mut gathered[group][0], line);
-            })?;
-            return Some(gathered);
-        }
-        let own = Whitening::Renewed(levels.assembly);
-        let of_group = |group: &Group| {
-            let pieces = parallel::pieces(group.lines(), independent::PIECE);
-            let of_piece = |lines: &Range<usize>| {
-                let mut gathered = T::default();
-                self.visit_independent(group, own, state, lines.clone(), &mut |line| {
-                    visit(&mut gathered, line);
-                })?;
-                Some(gathered)
-            };
-            parallel::map(&pieces, of_piece).into_iter().collect()
-        };
-        self.groups.iter().map(of_group).collect()
-    }
-
-    /// The same, whitened, with the derivatives by the joint.
-    pub(super) fn visit_scores(
-        &self,
-        weights: &[Weights],
-        state: &State,
-        visit: &mut dyn FnMut(usize, &Line<'_>),
-    ) -> Option<()> {
-        for (number, weights) in weights.iter().enumerate() {
-            self.visit_linearised(number, Some(weights), state, &mut |line| {
-                visit(number, line)
-            })?;
-        }
-        Some(())
-    }
-
-    fn visit_independent(
-        &self,
-        group: &Group,
-        whitening: Whitening<'_>,
-        state: &State,
-        lines: Range<usize>,
-        visit: &mut dyn FnMut(&Line<'_>),
-    ) -> Option<()> {
-        let unknowns = state.unknowns.as_slice();
-        let blocks = group.blocks.iter();
-        let computed: Option<Vec<Vec<Complex64>>> = blocks
-            .map(|block| independent::computed(block, self.entries, unknowns, lines.clone()))
-            .collect();
-        let computed = computed?;
-        let mut line = Line::new(group, self.entries);
-        let first = lines.start;
-        for index in lines {
-            line.take(index, first, &computed);
-            match whitening {
-                Whitening::None => {}
-                Whitening::Held(weights) => {
-                    line.whiten_independent(weights.of_entries(group, index));
-                }
-                Whitening::Renewed(level) => line.whiten_by(level),
-            }
-            visit(&line);
-        }
-        Some(())
-    }
-
-    fn visit_linearised(
-        &self,
-        number: usize,
-        weights: Option<&Weights>,
-        state: &State,
-        visit: &mut dyn FnMut(&Line<'_>),
-    ) -> Option<()> {
-        let group = &self.groups[number];
-        let mut line = Line::new(group, self.entries);
-        let count = group.sources.len();
-        let mut sources = Vec::new();
-        for index in 0..group.lines() {
-            let delta = &state.corrections[number][index * count..(index + 1) * count];
-            line.linearise(index, state.unknowns.as_slice(), delta)?;
-            if let Some(weights) = weights {
-                let variances = weights.at(group, index, &mut sources);
-                line.whiten(variances, delta)?;
-            } else {
-                line.add_corrections(delta);
-            }
-            visit(&line);
-        }
-        Some(())
     }
 }
 

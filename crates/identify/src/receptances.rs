@@ -31,6 +31,17 @@ impl Receptances {
         }
     }
 
+    /// An entry of the symmetric H over all lines.
+    pub(super) fn function(&self, i: usize, j: usize) -> Function<'_> {
+        match self {
+            Self::Exact(matrices) => Function::Exact {
+                matrices,
+                places: [i + j * self.size(), j + i * self.size()],
+            },
+            Self::Measured(measured) => measured.formed_function(i, j),
+        }
+    }
+
     /// At these lines.
     pub(super) fn at_lines(&self, lines: &[usize]) -> Self {
         match self {
@@ -53,6 +64,37 @@ impl Receptances {
         match self {
             Self::Exact(matrices) => matrices.first().map_or(0, |matrix| matrix.nrows()),
             Self::Measured(measured) => measured.transformation.nrows(),
+        }
+    }
+}
+
+/// One entry of the symmetric H of a substructure over all lines.
+pub(super) enum Function<'r> {
+    /// The mean of an entry and its transpose.
+    Exact {
+        matrices: &'r [ComplexMatrix],
+        /// Their places in a matrix as it is stored, column by column.
+        places: [usize; 2],
+    },
+    /// Σ share·U_pq, and what is lost.
+    Formed {
+        terms: Vec<(f64, &'r [Complex64])>,
+        lost: f64,
+    },
+}
+
+impl Function<'_> {
+    #[inline]
+    pub(super) fn at(&self, line: usize) -> Complex64 {
+        match self {
+            Self::Exact { matrices, places } => {
+                let values = matrices[line].as_slice();
+                (values[places[0]] + values[places[1]]) * 0.5
+            }
+            Self::Formed { terms, lost } => {
+                let of_term = |(share, values): &(f64, &[Complex64])| values[line] * share;
+                terms.iter().map(of_term).sum::<Complex64>() + lost
+            }
         }
     }
 }
@@ -300,7 +342,36 @@ impl MeasuredSubstructure {
         })
     }
 
-    /// H = W U Wᵀ at a line   (Tol 3.54).
+    /// What a symmetric change of the entry (p, q) of U changes of the entry (i, j) of H.
+    pub(super) fn share(&self, (i, j): (usize, usize), (p, q): (usize, usize)) -> f64 {
+        let w = &self.transformation;
+        let once = w[(i, p)] * w[(j, q)];
+        if p == q {
+            once
+        } else {
+            once + w[(i, q)] * w[(j, p)]
+        }
+    }
+
+    /// An entry of H = W U Wᵀ   (Tol 3.54).
+    fn formed_function(&self, i: usize, j: usize) -> Function<'_> {
+        let columns = 0..self.transformation.ncols();
+        let places = columns.flat_map(|q| (0..=q).map(move |p| (p, q)));
+        let terms = places.zip(&self.functions).map(|(place, function)| {
+            let share = self.share((i, j), place);
+            (share, function.as_slice())
+        });
+        let lost = self.lost.as_ref().map_or(0.0, |lost| {
+            let of = |place: (usize, usize)| lost.get(place).map_or(0.0, |lost: &f64| *lost);
+            0.5 * (of((i, j)) + of((j, i)))
+        });
+        Function::Formed {
+            terms: terms.filter(|(share, _)| *share != 0.0).collect(),
+            lost,
+        }
+    }
+
+    /// H at a line.
     fn formed(&self, line: usize) -> ComplexMatrix {
         let formed = &self.complex * self.receptance(line) * self.complex.transpose();
         with_lost(formed, self.lost.as_ref())

@@ -79,7 +79,7 @@ impl Objective<'_> {
     ) -> Option<Vec<Vec<DVector<f64>>>> {
         let mut scores: Vec<Vec<DVector<f64>>> = vec![Vec::new(); weights.len()];
         self.visit_scores(weights, state, &mut |group, line| {
-            scores[group].push(DVector::from_vec(line.score()));
+            scores[group].push(DVector::from_column_slice(&line.score));
         })?;
         Some(scores)
     }

@@ -29,7 +29,7 @@ const DECISIVE_MISFIT: f64 = 20.0;
 const FINALISTS: usize = 4;
 
 /// A minimum whose weighted mean square residual is so many times that of the best is not refined: no resonance between
-/// the thinned lines makes up for it.
+/// the thinned lines makes up for it, and corrections that did would be no errors.
 const COMPARABLE: f64 = 10.0;
 
 /// Where a start leads on few lines if the receptances of the substructures stay as they were measured.
@@ -71,7 +71,13 @@ pub(super) fn try_starts(
             new.push(one.clone());
         }
     }
+    let left = |one: &Estimate| one.cost / one.measurements as f64;
+    let known = ways.iter().map(|way| &way.robust).chain(&new);
+    let least = known.map(left).fold(f64::INFINITY, f64::min);
     let ends = parallel::map(&new, |robust| {
+        if left(robust) > COMPARABLE * least {
+            return None;
+        }
         let used = data.few_near(entries, robust.place());
         let few = used.assemblies.objective(entries);
         let (levels, start) = (Some(robust.levels), &robust.unknowns);

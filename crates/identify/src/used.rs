@@ -8,9 +8,10 @@ use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::block::Block;
-use super::group::{Group, Source};
-use super::kernel::{Small, complex_stiffness, coupled, filled, for_dofs, matrix, product};
+use super::group::Group;
+use super::kernel::{complex_stiffness, coupled, filled, for_dofs, matrix};
 use super::layout::Place;
+use super::motions::{Act, place};
 use super::noise::Levels;
 use super::objective::Objective;
 use super::weights::source_variance;
@@ -19,6 +20,8 @@ use super::weights::source_variance;
 const MOST_MOVED: f64 = 0.5;
 /// … unless fewer than this part of the lines would be left, with much noise: then these are used.
 const LEAST_PART: f64 = 0.5;
+
+const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Lines of one assembly that an estimate goes through.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,6 +116,49 @@ impl Objective<'_> {
 
 type OfBlock = fn(&Group, usize, Levels, (&[Place], &[f64])) -> Vec<f64>;
 
+/// Two entries of F of one block that have errors in common, or one twice.
+struct FreeMotions {
+    one: (usize, usize),
+    other: (usize, usize),
+    /// Their covariance as a sum over sources; twice that of two entries, which stand in both orders in E‖A‖².
+    covariance: Vec<(usize, f64)>,
+}
+
+impl FreeMotions {
+    fn of(group: &Group, number: usize) -> Vec<Self> {
+        let mut all = Vec::new();
+        for cluster in &group.motions.clusters {
+            let entries = |motion: usize| {
+                let actions = cluster.motions[motion].iter();
+                let own = actions.filter(|action| action.block == number);
+                own.filter_map(|action| match action.act {
+                    Act::Free(i, j) => Some((i, j)),
+                    Act::Transfer(..) | Act::Own(_) => None,
+                })
+            };
+            for m in 0..cluster.motions.len() {
+                for n in 0..=m {
+                    let terms = &cluster.covariance[place(m, n)];
+                    if terms.is_empty() {
+                        continue;
+                    }
+                    let times = if m == n { 1.0 } else { 2.0 };
+                    let covariance = terms.iter().map(|&(source, share)| (source, times * share));
+                    let covariance: Vec<(usize, f64)> = covariance.collect();
+                    for one in entries(m) {
+                        all.extend(entries(n).map(|other| Self {
+                            one,
+                            other,
+                            covariance: covariance.clone(),
+                        }));
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
 /// √E‖A‖² of each line of one block, displacements in proportion to what a unit load on each DOF of the substructures does;
 /// infinite at a singular line.
 fn motion<const N: usize>(
@@ -123,21 +169,7 @@ fn motion<const N: usize>(
 ) -> Vec<f64> {
     let block = &group.blocks[number];
     let dofs = filled::<N>(block.dofs);
-    let sources = || {
-        group.sources.iter().filter_map(|source| {
-            let pattern = source.patterns[number].as_ref()?;
-            (!pattern.entries_of_free.is_empty()).then_some((source, pattern))
-        })
-    };
-    let real = |value: f64| Complex64::from(value);
-    let patterns: Vec<(&Source, Small<N>)> = sources()
-        .map(|(source, pattern)| {
-            (
-                source,
-                matrix(dofs, |i, j| real(pattern.free[i * dofs + j])),
-            )
-        })
-        .collect();
+    let motions = FreeMotions::of(group, number);
     let scale = &block.dynamic_stiffness;
     let of_line = |line: usize| {
         let stiffness = complex_stiffness::<N>(entries, unknowns, block.omega[line]);
@@ -146,15 +178,38 @@ fn motion<const N: usize>(
         let Some(inverse) = coupled(dofs, &free, &stiffness) else {
             return f64::INFINITY;
         };
-        let mut power = 0.0;
-        for (source, free) in &patterns {
-            let variance = source_variance(source, levels, line);
-            let a = product(dofs, &product(dofs, &inverse, free), &stiffness);
-            for i in 0..dofs {
-                for j in 0..dofs {
-                    power += variance * scale[i] / scale[j] * a[i][j].norm_sqr();
+        // Of A = (I + F K*)⁻¹ E K* with ones at (i, j) of E: ⟨A_ij, A_kl⟩ = P_ik R_jl
+        let mut left = [[ZERO; N]; N];
+        let mut right = [[ZERO; N]; N];
+        for i in 0..dofs {
+            for k in 0..dofs {
+                for a in 0..dofs {
+                    left[i][k] += inverse[a][i].conj() * inverse[a][k] * scale[a];
+                    right[i][k] += stiffness[i][a].conj() * stiffness[k][a] / scale[a];
                 }
             }
+        }
+        let pair = |(i, j): (usize, usize), (k, l): (usize, usize)| (left[i][k] * right[j][l]).re;
+        let product = |one: (usize, usize), other: (usize, usize)| -> f64 {
+            let turned = |(i, j): (usize, usize)| (j, i);
+            let mut sum = pair(one, other);
+            if one.0 != one.1 {
+                sum += pair(turned(one), other);
+            }
+            if other.0 != other.1 {
+                sum += pair(one, turned(other));
+                if one.0 != one.1 {
+                    sum += pair(turned(one), turned(other));
+                }
+            }
+            sum
+        };
+        let variance = |source: usize| source_variance(&group.sources[source], levels, line);
+        let mut power = 0.0;
+        for motion in &motions {
+            let terms = motion.covariance.iter();
+            let covariance: f64 = terms.map(|(source, share)| share * variance(*source)).sum();
+            power += covariance * product(motion.one, motion.other);
         }
         power.sqrt()
     };

@@ -29,7 +29,7 @@ impl Objective<'_> {
             })
             .collect();
         let mut usable = true;
-        self.visit(None, state, &mut |number, line| {
+        self.visit(state, &mut |number, line| {
             let group = &self.groups[number];
             let weights = &mut all[number];
             let size = group.entries();
@@ -82,7 +82,7 @@ impl Objective<'_> {
     /// `shrinkage` is what fitting has left of the residuals' variance.
     pub(super) fn level(&self, noise: &Noise, state: &State, shrinkage: f64) -> Option<Size> {
         let mut samples = Vec::new();
-        self.visit(None, state, &mut |number, line| {
+        self.visit(state, &mut |number, line| {
             let group = &self.groups[number];
             let size = line.computed.len();
             for_each_entry(group, line, |entry| {

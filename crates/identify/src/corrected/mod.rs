@@ -5,6 +5,7 @@
 
 mod lines;
 mod model;
+mod seen;
 mod settling;
 mod sums;
 mod variances;
@@ -16,6 +17,7 @@ use super::group::Group;
 use super::kernel::for_dofs;
 use super::lanes::LANES;
 use super::layout::Place;
+use super::line::Line;
 use super::motions::place;
 use super::noise::Levels;
 use super::normal::Normal;
@@ -27,6 +29,17 @@ pub(super) enum Variances<'w> {
     Held(&'w [f64]),
     /// To be renewed from what is computed at the unknowns.
     Renewed(&'w mut [f64]),
+}
+
+/// What of each line is to be seen.
+#[derive(Clone, Copy)]
+pub(super) enum Seen<'w> {
+    /// The residual as it is, and the derivatives by the sources.
+    Plain,
+    /// The residual whitened by the variances that the levels give.
+    Renewed,
+    /// The residual whitened by these variances, and the score.
+    Score(&'w [f64]),
 }
 
 /// Some consecutive lines of a group, from number `first` on, at the same unknowns.
@@ -57,10 +70,24 @@ impl Piece<'_> {
         let marginal: Option<Marginal> = for_dofs!(self.group.dofs(), marginal);
         marginal?(self, lines)
     }
+
+    /// Calls `visit` with each of so many lines as these corrections leave it, the residual being y − H^C as the substructures
+    /// were measured.
+    pub(super) fn visit(
+        &self,
+        lines: usize,
+        corrections: &[Complex64],
+        seen: Seen<'_>,
+        visit: &mut dyn FnMut(&Line<'_>),
+    ) -> Option<()> {
+        let visit_lines: Option<Visit> = for_dofs!(self.group.dofs(), visit_lines);
+        visit_lines?(self, lines, corrections, seen, visit)
+    }
 }
 
 type Settle = fn(&Piece<'_>, Variances<'_>, &mut [Complex64], &mut Normal) -> Option<f64>;
 type Marginal = fn(&Piece<'_>, usize) -> Option<Vec<f64>>;
+type Visit = fn(&Piece<'_>, usize, &[Complex64], Seen<'_>, &mut dyn FnMut(&Line<'_>)) -> Option<()>;
 
 fn settle<const N: usize>(
     piece: &Piece<'_>,
@@ -113,4 +140,50 @@ fn marginal<const N: usize>(piece: &Piece<'_>, lines: usize) -> Option<Vec<f64>>
         }
     }
     Some(all)
+}
+
+fn visit_lines<const N: usize>(
+    piece: &Piece<'_>,
+    lines: usize,
+    corrections: &[Complex64],
+    seen: Seen<'_>,
+    visit: &mut dyn FnMut(&Line<'_>),
+) -> Option<()> {
+    let (count, size) = (piece.group.sources.len(), piece.group.entries());
+    let mut strip = Corrected::<N>::new(piece);
+    let mut line = Line::new(piece.group);
+    let mut renewed = vec![0.0; size * LANES];
+    for from in (0..lines).step_by(LANES) {
+        let to = lines.min(from + LANES);
+        strip.begin(piece.first + from, to - from);
+        strip.take_corrections(&corrections[from * count..to * count]);
+        strip.linearise()?;
+        match seen {
+            Seen::Plain => {}
+            Seen::Renewed => {
+                strip.renew_variances(&mut renewed[..(to - from) * size])?;
+            }
+            Seen::Score(entries) => {
+                strip.take_variances(&entries[from * size..to * size]);
+            }
+        }
+        strip.take_motions_back();
+        let relative_power = strip.relative_power();
+        if !matches!(seen, Seen::Plain) {
+            strip.whiten_what_is_left()?;
+        }
+        if matches!(seen, Seen::Score(_)) {
+            strip.whiten_derivatives();
+        }
+        for lane in 0..to - from {
+            strip.show(lane, relative_power, &mut line);
+            match seen {
+                Seen::Plain => strip.show_sources(lane, &mut line),
+                Seen::Score(_) => strip.show_score(lane, &mut line),
+                Seen::Renewed => {}
+            }
+            visit(&line);
+        }
+    }
+    Some(())
 }

@@ -6,12 +6,18 @@ use super::lines::Corrected;
 use super::sums::Whitened;
 
 impl<const N: usize> Corrected<'_, N> {
-    /// L⁻¹ r̃ with r̃ = y − H^C + J_ζ ζ and L Lᴴ = Σ.
+    /// L⁻¹ r̃ with L Lᴴ = Σ.
     pub(super) fn whiten_residual(&mut self) -> Option<()> {
         let powers = self.computed.iter().zip(&self.variances);
         self.signal = powers.fold(Reals::ZERO, |sum, (h, variance)| {
             sum + h.norm_sqr() / *variance
         });
+        self.take_motions_back();
+        self.whiten_what_is_left()
+    }
+
+    /// r̃ = y − H^C + J_ζ ζ: what would be left if the substructures were as measured.
+    pub(super) fn take_motions_back(&mut self) {
         self.whitened.copy_from_slice(&self.residual);
         let mut columns = self.by_motion.as_slice();
         for cluster in &self.piece.group.motions.clusters {
@@ -24,6 +30,10 @@ impl<const N: usize> Corrected<'_, N> {
                 }
             }
         }
+    }
+
+    /// Whitens that.
+    pub(super) fn whiten_what_is_left(&mut self) -> Option<()> {
         self.covariance_of_entries();
         self.factorise()?;
         forward(&self.factor, &self.reciprocals, &mut self.whitened);

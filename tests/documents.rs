@@ -251,3 +251,39 @@ fn the_map_of_the_crates_is_that_of_their_manifests() {
     assert!(missing.is_empty(), "by the manifests {missing:#?}");
     assert!(surplus.is_empty(), "by ARCHITECTURE.md {surplus:#?}");
 }
+
+/// Texts of all Rust sources, with lines that a string continues put together.
+fn sources() -> String {
+    let mut folders = vec![root().join("crates"), root().join("src")];
+    let mut text = String::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let source = fs::read_to_string(path).unwrap();
+                let lines = source.lines().map(|line| match line.strip_suffix('\\') {
+                    Some(continued) => continued.trim_start().to_owned(),
+                    None => format!("{}\n", line.trim_start()),
+                });
+                text.extend(lines);
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn messages_that_are_explained_are_messages_of_the_program() {
+    let page = fs::read_to_string(root().join("docs/troubleshooting.md")).unwrap();
+    let sources = sources();
+    let quoted: Vec<&str> = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split('`').next())
+        .collect();
+    assert!(quoted.len() > 15, "{quoted:?}");
+    for message in quoted {
+        assert!(sources.contains(message), "{message}");
+    }
+}

@@ -153,7 +153,11 @@ impl Assemblies {
     /// With what of the joint is sought.
     pub(super) fn objective<'a>(&'a self, entries: &'a [Place]) -> Objective<'a> {
         let groups = &self.0;
-        Objective { groups, entries }
+        Objective {
+            groups,
+            entries,
+            holds: false,
+        }
     }
 
     /// See [`starts::Linear`]: what each of `guesses` leads to.

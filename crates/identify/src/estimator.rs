@@ -13,6 +13,7 @@ use super::likelihood::log_variances;
 use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Corrections, Objective, State, Weights};
+use super::scoring::scored;
 
 /// How the unknowns follow from the coordinates in which they are sought.
 pub(super) trait Chart {
@@ -37,7 +38,7 @@ impl Chart for Free {
 
 impl State {
     /// Its normal equations by the coordinates.
-    fn normal_in(&self, chart: &dyn Chart, coordinates: &DVector<f64>) -> Normal {
+    pub(super) fn normal_in(&self, chart: &dyn Chart, coordinates: &DVector<f64>) -> Normal {
         match chart.derivative(coordinates) {
             Some(derivative) => self.normal.in_chart(&derivative),
             None => self.normal.clone(),
@@ -94,7 +95,7 @@ impl Estimate {
 
 const MAX_REWEIGHTINGS: usize = 20;
 /// Damping of the first step, a fraction of the diagonal of JᵀJ.
-const FIRST_DAMPING: f64 = 1e-3;
+pub(super) const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// The same where corrections of the substructures follow each step.
 const MAX_ITERATIONS_OF_CORRECTED: usize = 40;
@@ -153,7 +154,11 @@ pub(super) fn estimate(
             negligible_gain(objective)
         };
         let control = (gain, damping);
-        let rest = levenberg_marquardt(objective, &weights, chart, &coordinates, state, control);
+        let rest = if objective.holds {
+            scored(objective, &weights, chart, &coordinates, state, gain)
+        } else {
+            levenberg_marquardt(objective, &weights, chart, &coordinates, state, control)
+        };
         damping = rest.damping;
         let moved = relative_change(&coordinates, &rest.coordinates, &rest.scale);
         // In standard deviations, at least: σ ≥ 1/√(JᵀΣ⁻¹J)_ii times that of the residual, S/N.
@@ -282,13 +287,22 @@ pub(super) fn minimum(
 }
 
 /// Where an iteration with held weights came to rest.
-struct Rest {
-    coordinates: DVector<f64>,
-    state: State,
-    scale: DVector<f64>,
-    settled: bool,
+pub(super) struct Rest {
+    pub(super) coordinates: DVector<f64>,
+    pub(super) state: State,
+    pub(super) scale: DVector<f64>,
+    pub(super) settled: bool,
     /// Damping that the last step left, to go on with.
-    damping: f64,
+    pub(super) damping: f64,
+}
+
+/// Steps over which the promise of a search that comes to rest falls by more than half.
+const STEPS_OF_A_FALL: usize = 8;
+
+/// Whether what steps promise has all but ceased to fall.
+fn wanders(promises: &[f64]) -> bool {
+    let before = promises.len().checked_sub(STEPS_OF_A_FALL + 1);
+    before.is_some_and(|before| promises.last() > Some(&(0.5 * promises[before])))
 }
 
 /// The iteration from `start` coordinates, at which `state` is.
@@ -309,7 +323,11 @@ fn levenberg_marquardt(
     } else {
         MAX_ITERATIONS_OF_CORRECTED
     };
+    let mut promises: Vec<f64> = Vec::new();
     for _ in 0..most {
+        if objective.is_of_many_bolts() && wanders(&promises) {
+            break;
+        }
         if normal.is_settled(&coordinates, negligible_gain) {
             settled = true;
             break;
@@ -327,6 +345,7 @@ fn levenberg_marquardt(
             coordinates = trial;
             state = next;
             normal = state.normal_in(chart, &coordinates);
+            promises.extend(normal.promise());
             damping = (damping * 0.01).max(1e-15);
         } else {
             damping *= 10.0;

@@ -121,7 +121,7 @@ pub(super) fn finalists(
     known: Option<Finals>,
 ) -> Finals {
     let mut known = known.map_or_else(Vec::new, |known| known.best_first);
-    let whole = used.assemblies.objective(entries);
+    let whole = used.assemblies.objective(entries).as_searched();
     // Thinned lines may have passed over the resonances that tell two minima apart.
     let mut finals: Vec<Final> = Vec::new();
     // The corrections of all of them would be much memory: those of the last one are kept.
@@ -145,7 +145,7 @@ pub(super) fn finalists(
                 Some(End {
                     estimate,
                     assessment,
-                    has_corrections: true,
+                    has_corrections: !whole.holds,
                 })
             }),
         });

@@ -53,6 +53,7 @@ mod residuals;
 mod rival;
 mod robust;
 mod roughness;
+mod scoring;
 mod search;
 mod seen;
 mod sensitivity;

@@ -5,6 +5,8 @@
 //! own on every line. Eliminated, they leave S = r̃ᴴ Σ⁻¹ r̃ with r̃ = y − H^C + Jδ, Σ = Σ_C + J Σ_H Jᴴ and J = ∂H^C/∂û, linearised
 //! at corrections δ = Σ_H Jᴴ Σ⁻¹ r̃ that follow each step of θ.
 //!
+//! A search may hold the corrections (`holds`): they are zero then, and Σ alone follows θ.
+//!
 //! θ holds the unknowns of one torque after the other; each assembly has one of them. Where assemblies with different joints
 //! share a substructure, δ couples these.
 
@@ -24,6 +26,7 @@ use super::parallel;
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
+const DOFS_OF_TWO_BOLTS: usize = 4;
 /// Lines with corrections that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on
 /// how many processors there are.
 pub(super) const PIECE: usize = 64;
@@ -65,6 +68,8 @@ pub(super) struct Objective<'a> {
     pub(super) groups: &'a [Group],
     /// Unknown entries of the K* of each torque.
     pub(super) entries: &'a [Place],
+    /// Whether the substructures' receptances are held as they were measured: their errors act through Σ alone.
+    pub(super) holds: bool,
 }
 
 impl Objective<'_> {
@@ -174,6 +179,7 @@ impl Objective<'_> {
             unknowns: unknowns.as_slice(),
             levels,
             first: number * PIECE,
+            holds: self.holds,
         }
     }
 
@@ -230,6 +236,24 @@ impl Objective<'_> {
         };
         let all: Option<Vec<Vec<f64>>> = parallel::map(&pieces, of_piece).into_iter().collect();
         Some(all?.concat())
+    }
+
+    /// The same as a search goes through it: between many bolts with the substructures' receptances held as they were measured.
+    /// Their corrections have more freedom than few lines tell, and a search that they follow fits the noise, little by little.
+    pub(super) fn as_searched(self) -> Self {
+        Self {
+            holds: self.is_of_many_bolts(),
+            ..self
+        }
+    }
+
+    /// Whether corrections follow more bolts with joints of their own than two.
+    pub(super) fn is_of_many_bolts(&self) -> bool {
+        let has_many = self
+            .groups
+            .iter()
+            .any(|group| group.dofs() > DOFS_OF_TWO_BOLTS);
+        has_many && self.entries.iter().all(|place| place.is_single()) && !self.is_independent()
     }
 
     /// Whether all entries have errors of their own: no substructure's error is an unknown.

@@ -15,8 +15,14 @@ use super::noise::Noise;
 use super::normal::scaled_by;
 use super::objective::Objective;
 
-/// Combinations of faces that are searched at most: all of four bolts with both matrices of each outside the cone.
+/// Combinations of faces that are looked at, at most: all of four bolts with both matrices of each outside the cone.
 const MOST_COMBINATIONS: usize = 256;
+
+/// Combinations of faces that are searched before it is asked whether one of them has led to a passive joint.
+const AT_A_TIME: usize = 4;
+
+/// Combinations that are searched at most: those farther away are no better.
+const MOST_SEARCHED: usize = 2 * AT_A_TIME;
 
 /// Part of the boundary of the cone of one matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,6 +130,27 @@ impl Faces {
         let own = own.flat_map(|(face, values)| face.near(values));
         DVector::from_vec(own.collect())
     }
+
+    /// Coordinates of the point that is nearest to some unknowns in this metric, and the square of its distance.
+    fn nearest(&self, target: &DVector<f64>, metric: &DMatrix<f64>) -> (DVector<f64>, f64) {
+        let mut x = self.near(target);
+        for _ in 0..STEPS {
+            let (rest, Some(slope)) = (target - self.unknowns(&x), self.derivative(&x)) else {
+                break;
+            };
+            let weighted = slope.transpose() * metric;
+            let Some(step) = (&weighted * &slope)
+                .cholesky()
+                .map(|normal| normal.solve(&(weighted * rest)))
+            else {
+                break;
+            };
+            x += step;
+        }
+        let rest = target - self.unknowns(&x);
+        let distance = rest.dot(&(metric * &rest));
+        (x, distance)
+    }
 }
 
 impl Chart for Faces {
@@ -229,23 +256,8 @@ pub(super) fn nearest(
     let mut best: Option<(f64, Vec<f64>)> = None;
     for faces in combinations {
         let faces = Faces { entries, faces };
-        let mut x = faces.near(&target);
-        for _ in 0..STEPS {
-            let (rest, Some(slope)) = (&target - faces.unknowns(&x), faces.derivative(&x)) else {
-                break;
-            };
-            let weighted = slope.transpose() * &weight;
-            let Some(step) = (&weighted * &slope)
-                .cholesky()
-                .map(|normal| normal.solve(&(weighted * rest)))
-            else {
-                break;
-            };
-            x += step;
-        }
+        let (x, distance) = faces.nearest(&target, &weight);
         let found = faces.unknowns(&x);
-        let rest = &target - &found;
-        let distance = rest.dot(&(&weight * &rest));
         let found = found.as_slice().to_vec();
         let is_better = best.as_ref().is_none_or(|(least, _)| distance < *least);
         if distance.is_finite() && is_better && !is_passive(layout, &found).contains(&false) {
@@ -321,8 +333,8 @@ fn on_a_face(
     })
 }
 
-/// The lowest minimum that is passive at torque number `active`, over all combinations of the faces that each of its matrices
-/// may lie on.
+/// The lowest minimum that is passive at torque number `active`, over combinations of the faces that each of its matrices may lie
+/// on; of many, over the nearest.
 fn lowest(
     objective: &Objective<'_>,
     layout: &Layout,
@@ -332,26 +344,44 @@ fn lowest(
     candidates: &[Vec<Face>],
 ) -> Option<(Faces, Estimate)> {
     let (size, matrices) = (layout.unknowns(), 2 * layout.joints());
-    combinations(candidates)
-        .into_iter()
-        .filter_map(|own| {
-            let mut chart = faces.clone();
-            chart.faces[active * matrices..(active + 1) * matrices].clone_from_slice(&own);
-            let estimate = estimate(
-                objective,
-                noise,
-                Some(from.levels),
-                &chart,
-                &chart.near(&from.unknowns),
-                Some(Arc::clone(&from.corrections)),
-            )?;
-            Some((chart, estimate))
+    let own = active * size..(active + 1) * size;
+    let is_passive_there = |unknowns: &DVector<f64>| {
+        !is_passive(layout, &unknowns.as_slice()[own.clone()]).contains(&false)
+    };
+    let charts = combinations(candidates).into_iter().map(|own| {
+        let mut chart = faces.clone();
+        chart.faces[active * matrices..(active + 1) * matrices].clone_from_slice(&own);
+        chart
+    });
+    let mut starts: Vec<(f64, Faces, DVector<f64>)> = charts
+        .map(|chart| {
+            let start = chart.near(&from.unknowns);
+            (0.0, chart, start)
         })
-        .filter(|(_, estimate)| {
-            let own = &estimate.unknowns.as_slice()[active * size..(active + 1) * size];
-            !is_passive(layout, own).contains(&false)
-        })
-        .min_by(|(_, a), (_, b)| a.misfit.total_cmp(&b.misfit))
+        .collect();
+    if starts.len() > AT_A_TIME {
+        // The sum that is minimised grows with the distance in the metric of the information: the nearest points come first.
+        for (distance, chart, start) in &mut starts {
+            let (x, apart) = chart.nearest(&from.unknowns, &from.information);
+            let is_possible = apart.is_finite() && is_passive_there(&chart.unknowns(&x));
+            (*distance, *start) = match is_possible {
+                true => (apart, x),
+                false => (f64::INFINITY, chart.near(&from.unknowns)),
+            };
+        }
+        starts.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        starts.truncate(MOST_SEARCHED);
+    }
+    let of_start = |(_, chart, start): &(f64, Faces, DVector<f64>)| {
+        let corrections = Some(Arc::clone(&from.corrections));
+        let levels = Some(from.levels);
+        let estimate = estimate(objective, noise, levels, chart, start, corrections)?;
+        is_passive_there(&estimate.unknowns).then(|| (chart.clone(), estimate))
+    };
+    starts.chunks(AT_A_TIME).find_map(|part| {
+        let found = part.iter().filter_map(of_start);
+        found.min_by(|(_, a), (_, b)| a.misfit.total_cmp(&b.misfit))
+    })
 }
 
 /// One face for each matrix, in every combination; those of the first matrices only, where they would be too many.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bolted_joint_systematic::FAR;
 use nalgebra::DVector;
 
-use super::assessment::Assessment;
+use super::assessment::{Assessment, assess};
 use super::data::{Data, Used};
 use super::estimator::{Estimate, Free, estimate};
 use super::finals::{End, Finals, finalists, finalists_of_own_lines};
@@ -95,6 +95,7 @@ pub(super) fn best(
     let whole = finals.used.assemblies.objective(entries);
     let best = softest_of_the_best(&finals, &whole, entries).ok_or(tried)?;
     let agreeing = agreeing(&trials, &finals, &best.estimate);
+    let mut assessment = best.assessment.clone();
     let estimate = if best.has_corrections {
         best.estimate.clone()
     } else if whole.is_independent() {
@@ -104,11 +105,15 @@ pub(super) fn best(
         }
     } else {
         let start = &best.estimate.unknowns;
-        estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?
+        let followed = estimate(&whole, noise, None, &Free, start, None).ok_or(tried)?;
+        if whole.is_of_many_bolts() {
+            assessment = assess(&whole, &followed, noise).ok_or(tried)?;
+        }
+        followed
     };
     Ok(Found {
         estimate,
-        assessment: best.assessment.clone(),
+        assessment,
         tried,
         agreeing,
         used: Arc::clone(&finals.used),

@@ -79,7 +79,7 @@ pub(super) fn try_starts(
             return None;
         }
         let used = data.few_near(entries, robust.place());
-        let few = used.assemblies.objective(entries);
+        let few = used.assemblies.objective(entries).as_searched();
         let (levels, start) = (Some(robust.levels), &robust.unknowns);
         let end = estimate(&few, noise, levels, &Free, start, None)?;
         Some(end.without_corrections())

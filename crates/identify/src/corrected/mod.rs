@@ -50,6 +50,8 @@ pub(super) struct Piece<'p> {
     pub(super) unknowns: &'p [f64],
     pub(super) levels: Levels,
     pub(super) first: usize,
+    /// Whether corrections stay what they are: the structures' receptances are held as they were measured.
+    pub(super) holds: bool,
 }
 
 impl Piece<'_> {
@@ -113,8 +115,12 @@ fn settle<const N: usize>(
                 scatter += strip.renew_variances(&mut entries[from * size..to * size])?;
             }
         }
-        strip.settle()?;
-        strip.give_corrections(own);
+        if piece.holds {
+            strip.whiten_residual()?;
+        } else {
+            strip.settle()?;
+            strip.give_corrections(own);
+        }
         strip.whiten_derivatives();
         sums.add(strip.whitened());
     }

@@ -108,7 +108,11 @@ class Rig:
             )
 
         def places(side):
-            of = [f'name = "{n}", y = "{y}", theta = "{t}"' for n, y, t in zip(self.names, labels[side][::2], labels[side][1::2])]
+            at = self.a if side == "A" else self.b
+            of = [
+                f'name = "{n}", y = "{y}", theta = "{t}", x = {x:.6f}'
+                for n, y, t, x in zip(self.names, labels[side][::2], labels[side][1::2], at)
+            ]
             return "[" + ", ".join(f"{{ {one} }}" for one in of) + "]" if len(of) > 1 else f"{{ {of[0].split(', ', 1)[1]} }}"
 
         positions = ", ".join(f'"{label}" = {x}' for label, x in zip(labels["C"], self.points))

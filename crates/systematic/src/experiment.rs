@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::bending::flexibility_from_drive_points;
+use super::bends::{Bend, between_bolts};
 use super::cause::Side;
 use super::modal_fit::ModalFit;
 
@@ -94,6 +95,8 @@ pub struct Measured {
     pub correction: Option<[DMatrix<f64>; 2]>,
     /// 1/EI of the structure beside each bolt, 1/(N·m²); empty where the joint has no rotation.
     pub flexibility: Vec<f64>,
+    /// What a sensor beside each bolt reads of the bending between two of them, where that is known.
+    pub(crate) bends: Vec<Option<Bend>>,
 }
 
 impl Measured {
@@ -111,6 +114,7 @@ impl Measured {
             transformation,
             correction,
             flexibility: Vec::new(),
+            bends: Vec::new(),
         };
         new.flexibility = match bending_stiffness_n_m2 {
             Some(stiffness) if joint.has_rotation() => vec![stiffness.recip(); joint.bolts()],
@@ -121,6 +125,15 @@ impl Measured {
             }
         };
         new
+    }
+
+    /// With the positions of the bolts along the structure, m, where they are known.
+    #[must_use]
+    pub fn with_bolts_at(self, positions_m: &[Option<f64>], joint: &JointShape) -> Self {
+        Self {
+            bends: between_bolts(positions_m, &self.flexibility, joint),
+            ..self
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod bending;
+mod bends;
 mod budget;
 mod cause;
 mod consistency;

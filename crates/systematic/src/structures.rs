@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 use rayon::prelude::*;
 
+use super::bends::Beside;
 use super::budget::Prior;
 use super::cause::{Cause, Side};
 use super::experiment::{Change, ComplexMatrix, Computed, Experiment, Measured, Structure};
@@ -159,6 +160,13 @@ impl Measured {
         formed
     }
 
+    fn beside(&self, dofs_of_a_bolt: usize, bolt: usize) -> Beside<'_> {
+        Beside {
+            y: bolt * dofs_of_a_bolt,
+            bend: self.bends.get(bolt).and_then(Option::as_ref),
+        }
+    }
+
     /// The same with the causes: EI of the correction, and the joint where it is.
     pub(crate) fn formed(
         &self,
@@ -176,7 +184,7 @@ impl Measured {
         for (prior, &value) in priors.iter().zip(values) {
             match prior.cause {
                 Cause::JointPosition(of, bolt) if of == side && value != 0.0 => {
-                    shift(&mut formed, dofs_of_a_bolt, bolt, value)
+                    self.beside(dofs_of_a_bolt, bolt).shift(&mut formed, value)
                 }
                 Cause::JointBending(of, bolt) if of == side => {
                     let theta = bolt * dofs_of_a_bolt + 1;
@@ -204,7 +212,7 @@ impl Measured {
                 Some(change)
             }
             Cause::JointPosition(of, bolt) if of == side => {
-                Some(-displaced(formed, dofs_of_a_bolt, bolt))
+                Some(-self.beside(dofs_of_a_bolt, bolt).displaced(formed))
             }
             Cause::JointBending(of, bolt) if of == side => {
                 let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
@@ -215,30 +223,6 @@ impl Measured {
             _ => None,
         }
     }
-}
-
-/// (1 − δT) H (1 − δT)ᵀ: what was measured δ away from the joint, carried to it as by a rigid arm.
-fn shift(formed: &mut ComplexMatrix, dofs_of_a_bolt: usize, bolt: usize, by_m: f64) {
-    let (y, theta) = (bolt * dofs_of_a_bolt, bolt * dofs_of_a_bolt + 1);
-    for other in 0..formed.ncols() {
-        let turned = formed[(theta, other)];
-        formed[(y, other)] -= turned * by_m;
-    }
-    for other in 0..formed.nrows() {
-        let turned = formed[(other, theta)];
-        formed[(other, y)] -= turned * by_m;
-    }
-}
-
-/// T H + H Tᵀ, T having the bolt's rotation in the row of its translation: what was measured a unit away from the joint.
-fn displaced(formed: &ComplexMatrix, dofs_of_a_bolt: usize, bolt: usize) -> ComplexMatrix {
-    let (y, theta) = (bolt * dofs_of_a_bolt, bolt * dofs_of_a_bolt + 1);
-    let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
-    for other in 0..formed.nrows() {
-        change[(y, other)] += formed[(theta, other)];
-        change[(other, y)] += formed[(other, theta)];
-    }
-    change
 }
 
 fn add_at_joint(formed: &mut ComplexMatrix, part: &DMatrix<f64>) {

@@ -171,20 +171,23 @@ fn structure<'a>(
             }))
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
-        (_, Receptances::Measured(measured)) => Some(Structure::Measured(Measured::new(
-            functions(
-                measured.as_measured(),
-                &labels(study, side, lines),
-                &|rotations, own| {
-                    let of = Of::Substructure(of);
-                    (levels.of(of), study.noise.floor(of, rotations, || own))
-                },
-            )?,
-            measured.transformation().clone(),
-            substructure.rotation_lost(study.dofs_of_a_bolt()),
-            substructure.section().map(Section::bending_stiffness_n_m2),
-            joint,
-        ))),
+        (_, Receptances::Measured(measured)) => Some(Structure::Measured(
+            Measured::new(
+                functions(
+                    measured.as_measured(),
+                    &labels(study, side, lines),
+                    &|rotations, own| {
+                        let of = Of::Substructure(of);
+                        (levels.of(of), study.noise.floor(of, rotations, || own))
+                    },
+                )?,
+                measured.transformation().clone(),
+                substructure.rotation_lost(study.dofs_of_a_bolt()),
+                substructure.section().map(Section::bending_stiffness_n_m2),
+                joint,
+            )
+            .with_bolts_at(&substructure.bolts_m(), joint),
+        )),
     }
 }
 

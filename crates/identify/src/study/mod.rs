@@ -139,9 +139,19 @@ pub struct MeasuredJoint {
     pub y: Dof,
     /// Its rotation, where the study names one.
     pub theta: Option<Rotation>,
+    /// Its position along the structure, m, where the study states it.
+    pub x_m: Option<f64>,
 }
 
 impl Substructure {
+    /// Positions of the bolts of a measured structure along it, m, where the study states them.
+    pub(super) fn bolts_m(&self) -> Vec<Option<f64>> {
+        match self {
+            Self::Measured { joints, .. } => joints.iter().map(|joint| joint.x_m).collect(),
+            Self::Beam { .. } | Self::Ground { .. } => Vec::new(),
+        }
+    }
+
     /// The cross-section at the joint, where the study states it.
     pub(super) fn section(&self) -> Option<&Section> {
         match self {

@@ -138,7 +138,7 @@ pub(crate) fn substructure(
     let mut joints = Vec::new();
     for (key, place) in places_of_bolts(study, key, places, bolts)? {
         add_mass(study, &key, &place, model, &mut set_up)?;
-        let (None, Some(y)) = (place.x, place.y) else {
+        let Some(y) = place.y else {
             return study.refuse(
                 key,
                 keys_given(&place),
@@ -146,7 +146,16 @@ pub(crate) fn substructure(
             );
         };
         let theta = rotation(study, &key, y, place.theta, model)?;
-        joints.push(MeasuredJoint { y, theta });
+        let x_m = place.x.map(|x| x.value);
+        study.ensure(
+            x_m.is_none_or(f64::is_finite),
+            format_args!("{key}.x"),
+            x_m.unwrap_or_default(),
+            "the bolt's position along the structure in m",
+        )?;
+        let x_deviation = place.x.and_then(|x| x.standard_deviation());
+        set_up.deviations.joints_m.push(x_deviation);
+        joints.push(MeasuredJoint { y, theta, x_m });
     }
     apart(study, key, &joints, bolts)?;
     let section = match &table.section {

@@ -9,7 +9,28 @@
 //! A moment on the bolt makes w″ jump there by 1/EI. Where it acts and the rotation is measured at the same place δ beside the
 //! bolt, half of what is measured is on either side of it: ∂H_θθ/∂δ = 2w″ ± 1/EI.
 
+use num_complex::Complex64;
+
 use super::experiment::{ComplexMatrix, JointShape};
+
+/// How a structure bends beside a bolt.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct AtBolt {
+    /// 1/EI, rad/(N·m²)
+    pub(crate) flexibility: f64,
+    /// Between this bolt and the next, where that is known.
+    pub(crate) bend: Option<Bend>,
+}
+
+impl AtBolt {
+    /// Without another bolt.
+    pub(crate) fn alone(flexibility: f64) -> Self {
+        Self {
+            flexibility,
+            bend: None,
+        }
+    }
+}
 
 /// What a sensor beside a bolt reads, for each metre.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,17 +41,16 @@ pub(crate) struct Bend {
     jump: f64,
 }
 
-/// That of each bolt whose position, and that of another one, is known. 1/EI beside the bolts is the largest: what drive points
-/// tell of a bolt that is not at the structure's end is too little.
+/// That of each bolt whose position, and that of another one, is known. 1/EI is the largest beside any bolt: what drive points
+/// tell of one that is not at the structure's end is too little.
 pub(crate) fn between_bolts(
     positions_m: &[Option<f64>],
-    flexibility: &[f64],
+    flexibility: f64,
     joint: &JointShape,
 ) -> Vec<Option<Bend>> {
     if !joint.has_rotation() {
         return Vec::new();
     }
-    let flexibility = flexibility.iter().copied().fold(0.0, f64::max);
     let of_bolt = |bolt: usize, x: f64| -> Option<Bend> {
         let others = positions_m.iter().enumerate();
         let others = others.filter_map(|(other, place)| Some((other, (*place)? - x)));
@@ -61,7 +81,7 @@ pub(crate) struct Beside<'b> {
 impl Beside<'_> {
     /// T H, T having the bolt's rotation in the row of its translation, and the curvature in the row of its rotation: these two
     /// rows.
-    fn turned(&self, formed: &ComplexMatrix) -> [Vec<num_complex::Complex64>; 2] {
+    fn turned(&self, formed: &ComplexMatrix) -> [Vec<Complex64>; 2] {
         let columns = 0..formed.ncols();
         let rotation = columns.clone().map(|other| formed[(self.y + 1, other)]);
         let curvature = columns.map(|other| {
@@ -108,8 +128,6 @@ impl Beside<'_> {
 
 #[cfg(test)]
 mod tests {
-    use num_complex::Complex64;
-
     use super::*;
 
     fn joint() -> JointShape {
@@ -145,7 +163,7 @@ mod tests {
     #[test]
     fn what_is_measured_beside_a_bolt_of_a_cantilever_is_carried_to_it() {
         let (places, by) = ([0.5, 0.8], 1e-6);
-        let bends = between_bolts(&places.map(Some), &[0.25, 1.0], &joint());
+        let bends = between_bolts(&places.map(Some), 1.0, &joint());
         for bolt in 0..2 {
             let beside = Beside {
                 y: 2 * bolt,
@@ -167,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_bolt_alone_has_a_rigid_arm() {
-        let alone = between_bolts(&[Some(0.5), None], &[1.0, 1.0], &joint());
+        let alone = between_bolts(&[Some(0.5), None], 1.0, &joint());
         assert_eq!(alone, [None, None]);
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::bending::flexibility_from_drive_points;
-use super::bends::{Bend, between_bolts};
+use super::bends::{AtBolt, between_bolts};
 use super::cause::Side;
 use super::modal_fit::ModalFit;
 
@@ -93,10 +93,8 @@ pub struct Measured {
     pub transformation: DMatrix<f64>,
     /// What rotations by differences lack, with its derivative by ln EI: real, at the joint's DOFs, rad/(N·m) and so on.
     pub correction: Option<[DMatrix<f64>; 2]>,
-    /// 1/EI of the structure beside each bolt, 1/(N·m²); empty where the joint has no rotation.
-    pub flexibility: Vec<f64>,
-    /// What a sensor beside each bolt reads of the bending between two of them, where that is known.
-    pub(crate) bends: Vec<Option<Bend>>,
+    /// How the structure bends beside each bolt; empty where the joint has no rotation.
+    pub(crate) at_bolts: Vec<AtBolt>,
 }
 
 impl Measured {
@@ -113,10 +111,9 @@ impl Measured {
             functions,
             transformation,
             correction,
-            flexibility: Vec::new(),
-            bends: Vec::new(),
+            at_bolts: Vec::new(),
         };
-        new.flexibility = match bending_stiffness_n_m2 {
+        let flexibility = match bending_stiffness_n_m2 {
             Some(stiffness) if joint.has_rotation() => vec![stiffness.recip(); joint.bolts()],
             Some(_) => Vec::new(),
             None => {
@@ -124,16 +121,20 @@ impl Measured {
                 flexibility_from_drive_points(&new.functions, formed, joint)
             }
         };
+        new.at_bolts = flexibility.into_iter().map(AtBolt::alone).collect();
         new
     }
 
     /// With the positions of the bolts along the structure, m, where they are known.
     #[must_use]
-    pub fn with_bolts_at(self, positions_m: &[Option<f64>], joint: &JointShape) -> Self {
-        Self {
-            bends: between_bolts(positions_m, &self.flexibility, joint),
-            ..self
+    pub fn with_bolts_at(mut self, positions_m: &[Option<f64>], joint: &JointShape) -> Self {
+        let flexibility = self.at_bolts.iter().map(|bolt| bolt.flexibility);
+        let flexibility = flexibility.fold(0.0, f64::max);
+        let bends = between_bolts(positions_m, flexibility, joint);
+        for (bolt, bend) in self.at_bolts.iter_mut().zip(bends) {
+            bolt.bend = bend;
         }
+        self
     }
 }
 

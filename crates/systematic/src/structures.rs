@@ -163,7 +163,7 @@ impl Measured {
     fn beside(&self, dofs_of_a_bolt: usize, bolt: usize) -> Beside<'_> {
         Beside {
             y: bolt * dofs_of_a_bolt,
-            bend: self.bends.get(bolt).and_then(Option::as_ref),
+            bend: self.at_bolts.get(bolt).and_then(|at| at.bend.as_ref()),
         }
     }
 
@@ -188,7 +188,7 @@ impl Measured {
                 }
                 Cause::JointBending(of, bolt) if of == side => {
                     let theta = bolt * dofs_of_a_bolt + 1;
-                    formed[(theta, theta)] -= self.flexibility[bolt] * value;
+                    formed[(theta, theta)] -= self.at_bolts[bolt].flexibility * value;
                 }
                 _ => {}
             }
@@ -217,7 +217,7 @@ impl Measured {
             Cause::JointBending(of, bolt) if of == side => {
                 let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
                 let theta = bolt * dofs_of_a_bolt + 1;
-                change[(theta, theta)] = Complex64::from(-self.flexibility[bolt]);
+                change[(theta, theta)] = Complex64::from(-self.at_bolts[bolt].flexibility);
                 Some(change)
             }
             _ => None,

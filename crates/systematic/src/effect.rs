@@ -313,6 +313,7 @@ mod tests {
             let prior = [Prior {
                 cause,
                 standard_deviation: 1.0,
+                centre: 0.0,
             }];
             let measured = |value: f64| -> Vec<Complex64> {
                 let beside = at.beside(&prior, &[value]);

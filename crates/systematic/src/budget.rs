@@ -186,9 +186,7 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
         let rows = functions.responses().into_iter();
         causes.extend(rows.map(|row| Cause::ChannelGain(set, row)));
     }
-    if experiment.knows_slopes() {
-        let points = 0..experiment.points();
-        causes.extend(points.map(Cause::Position));
-    }
+    let points = experiment.points_with_slopes();
+    causes.extend(points.into_iter().map(Cause::Position));
     causes
 }

@@ -75,17 +75,3 @@ def test_before_any_fit_a_reversed_response_breaks_reciprocity(program, tmp_path
     done, _ = identified(program, tmp_path, change(rig.test_data(rig.Mistakes(), 0.01, seed=3)))
     assert "the function from 12:+Y to 11:+Y has the opposite sign of that from 11:+Y to 12:+Y" in done.stderr
     assert "the drive point at 12:+Y feeds energy into the structure" in done.stderr
-
-
-def test_before_any_fit_functions_that_a_passive_structure_cannot_have_are_named(program, tmp_path):
-    """Both functions between two points in other units: they are reciprocal, and each drive point is sound."""
-    frequency = rig.FREQUENCY[::6]
-    sets = rig.test_data(rig.Mistakes(), 0.01, 3, frequency)
-    for row, column in ((0, 2), (2, 0)):
-        sets["C"][:, row, column] *= 1e3
-    study = rig.write(tmp_path, sets, 0.01, frequency, budget='"none"')
-    done = subprocess.run([program, "identify", study, "-o", tmp_path / "joint.json"], capture_output=True, text=True, encoding="utf-8")
-    assert done.returncode == 3
-    assert "the function from 13:+Y to 11:+Y is" in done.stderr
-    assert "times as large as those at 11:+Y and at 13:+Y allow in a structure that feeds no energy" in done.stderr
-    assert "reciprocal" not in done.stderr and "12:+Y" not in done.stderr

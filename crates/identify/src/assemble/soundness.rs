@@ -1,5 +1,5 @@
 //! What a set of functions says of itself before anything is fitted: whether it is reciprocal, and whether its drive points take up
-//! energy, and enough of it for the functions between them.
+//! energy.
 
 use std::path::Path;
 
@@ -14,9 +14,6 @@ const RECIPROCAL: f64 = 0.2;
 const MORE_ALIKE: f64 = 0.3;
 /// A drive point whose imaginary parts are positive on balance, by this part of their sum, feeds energy instead of taking it up.
 const ACTIVE: f64 = 0.5;
-/// A function may have so many times the imaginary part that its drive points allow: noise and accelerometers of some grams make
-/// it up to three times as large, a wrong unit ten times or more.
-const BEYOND_PASSIVE: f64 = 4.0;
 
 /// What is wrong with functions between `labels`, each with the file's name.
 pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec<String> {
@@ -31,22 +28,6 @@ pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec
             found.extend(complaint.map(|complaint| {
                 let [one, other] = [labels[p], labels[q]];
                 format!("the function from {other} to {one} {complaint} from {one} to {other}")
-            }));
-        }
-        let drive_points = [p, q].map(|dof| (dof, dof));
-        if p != q
-            && drive_points
-                .iter()
-                .all(|of| functions.measured.contains(of))
-        {
-            let drive_points = [p, q].map(|dof| functions.function(dof, dof));
-            let beyond = beyond_passive(functions.function(p, q), drive_points);
-            found.extend(beyond.filter(|of| *of > BEYOND_PASSIVE).map(|beyond| {
-                let [one, other] = [labels[p], labels[q]];
-                format!(
-                    "the function from {other} to {one} is {beyond:.1} times as large as those at {one} and at {other} allow in a \
-                     structure that feeds no energy: it or they have another unit or scale"
-                )
             }));
         }
     }
@@ -69,16 +50,6 @@ fn is_active(drive_point: &[Complex64]) -> bool {
     let parts: Vec<f64> = parts.filter(|part| part.is_finite()).collect();
     let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
     parts.iter().sum::<f64>() > ACTIVE * sizes
-}
-
-/// How many times as large the imaginary part of a function is as those of its drive points allow: of a passive structure −Im H is
-/// positive semidefinite, so that (Im H_pq)² ≤ Im H_pp Im H_qq. Sums over the lines, in which resonances weigh most.
-fn beyond_passive(function: &[Complex64], [p, q]: [&[Complex64]; 2]) -> Option<f64> {
-    let own: f64 = function.iter().map(|h| h.im.abs()).sum();
-    let drive_points = p.iter().zip(q);
-    let allowed: f64 = drive_points.map(|(p, q)| (p.im * q.im).abs().sqrt()).sum();
-    let beyond = own / allowed;
-    beyond.is_finite().then_some(beyond)
 }
 
 /// How two functions that should be the same differ; `None` where they are.
@@ -131,29 +102,6 @@ mod tests {
         };
         assert!(is_active(&of(|h| -h)));
         assert!(is_active(&of(|h| h.conj())));
-    }
-
-    #[test]
-    fn a_function_is_no_larger_than_its_drive_points_allow() {
-        // two modes with the shapes (1, 2) and (3, −1): H_pq = Σ φ_p φ_q g
-        let modes: Vec<[Complex64; 2]> = (1..100)
-            .map(|line| [resonance(line), resonance(line + 30)])
-            .collect();
-        let of = |shapes: [f64; 2]| -> Vec<Complex64> {
-            let sum = |[one, other]: &[Complex64; 2]| one * shapes[0] + other * shapes[1];
-            modes.iter().map(sum).collect()
-        };
-        let drive_points = [of([1.0, 9.0]), of([4.0, 1.0])];
-        let drive_points = || [drive_points[0].as_slice(), drive_points[1].as_slice()];
-        let beyond = |factor: f64| {
-            let function = of([2.0 * factor, -3.0 * factor]);
-            beyond_passive(&function, drive_points()).unwrap()
-        };
-        assert!(beyond(1.0) <= 1.0, "{}", beyond(1.0));
-        assert!((beyond(1e3) / beyond(1.0) - 1e3).abs() < 1e-9);
-        // without any damping nothing can be said
-        let undamped = [Complex64::from(1.0)];
-        assert_eq!(beyond_passive(&undamped, [&undamped, &undamped]), None);
     }
 
     #[test]

@@ -50,6 +50,21 @@ fn an_active_estimate_is_reported_and_its_passive_neighbour_is_written() {
     assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
     let free = &file["uncertainty"]["free_estimate"]["damping"];
     assert!((free[0][1].as_f64().unwrap() - 0.3).abs() < 1e-6);
+    // intervals are those of what is written
+    for matrix in ["stiffness", "damping"] {
+        let values = matrix_of(&file, matrix);
+        let ends = |row: usize, column: usize| {
+            let interval = &file["uncertainty"]["interval_95"][matrix][row][column];
+            [0, 1].map(|end| interval[end].as_f64().unwrap())
+        };
+        for (row, column) in [(0, 0), (0, 1), (1, 1)] {
+            let ([low, high], value) = (ends(row, column), values[(row, column)]);
+            assert!(
+                low <= value && value <= high,
+                "{matrix} {value} in {low}…{high}"
+            );
+        }
+    }
     bench.done("export o.joint.json -o o.fmu");
 }
 

@@ -1,4 +1,4 @@
-"""Table of mistakes for docs/set-up-errors.md: `python tests/systematic/table.py [SEEDS]`."""
+"""Table of mistakes for docs/set-up-errors.md: `python tests/systematic/table.py [SEEDS [WORDS OF CASES]]`."""
 
 import functools
 import os
@@ -14,18 +14,21 @@ from rig import Mistakes
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def main(seeds):
+def main(seeds, words):
     program = pathlib.Path(os.environ.get("BOLTED_JOINT", ROOT / "target/release/bolted-joint"))
     named, said, total = {1: 0, 3: 0}, 0, 0
     print("| mistake | noise alone: z | with the budget: z | first named | size that is found | rank |\n|---|---|---|---|---|---|")
-    for case, of in {"none": Case(Mistakes(), "", 0.0), **{k: v for k, v in CASES.items() if not sys.argv[2:] or any(a in k for a in sys.argv[2:])}}.items():
-        plain, careful, first, found, ranks = [], [], [], [], []
+    wanted = {case: of for case, of in CASES.items() if not words or any(word in case for word in words)}
+    for case, of in {"none": Case(Mistakes(), "", 0.0), **wanted}.items():
+        plain, careful, first, found, ranks, refused = [], [], [], [], [], 0
         for seed in range(1, seeds + 1):
             with tempfile.TemporaryDirectory() as folder:
                 run = functools.partial(identified, program, pathlib.Path(folder), of.mistakes, seed, 0.01)
                 plain.append(abs(run('"none"', **of.options).z).max())
                 result = run(**of.options)
-            careful.append(abs(result.z).max())
+            if result.whole["usable"]:
+                careful.append(abs(result.z).max())
+            refused += not result.whole["usable"]
             first.append(result.suspects[0] if result.suspects else "nothing")
             if of.cause:
                 total += 1
@@ -38,7 +41,8 @@ def main(seeds):
                     suspect = result.budget["suspects"][result.suspects.index(of.cause)]
                     found.append(suspect["value"] / of.size)
         print(
-            f"| {case} | {np.median(plain):.1f} | {np.median(careful):.1f} | {max(set(first), key=first.count)} "
+            f"| {case} | {np.median(plain):.1f} | {np.median(careful or [np.nan]):.1f}{f', {refused} refused' * bool(refused)} "
+            f"| {max(set(first), key=first.count)} "
             f"| {'–' if not found else f'{100 * np.median(found):.0f} %'} | {', '.join(map(str, ranks))} |",
             flush=True,
         )
@@ -46,4 +50,4 @@ def main(seeds):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 2)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 2, sys.argv[2:])

@@ -4,6 +4,7 @@ import bolted
 import numpy as np
 import pytest
 import rig
+from conftest import run
 from mistakes import CASES, drawn
 from rig import Mistakes
 
@@ -84,6 +85,20 @@ def test_a_mistake_that_no_budget_allows_is_said_in_a_sentence(identify):
     assert "the data contradict the error budget: delay of A is" in found.stderr
     contradicted = [cause["cause"] for cause in found.budget["causes"] if cause["contradicted"]]
     assert "delay of A" in contradicted
+
+
+def test_what_no_cause_explains_is_said_to_have_none(program, tmp_path):
+    """A mode at 210 Hz that the assembly alone has, as of a suspension."""
+    sets = rig.test_data(Mistakes(), 0.01, 3)
+    omega, of_mode = 2 * np.pi * rig.FREQUENCY, 2 * np.pi * 210
+    resonance = 3e-8 * of_mode**2 / (of_mode**2 - omega**2 + 0.02j * of_mode * omega)
+    shape = np.array([1.0, -0.7, 1.3])
+    sets["C"] = sets["C"] + resonance[:, None, None] * np.outer(shape, shape)
+    found = run(program, rig.write(tmp_path, sets, 0.01))
+    assert found.suspects == []
+    assert "none of the causes in it explains what is left" in found.stderr
+    # what is left widens the intervals
+    assert abs(found.z).max() < 4, found.z
 
 
 def test_a_limit_can_be_exact_or_wider(identify):

@@ -167,18 +167,23 @@ def test_assemblies_with_other_points_say_why_no_cause_takes_part(program, tmp_p
     assert "its deviations are those of noise alone" in stderr
 
 
-def test_a_bootstrap_with_the_budget_draws_the_causes_too(program, tmp_path, monkeypatch):
+def test_a_bootstrap_scatters_as_the_budget_says(program, tmp_path, monkeypatch):
+    """What was read off of the set-up is drawn anew with the noise. As many draws as these tell a deviation to 11 %, whatever it is:
+    the ratio of its estimate to itself has the relative deviation 1/√(2n). Drawing the causes themselves led to scatters that were
+    1.2 to 1.9 times what is said."""
+    draws = 40
     sets = assemblies(monkeypatch, [Mistakes()], [1], 5)
-    options = ["--bootstrap", "12", "--seed", "7", "--no-rivals"]
-    whole, _ = identify(program, tmp_path, sets, options=options)
+    whole, _ = identify(program, tmp_path, sets, options=["--bootstrap", str(draws), "--seed", "7", "--no-rivals"])
     record = whole["joint_file"]["uncertainty"]["bootstrap"]
-    assert record["drawn"] == "noise-and-set-up" and record["converged"] >= 9
+    assert record["drawn"] == "noise-and-set-up" and record["converged"] >= 0.9 * draws
     ratio = entries(record["standard_deviation"]) / of_common(whole)[1]
-    # Twelve draws tell a deviation to 21 %. How well the data tell the joint depends on the errors that they have: with others,
-    # drawn anew, deviations of the damping are up to three times those of data without any.
-    assert (ratio > 0.5).all() and (ratio < 3).all(), ratio
-    # by noise alone the first three are several times smaller
-    noise = np.array(whole["budget"]["standard_deviation_of_noise"])
-    assert (entries(record["standard_deviation"])[:3] > 1.5 * noise[:3]).all()
-    plain, _ = identify(program, tmp_path, sets, budget='"none"', options=options)
+    bound = 3 / np.sqrt(2 * record["converged"])
+    assert (abs(ratio - 1) < bound).all(), (ratio, bound)
+    # all six at once; those of an entry's stiffness and damping go together, so that they count as three
+    assert abs(np.log(ratio).mean()) < bound / np.sqrt(3), ratio
+
+
+def test_a_bootstrap_says_whether_causes_are_drawn(program, tmp_path, monkeypatch):
+    sets = assemblies(monkeypatch, [Mistakes()], [1], 5)
+    plain, _ = identify(program, tmp_path, sets, budget='"none"', options=["--bootstrap", "4", "--no-rivals"])
     assert plain["joint_file"]["uncertainty"]["bootstrap"]["drawn"] == "noise"

@@ -244,7 +244,7 @@ pub fn identify_and_draw(
         .is_some_and(Systematic::explains_the_data);
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
-    reasons_against.extend(reliability::because_of(&slips));
+    reasons_against.extend(reliability::because_of(&slips, &estimate.assessment));
     if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }

@@ -22,9 +22,11 @@ pub struct Lines {
     pub a: Receptances,
     /// H_kk, H_ks, H_sk, H_ss of B: the joint's DOFs, then the points.
     pub b: Receptances,
+    /// Both apart, each at the joint's DOFs and its own points, where `b` is both as one: the assembly was measured on A, too.
+    pub apart: Option<[Receptances; 2]>,
     /// H^C_ss at each line.
     pub assembly: Vec<ComplexMatrix>,
-    /// Points of B at which the assembly was measured: rows and columns of H^C_ss.
+    /// Points at which the assembly was measured, those of B and then those of A: rows and columns of H^C_ss.
     pub points: Vec<Dof>,
     /// Entries (row, column) of H^C_ss that were measured; the others follow from them by reciprocity.
     pub measured: Vec<(usize, usize)>,
@@ -95,6 +97,8 @@ impl Lines {
             frequency_hz: chosen(&self.frequency_hz, lines),
             a: self.a.at_lines(lines),
             b: self.b.at_lines(lines),
+            apart: (self.apart.as_ref())
+                .map(|apart| apart.each_ref().map(|own| own.at_lines(lines))),
             assembly: chosen(&self.assembly, lines),
             points: self.points.clone(),
             measured: self.measured.clone(),
@@ -106,6 +110,13 @@ impl Lines {
             }),
             floors: self.floors().to_vec().into(),
         }
+    }
+
+    /// Receptances of A and of B, each at the joint's DOFs and then its own points.
+    pub(super) fn structures(&self) -> [&Receptances; 2] {
+        self.apart
+            .as_ref()
+            .map_or([&self.a, &self.b], |apart| apart.each_ref())
     }
 
     /// DOFs of the joint, those of all bolts; 0 without lines.

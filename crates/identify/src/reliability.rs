@@ -8,7 +8,7 @@ use super::identification::{AssemblyFit, Identification};
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
-use super::slips::FoundSlip;
+use super::slips::{FoundSlip, are_certain};
 
 /// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
 /// cent around the resonances; beyond this the computed structure is another one than the measured one.
@@ -27,10 +27,18 @@ const MOST_OF_COHERENCE: f64 = 2.0;
 /// χ² per degree of freedom beyond which a residual is more than noise of the stated size.
 const MOST_WITHOUT_BUDGET: f64 = 1.3;
 
-/// What slips that explain the residual say against the estimate.
-pub(super) fn because_of(slips: &[FoundSlip]) -> Option<String> {
+/// What slips that explain the residual, or a large part of it, say against the estimate.
+pub(super) fn because_of(slips: &[FoundSlip], assessment: &Assessment) -> Option<String> {
     let words: Vec<String> = slips.iter().map(FoundSlip::to_string).collect();
-    (!words.is_empty()).then(|| format!("the data fit if {}", words.join(", or if ")))
+    // without a stated noise nobody knows how much is left
+    let is_all = assessment.reduced_chi_squared.is_none()
+        || !assessment.noise_is_stated
+        || are_certain(slips, assessment);
+    let how = match is_all {
+        true => "the data fit",
+        false => "the data fit less badly, but not well,",
+    };
+    (!words.is_empty()).then(|| format!("{how} if {}", words.join(", or if ")))
 }
 
 /// What speaks against an estimate for which none with the errors of the set-up was found, where these would have to explain it.

@@ -65,6 +65,16 @@ pub struct Prior {
     pub cause: Cause,
     /// Standard deviation before the measurement, in the unit of the cause.
     pub standard_deviation: f64,
+    /// Most likely value before the measurement, in the unit of the cause: zero, unless the set-up is drawn anew.
+    pub centre: f64,
+}
+
+impl Prior {
+    /// How far a value is from the centre, in standard deviations.
+    #[must_use]
+    pub fn pull(&self, value: f64) -> f64 {
+        (value - self.centre) / self.standard_deviation
+    }
 }
 
 impl Budget {
@@ -127,6 +137,7 @@ pub fn priors(experiment: &Experiment<'_>, deviation: impl Fn(Cause) -> f64) -> 
         .map(|cause| Prior {
             cause,
             standard_deviation: deviation(cause),
+            centre: 0.0,
         })
         .filter(|prior| prior.standard_deviation > 0.0)
         .collect()
@@ -175,9 +186,7 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
         let rows = functions.responses().into_iter();
         causes.extend(rows.map(|row| Cause::ChannelGain(set, row)));
     }
-    if experiment.knows_slopes() {
-        let points = 0..experiment.points();
-        causes.extend(points.map(Cause::Position));
-    }
+    let points = experiment.points_with_slopes();
+    causes.extend(points.into_iter().map(Cause::Position));
     causes
 }

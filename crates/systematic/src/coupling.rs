@@ -70,55 +70,62 @@ pub(crate) struct Coupled {
     pub(crate) receptance: ComplexMatrix,
     /// Q = (I + Y D)⁻¹ G, motion at the joint by loads at the points, 2n × p.
     q: ComplexMatrix,
-    /// What a change of H_A does: dH^C = Z_Aᵀ dH_A Z_A.
+    /// What a change of H_A does, joint and points: dH^C = Z_Aᵀ dH_A Z_A.
     through_a: ComplexMatrix,
-    /// What a change of H_B does, joint and points.
+    /// The same of H_B.
     through_b: ComplexMatrix,
     joint: DynamicStiffness,
 }
 
 impl Coupled {
-    /// Y = diag(H_A, H_B,jj), G = [0; H_B,jp], X = D Q: H^C = H_B,pp − Gᵀ X; K* is never inverted. `None` where I + Y D is
-    /// singular.
+    /// At the points of B and then of A: Y = diag(H_A,jj, H_B,jj), G = [0 H_A,jp; H_B,jp 0], X = D Q:
+    /// H^C = diag(H_B,pp, H_A,pp) − Gᵀ X; K* is never inverted. `None` where I + Y D is singular.
     pub(crate) fn of(
         a: &ComplexMatrix,
         b: &ComplexMatrix,
         joint: DynamicStiffness,
     ) -> Option<Self> {
-        let n = a.nrows();
-        let points = b.nrows() - n;
+        let n = joint.stiffness.nrows();
+        let (of_b, of_a) = (b.nrows() - n, a.nrows() - n);
+        let points = of_b + of_a;
+        // where a structure's joint and points begin
+        let places = [(a, 0, of_b, of_a), (b, n, 0, of_b)];
         let mut free = ComplexMatrix::zeros(2 * n, 2 * n);
-        free.view_mut((0, 0), (n, n)).copy_from(a);
-        free.view_mut((n, n), (n, n))
-            .copy_from(&b.view((0, 0), (n, n)));
         let mut transfer = ComplexMatrix::zeros(2 * n, points);
-        transfer
-            .view_mut((n, 0), (n, points))
-            .copy_from(&b.view((0, n), (n, points)));
+        let mut apart = ComplexMatrix::zeros(points, points);
+        for (own, dof, point, count) in places {
+            let put = |to: &mut ComplexMatrix, at, from, size| {
+                to.view_mut(at, size).copy_from(&own.view(from, size));
+            };
+            put(&mut free, (dof, dof), (0, 0), (n, n));
+            put(&mut transfer, (dof, point), (0, n), (n, count));
+            put(&mut apart, (point, point), (n, n), (count, count));
+        }
         let mut system = &free * &joint.matrix;
         for i in 0..2 * n {
             system[(i, i)] += 1.0;
         }
         let q = system.lu().solve(&transfer)?;
         let x = &joint.matrix * &q;
-        let receptance = b.view((n, n), (points, points)) - transfer.transpose() * &x;
+        let receptance = apart - transfer.transpose() * &x;
         if !receptance
             .iter()
             .all(|value| value.re.is_finite() && value.im.is_finite())
         {
             return None;
         }
-        let mut through_b = ComplexMatrix::zeros(n + points, points);
-        for point in 0..points {
-            for dof in 0..n {
-                through_b[(dof, point)] = -x[(n + dof, point)];
+        let [through_a, through_b] = places.map(|(_, dof, point, count)| {
+            let mut through = ComplexMatrix::zeros(n + count, points);
+            through.rows_mut(0, n).copy_from(&-x.rows(dof, n));
+            for own in 0..count {
+                through[(n + own, point + own)] = Complex64::from(1.0);
             }
-            through_b[(n + point, point)] = Complex64::from(1.0);
-        }
+            through
+        });
         Some(Self {
             receptance,
             q,
-            through_a: x.rows(0, n).into_owned(),
+            through_a,
             through_b,
             joint,
         })
@@ -156,13 +163,13 @@ impl Coupled {
         q.transpose() * q * Complex64::from(omega * omega)
     }
 
-    /// What follows a change of A's receptances at the joint, of B's at joint and points.
+    /// What follows a change of a structure's receptances at joint and points.
     pub(crate) fn by_structure(&self, is_a: bool, change: &ComplexMatrix) -> ComplexMatrix {
         let through = self.through(is_a);
         through.transpose() * change * through
     }
 
-    /// Z: n × p for A, (n + p) × p for B.
+    /// Z: joint and points of the structure × points of both.
     pub(crate) fn through(&self, is_a: bool) -> &ComplexMatrix {
         if is_a {
             &self.through_a
@@ -194,6 +201,43 @@ mod tests {
         DynamicStiffness::of(&shape, &joint, OMEGA)
     }
 
+    /// Both structures seen at their masses at the joint and, in this order, at the third mass and at the first.
+    #[test]
+    fn points_on_both_sides_are_those_of_one_matrix() {
+        let (a, b) = structures();
+        // the mass of A at the joint is a point, too
+        let a = ComplexMatrix::from_element(2, 2, a[(0, 0)]);
+        let coupled = Coupled::of(&a, &b, joint(700.0, 0.1, 0.3)).unwrap();
+        let whole = whole_matrix(700.0, 0.1, 0.3).try_inverse().unwrap();
+        let places = [2, 0];
+        for (i, p) in places.into_iter().enumerate() {
+            for (j, q) in places.into_iter().enumerate() {
+                let (found, expected) = (coupled.receptance[(i, j)], whole[(p, q)]);
+                assert!((found - expected).norm() < 1e-12 * expected.norm());
+            }
+        }
+        // a change of either structure moves all of them
+        for (is_a, size) in [(true, 2), (false, 2)] {
+            let change = ComplexMatrix::from_fn(size, size, |i, j| {
+                Complex64::new(1e-8 * (1 + i * j) as f64, 2e-8 * (i + j) as f64)
+            });
+            let moved = |sign: f64| {
+                let part = &change * Complex64::from(sign);
+                let (a, b) = if is_a {
+                    (&a + part, b.clone())
+                } else {
+                    (a.clone(), &b + part)
+                };
+                Coupled::of(&a, &b, joint(700.0, 0.1, 0.3))
+                    .unwrap()
+                    .receptance
+            };
+            let by = (moved(1.0) - moved(-1.0)) / Complex64::from(2.0);
+            let found = coupled.by_structure(is_a, &change);
+            assert!((found - &by).norm() < 1e-6 * by.norm(), "{is_a}");
+        }
+    }
+
     fn structures() -> (ComplexMatrix, ComplexMatrix) {
         let square = OMEGA * OMEGA;
         let a = Complex64::new(900.0 - 3.0 * square, 4.0).inv();
@@ -215,11 +259,15 @@ mod tests {
 
     /// The same by one matrix of all three masses.
     fn whole(k: f64, eta: f64, mass_kg: f64) -> Complex64 {
+        whole_matrix(k, eta, mass_kg).try_inverse().unwrap()[(2, 2)]
+    }
+
+    fn whole_matrix(k: f64, eta: f64, mass_kg: f64) -> ComplexMatrix {
         let square = OMEGA * OMEGA;
         let joint = Complex64::new(k, k * eta + 2.0 * OMEGA);
         let zero = Complex64::from(0.0);
         let spring = Complex64::new(500.0, 3.0);
-        let matrix = ComplexMatrix::from_row_slice(
+        ComplexMatrix::from_row_slice(
             3,
             3,
             &[
@@ -233,8 +281,7 @@ mod tests {
                 -spring,
                 spring - 5.0 * square,
             ],
-        );
-        matrix.try_inverse().unwrap()[(2, 2)]
+        )
     }
 
     #[test]

@@ -1,8 +1,11 @@
-//! Data as they would have been measured with other errors of the set-up and other noise: what a parametric bootstrap repeats an
-//! estimate on.
+//! Data as they would have been measured with other noise, and a set-up as it would have been read off with other errors: what a
+//! parametric bootstrap repeats an estimate on.
 //!
-//! What was measured of a structure in its own test stays; what follows from it in the assembly moves with the causes. So a draw
-//! needs no structure whose sensors are elsewhere.
+//! That a cause is zero within its limit is a measurement, too: somebody looked, and it was read off as 0 ± σ. So it is repeated
+//! like all others: the causes stay what the estimate found, and what is read off, the prior's centre, is drawn around that. The
+//! draws scatter as the estimate does at these data. Drawing the causes themselves and reading off zero each time is the same as
+//! long as everything is linear. Where it is not, as with the limits of a careful laboratory, it leads to data whose errors are
+//! other than those of the data at hand, and tells less or more of the joint than these do.
 
 use num_complex::Complex64;
 
@@ -29,30 +32,27 @@ pub struct Origin<'o> {
     pub scale: f64,
 }
 
-/// Puts functions into `experiment` that an experiment at `origin` could have brought, and says which values the causes have in it:
-/// drawn from their priors, but for those that the data contradict, which stay as they were found. `normal` draws from the
-/// standard normal distribution. `None` where the assembly is singular or a structure cannot be computed.
+/// Puts functions into `experiment` that an experiment at `origin` could have brought, and says what would be known of the causes
+/// before: priors around values that are read off anew. `normal` draws from the standard normal distribution. `None` where the
+/// assembly is singular or a structure cannot be computed.
 #[must_use]
 pub fn draw(
     experiment: &mut Experiment<'_>,
     origin: &Origin<'_>,
     normal: &mut dyn FnMut() -> f64,
-) -> Option<Vec<(Cause, f64)>> {
+) -> Option<Vec<Prior>> {
     let priors: Vec<Prior> = origin.causes.iter().map(|cause| cause.prior).collect();
-    let found: Vec<f64> = origin.causes.iter().map(|cause| cause.value).collect();
-    let mut value_of_cause = |cause: &CauseEstimate| match cause.contradicted {
-        Some(_) => cause.value,
-        None => cause.prior.standard_deviation * normal(),
-    };
-    let drawn: Vec<f64> = origin.causes.iter().map(&mut value_of_cause).collect();
-    let task = Task::new(experiment, &priors);
-    let [found, drawn] = [found, drawn].map(|causes| Point {
-        unknowns: origin.unknowns.to_vec(),
-        causes,
+    let read_off = origin.causes.iter().map(|cause| Prior {
+        centre: cause.value + cause.prior.standard_deviation * normal(),
+        ..cause.prior
     });
-    let sets = Sets::of(&task, &found, &drawn)?;
-    let causes = priors.iter().map(|prior| prior.cause);
-    let causes = causes.zip(drawn.causes).collect();
+    let read_off: Vec<Prior> = read_off.collect();
+    let task = Task::new(experiment, &priors);
+    let found = Point {
+        unknowns: origin.unknowns.to_vec(),
+        causes: origin.causes.iter().map(|cause| cause.value).collect(),
+    };
+    let sets = Sets::of(&task, &found)?;
     let mut put = |functions: &mut MeasuredFunctions, values: Values| {
         for (entry, values) in functions.entries.iter_mut().zip(values) {
             if entry.measurements.is_empty() {
@@ -78,7 +78,7 @@ pub fn draw(
         put(&mut assembly.functions, values);
     }
     experiment.forget_fits();
-    Some(causes)
+    Some(read_off)
 }
 
 /// Everything that is measured, without noise.
@@ -88,9 +88,9 @@ struct Sets {
 }
 
 impl Sets {
-    fn of(task: &Task<'_>, found: &Point, drawn: &Point) -> Option<Self> {
+    fn of(task: &Task<'_>, found: &Point) -> Option<Self> {
         let experiment = task.experiment;
-        let recomputed = Recomputations::values(experiment, task.priors, &drawn.causes)?;
+        let recomputed = Recomputations::values(experiment, task.priors, &found.causes)?;
         let empty = |functions: &MeasuredFunctions| -> Values {
             vec![Vec::with_capacity(task.lines()); functions.entries.len()]
         };
@@ -101,19 +101,20 @@ impl Sets {
         let assemblies = experiment.assemblies.iter();
         let mut assemblies: Vec<Values> = assemblies.map(|of| empty(&of.functions)).collect();
         for line in 0..task.lines() {
-            let own = task.in_its_own_test(line, found);
+            // without noise where a fit gives them
+            let together = task.smooth(line, found, &as_measured(task, line, found));
+            let own = task.in_its_own_test(line, found, &together);
             for side in [Side::A, Side::B] {
                 if let Structure::Measured(measured) = experiment.side(side) {
                     let truth = measured.functions.matrix(&own[side as usize]);
                     let at = task.at_structure(side, &measured.functions, &truth, line);
-                    add(&mut of[side as usize], task.measured(&at, drawn));
+                    add(&mut of[side as usize], task.measured(&at, found));
                 }
             }
-            let moved = task.in_the_assembly(line, drawn, &own);
-            let receptances = task.assembled(line, drawn, &moved, &recomputed)?;
+            let receptances = task.assembled(line, found, &together, &recomputed)?;
             for (number, receptance) in receptances.iter().enumerate() {
                 let at = task.at_assembly(number, receptance, experiment.omega[line]);
-                add(&mut assemblies[number], task.measured(&at, drawn));
+                add(&mut assemblies[number], task.measured(&at, found));
             }
         }
         Some(Self { of, assemblies })
@@ -139,37 +140,21 @@ impl Task<'_> {
             .collect()
     }
 
-    /// Receptances of the labels as they were in the structures' own tests, without noise where a fit gives them.
-    fn in_its_own_test(&self, line: usize, point: &Point) -> Labelled {
-        let smooth = self.smooth(line, point, &as_measured(self, line, point));
-        self.by_frequency(line, point, &smooth, |value, ratio| value / ratio)
-    }
-
-    /// The same in the assembly.
-    fn in_the_assembly(&self, line: usize, point: &Point, own: &Labelled) -> Labelled {
-        self.by_frequency(line, point, own, |value, ratio| value * ratio)
-    }
-
-    fn by_frequency(
-        &self,
-        line: usize,
-        point: &Point,
-        labelled: &Labelled,
-        change: impl Fn(Complex64, Complex64) -> Complex64,
-    ) -> Labelled {
+    /// Receptances of the labels as they were in the structures' own tests, by those in the assembly.
+    fn in_its_own_test(&self, line: usize, point: &Point, together: &Labelled) -> Labelled {
         [Side::A, Side::B].map(|side| {
             let epsilon = value_of(Cause::Frequency(side), self.priors, &point.causes);
             let Structure::Measured(measured) = self.experiment.side(side) else {
                 return Vec::new();
             };
             let entries = measured.functions.entries.iter();
-            let values = entries.zip(&labelled[side as usize]).enumerate();
+            let values = entries.zip(&together[side as usize]).enumerate();
             values
                 .map(|(number, (entry, &value))| {
                     if epsilon == 0.0 || entry.measurements.is_empty() {
                         value
                     } else {
-                        change(value, self.ratio(side, line, number, epsilon))
+                        value / self.ratio(side, line, number, epsilon)
                     }
                 })
                 .collect()

@@ -15,7 +15,7 @@ pub(crate) struct At<'f> {
     /// True receptances over the labels.
     pub(crate) truth: &'f ComplexMatrix,
     pub(crate) omega: f64,
-    /// Weights of the labels in the slope at each label, where positions are known.
+    /// Weights of the labels in the slope at each label; zero where positions are not known.
     pub(crate) slopes: Option<&'f nalgebra::DMatrix<f64>>,
 }
 
@@ -279,7 +279,7 @@ mod tests {
         };
         MeasuredFunctions {
             is_translation: vec![true, false, true],
-            positions_m: None,
+            positions_m: Vec::new(),
             entries: vec![entry((0, 1)), entry((2, 2)), entry((0, 2))],
         }
     }
@@ -313,6 +313,7 @@ mod tests {
             let prior = [Prior {
                 cause,
                 standard_deviation: 1.0,
+                centre: 0.0,
             }];
             let measured = |value: f64| -> Vec<Complex64> {
                 let beside = at.beside(&prior, &[value]);

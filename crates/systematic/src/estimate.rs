@@ -166,7 +166,7 @@ pub fn estimate(
 /// Causes beyond what their priors allow, with the pull. Where a search has not come to rest the pulls say nothing.
 fn contradictions(priors: &[Prior], found: &Found) -> Vec<(usize, f64)> {
     let pulls = std::iter::zip(&found.point.causes, priors)
-        .map(|(value, prior)| value / prior.standard_deviation)
+        .map(|(value, prior)| prior.pull(*value))
         .enumerate();
     pulls
         .filter(|(_, pull)| found.converged && pull.abs() > CONTRADICTED)

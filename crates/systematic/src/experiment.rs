@@ -8,6 +8,7 @@ use num_complex::Complex64;
 use super::bending::flexibility_from_drive_points;
 use super::bends::{AtBolt, between_bolts};
 use super::cause::Side;
+use super::effect::slopes;
 use super::modal_fit::ModalFit;
 
 /// Receptances of one line.
@@ -19,12 +20,14 @@ pub struct Experiment<'a> {
     pub omega: Vec<f64>,
     /// What of the joint is unknown.
     pub joint: JointShape,
-    /// Structure A at the joint's DOFs.
+    /// Structure A at the joint's DOFs, then its points.
     pub a: Structure<'a>,
-    /// Structure B at the joint's DOFs, then the points.
+    /// Structure B at the joint's DOFs, then its points.
     pub b: Structure<'a>,
-    /// The assemblies, one or more, each at the same points.
+    /// The assemblies, one or more, each at the same points: those of B, then those of A.
     pub assemblies: Vec<Assembly>,
+    /// How many of these, the last ones, are on A.
+    pub points_on_a: usize,
     /// Masses that only the assembly has, as far as they are known: at DOFs of the joint on A and then on B, kg or kg·m².
     pub known_masses: Vec<(usize, f64)>,
     /// Smooth fits of A and B where they are measured, made when they are first asked for.
@@ -55,8 +58,8 @@ pub struct JointShape {
 pub struct MeasuredFunctions {
     /// For each label, whether it is a translation.
     pub is_translation: Vec<bool>,
-    /// Position of each label along the structure, m, where all of them are known.
-    pub positions_m: Option<Vec<f64>>,
+    /// Position of each label along its structure, m, where it is known and tells a slope; empty if none is.
+    pub positions_m: Vec<Option<f64>>,
     /// The functions.
     pub entries: Vec<Entry>,
 }
@@ -187,6 +190,7 @@ impl<'a> Experiment<'a> {
             a,
             b,
             assemblies,
+            points_on_a: 0,
             known_masses: Vec::new(),
             fits: OnceLock::new(),
         }
@@ -215,11 +219,53 @@ impl<'a> Experiment<'a> {
         }
     }
 
-    /// Whether it can be told what a shift of an assembly's point does.
-    pub(crate) fn knows_slopes(&self) -> bool {
-        let first = self.assemblies.first();
-        let are_known = first.is_some_and(|first| first.functions.positions_m.is_some());
-        are_known || matches!(self.b, Structure::Computed(_))
+    /// Points of the assemblies on a structure, by their numbers.
+    pub(crate) fn points_on(&self, side: Side) -> std::ops::Range<usize> {
+        let all = self.points();
+        let of_b = all.saturating_sub(self.points_on_a);
+        match side {
+            Side::A => of_b..all,
+            Side::B => 0..of_b,
+        }
+    }
+
+    /// Points of the assemblies of which it can be told what a shift does.
+    pub(crate) fn points_with_slopes(&self) -> Vec<usize> {
+        let on = |side: Side| {
+            let is_computed = matches!(self.side(side), Structure::Computed(_));
+            self.points_on(side)
+                .filter(move |&point| is_computed || self.position_m(point).is_some())
+        };
+        on(Side::B).chain(on(Side::A)).collect()
+    }
+
+    fn position_m(&self, point: usize) -> Option<f64> {
+        let first = self.assemblies.first()?;
+        *first.functions.positions_m.get(point)?
+    }
+
+    /// Weights of the points in the slope at each of them, on structures that are not computed anew; `None` where no position is
+    /// known.
+    pub(crate) fn slopes(&self) -> Option<DMatrix<f64>> {
+        let mut weights = DMatrix::zeros(self.points(), self.points());
+        for side in [Side::A, Side::B] {
+            if matches!(self.side(side), Structure::Computed(_)) {
+                continue;
+            }
+            let known = self.points_on(side);
+            let known = known.filter_map(|point| Some((point, self.position_m(point)?)));
+            let (points, positions_m): (Vec<usize>, Vec<f64>) = known.unzip();
+            let own = slopes(&positions_m);
+            for (i, &row) in points.iter().enumerate() {
+                for (j, &column) in points.iter().enumerate() {
+                    weights[(row, column)] = own[(i, j)];
+                }
+            }
+        }
+        weights
+            .iter()
+            .any(|weight| *weight != 0.0)
+            .then_some(weights)
     }
 
     /// Labelled functions of a structure that is measured.

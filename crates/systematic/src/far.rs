@@ -35,6 +35,7 @@ pub(crate) fn from_far(
     let sought = |careful: &Prior| -> Option<(f64, Prior, Start)> {
         let free = [Prior {
             standard_deviation: wider * careful.standard_deviation,
+            centre: 0.0,
             ..*careful
         }];
         let task = Task::new(experiment, &free);

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
-use super::effect::{At, slopes};
+use super::effect::At;
 use super::experiment::{Assembly, ComplexMatrix, Entry, Experiment, Structure};
 use super::structures::Recomputations;
 
@@ -58,15 +58,10 @@ pub(crate) struct Terms {
 
 impl<'t> Task<'t> {
     pub(crate) fn new(experiment: &'t Experiment<'t>, priors: &'t [Prior]) -> Self {
-        let first = experiment.assemblies.first();
-        let positions_m = first.and_then(|first| first.functions.positions_m.as_ref());
-        let is_computed = matches!(experiment.b, Structure::Computed(_));
         Self {
             experiment,
             priors,
-            slopes: positions_m
-                .filter(|_| !is_computed)
-                .map(|positions_m| slopes(positions_m)),
+            slopes: experiment.slopes(),
         }
     }
 

@@ -303,7 +303,7 @@ mod tests {
         });
         let functions = MeasuredFunctions {
             is_translation: vec![true; 3],
-            positions_m: None,
+            positions_m: Vec::new(),
             entries: entries.collect(),
         };
         let fit = ModalFit::of(&functions, &omega).unwrap();

@@ -263,9 +263,7 @@ fn descending(
 /// Σ (ν/σ)²
 pub(crate) fn priors_cost(task: &Task<'_>, point: &Point) -> f64 {
     let pulls = task.priors.iter().zip(&point.causes);
-    pulls
-        .map(|(prior, value)| (value / prior.standard_deviation).powi(2))
-        .sum()
+    pulls.map(|(prior, value)| prior.pull(*value).powi(2)).sum()
 }
 
 /// Each line takes the part of the step that leaves least: near a structure's resonance it is not linear in the receptances.
@@ -326,7 +324,7 @@ pub(crate) fn step(
     let first = task.unknowns();
     let mut right = gradient.clone();
     for (number, prior) in task.priors.iter().enumerate() {
-        right[first + number] -= point.causes[number] / prior.standard_deviation.powi(2);
+        right[first + number] -= prior.pull(point.causes[number]) / prior.standard_deviation;
     }
     let covariance = inverse(&whole)?;
     let deviation = covariance.diagonal().map(f64::sqrt);

@@ -109,7 +109,7 @@ fn recomputed(
     let acting: Vec<(usize, &Prior)> = priors
         .iter()
         .enumerate()
-        .filter(|(_, prior)| acts_on(prior.cause, side))
+        .filter(|(_, prior)| acts_on(experiment, prior.cause, side))
         .collect();
     let by_cause = acting.into_par_iter().filter_map(derivative).collect();
     Some(Recomputed {
@@ -119,22 +119,19 @@ fn recomputed(
 }
 
 /// Whether a cause changes a computed structure.
-fn acts_on(cause: Cause, side: Side) -> bool {
+fn acts_on(experiment: &Experiment<'_>, cause: Cause, side: Side) -> bool {
     match cause {
         Cause::YoungsModulus(of) | Cause::Density(of) | Cause::JointPosition(of, _) => of == side,
-        Cause::Position(_) => side == Side::B,
+        Cause::Position(point) => experiment.points_on(side).contains(&point),
         _ => false,
     }
 }
 
 fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f64]) -> Change {
-    let points = match side {
-        Side::A => 0,
-        Side::B => experiment.points(),
-    };
+    let points = experiment.points_on(side);
     let mut change = Change {
         joint_m: vec![0.0; experiment.joint.bolts()],
-        points_m: vec![0.0; points],
+        points_m: vec![0.0; points.len()],
         ..Change::default()
     };
     for (prior, &value) in priors.iter().zip(values) {
@@ -142,7 +139,9 @@ fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f
             Cause::YoungsModulus(of) if of == side => change.youngs_modulus = value,
             Cause::Density(of) if of == side => change.density = value,
             Cause::JointPosition(of, bolt) if of == side => change.joint_m[bolt] = value,
-            Cause::Position(point) if side == Side::B => change.points_m[point] = value,
+            Cause::Position(point) if points.contains(&point) => {
+                change.points_m[point - points.start] = value;
+            }
             _ => {}
         }
     }

@@ -153,6 +153,7 @@ impl<'c> Case<'c> {
         Prior {
             cause,
             standard_deviation: self.careful.standard_deviation(cause),
+            centre: 0.0,
         }
     }
 
@@ -162,6 +163,7 @@ impl<'c> Case<'c> {
         Prior {
             cause,
             standard_deviation: wide.max(value.abs()),
+            centre: 0.0,
         }
     }
 

@@ -33,18 +33,20 @@ pub(super) fn substructures(
     let (of_b, of_a) = study.points_by_side();
     let a = joint_and_points(study, "a", of_a, axis, reader)?;
     let b = joint_and_points(study, "b", of_b, axis, reader)?;
-    let (a, b) = if of_a.is_empty() {
-        (a, b)
+    let (a, b, apart) = if of_a.is_empty() {
+        (a, b, None)
     } else {
         let dofs = a.size() - of_a.len();
         let still = ComplexMatrix::zeros(dofs, dofs);
         let still = Receptances::Exact(vec![still; axis.frequency_hz.len()]);
-        (still, as_one(&a, &b, dofs, axis.frequency_hz))
+        let one = as_one(&a, &b, dofs, axis.frequency_hz);
+        (still, one, Some([a, b]))
     };
     Ok(Lines {
         frequency_hz: axis.frequency_hz.to_vec(),
         a,
         b,
+        apart,
         assembly: Vec::new(),
         points: points.clone(),
         measured: Vec::new(),

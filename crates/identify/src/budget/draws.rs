@@ -1,8 +1,8 @@
-//! Parametric bootstrap of the estimate with the set-up's errors: causes drawn from their priors, noise with them, and all of it
-//! estimated anew.
+//! Parametric bootstrap of the estimate with the set-up's errors: what was read off of the set-up and the noise are drawn, and all
+//! of it is estimated anew.
 
 use bolted_joint_systematic::{
-    CauseEstimate, Estimate, Origin, Prior, Settings, Start, draw, estimate, estimate_near,
+    Cause, CauseEstimate, Estimate, Origin, Settings, Start, draw, estimate, estimate_near,
 };
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
@@ -39,7 +39,10 @@ impl Systematic {
         let refined = count(&all).clamp(1, MOST_LINES);
         let part = count(&few) as f64 / refined as f64;
         let causes: Vec<CauseEstimate> = self.causes.iter().map(|(_, cause)| *cause).collect();
-        let priors: Vec<Prior> = causes.iter().map(|cause| cause.prior).collect();
+        let of_causes: Vec<(Cause, f64)> = causes
+            .iter()
+            .map(|cause| (cause.prior.cause, cause.value))
+            .collect();
         let layout = study.layout();
         let one = |&number: &u64| -> Option<DVector<f64>> {
             let mut generator = ChaCha8Rng::seed_from_u64(bootstrap.seed);
@@ -52,8 +55,9 @@ impl Systematic {
                 causes: &causes,
                 scale: part * self.reduced_chi_squared.unwrap_or(1.0).max(1.0),
             };
+            let priors = draw(&mut drawn, &origin, &mut normal)?;
             let start = Start {
-                causes: draw(&mut drawn, &origin, &mut normal)?,
+                causes: of_causes.clone(),
                 unknowns: self.unknowns.clone(),
             };
             let settings = Settings::default();

@@ -56,14 +56,16 @@ pub(super) fn of<'a>(
     });
     let mut experiment = Experiment::new(omega.collect(), joint, structures, assemblies.collect());
     experiment.known_masses = known_masses;
+    experiment.points_on_a = study.points_on_a;
     Some(experiment)
 }
 
 /// The known masses at the joint's DOFs of a structure whose receptances here are without them.
 fn known_masses(study: &Study, side: Side, lines: &Lines) -> Vec<(usize, f64)> {
+    let [a, b] = lines.structures();
     let (substructure, receptances) = match side {
-        Side::A => (&study.a, &lines.a),
-        Side::B => (&study.b, &lines.b),
+        Side::A => (&study.a, a),
+        Side::B => (&study.b, b),
     };
     let is_computed_anew = matches!(substructure, Substructure::Beam { .. });
     match receptances {
@@ -96,29 +98,32 @@ fn assembly(study: &Study, lines: &Lines, level: Size) -> MeasuredFunctions {
     };
     MeasuredFunctions {
         is_translation: translations(&lines.points),
-        positions_m: positions_m(&study.b, &lines.points),
+        positions_m: {
+            let (of_b, of_a) = study.points_by_side();
+            [positions_m(&study.b, of_b), positions_m(&study.a, of_a)].concat()
+        },
         entries: lines.independent().into_iter().map(entry).collect(),
     }
 }
 
-/// Positions of points that all move across the structure; what moves along it tells no slope.
-fn positions_m(b: &Substructure, points: &[Dof]) -> Option<Vec<f64>> {
-    let Substructure::Measured { positions_m, .. } = b else {
-        return None;
+/// Positions of points of a measured structure that all move across it; what moves along it tells no slope.
+fn positions_m(structure: &Substructure, points: &[Dof]) -> Vec<Option<f64>> {
+    let none = vec![None; points.len()];
+    let (Substructure::Measured { positions_m, .. }, [first, _, ..]) = (structure, points) else {
+        return none;
     };
-    let first = points.first()?;
     let is_alike = |point: &Dof| {
         let is_same = point.direction() == first.direction() && point.sign() == first.sign();
         is_same && point.direction().is_translation()
     };
-    let positions: Option<Vec<f64>> = points
-        .iter()
-        .map(|point| positions_m.get(point).copied())
-        .collect();
-    positions.filter(|positions| {
-        let is_distinct = (1..positions.len()).all(|i| !positions[..i].contains(&positions[i]));
-        points.len() > 1 && is_distinct && points.iter().all(is_alike)
-    })
+    let positions = points.iter().map(|point| positions_m.get(point).copied());
+    let positions: Vec<Option<f64>> = positions.collect();
+    let is_distinct = (1..positions.len()).all(|i| !positions[..i].contains(&positions[i]));
+    if is_distinct && points.iter().all(is_alike) && !positions.contains(&None) {
+        positions
+    } else {
+        none
+    }
 }
 
 fn variances(
@@ -143,12 +148,18 @@ fn translations(labels: &[Dof]) -> Vec<bool> {
 }
 
 /// Labels of a measured structure in the order of its functions.
-pub(super) fn labels(study: &Study, side: Side, lines: &Lines) -> Vec<Dof> {
-    let (substructure, points): (_, &[Dof]) = match side {
-        Side::A => (&study.a, &[]),
-        Side::B => (&study.b, &lines.points),
-    };
+pub(super) fn labels(study: &Study, side: Side) -> Vec<Dof> {
+    let (substructure, points) = of_side(study, side);
     measured_labels(substructure, study.dofs_of_a_bolt(), points)
+}
+
+/// A structure and the assembly's points on it.
+fn of_side(study: &Study, side: Side) -> (&Substructure, &[Dof]) {
+    let (of_b, of_a) = study.points_by_side();
+    match side {
+        Side::A => (&study.a, of_a),
+        Side::B => (&study.b, of_b),
+    }
 }
 
 fn structure<'a>(
@@ -158,10 +169,12 @@ fn structure<'a>(
     levels: Levels,
     joint: &JointShape,
 ) -> Option<Structure<'a>> {
-    let (substructure, receptances, points, of): (_, _, &[Dof], _) = match side {
-        Side::A => (&study.a, &lines.a, &[], group::Side::A),
-        Side::B => (&study.b, &lines.b, &lines.points, group::Side::B),
+    let [a, b] = lines.structures();
+    let (receptances, of) = match side {
+        Side::A => (a, group::Side::A),
+        Side::B => (b, group::Side::B),
     };
+    let (substructure, points) = of_side(study, side);
     match (substructure, receptances) {
         (Substructure::Beam { .. }, _) => {
             let dofs = study.dofs_of_a_bolt();
@@ -175,7 +188,7 @@ fn structure<'a>(
             Measured::new(
                 functions(
                     measured.as_measured(),
-                    &labels(study, side, lines),
+                    &labels(study, side),
                     &|rotations, own| {
                         let of = Of::Substructure(of);
                         (levels.of(of), study.noise.floor(of, rotations, || own))
@@ -234,7 +247,7 @@ fn functions(
     };
     Some(MeasuredFunctions {
         is_translation: translations(labels),
-        positions_m: None,
+        positions_m: Vec::new(),
         entries: places.map(entry).collect(),
     })
 }

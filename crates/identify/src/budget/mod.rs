@@ -374,9 +374,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
     let label = |set: MeasuredSet, row: usize| -> String {
         let point = match set {
             MeasuredSet::Assembly(_) => lines.points.get(row).map(Dof::to_string),
-            MeasuredSet::Of(side) => experiment::labels(study, side, lines)
-                .get(row)
-                .map(Dof::to_string),
+            MeasuredSet::Of(side) => experiment::labels(study, side).get(row).map(Dof::to_string),
         };
         point.unwrap_or_else(|| format!("number {}", row + 1))
     };

@@ -23,11 +23,6 @@ pub(in super::super) enum Apart {
         /// Number of the assembly, from 1.
         assembly: usize,
     },
-    /// This assembly was measured at points of A, too.
-    BothSides {
-        /// Number of the assembly, from 1.
-        assembly: usize,
-    },
     /// They have no two lines in common.
     Lines,
 }
@@ -44,10 +39,6 @@ impl fmt::Display for Apart {
                 f,
                 "assembly {assembly} has other points than the first, and with several assemblies they take part only where the \
                  points are the same, in the same order"
-            ),
-            Self::BothSides { assembly } => write!(
-                f,
-                "assembly {assembly} was measured at points of A, and they take part only where all points are on B"
             ),
             Self::Lines => f.write_str(
                 "the assemblies have no lines in common, and with several assemblies they take part only where they have",
@@ -70,12 +61,6 @@ pub(super) fn together(study: &Study, all: &[Lines]) -> Result<Vec<Lines>, Apart
 
 /// Of each assembly the lines that all of them have.
 fn common(study: &Study, all: &[Lines]) -> Result<Vec<Vec<usize>>, Apart> {
-    let on_a = study.further.iter().map(|further| further.points_on_a);
-    let mut on_a = std::iter::once(study.points_on_a).chain(on_a);
-    if let Some(number) = on_a.position(|points| points > 0) {
-        let assembly = number + 1;
-        return Err(Apart::BothSides { assembly });
-    }
     for (number, further) in study.further.iter().enumerate() {
         let assembly = number + 2;
         let differs = |own: &Substructure, first: &Substructure| own != first;
@@ -84,7 +69,7 @@ fn common(study: &Study, all: &[Lines]) -> Result<Vec<Vec<usize>>, Apart> {
                 return Err(Apart::Structure { assembly, key });
             }
         }
-        if further.points != study.points {
+        if (&further.points, further.points_on_a) != (&study.points, study.points_on_a) {
             return Err(Apart::Points { assembly });
         }
     }

@@ -88,7 +88,11 @@ impl Study {
             }
             Cause::JointMass(side, bolt) => at(&of(side)?.masses_kg, bolt),
             Cause::JointInertia(side, bolt) => at(&of(side)?.inertias_kg_m2, bolt),
-            Cause::Position(point) => of(Side::B)?.points_m.get(points.get(point)?).copied(),
+            Cause::Position(point) => {
+                let is_on_a = point + self.points_on_a >= points.len();
+                let side = if is_on_a { Side::A } else { Side::B };
+                of(side)?.points_m.get(points.get(point)?).copied()
+            }
             Cause::Accelerometer(MeasuredSet::Assembly(number)) => {
                 of_file(self.assembly_file(number))
             }

@@ -471,6 +471,10 @@ impl Study {
         check::torques(study, file.joint.torques, &assemblies)?;
         if assemblies.iter().any(|assembly| assembly.points_on_a > 0) {
             check::one_noise(study, file.noise.as_ref())?;
+        } else {
+            for assembly in &assemblies {
+                check::no_positions(study, &assembly.a)?;
+            }
         }
         let first = assemblies.remove(0);
         let frequency_range_hz = study.frequency_range_hz(&file.frequency)?;

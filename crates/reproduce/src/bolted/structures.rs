@@ -123,6 +123,7 @@ pub(super) fn lines(
         frequency_hz,
         a: Receptances::Exact(a_joint),
         b: Receptances::Exact(b),
+        apart: None,
         assembly: Vec::new(),
         points: [11, 12, 13].map(dof).to_vec(),
         measured: (0..3)

@@ -122,6 +122,17 @@ pub(crate) fn positions(
 }
 
 /// With points on A both structures' functions are one set, which has one noise.
+/// Where no assembly has points on A, a measured A has no positions of any.
+pub(crate) fn no_positions(study: &StudyText, a: &Substructure) -> Result<(), StudyError> {
+    let has_positions = match a {
+        Substructure::Measured { positions_m, .. } => !positions_m.is_empty(),
+        Substructure::Beam { .. } | Substructure::Ground { .. } => false,
+    };
+    let expected =
+        "those of the assembly's points, which are on B as long as assembly.points_on_a names none";
+    study.ensure(!has_positions, "a.points", "positions", expected)
+}
+
 pub(crate) fn one_noise(study: &StudyText, noise: Option<&NoiseTable>) -> Result<(), StudyError> {
     let differ = noise.is_some_and(|noise| noise.a != noise.b);
     let expected = "the same of a and b, as assembly.points_on_a names points of A";

@@ -9,7 +9,9 @@ mod stated;
 mod substructure;
 mod torque;
 
-pub(super) use assembly::{MeasuredAs, frf_file, one_noise, points, positions, torque};
+pub(super) use assembly::{
+    MeasuredAs, frf_file, no_positions, one_noise, points, positions, torque,
+};
 pub(super) use bolts::bolts;
 pub(super) use settings::{bands, bodies, noise};
 pub(super) use start::start;

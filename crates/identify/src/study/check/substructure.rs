@@ -118,12 +118,6 @@ pub(crate) fn substructure(
             );
         }
     };
-    study.ensure(
-        table.points.is_empty() || !key.ends_with('a'),
-        format_args!("{key}.points"),
-        "positions",
-        "those of the assembly's points, which are on B",
-    )?;
     for (point, x) in &table.points {
         let key = format!("{key}.points.\"{point}\"");
         study.ensure(

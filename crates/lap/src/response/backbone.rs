@@ -38,7 +38,9 @@ pub(super) type Row = (f64, Vec<f64>);
 impl BackboneRun {
     /// Residuals in standard deviations with their derivatives by the model's unknowns.
     pub(super) fn residuals(&self, model: &Model, values: &Values, noise: &Noise) -> Vec<Row> {
-        let deviations = self.lines.iter().map(|line| line.deviations(model, values));
+        let motion = RelativeMotion::fundamental(values);
+        let lines = self.lines.iter();
+        let deviations = lines.map(|line| line.deviations(model, values, &motion));
         match &self.errors {
             None => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
             Some(errors) => {
@@ -77,7 +79,7 @@ impl BackboneLine {
 
     /// By how much the logarithm of the frequency and the damping ratio are above the model's.
     pub(super) fn beyond(&self, model: &Model, values: &Values) -> [f64; 2] {
-        let own = self.deviations(model, values);
+        let own = self.deviations(model, values, &RelativeMotion::fundamental(values));
         [
             own.frequency.0,
             own.ratio.map_or(0.0, |ratio| ratio.plain.0),
@@ -85,8 +87,13 @@ impl BackboneLine {
     }
 
     /// What was measured less what the model has.
-    fn deviations(&self, model: &Model, values: &Values) -> Deviations {
-        let z = RelativeMotion::fundamental(values).stiffness(self.amplitude_m, self.omega);
+    fn deviations(
+        &self,
+        model: &Model,
+        values: &Values,
+        motion: &RelativeMotion<'_>,
+    ) -> Deviations {
+        let z = motion.stiffness(self.amplitude_m, self.omega);
         // K = k/2 + k₁₂ + …, M = m/2, C = c/2 + c₁₂ + …
         let mass = 0.5 * values.mass;
         let stiffness = z.value.re + mass * self.omega * self.omega;

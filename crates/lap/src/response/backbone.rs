@@ -28,7 +28,7 @@ pub struct BackboneRun {
     pub lines: Vec<BackboneLine>,
     /// Errors of the points where they were read from a free decay.
     pub(super) errors: Option<ReadingErrors>,
-    /// How the correction of its points follows the model, where they are corrected.
+    /// How the reading of the model's own decay follows its unknowns, where that is known.
     pub(super) following: Option<Following>,
 }
 
@@ -41,18 +41,18 @@ impl BackboneRun {
         let motion = RelativeMotion::fundamental(values);
         let lines = self.lines.iter();
         let deviations = lines.map(|line| line.deviations(model, values, &motion));
-        match &self.errors {
-            None => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
-            Some(errors) => {
-                let (mut all, mut ratios): (Vec<Row>, Vec<Row>) = deviations
+        match (&self.errors, &self.following) {
+            (None, _) => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
+            (Some(errors), None) => {
+                let (mut all, ratios): (Vec<Row>, Vec<Row>) = deviations
                     .map(|own| (own.frequency, own.ratio.unwrap_or_default().plain))
                     .unzip();
-                if let Some(following) = &self.following {
-                    following.follow(model, values, 0, &mut all);
-                    following.follow(model, values, 1, &mut ratios);
-                }
                 all.extend(ratios);
                 errors.whitened(&all)
+            }
+            (Some(errors), Some(following)) => {
+                let both = [0, 1].map(|kind| following.rows(model, values, kind));
+                errors.whitened(&both.concat())
             }
         }
     }

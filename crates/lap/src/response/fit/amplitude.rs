@@ -13,7 +13,8 @@ const SETTLED: f64 = 1e-8;
 /// step of the model.
 pub(super) fn settled(
     mut log_amplitude: f64,
-    residual: impl Fn(f64) -> LineResidual) -> (f64, LineResidual) {
+    residual: impl Fn(f64) -> LineResidual,
+) -> (f64, LineResidual) {
     let cost = |line: &LineResidual| dot(&line.residual, &line.residual);
     let mut line = residual(log_amplitude);
     for _ in 0..SETTLING {

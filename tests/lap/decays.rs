@@ -18,11 +18,10 @@ const INTERVAL_S: f64 = 1e-4;
 const SAMPLES: usize = 12_000;
 /// Of the first amplitude.
 const NOISE: f64 = 0.01;
-/// As few as tell 92 % of intervals that hold from 95 %.
-const DRAWS: u64 = 60;
 /// Relative error without noise.
 const EXACT: f64 = 2e-3;
-/// Root of the mean square error in standard deviations: of 180 numbers that do not go together its deviation is 5 %.
+/// Root of the mean square error in standard deviations. Of four numbers two go together: 60 draws are 180 that do not, which
+/// leave 5 % of it open and 1.6 % of the intervals that hold.
 const DEVIATIONS: std::ops::Range<f64> = 0.8..1.2;
 const HELD: std::ops::RangeInclusive<f64> = 0.92..=0.98;
 
@@ -102,7 +101,7 @@ fn identified(samples: &[f64], name: &str, (seed, noise): (u64, f64)) -> LapResp
 
 /// Without noise the numbers are there; with it their errors are what is said of them.
 #[track_caller]
-fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)]) {
+fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)], draws: u64) {
     let samples = decay(sliders);
     let exact = identified(&samples, name, (0, 0.0));
     for (unknown, expected) in truth {
@@ -114,8 +113,8 @@ fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)])
         );
     }
     let (mut squares, mut held) = (0.0, 0.0);
-    let share = ((DRAWS as usize * truth.len()) as f64).recip();
-    for seed in 0..DRAWS {
+    let share = ((draws as usize * truth.len()) as f64).recip();
+    for seed in 0..draws {
         let found = identified(&samples, name, (seed, NOISE));
         let reduced = found.fit.reduced_chi_squared();
         assert!((0.2..3.0).contains(&reduced), "{name}: {reduced}");
@@ -147,7 +146,7 @@ fn one_slider_is_known_from_a_decay_as_well_as_it_is_said() {
         (slider(SliderParameter::Stiffness), k),
         (slider(SliderParameter::SlipForce), h),
     ];
-    assert_known(&vec![[k, h / k]], "jenkins", &truth);
+    assert_known(&vec![[k, h / k]], "jenkins", &truth, 60);
 }
 
 #[test]
@@ -159,5 +158,5 @@ fn many_sliders_are_known_from_a_decay_as_well_as_it_is_said() {
         (slider(SliderParameter::Density), density),
         (slider(SliderParameter::Exponent), exponent),
     ];
-    assert_known(&iwan(density, exponent, 2e-3), "micro-slip", &truth);
+    assert_known(&iwan(density, exponent, 2e-3), "micro-slip", &truth, 120);
 }

@@ -21,7 +21,7 @@ const FREQUENCY: f64 = 1e-4;
 const DAMPING: f64 = 0.01;
 /// Of a complex response.
 const RESPONSE: f64 = 0.01;
-const DRAWS: u64 = 40;
+const DRAWS: u64 = 120;
 
 /// F(u) of a first motion to u ≥ 0.
 type FirstLoading = dyn Fn(f64) -> f64;

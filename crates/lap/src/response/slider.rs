@@ -218,7 +218,16 @@ impl SliderValues {
     pub(super) fn first_loading(&self) -> Box<dyn Fn(f64) -> f64> {
         match self.law(self.logs) {
             Valued::Jenkins(law) => Box::new(move |u| law.load(&[0.0], u, 0.0)),
-            Valued::Iwan(law) => Box::new(move |u| law.load::<f64>(&[], u, 0.0)),
+            Valued::Iwan(law) => {
+                let span = law.nonlinear_amplitude(0.0, 0.0);
+                let above = law.exponent + 1.0;
+                // F = K_T u − K_l (u/φ_max)^(χ+1) u/(χ+2) with K_l = K_T/(1 + β), F_S from φ_max on
+                let part = law.stiffness / (1.0 + law.ratio) / (above + 1.0);
+                Box::new(move |u| match u < span {
+                    true => (law.stiffness - part * (u / span).powf(above)) * u,
+                    false => law.slip_force,
+                })
+            }
         }
     }
 

@@ -53,6 +53,23 @@ fn derivatives_are_those_of_differences() {
     }
 }
 
+#[test]
+fn first_loading_is_that_of_the_law() {
+    for values in all() {
+        for u in [0.0, 1e-6, 9e-5, 2.0e-4, 2.2e-4, 5e-4] {
+            let expected = match values.law(values.logs) {
+                Valued::Jenkins(law) => law.load(&[0.0], u, 0.0),
+                Valued::Iwan(law) => law.load::<f64>(&[], u, 0.0),
+            };
+            let found = values.first_loading()(u);
+            assert!(
+                (found - expected).abs() < 1e-12 * (1.0 + expected),
+                "{values:?} {u}"
+            );
+        }
+    }
+}
+
 /// D = 4 R U^(χ+3)/((χ+2)(χ+3)) (Segalman), which is π U² Im z.
 #[test]
 fn small_motion_has_its_power_of_heat() {

@@ -411,3 +411,6 @@ fn moved(
     let log_amplitudes = log_amplitudes.collect();
     State::new(model, data, noise, values, log_amplitudes)
 }
+
+#[cfg(test)]
+mod tests;

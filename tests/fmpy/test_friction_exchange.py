@@ -128,6 +128,67 @@ def partial(instance, unknown, known):
     return found[0]
 
 
+# another of the same kind, which slips earlier
+SECOND = {
+    "lugre": {**LUGRE, "stiffness": 0.4 * LUGRE["stiffness"], "slip_force": 0.3 * LUGRE["slip_force"],
+              "static_force": 0.3 * LUGRE["static_force"]},
+    "bouc-wen": {**BOUC_WEN, "stiffness": 0.4 * BOUC_WEN["stiffness"], "slip_force": 0.3 * BOUC_WEN["slip_force"], "exponent": 2.0},
+}
+
+
+def numbered(symbol):
+    """The variable of the second law: `joint.lugre_z_y` and `joint.lugre_2_z_y`."""
+    law = "bouc_wen" if "bouc_wen" in symbol else "lugre"
+    return symbol.replace(law, f"{law}_2")
+
+
+@both_versions
+@inner
+def test_two_laws_of_a_kind_have_an_inner_state_each(export, model, name, fmi):
+    laws = [LAWS[name], SECOND[name]]
+    both = changed(lap(laws[0]), friction=[{"dof": "y", **law} for law in laws])
+    states, rates = [STATE[name], numbered(STATE[name])], [RATE[name], numbered(RATE[name])]
+    instance = model(both, "element")
+    instance.initialise()
+    instance.enter_continuous_time()
+    assert instance.states() == states
+    at, v = ([3e-5, -1e-5] if name == "lugre" else [200.0, -70.0]), 0.03
+    instance.set({"a.y": 1e-4, "a.v": v})
+    instance.set_states(np.array(at))
+    assert instance.get(*states) == at
+    expected = [rate_of(law, s, v) for law, s in zip(laws, at)]
+    assert list(instance.get_rates()) == pytest.approx(expected, rel=1e-13)
+    assert instance.get(*rates) == pytest.approx(expected, rel=1e-13)
+    load = K * 1e-4 + C * v + sum(load_of(law, s, v) for law, s in zip(laws, at))
+    assert instance.get("b.F")[0] == pytest.approx(load, rel=1e-13)
+    # each rate by its own state, and by no other
+    for i, rate in enumerate(rates):
+        for j, state in enumerate(states):
+            step = 1e-6 * abs(at[j])
+            ends = [rate_of(laws[i], at[i] + (side if i == j else 0.0), v) for side in (step, -step)]
+            difference = (ends[0] - ends[1]) / (2 * step)
+            assert partial(instance, rate, state) == pytest.approx(difference, rel=1e-6, abs=0.0), (rate, state)
+
+    force, end = 6000.0, 0.008
+    outputs = ["a.y", "a.v", *states, "energy.dissipated"]
+    result = fmpy.simulate_fmu(
+        str(export(both, "lap", fmi=fmi)),
+        fmi_type="ModelExchange", stop_time=end, output_interval=1e-4, relative_tolerance=1e-10,
+        start_values={"a.F": force}, output=outputs,
+    )
+
+    def rate(_, y):
+        r, v, *s, _ = y
+        pairs = list(zip(laws, s))
+        of_joint = K * r + C * v + sum(load_of(*pair, v) for pair in pairs)
+        heat = sum(heat_of(*pair, v) for pair in pairs) + (C + 50) * v * v
+        return [v, force - of_joint - 5e6 * r - 50 * v, *(rate_of(*pair, v) for pair in pairs), heat]
+
+    expected = solve_ivp(rate, (0, end), [0.0] * 5, "DOP853", t_eval=result["time"], rtol=1e-10, atol=1e-15, max_step=1e-5).y
+    for output, wanted in zip(outputs, expected):
+        assert np.abs(result[output] - wanted).max() < 1e-6 * np.abs(wanted).max(), output
+
+
 @both_versions
 @pytest.mark.parametrize("interface", ["element", "lap"])
 @inner

@@ -90,6 +90,7 @@ fn damaged_response_studies_are_refused_by_their_key() {
         ("[[sine]]", "[frequency]\nfrom = 9\nto = 3\n[[sine]]", "frequency"),
         ("[[sine]]", "terms = [\"k3\", \"kN\"]\n[[sine]]", "k3 twice"),
         ("[[sine]]", "terms = [\"k9\"]\n[[sine]]", "k9"),
+        ("[[sine]]", "compare = false\n[[sine]]", "model.compare"),
     ];
     for (from, to, part) in cases {
         let table = format!("{HEADER}\n80,1,1e-4,-1\n81,1,1e-4,-2\n");

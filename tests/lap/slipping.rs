@@ -21,7 +21,7 @@ const FREQUENCY: f64 = 1e-4;
 const DAMPING: f64 = 0.01;
 /// Of a complex response.
 const RESPONSE: f64 = 0.01;
-const DRAWS: u64 = 40;
+const DRAWS: u64 = 120;
 
 /// F(u) of a first motion to u ≥ 0.
 type FirstLoading = dyn Fn(f64) -> f64;
@@ -172,7 +172,7 @@ fn assert_known_from(
     name: &str,
     truth: &[(ResponseUnknown, f64)],
 ) {
-    let terms = format!("terms = [\"{name}\"]");
+    let terms = format!("terms = [\"{name}\"]\ncompare = false");
     let kind = match measured {
         Measured::Backbone(_) => "backbone",
         Measured::Sines(_) => "sines",
@@ -204,7 +204,7 @@ fn assert_known_from(
     let held = within as f64 / f64::from(count);
     println!("{name} from {kind}: {rms:.3} deviations, intervals hold {held:.3}");
     assert!(
-        (0.75..1.2).contains(&rms) && held > 0.9,
+        (0.75..1.2).contains(&rms) && (0.92..=0.98).contains(&held),
         "{name} from {kind}: {rms} {held}"
     );
 }

@@ -8,10 +8,11 @@ mod integral;
 use super::{
     Corner, Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
-        Span, UnitRule, is_positive,
+        Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
+        UnitRule, is_positive,
     },
     flow,
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
 use integral::{Branch, Way};
@@ -22,30 +23,6 @@ const LOAD: usize = 0;
 const PLACE: usize = 1;
 const DIRECTION: usize = 2;
 
-const PARAMETER: Parameter = Parameter {
-    symbol: "bouc_wen_k",
-    key: "stiffness",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 1,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SliderStiffness",
-        nominal: [1e6, 1e4, 1e3],
-        start: [0.0; 3],
-    },
-    description: "Stiffness of the joint's Bouc-Wen law in {motion} at no load",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    grows_with_preload: false,
-};
-
 const NUMBER: Parameter = Parameter {
     unit: UnitRule::One,
     quantity: Quantity {
@@ -53,7 +30,7 @@ const NUMBER: Parameter = Parameter {
         nominal: [1.0; 3],
         start: [0.0; 3],
     },
-    ..PARAMETER
+    ..STIFFNESS
 };
 
 /// A hysteretic spring on one relative DOF.
@@ -144,23 +121,15 @@ impl<N: Number> Law<N> for BoucWen<N> {
         name: "bouc-wen",
         summary: "A hysteretic spring after Bouc and Wen",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "bouc_wen_k",
+                description: "Stiffness of the joint's Bouc-Wen law in {motion} at no load",
+                ..STIFFNESS
+            },
             Parameter {
                 symbol: "bouc_wen_h",
-                key: "slip_force",
-                unit: UnitRule::LoadPer {
-                    displacement: 0,
-                    seconds: 0,
-                },
-                quantity: Quantity {
-                    name: "SlipForce",
-                    nominal: [100.0, 10.0, 1.0],
-                    start: [0.0; 3],
-                },
                 description: "Load at which the joint's Bouc-Wen law slips in {motion} where beta and gamma have the sum 1",
-                // what presses makes what slides
-                grows_with_preload: true,
-                ..PARAMETER
+                ..SLIP_FORCE
             },
             Parameter {
                 symbol: "bouc_wen_n",

@@ -2,37 +2,11 @@
 
 use super::{
     Corner, Law,
-    declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule, is_positive,
-    },
+    declaration::{Declaration, Outside, Parameter, Remembered, RememberedAs, is_positive},
     flow::{Flow, HIDDEN, release_all},
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
-
-const PARAMETER: Parameter = Parameter {
-    symbol: "dahl_k",
-    key: "stiffness",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 1,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SliderStiffness",
-        nominal: [1e6, 1e4, 1e3],
-        start: [0.0; 3],
-    },
-    description: "Stiffness of the joint's Dahl law in {motion} at no load",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    grows_with_preload: false,
-};
 
 /// A slider on one relative DOF that flows from the first load on: dF/dx = σ₀ (1 − F sgn ẋ/F_c).
 ///
@@ -69,23 +43,15 @@ impl<N: Number> Law<N> for Dahl<N> {
         name: "dahl",
         summary: "A slider whose stiffness falls with its load, after Dahl",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "dahl_k",
+                description: "Stiffness of the joint's Dahl law in {motion} at no load",
+                ..STIFFNESS
+            },
             Parameter {
                 symbol: "dahl_h",
-                key: "slip_force",
-                unit: UnitRule::LoadPer {
-                    displacement: 0,
-                    seconds: 0,
-                },
-                quantity: Quantity {
-                    name: "SlipForce",
-                    nominal: [100.0, 10.0, 1.0],
-                    start: [0.0; 3],
-                },
                 description: "Load at which the joint's Dahl law slips in {motion}",
-                // what presses makes what slides
-                grows_with_preload: true,
-                ..PARAMETER
+                ..SLIP_FORCE
             },
         ],
         memory: &[Remembered {

@@ -14,9 +14,10 @@ mod strength;
 use super::{
     Corner, Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule, is_positive,
+        Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, UnitRule,
+        is_positive,
     },
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
 use curve::Curve;
@@ -25,31 +26,6 @@ use reversals::{HIDDEN, Reversals};
 use strength::Strength;
 
 pub use reversals::REVERSALS_MAX;
-
-const PARAMETER: Parameter = Parameter {
-    symbol: "iwan_h",
-    key: "slip_force",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 0,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SlipForce",
-        nominal: [100.0, 10.0, 1.0],
-        start: [0.0; 3],
-    },
-    description: "Load at which the joint's Iwan law slips through in {motion}",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    // μ times what presses, at each of them
-    grows_with_preload: true,
-};
 
 /// A continuum of sliders on one relative DOF, each a spring that slips at its own load: their density over the
 /// displacement φ at which they slip is R φ^χ up to φ_max, and those of the ratio β slip at φ_max itself.
@@ -101,22 +77,15 @@ impl<N: Number> Law<N> for Iwan<N> {
         name: "iwan",
         summary: "Many sliders side by side, the weakest of which slip first, by Segalman's four parameters",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "iwan_h",
+                description: "Load at which the joint's Iwan law slips through in {motion}",
+                ..SLIP_FORCE
+            },
             Parameter {
                 symbol: "iwan_k",
-                key: "stiffness",
-                unit: UnitRule::LoadPer {
-                    displacement: 1,
-                    seconds: 0,
-                },
-                quantity: Quantity {
-                    name: "SliderStiffness",
-                    nominal: [1e6, 1e4, 1e3],
-                    start: [0.0; 3],
-                },
                 description: "Stiffness of the joint's Iwan law in {motion} while all of it sticks",
-                grows_with_preload: false,
-                ..PARAMETER
+                ..STIFFNESS
             },
             Parameter {
                 symbol: "iwan_chi",
@@ -129,8 +98,7 @@ impl<N: Number> Law<N> for Iwan<N> {
                     start: [0.0; 3],
                 },
                 description: "Exponent of the joint's Iwan law in {motion}: small cycles lose its power plus three of their amplitude",
-                grows_with_preload: false,
-                ..PARAMETER
+                ..STIFFNESS
             },
             Parameter {
                 symbol: "iwan_beta",
@@ -142,8 +110,7 @@ impl<N: Number> Law<N> for Iwan<N> {
                     start: [0.0; 3],
                 },
                 description: "Stiffness of what slips last in {motion} to that of all that slips before in the joint's Iwan law",
-                grows_with_preload: false,
-                ..PARAMETER
+                ..STIFFNESS
             },
         ],
         memory: &[Remembered {

@@ -2,35 +2,10 @@
 
 use super::{
     Corner, Law,
-    declaration::{
-        ActsOn, Declaration, Parameter, Quantity, Range, Remembered, RememberedAs, Span, UnitRule,
-    },
+    declaration::{Declaration, Parameter, Remembered, RememberedAs},
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
-
-const PARAMETER: Parameter = Parameter {
-    symbol: "jenkins_k",
-    key: "stiffness",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 1,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SliderStiffness",
-        nominal: [1e6, 1e4, 1e3],
-        start: [0.0; 3],
-    },
-    description: "Stiffness of the joint's elastic slider in {motion}",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    grows_with_preload: false,
-};
 
 /// Part of the slip force that rounding may leave between it and the load of a slider that has just slipped.
 const ROUNDING: f64 = 1e-9;
@@ -105,23 +80,15 @@ impl<N: Number> Law<N> for Jenkins<N> {
         name: "jenkins",
         summary: "A spring and a slider in series, which slips at its slip force",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "jenkins_k",
+                description: "Stiffness of the joint's elastic slider in {motion}",
+                ..STIFFNESS
+            },
             Parameter {
                 symbol: "jenkins_h",
-                key: "slip_force",
-                unit: UnitRule::LoadPer {
-                    displacement: 0,
-                    seconds: 0,
-                },
-                quantity: Quantity {
-                    name: "SlipForce",
-                    nominal: [100.0, 10.0, 1.0],
-                    start: [0.0; 3],
-                },
                 description: "Load at which the joint's elastic slider slips in {motion}",
-                // μ times what presses
-                grows_with_preload: true,
-                ..PARAMETER
+                ..SLIP_FORCE
             },
         ],
         memory: &[Remembered {

@@ -8,9 +8,10 @@
 use super::{
     Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
-        Span, UnitRule, is_positive,
+        Declaration, Outside, Parameter, Quantity, RateOf, Remembered, RememberedAs, UnitRule,
+        is_positive,
     },
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
 
@@ -18,30 +19,6 @@ use crate::number::Number;
 const DEFLECTION: usize = 0;
 const PLACE: usize = 1;
 const VELOCITY: usize = 2;
-
-const PARAMETER: Parameter = Parameter {
-    symbol: "lugre_s0",
-    key: "stiffness",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 1,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SliderStiffness",
-        nominal: [1e6, 1e4, 1e3],
-        start: [0.0; 3],
-    },
-    description: "Stiffness of the bristles in the joint's LuGre law in {motion}",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    grows_with_preload: false,
-};
 
 const DAMPER: Parameter = Parameter {
     unit: UnitRule::LoadPer {
@@ -53,20 +30,7 @@ const DAMPER: Parameter = Parameter {
         nominal: [10.0, 1.0, 0.1],
         start: [0.0; 3],
     },
-    ..PARAMETER
-};
-
-const FORCE: Parameter = Parameter {
-    unit: UnitRule::LoadPer {
-        displacement: 0,
-        seconds: 0,
-    },
-    quantity: Quantity {
-        name: "SlipForce",
-        nominal: [100.0, 10.0, 1.0],
-        start: [0.0; 3],
-    },
-    ..PARAMETER
+    ..STIFFNESS
 };
 
 /// Part of the largest deflection of the bristles by which rounding may take them beyond it.
@@ -174,7 +138,11 @@ impl<N: Number> Law<N> for LuGre<N> {
         name: "lugre",
         summary: "Bristles that bend and slip, with a slip force that falls with the velocity",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "lugre_s0",
+                description: "Stiffness of the bristles in the joint's LuGre law in {motion}",
+                ..STIFFNESS
+            },
             Parameter {
                 symbol: "lugre_s1",
                 key: "bristle_damping",
@@ -191,17 +159,13 @@ impl<N: Number> Law<N> for LuGre<N> {
                 symbol: "lugre_fc",
                 key: "slip_force",
                 description: "Load at which the bristles of the joint's LuGre law slip in fast {motion}",
-                // what presses makes what slides
-                grows_with_preload: true,
-                ..FORCE
+                ..SLIP_FORCE
             },
             Parameter {
                 symbol: "lugre_fs",
                 key: "static_force",
                 description: "Load at which the bristles of the joint's LuGre law slip in slow {motion}",
-                // what presses makes what slides
-                grows_with_preload: true,
-                ..FORCE
+                ..SLIP_FORCE
             },
             Parameter {
                 symbol: "lugre_vs",
@@ -213,7 +177,7 @@ impl<N: Number> Law<N> for LuGre<N> {
                     start: [0.0; 3],
                 },
                 description: "Relative {rate} at which the slip force of the joint's LuGre law falls from its static value",
-                ..PARAMETER
+                ..STIFFNESS
             },
         ],
         memory: &[Remembered {

@@ -5,36 +5,12 @@
 use super::{
     Corner, Law,
     declaration::{
-        ActsOn, Declaration, Outside, Parameter, Quantity, Range, Remembered, RememberedAs, Span,
-        UnitRule, is_positive,
+        Declaration, Outside, Parameter, Quantity, Remembered, RememberedAs, UnitRule, is_positive,
     },
     flow::{Flow, HIDDEN, release_all},
+    slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
-
-const PARAMETER: Parameter = Parameter {
-    symbol: "valanis_e0",
-    key: "stiffness",
-    span: Span::Dof,
-    unit: UnitRule::LoadPer {
-        displacement: 1,
-        seconds: 0,
-    },
-    range: Range::NotNegative,
-    quantity: Quantity {
-        name: "SliderStiffness",
-        nominal: [1e6, 1e4, 1e3],
-        start: [0.0; 3],
-    },
-    description: "Stiffness of the joint's Valanis law in {motion} at small motion",
-    acts_on: ActsOn {
-        load: true,
-        stored_energy: true,
-        dissipated_power: true,
-        escape: false,
-    },
-    grows_with_preload: false,
-};
 
 /// A spring beside a slider that flows, on one relative DOF.
 ///
@@ -88,29 +64,21 @@ impl<N: Number> Law<N> for Valanis<N> {
         name: "valanis",
         summary: "A spring beside a slider that begins to flow before it slips, after Valanis",
         parameters: &[
-            PARAMETER,
+            Parameter {
+                symbol: "valanis_e0",
+                description: "Stiffness of the joint's Valanis law in {motion} at small motion",
+                ..STIFFNESS
+            },
             Parameter {
                 symbol: "valanis_et",
                 key: "slip_stiffness",
                 description: "Stiffness of the joint's Valanis law in {motion} while it slips, at most that at small motion",
-                ..PARAMETER
+                ..STIFFNESS
             },
             Parameter {
                 symbol: "valanis_s0",
-                key: "slip_force",
-                unit: UnitRule::LoadPer {
-                    displacement: 0,
-                    seconds: 0,
-                },
-                quantity: Quantity {
-                    name: "SlipForce",
-                    nominal: [100.0, 10.0, 1.0],
-                    start: [0.0; 3],
-                },
                 description: "Load at which the joint's Valanis law turns from sticking to slipping in {motion}",
-                // what presses makes what slides
-                grows_with_preload: true,
-                ..PARAMETER
+                ..SLIP_FORCE
             },
             Parameter {
                 symbol: "valanis_kappa",
@@ -122,7 +90,7 @@ impl<N: Number> Law<N> for Valanis<N> {
                     start: [0.0; 3],
                 },
                 description: "How sharply the joint's Valanis law begins to slip in {motion}: 0 softly, 1 at once",
-                ..PARAMETER
+                ..STIFFNESS
             },
         ],
         memory: &[Remembered {

@@ -28,7 +28,7 @@ pub struct BackboneRun {
     pub lines: Vec<BackboneLine>,
     /// Errors of the points where they were read from a free decay.
     pub(super) errors: Option<ReadingErrors>,
-    /// How the correction of its points follows the model, where they are corrected.
+    /// How the reading of the model's own decay follows its unknowns, where that is known.
     pub(super) following: Option<Following>,
 }
 
@@ -38,19 +38,21 @@ pub(super) type Row = (f64, Vec<f64>);
 impl BackboneRun {
     /// Residuals in standard deviations with their derivatives by the model's unknowns.
     pub(super) fn residuals(&self, model: &Model, values: &Values, noise: &Noise) -> Vec<Row> {
-        let deviations = self.lines.iter().map(|line| line.deviations(model, values));
-        match &self.errors {
-            None => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
-            Some(errors) => {
-                let (mut all, mut ratios): (Vec<Row>, Vec<Row>) = deviations
+        let motion = RelativeMotion::fundamental(values);
+        let lines = self.lines.iter();
+        let deviations = lines.map(|line| line.deviations(model, values, &motion));
+        match (&self.errors, &self.following) {
+            (None, _) => deviations.flat_map(|own| own.in_parts_of(noise)).collect(),
+            (Some(errors), None) => {
+                let (mut all, ratios): (Vec<Row>, Vec<Row>) = deviations
                     .map(|own| (own.frequency, own.ratio.unwrap_or_default().plain))
                     .unzip();
-                if let Some(following) = &self.following {
-                    following.follow(model, values, 0, &mut all);
-                    following.follow(model, values, 1, &mut ratios);
-                }
                 all.extend(ratios);
                 errors.whitened(&all)
+            }
+            (Some(errors), Some(following)) => {
+                let both = [0, 1].map(|kind| following.rows(model, values, kind));
+                errors.whitened(&both.concat())
             }
         }
     }
@@ -77,7 +79,7 @@ impl BackboneLine {
 
     /// By how much the logarithm of the frequency and the damping ratio are above the model's.
     pub(super) fn beyond(&self, model: &Model, values: &Values) -> [f64; 2] {
-        let own = self.deviations(model, values);
+        let own = self.deviations(model, values, &RelativeMotion::fundamental(values));
         [
             own.frequency.0,
             own.ratio.map_or(0.0, |ratio| ratio.plain.0),
@@ -85,8 +87,13 @@ impl BackboneLine {
     }
 
     /// What was measured less what the model has.
-    fn deviations(&self, model: &Model, values: &Values) -> Deviations {
-        let z = RelativeMotion::fundamental(values).stiffness(self.amplitude_m, self.omega);
+    fn deviations(
+        &self,
+        model: &Model,
+        values: &Values,
+        motion: &RelativeMotion<'_>,
+    ) -> Deviations {
+        let z = motion.stiffness(self.amplitude_m, self.omega);
         // K = k/2 + k₁₂ + …, M = m/2, C = c/2 + c₁₂ + …
         let mass = 0.5 * values.mass;
         let stiffness = z.value.re + mass * self.omega * self.omega;

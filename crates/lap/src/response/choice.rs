@@ -91,8 +91,11 @@ pub(super) fn choose(
         .filter(|run| run.used_for == Use::Fit)
         .collect();
     let backbones = fitted_backbones(study);
-    // The study's own choice counts, but all are compared.
-    let mut all = TermSet::candidates();
+    // The study's own choice counts, but all are compared, unless the study wants none of that.
+    let mut all = match study.compare {
+        true => TermSet::candidates(),
+        false => Vec::new(),
+    };
     if let Some(own) = study.terms.as_ref().filter(|own| !all.contains(own)) {
         all.push(own.clone());
     }
@@ -159,7 +162,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
             backbones: &backbones,
         };
         let before = found.fit.values;
-        let again = |kind| fit::fit(&model, data, &study.noise, &before, kind);
+        let again = |kind| fit::fit(&model, data, &study.noise, &found.fit, kind);
         let Ok(fit) = again(Kind::Passive) else {
             return found;
         };
@@ -198,7 +201,7 @@ fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) ->
         lines: &lines,
         backbones: &backbones,
     };
-    let again = |fitted: &Fit, kind| fit::fit(&model, data, &study.noise, &fitted.values, kind);
+    let again = |fitted: &Fit, kind| fit::fit(&model, data, &study.noise, fitted, kind);
     let Ok(fit) = again(&candidate.fit, Kind::Passive) else {
         // That of one harmonic stands, and the user is told.
         return candidate;
@@ -251,7 +254,7 @@ fn candidate(
             lines: &lines,
             backbones: &read,
         };
-        fit = fit::fit(&model, data, noise, &fit.values, Kind::Passive)?;
+        fit = fit::fit(&model, data, noise, &fit, Kind::Passive)?;
     }
     let read: Vec<&BackboneRun> = own.iter().collect();
     // where no limit holds the passive estimate it is the free one, else the free one is downhill from it
@@ -262,7 +265,7 @@ fn candidate(
                 lines: &lines,
                 backbones: &read,
             };
-            let free = fit::fit(&model, data, noise, &fit.values, Kind::Free).ok();
+            let free = fit::fit(&model, data, noise, &fit, Kind::Free).ok();
             free.filter(|free| free.chi_squared < fit.chi_squared)
         }
     };

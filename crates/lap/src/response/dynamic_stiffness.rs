@@ -8,7 +8,7 @@ use bolted_joint_dynamics::{
 use num_complex::Complex64;
 
 use super::model::Values;
-use super::slider::{MOST, SliderParameter, SliderValues};
+use super::slider::{ClosedLoops, MOST, SliderParameter, SliderValues};
 use bolted_joint_harmonic::{
     HarmonicBalance, HarmonicLoads, Harmonics, Observed, Parameter, Side, Target,
 };
@@ -46,6 +46,10 @@ impl DynamicStiffness {
 /// The relative motion of a lap with given numbers.
 pub(super) struct RelativeMotion<'a> {
     values: &'a Values,
+    /// Describing functions of the terms at an amplitude of 1 m.
+    describing: [f64; TERM_COUNT],
+    /// Of a law that slips.
+    loops: Option<ClosedLoops>,
     /// For more than one harmonic.
     balance: Option<HarmonicBalance<1>>,
 }
@@ -55,6 +59,8 @@ impl<'a> RelativeMotion<'a> {
     pub(super) fn fundamental(values: &'a Values) -> Self {
         Self {
             values,
+            describing: Term::ALL.map(Term::describing),
+            loops: values.slider.map(|slider| slider.closed_loops()),
             balance: None,
         }
     }
@@ -65,7 +71,10 @@ impl<'a> RelativeMotion<'a> {
         let balance = (highest > 1 && values.slider.is_none())
             .then(|| HarmonicBalance::new(&lap(values), Harmonics::odd(highest).ok()?).ok())
             .flatten();
-        Self { values, balance }
+        Self {
+            balance,
+            ..Self::fundamental(values)
+        }
     }
 
     /// z_r at an amplitude of the fundamental (m). Not finite where nothing is found.
@@ -85,7 +94,7 @@ impl<'a> RelativeMotion<'a> {
     fn closed(&self, amplitude_m: f64, omega: f64) -> DynamicStiffness {
         let values = self.values;
         let by_term = Term::ALL.map(|term| {
-            let share = term.describing() * amplitude_m.powi(term.amplitude_power());
+            let share = self.describing[term.index()] * amplitude_m.powi(term.amplitude_power());
             match term.is_damper() {
                 false => Complex64::new(share, 0.0),
                 true => Complex64::new(0.0, omega * share),
@@ -100,8 +109,9 @@ impl<'a> RelativeMotion<'a> {
             value += by * values.term(term);
         }
         let mut by_log_amplitude = self.by_log_amplitude(&by_term);
-        let slider = values.slider.map(|slider| {
-            let slipping = slider.slipping(amplitude_m);
+        let slider = values.slider.zip(self.loops.as_ref());
+        let slider = slider.map(|(slider, loops)| {
+            let slipping = loops.at(amplitude_m);
             value += slipping.value;
             by_log_amplitude += slipping.by_log_amplitude;
             (slider, slipping.by_unknown)
@@ -208,8 +218,8 @@ mod tests {
         let closed = RelativeMotion::fundamental(&values);
         let balance = HarmonicBalance::new(&lap(&values), Harmonics::odd(1).unwrap()).unwrap();
         let balanced = RelativeMotion {
-            values: &values,
             balance: Some(balance),
+            ..RelativeMotion::fundamental(&values)
         };
         for omega in [490.0, 503.0, 515.0] {
             let [one, other] = [&closed, &balanced].map(|motion| motion.stiffness(2.5e-4, omega));

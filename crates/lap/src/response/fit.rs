@@ -1,8 +1,11 @@
 //! Maximum likelihood: the model's numbers and the true amplitude of every line at once. The amplitudes are eliminated line by
 //! line, so that what is left is as small as the model.
 
+mod amplitude;
+
 use nalgebra::{DMatrix, DVector};
 
+use self::amplitude::{LONGEST, dot, settled, unit};
 use super::backbone::{BackboneLine, BackboneRun};
 use super::data::SineLine;
 use super::dynamic_stiffness::RelativeMotion;
@@ -17,12 +20,6 @@ const STEPS: usize = 200;
 const FIRST_STEPS: usize = 12;
 /// Relative decrease of χ² that is none.
 const AT_REST: f64 = 1e-10;
-/// Longest step of the logarithm of an amplitude.
-const LONGEST: f64 = 0.5;
-/// Iterations of one line's amplitude, shortened steps in each, and the step that is none.
-const SETTLING: usize = 12;
-const HALVINGS: usize = 4;
-const SETTLED: f64 = 1e-8;
 const DAMPING: f64 = 1e-4;
 const MOST_DAMPING: f64 = 1e12;
 /// How often the largest displacement, which the limits go up to, follows the fit, and when it has come to rest.
@@ -111,6 +108,55 @@ impl<'a> Data<'a> {
     }
 }
 
+/// Where a fit starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start<'a> {
+    values: &'a Values,
+    /// The relative amplitude of each line, m, where an earlier fit to the same lines found them.
+    amplitudes_m: Option<&'a [f64]>,
+}
+
+impl<'a> From<&'a Values> for Start<'a> {
+    fn from(values: &'a Values) -> Self {
+        Self {
+            values,
+            amplitudes_m: None,
+        }
+    }
+}
+
+/// A fit goes on with the amplitudes that it has: a line may have two of them, of which another guess could be the worse one.
+impl<'a> From<&'a Fit> for Start<'a> {
+    fn from(fit: &'a Fit) -> Self {
+        Self {
+            values: &fit.values,
+            amplitudes_m: Some(&fit.amplitudes_m),
+        }
+    }
+}
+
+impl Start<'_> {
+    /// The relative amplitude of each line, m.
+    fn amplitudes_m(&self, model: &Model, data: Data<'_>) -> Vec<f64> {
+        match self.amplitudes_m {
+            Some(found) if found.len() == data.lines.len() => found.to_vec(),
+            _ => {
+                let lines = data.lines.iter();
+                lines
+                    .map(|line| model.relative_amplitude(self.values, line))
+                    .collect()
+            }
+        }
+    }
+
+    /// Largest displacement that it makes of the data, m.
+    fn largest_m(&self, model: &Model, data: Data<'_>) -> f64 {
+        let of_points = data.points().map(|line| line.amplitude_m);
+        let of_lines = self.amplitudes_m(model, data).into_iter();
+        of_lines.chain(of_points).fold(f64::MIN_POSITIVE, f64::max)
+    }
+}
+
 /// Whether an estimate may be active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -160,48 +206,17 @@ impl State {
     }
 }
 
-/// The amplitude that fits one line best, near a first guess: a force without error, which fixes it, would otherwise hold up every
-/// step of the model.
-fn settled(mut log_amplitude: f64, residual: impl Fn(f64) -> LineResidual) -> (f64, LineResidual) {
-    let cost = |line: &LineResidual| dot(&line.residual, &line.residual);
-    let mut line = residual(log_amplitude);
-    for _ in 0..SETTLING {
-        let (direction, length) = unit(line.by_log_amplitude);
-        if length == 0.0 {
-            break;
-        }
-        let mut step = (-dot(&line.residual, &direction) / length).clamp(-LONGEST, LONGEST);
-        let mut is_better = false;
-        for _ in 0..HALVINGS {
-            if step.abs() < SETTLED {
-                break;
-            }
-            let trial = residual(log_amplitude + step);
-            if cost(&trial) < cost(&line) {
-                log_amplitude += step;
-                line = trial;
-                is_better = true;
-                break;
-            }
-            step *= 0.25;
-        }
-        if !is_better {
-            break;
-        }
-    }
-    (log_amplitude, line)
-}
-
 /// Fits the model from a start. A passive joint is so up to the largest displacement that was fitted, which a fit moves a
 /// little: then it is fitted again.
-pub(super) fn fit(
+pub(super) fn fit<'a>(
     model: &Model,
     data: Data<'_>,
     noise: &Noise,
-    start: &Values,
+    start: impl Into<Start<'a>>,
     kind: Kind,
 ) -> Result<Fit, LapError> {
-    let mut largest_m = largest(model, data, start);
+    let start = start.into();
+    let mut largest_m = start.largest_m(model, data);
     let mut found = fit_up_to(model, data, noise, start, (kind, largest_m, STEPS))?;
     for _ in 0..FOLLOWED {
         let is_there = (found.amplitude_m / largest_m - 1.0).abs() < FOLLOWS;
@@ -214,7 +229,13 @@ pub(super) fn fit(
             break;
         }
         largest_m = found.amplitude_m;
-        found = fit_up_to(model, data, noise, &found.values, (kind, largest_m, STEPS))?;
+        found = fit_up_to(
+            model,
+            data,
+            noise,
+            Start::from(&found),
+            (kind, largest_m, STEPS),
+        )?;
     }
     if kind == Kind::Passive && !found.at_limits.is_empty() {
         let passive = Passive {
@@ -235,25 +256,16 @@ pub(super) fn glanced(
     start: &Values,
     kind: Kind,
 ) -> Result<Fit, LapError> {
-    let largest_m = largest(model, data, start);
+    let start = Start::from(start);
+    let largest_m = start.largest_m(model, data);
     fit_up_to(model, data, noise, start, (kind, largest_m, FIRST_STEPS))
-}
-
-/// Largest displacement that a start makes of the data, m.
-fn largest(model: &Model, data: Data<'_>, start: &Values) -> f64 {
-    let of_lines = data
-        .lines
-        .iter()
-        .map(|line| model.relative_amplitude(start, line));
-    let of_points = data.points().map(|line| line.amplitude_m);
-    of_lines.chain(of_points).fold(f64::MIN_POSITIVE, f64::max)
 }
 
 fn fit_up_to(
     model: &Model,
     data: Data<'_>,
     noise: &Noise,
-    start: &Values,
+    from: Start<'_>,
     (kind, largest_m, most_steps): (Kind, f64, usize),
 ) -> Result<Fit, LapError> {
     let unknowns = model.unknowns.len();
@@ -267,13 +279,13 @@ fn fit_up_to(
         model,
         amplitude_m: largest_m,
     });
-    let start = passive.map_or(*start, |passive| passive.within(*start));
-    let amplitudes = data.lines.iter().map(|line| {
-        model
-            .relative_amplitude(&start, line)
-            .max(f64::MIN_POSITIVE)
-            .ln()
-    });
+    let start = passive.map_or(*from.values, |passive| passive.within(*from.values));
+    let from = Start {
+        values: &start,
+        ..from
+    };
+    let amplitudes = from.amplitudes_m(model, data).into_iter();
+    let amplitudes = amplitudes.map(|amplitude_m| amplitude_m.max(f64::MIN_POSITIVE).ln());
     let mut state = State::new(model, data, noise, start, amplitudes.collect());
     if !state.chi_squared.is_finite() {
         return Err(LapError::NoEstimate);
@@ -400,16 +412,5 @@ fn moved(
     State::new(model, data, noise, values, log_amplitudes)
 }
 
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Direction and length; no direction of what has no length.
-fn unit(vector: [f64; 3]) -> ([f64; 3], f64) {
-    let length = dot(&vector, &vector).sqrt();
-    if length > 0.0 && length.is_finite() {
-        (vector.map(|entry| entry / length), length)
-    } else {
-        ([0.0; 3], 0.0)
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -1,16 +1,18 @@
 //! Laws that slip, as unknowns of a lap: by logarithms, so that no step of a search leaves their range, and about the stiffness of
 //! small motion, which responses tell best.
 
+mod many;
+
 use std::f64::consts::PI;
 
 use bolted_joint_dynamics::{
     Dual, Number,
     law::{Iwan, Jenkins, Law},
 };
-use bolted_joint_harmonic::masing_fundamental;
-use bolted_joint_statistics::gamma_ratio;
 use num_complex::Complex64;
 use serde::{Serialize, Serializer};
+
+use self::many::ManySliders;
 
 /// Unknowns of a law at most.
 pub(super) const MOST: usize = 4;
@@ -216,7 +218,16 @@ impl SliderValues {
     pub(super) fn first_loading(&self) -> Box<dyn Fn(f64) -> f64> {
         match self.law(self.logs) {
             Valued::Jenkins(law) => Box::new(move |u| law.load(&[0.0], u, 0.0)),
-            Valued::Iwan(law) => Box::new(move |u| law.load::<f64>(&[], u, 0.0)),
+            Valued::Iwan(law) => {
+                let span = law.nonlinear_amplitude(0.0, 0.0);
+                let above = law.exponent + 1.0;
+                // F = K_T u − K_l (u/φ_max)^(χ+1) u/(χ+2) with K_l = K_T/(1 + β), F_S from φ_max on
+                let part = law.stiffness / (1.0 + law.ratio) / (above + 1.0);
+                Box::new(move |u| match u < span {
+                    true => (law.stiffness - part * (u / span).powf(above)) * u,
+                    false => law.slip_force,
+                })
+            }
         }
     }
 
@@ -262,25 +273,6 @@ impl SliderValues {
         }
     }
 
-    /// Iwan's law where nothing slips through: real and imaginary part of z − K_T.
-    fn of_small_motion<const K: usize>(
-        &self,
-        logs: [Dual<K>; MOST],
-        amplitude: Dual<K>,
-    ) -> [Dual<K>; 2] {
-        let [first, second, ..] = logs;
-        let (one, two) = (Dual::from(1.0), Dual::from(2.0));
-        let above = second.exp();
-        // K_l (U/A)^(χ+1)
-        let lost = first.exp() * (amplitude / Dual::from(self.reference_m)).powf(above);
-        // (4/√π) Γ(χ+5/2)/Γ(χ+4), with its derivative by χ
-        let [ratio, slope] = gamma_ratio(above.value + 1.5, above.value + 3.0);
-        let part = above.chain(4.0 / PI.sqrt() * ratio, 4.0 / PI.sqrt() * slope);
-        // D/(πU²) = (4/π) K_l (U/A)^(χ+1) (χ+1)/((χ+2)(χ+3))
-        let loss = Dual::from(4.0 / PI) * above / ((above + one) * (above + two));
-        [-(lost * part), lost * loss]
-    }
-
     /// Place of a parameter's unknown.
     pub(super) fn index(&self, parameter: SliderParameter) -> Option<usize> {
         let mut all = self.slider.parameters().iter();
@@ -299,63 +291,67 @@ impl SliderValues {
         self.logs.get_mut(index)
     }
 
-    /// What it adds at an amplitude of the relative motion, m.
-    pub(super) fn slipping(&self, amplitude_m: f64) -> Slipping {
-        const ALL: usize = MOST + 1;
-        if amplitude_m.is_nan() || amplitude_m <= 0.0 {
-            let none = Complex64::ZERO;
-            return Slipping {
-                value: none,
-                by_log_amplitude: none,
-                by_unknown: [none; MOST],
-            };
-        }
-        let logs = std::array::from_fn(|i| Dual::<ALL>::along(self.logs[i], i));
-        let amplitude = Dual::along(amplitude_m, MOST);
-        let [real, imaginary] = match self.law(logs) {
-            Valued::Jenkins(law) => of_one_slider(&law, amplitude),
-            Valued::Iwan(law) => {
-                let span = law.nonlinear_amplitude(0.0, 0.0);
-                if amplitude_m <= span {
-                    self.of_small_motion(logs, amplitude)
-                } else {
-                    let found = masing_fundamental(
-                        |u| law.load::<f64>(&[], u, Dual::ZERO),
-                        span,
-                        amplitude,
-                    );
-                    // f = a₁ cos θ + b₁ sin θ of u = U cos θ: z = (a₁ − j b₁)/U − K_T
-                    let [in_phase, quadrature] = [found.in_phase, found.quadrature];
-                    [
-                        in_phase / amplitude - law.stiffness,
-                        -quadrature / amplitude,
-                    ]
-                }
+    /// Its closed loops, made ready for many amplitudes.
+    pub(super) fn closed_loops(&self) -> ClosedLoops {
+        ClosedLoops(match self.slider {
+            Slider::Jenkins => Loops::One([0, 1].map(|i| self.logs[i].exp())),
+            Slider::MicroSlip | Slider::Iwan => {
+                let is_small = self.slider == Slider::MicroSlip;
+                Loops::Many(ManySliders::new(self.logs, self.reference_m, is_small))
             }
-        };
-        let change = |i: usize| Complex64::new(real.change[i], imaginary.change[i]);
-        Slipping {
-            value: Complex64::new(real.value, imaginary.value),
-            by_log_amplitude: amplitude_m * change(MOST),
-            by_unknown: std::array::from_fn(change),
+        })
+    }
+}
+
+/// The closed loops of a law at given values.
+pub(super) struct ClosedLoops(Loops);
+
+enum Loops {
+    /// Of one slider: k (N/m) and h (N).
+    One([f64; 2]),
+    /// Of many.
+    Many(ManySliders),
+}
+
+impl ClosedLoops {
+    /// What the law adds at an amplitude of the relative motion, m.
+    pub(super) fn at(&self, amplitude_m: f64) -> Slipping {
+        match &self.0 {
+            _ if amplitude_m.is_nan() || amplitude_m <= 0.0 => Slipping::NONE,
+            Loops::One(numbers) => of_one_slider(*numbers, amplitude_m),
+            Loops::Many(sliders) => sliders.slipping(amplitude_m),
         }
     }
 }
 
-/// One slider: real and imaginary part of z − k.
-fn of_one_slider<const K: usize>(law: &Jenkins<Dual<K>>, amplitude: Dual<K>) -> [Dual<K>; 2] {
-    let (one, two) = (Dual::from(1.0), Dual::from(2.0));
-    let part = law.slip_force / (law.stiffness * amplitude);
-    if part.value >= 1.0 {
-        return [Dual::ZERO; 2];
+impl Slipping {
+    /// Of what does not move.
+    const NONE: Self = Self {
+        value: Complex64::ZERO,
+        by_log_amplitude: Complex64::ZERO,
+        by_unknown: [Complex64::ZERO; MOST],
+    };
+}
+
+/// One slider k, h in its closed loop: z − k.
+fn of_one_slider([stiffness, slip_force]: [f64; 2], amplitude_m: f64) -> Slipping {
+    let part = slip_force / (stiffness * amplitude_m);
+    if part >= 1.0 {
+        return Slipping::NONE;
     }
     // θ_s = arccos(1 − 2h/(kU)); a₁ = (kU/π)(θ_s − ½ sin 2θ_s); b₁ = −(4h/π)(1 − h/(kU))
-    let cosine = one - two * part;
-    let sine = (one - cosine * cosine).powf(Dual::from(0.5));
-    let angle = cosine.chain(cosine.value.acos(), -sine.value.recip());
-    let stays = (angle - sine * cosine) * Dual::from(PI.recip());
-    let loss = Dual::from(4.0 / PI) * part * (one - part);
-    [law.stiffness * (stays - one), law.stiffness * loss]
+    let cosine = 1.0 - 2.0 * part;
+    let sine = 2.0 * (part * (1.0 - part)).sqrt();
+    let stays = (cosine.acos() - sine * cosine) / PI;
+    let loss = 4.0 / PI * part * (1.0 - part);
+    let value = stiffness * Complex64::new(stays - 1.0, loss);
+    // by ln(h/(kU)): dθ_s/dcos θ_s = −1/sin θ_s
+    let by_part = stiffness * 4.0 / PI * part * Complex64::new(sine, 1.0 - 2.0 * part);
+    Slipping {
+        value,
+        by_log_amplitude: -by_part,
+        by_unknown: [value - by_part, by_part, Complex64::ZERO, Complex64::ZERO],
+    }
 }
 
 impl Serialize for Slider {

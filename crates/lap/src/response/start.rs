@@ -43,17 +43,23 @@ pub(super) fn best(
         starts = with_slider(model, data, slider, &starts);
     }
     let tried = starts.len();
-    if tried > MOST_STARTS {
+    let ended: Vec<Result<Fit, LapError>> = if tried > MOST_STARTS {
         let glance = |start: &Values| glanced(model, data, noise, start, kind).ok();
         let mut seen: Vec<Fit> = starts.iter().filter_map(glance).collect();
         seen.retain(|fit| fit.chi_squared.is_finite());
         seen.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
         let best = seen.iter().take(MOST_STARTS);
-        starts = best.map(|fit| fit.values).collect();
-    }
+        best.map(|seen| fit(model, data, noise, seen, kind))
+            .collect()
+    } else {
+        let starts = starts.iter();
+        starts
+            .map(|start| fit(model, data, noise, start, kind))
+            .collect()
+    };
     let mut fits: Vec<Fit> = Vec::new();
-    for start in &starts {
-        match fit(model, data, noise, start, kind) {
+    for fit in ended {
+        match fit {
             Ok(fit) if fit.values.mass > 0.0 => fits.push(fit),
             Err(error @ LapError::TooFewLines { .. }) => return Err(error),
             _ => {}

@@ -155,14 +155,23 @@ impl Record {
         let reach_s = WINDOW * sigma_s;
         let from = ((time_s - reach_s) / self.interval_s).ceil().max(0.0) as usize;
         let to = ((time_s + reach_s) / self.interval_s).floor() as usize;
+        let first_s = self.interval_s * from as f64;
+        // From sample to sample the phasor turns by the same angle, and the logarithm of the Gaussian changes by an even series.
+        let (apart, step) = ((first_s - time_s) / sigma_s, self.interval_s / sigma_s);
+        let mut weight = (-0.5 * apart * apart).exp();
+        let mut growth = (-step * (apart + 0.5 * step)).exp();
+        let falls = (-step * step).exp();
+        let mut phasor = Complex64::cis(-omega * first_s);
+        let turns = Complex64::cis(-omega * self.interval_s);
         let (mut sum, mut weights, mut largest) = (Complex64::ZERO, 0.0, 0.0_f64);
-        for (index, value) in self.values.iter().enumerate().take(to + 1).skip(from) {
-            let t = self.interval_s * index as f64;
-            let distance = (t - time_s) / sigma_s;
-            let weight = (-0.5 * distance * distance).exp();
-            sum += Complex64::cis(-omega * t) * (weight * value);
+        let last = (to + 1).min(self.values.len());
+        for value in self.values.get(from..last).unwrap_or_default() {
+            sum += phasor * (weight * value);
             weights += weight;
             largest = largest.max(value.abs());
+            weight *= growth;
+            growth *= falls;
+            phasor *= turns;
         }
         Point {
             time_s,

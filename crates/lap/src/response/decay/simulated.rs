@@ -28,48 +28,54 @@ const RELEASES: usize = 3;
 /// Longest step of an unknown that derivatives are taken over, as part of its size; of the logarithm of a law's.
 const LONGEST: f64 = 0.05;
 
-/// How the reading of a decay follows the model's unknowns: the measured curve is corrected for one place among them.
+/// How what is read from a model's decay follows the model's unknowns, about one place among them.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::response) struct Following {
     at: Values,
-    /// Of the corrections of each line, frequency and ratio, by the unknowns.
+    /// What each line has beyond the model's reading there, of frequencies and of damping ratios.
+    beyond: [Vec<f64>; 2],
+    /// How that reading grows with the unknowns.
     by: [DMatrix<f64>; 2],
 }
 
 impl Following {
-    /// Deviations of frequencies (0) or damping ratios (1) as they are with the correction for these values.
-    pub(in crate::response) fn follow(
+    /// Deviations of frequencies (0) or damping ratios (1) with their derivatives, for these values.
+    ///
+    /// The model's own curve is not asked: it may have a corner, which reading makes round.
+    pub(in crate::response) fn rows(
         &self,
         model: &Model,
         values: &Values,
         kind: usize,
-        rows: &mut [Row],
-    ) {
-        let change = model.change(&self.at, values);
-        let beyond = &self.by[kind] * change;
-        for (line, (deviation, by)) in rows.iter_mut().enumerate() {
-            *deviation -= beyond[line];
-            for (entry, own) in by.iter_mut().zip(self.by[kind].row(line).iter()) {
-                *entry -= own;
-            }
-        }
+    ) -> Vec<Row> {
+        let grown = &self.by[kind] * model.change(&self.at, values);
+        let lines = self.beyond[kind].iter().enumerate();
+        lines
+            .map(|(line, beyond)| {
+                let by = self.by[kind].row(line);
+                (
+                    beyond - grown[line],
+                    by.iter().map(|entry| -entry).collect(),
+                )
+            })
+            .collect()
     }
 }
 
-/// A decay corrected for the model that was fitted, with how the correction follows its unknowns.
+/// A decay corrected for the model that was fitted, with how its reading follows the unknowns.
 ///
 /// What is read depends on the model nearly as much as what the model has. A fit that took the correction as fixed would come
 /// to its end slowly, and with too small errors.
 pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun) -> BackboneRun {
     let mut own = corrected(model, &fit.values, run);
-    let Some(here) = corrections(model, &fit.values, run) else {
+    let Some(here) = beyond_reading(model, &fit.values, run) else {
         return own;
     };
     let size = (run.lines.len(), model.unknowns.len());
     let mut by = [0, 1].map(|_| DMatrix::zeros(size.0, size.1));
     for (column, &unknown) in model.unknowns.iter().enumerate() {
-        let mut moved = fit.values;
-        let Some(place) = moved.place(unknown) else {
+        let mut place = fit.values;
+        let Some(place) = place.place(unknown) else {
             continue;
         };
         let longest = match unknown {
@@ -81,20 +87,44 @@ pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun)
         let deviation = fit.information[(column, column)].sqrt().recip();
         let step = deviation.min(longest);
         if !(step > 0.0 && step.is_finite()) {
-            continue;
+            return own;
         }
-        *place += step;
-        let Some(there) = corrections(model, &moved, run) else {
-            continue;
+        // To both sides: two unknowns that act alike and against each other, as k and h do on the displacement of the corner,
+        // would else seem to be told apart by the curvature.
+        let side = |sign: f64| {
+            let mut moved = fit.values;
+            if let Some(place) = moved.place(unknown) {
+                *place += sign * step;
+            }
+            beyond_reading(model, &moved, run)
         };
-        for (line, (there, here)) in there.iter().zip(&here).enumerate() {
+        let Some((above, below)) = side(1.0).zip(side(-1.0)) else {
+            return own;
+        };
+        for (line, (above, below)) in above.iter().zip(&below).enumerate() {
             for kind in [0, 1] {
-                by[kind][(line, column)] = (there[kind] - here[kind]) / step;
+                by[kind][(line, column)] = (below[kind] - above[kind]) / (2.0 * step);
             }
         }
     }
-    own.following = Some(Following { at: fit.values, by });
+    own.following = Some(Following {
+        at: fit.values,
+        beyond: [0, 1].map(|kind| here.iter().map(|own| own[kind]).collect()),
+        by,
+    });
     own
+}
+
+/// What each line of a run has beyond the reading of the model's own decay: of the logarithm of the frequency and of the
+/// damping ratio.
+fn beyond_reading(model: &Model, values: &Values, run: &BackboneRun) -> Option<Vec<[f64; 2]>> {
+    let corrections = corrections(model, values, run)?;
+    let lines = run.lines.iter().zip(corrections);
+    let both = lines.map(|(line, correction)| {
+        let measured = line.beyond(model, values);
+        [0, 1].map(|kind| measured[kind] - correction[kind])
+    });
+    Some(both.collect())
 }
 
 /// A decay as it would have been read if reading had no errors, where `values` are those of the joint; others as they are.
@@ -141,34 +171,35 @@ fn slopes(model: &Model, values: &Values, line: &BackboneLine) -> [f64; 2] {
 /// By how much the logarithm of each frequency and each damping ratio is read too large. `None` where the model has no such decay.
 fn corrections(model: &Model, values: &Values, run: &BackboneRun) -> Option<Vec<[f64; 2]>> {
     let sigma_s = run.errors.as_ref()?.sigma_s;
-    let read = simulated(values, &run.lines, sigma_s)?.lines(0, 1.0);
-    let own: Vec<(f64, [f64; 2])> = read
-        .iter()
-        .map(|line| {
-            let [frequency, ratio] = line.beyond(model, values);
-            (line.amplitude_m.ln(), [frequency, ratio])
-        })
-        .filter(|(_, own)| own.iter().all(|value| value.is_finite()))
-        .collect();
-    let (first, last) = (own.first()?, own.last()?);
-    // amplitudes fall
-    let at = |log: f64| {
-        let pair = own.windows(2).find(|pair| pair[1].0 <= log);
-        match pair {
-            _ if log >= first.0 => first.1,
-            None => last.1,
-            Some(pair) => {
-                let share = (log - pair[0].0) / (pair[1].0 - pair[0].0);
-                [0, 1].map(|kind| pair[0].1[kind] + share * (pair[1].1[kind] - pair[0].1[kind]))
-            }
+    let mut read: Vec<BackboneLine> = simulated(values, &run.lines, sigma_s)?.lines(0, 1.0);
+    let beyond = |line: &BackboneLine| line.beyond(model, values);
+    read.retain(|line| beyond(line).iter().all(|value| value.is_finite()));
+    let (first, last) = (read.first()?, read.last()?);
+    // What is read is smooth over many half-periods, while the model's curve may have a corner: it is what is read that may
+    // be interpolated, not what it is beyond the model. Amplitudes fall.
+    let at = |amplitude_m: f64| {
+        let mut pairs = read.windows(2);
+        match pairs.find(|pair| pair[1].amplitude_m <= amplitude_m) {
+            _ if amplitude_m >= first.amplitude_m => *first,
+            None => *last,
+            Some(pair) => between(&pair[0], &pair[1], amplitude_m),
         }
     };
-    Some(
-        run.lines
-            .iter()
-            .map(|line| at(line.amplitude_m.ln()))
-            .collect(),
-    )
+    let lines = run.lines.iter();
+    Some(lines.map(|line| beyond(&at(line.amplitude_m))).collect())
+}
+
+/// What is read at an amplitude between those of two lines.
+fn between(above: &BackboneLine, below: &BackboneLine, amplitude_m: f64) -> BackboneLine {
+    let share =
+        (amplitude_m / above.amplitude_m).ln() / (below.amplitude_m / above.amplitude_m).ln();
+    let ratios = above.damping_ratio.zip(below.damping_ratio);
+    BackboneLine {
+        amplitude_m,
+        omega: above.omega * (below.omega / above.omega).powf(share),
+        damping_ratio: ratios.map(|(above, below)| above + share * (below - above)),
+        force_n: None,
+    }
 }
 
 /// The model's decay over the amplitudes of these points.
@@ -238,18 +269,25 @@ fn decay(
         if step % EVERY == 0 {
             samples.push(u);
         }
-        let before = v;
+        let (at, before) = (u, v);
         u += h * v + 0.5 * h * h * a;
-        let slips = load(u, turn, at_turn);
-        let force = of_spring(u) + slips;
         let damping = slower * (damper + values.terms.damping(u));
         // v′ = v + ½h (a + a′), a′ = −(f + c v′)/M
-        v = (v + 0.5 * h * (a - force / mass)) / (1.0 + 0.5 * h * damping / mass);
-        a = -(force + damping * v) / mass;
-        if before * v < 0.0 {
-            (turn, at_turn) = (u, slips);
-            largest = u.abs();
-        }
+        let moved = |force: f64| {
+            let v = (before + 0.5 * h * (a - force / mass)) / (1.0 + 0.5 * h * damping / mass);
+            (v, -(force + damping * v) / mass)
+        };
+        let (v_next, a_next) = moved(of_spring(u) + load(u, turn, at_turn));
+        (v, a) = match before * v_next < 0.0 {
+            false => (v_next, a_next),
+            true => {
+                // the turn lies within the step, where v = v₀ + (v₁ − v₀) t/h passes zero; behind it the law is another
+                let farthest = at + 0.5 * h * before * before / (before - v_next);
+                (turn, at_turn) = (farthest, load(farthest, turn, at_turn));
+                largest = farthest.abs();
+                moved(of_spring(u) + load(u, turn, at_turn))
+            }
+        };
         if !u.is_finite() || u.abs() > 2.0 * released_m {
             return None;
         }

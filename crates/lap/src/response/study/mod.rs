@@ -49,6 +49,8 @@ pub struct LapResponseStudy {
     pub response: Place,
     /// The terms of the model; `None` leaves the choice to the data.
     pub terms: Option<TermSet>,
+    /// Whether these terms are compared with all other models.
+    pub compare: bool,
     /// Highest harmonic of the relative motion.
     pub harmonics: usize,
     /// Whether other modes may add a constant to the receptance.
@@ -157,6 +159,12 @@ impl LapResponseStudy {
         let noise = noise(study, &file.noise, [has_sines, has_curves])?;
         let terms = file.model.terms.as_deref();
         let terms = terms.map(|named| terms_of(study, named)).transpose()?;
+        study.ensure(
+            file.model.compare || terms.is_some(),
+            "model.compare",
+            "false without model.terms",
+            "model.terms beside it: without a comparison nothing chooses the terms",
+        )?;
         if let Some(torque) = file.torque {
             study.not_negative("torque", torque, "N·m, not negative")?;
         }
@@ -231,6 +239,7 @@ impl LapResponseStudy {
             drive: file.model.drive,
             response: file.model.response,
             terms,
+            compare: file.model.compare,
             harmonics,
             other_modes: file.model.other_modes,
             known,

@@ -38,9 +38,15 @@ pub(super) struct ModelTable {
     pub(super) drive: Place,
     pub(super) response: Place,
     pub(super) terms: Option<Vec<NamedTerm>>,
+    #[serde(default = "yes")]
+    pub(super) compare: bool,
     pub(super) harmonics: Option<usize>,
     #[serde(default)]
     pub(super) other_modes: bool,
+}
+
+const fn yes() -> bool {
+    true
 }
 
 #[derive(Default, Deserialize)]

@@ -1,0 +1,444 @@
+//! The laws side by side on one DOF: the list of their kinds, and what they are together.
+//!
+//! A new law is a line in `dof_laws!` below. A law that is not there costs a bit that is looked at.
+
+use super::places::{
+    ALL, DOF_PARAMETER_COUNT, DofMemory, FIRST_PARAMETER_COUNT, FURTHER, INNER, INNER_COUNT,
+    INNER_PLACES, Place, REMEMBERING, dof_parameters, part, part_mut, places_of, present,
+};
+use super::{
+    BoucWen, Corner, Dahl, Declaration, Iwan, Jenkins, Law, LuGre, Outside, Parameter, Polynomial,
+    Valanis, linear,
+};
+use crate::number::Number;
+
+/// Farther than any joint goes, m or rad.
+const FAR_AWAY: f64 = 1e300;
+
+/// Part of its place by which rounding may put a corner before the joint that has just come to it.
+const ROUNDING: f64 = 1e-10;
+
+/// The laws on one relative DOF, by their parameters in the order of [`DECLARATIONS`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DofLaws<N = f64> {
+    parameters: [N; DOF_PARAMETER_COUNT],
+    /// The bits of those that are there.
+    present: u32,
+}
+
+impl<N: Number> DofLaws<N> {
+    /// No law there.
+    pub const NONE: Self = Self {
+        parameters: [N::ZERO; DOF_PARAMETER_COUNT],
+        present: 0,
+    };
+
+    /// The laws with these parameters, in the order of [`DECLARATIONS`].
+    #[inline]
+    #[must_use]
+    pub fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
+        Self {
+            parameters,
+            present: present(ALL.iter(), &parameters),
+        }
+    }
+
+    /// The laws with these parameters, of which none has another of its kind beside it.
+    #[inline]
+    #[must_use]
+    pub fn of_each_kind(first: &[N; FIRST_PARAMETER_COUNT]) -> Self {
+        let mut parameters = [N::ZERO; DOF_PARAMETER_COUNT];
+        parameters[..FIRST_PARAMETER_COUNT].copy_from_slice(first);
+        let firsts = ALL.iter().take(KINDS.len() - 1);
+        Self {
+            parameters,
+            present: present(firsts, &parameters),
+        }
+    }
+
+    /// The laws that are there.
+    pub fn present(&self) -> impl Iterator<Item = &'static Declaration> {
+        self.own(&ALL).map(Place::law)
+    }
+
+    /// Their parameters, in the order of [`DECLARATIONS`].
+    #[inline]
+    #[must_use]
+    pub const fn parameters(&self) -> &[N; DOF_PARAMETER_COUNT] {
+        &self.parameters
+    }
+
+    /// Whether no law is there: all parameters are zero.
+    #[inline]
+    #[must_use]
+    pub const fn are_none(&self) -> bool {
+        self.present == 0
+    }
+
+    /// Whether a law that is there remembers the motion.
+    #[inline]
+    #[must_use]
+    pub const fn have_memory(&self) -> bool {
+        self.present & REMEMBERING != 0
+    }
+
+    /// Whether a law that is there has an inner state.
+    #[inline]
+    #[must_use]
+    pub const fn have_inner(&self) -> bool {
+        self.present & INNER != 0
+    }
+
+    /// The laws with what grows as the preload does times this share of it.
+    #[must_use]
+    pub fn at_share_of_preload(&self, share: N) -> Self {
+        let mut own = *self;
+        for (value, (_, parameter)) in own.parameters.iter_mut().zip(dof_parameters()) {
+            if parameter.grows_with_preload {
+                *value = share * *value;
+            }
+        }
+        own
+    }
+
+    /// The laws with these parameters alone, the others zero.
+    #[must_use]
+    pub fn with_only(&self, stays: impl Fn(&Parameter) -> bool) -> Self {
+        let mut only = self.parameters;
+        for (value, (_, parameter)) in only.iter_mut().zip(dof_parameters()) {
+            if !stays(parameter) {
+                *value = N::ZERO;
+            }
+        }
+        Self::new(only)
+    }
+
+    /// These laws and others, of which none is of the same kind.
+    #[must_use]
+    pub fn beside(&self, others: &Self) -> Self {
+        Self {
+            parameters: std::array::from_fn(|n| self.parameters[n] + others.parameters[n]),
+            present: self.present | others.present,
+        }
+    }
+
+    /// Those of these places at which a law is.
+    #[inline]
+    fn own<'a>(&'a self, places: &'a [Place]) -> impl Iterator<Item = Place> + 'a {
+        places.iter().copied().filter(|&place| self.has(place))
+    }
+
+    /// The same without the first of a kind.
+    #[inline]
+    fn further<'a>(&'a self, places: &'a [Place]) -> impl Iterator<Item = Place> + 'a {
+        self.own(&places[1..])
+    }
+
+    /// Whether there is a law beside another of its kind.
+    #[inline]
+    const fn has_further(&self) -> bool {
+        self.present & FURTHER != 0
+    }
+
+    #[inline]
+    fn of(&self, place: Place) -> &[N] {
+        let [start, end] = place.parameters;
+        &self.parameters[start..end]
+    }
+
+    #[inline]
+    const fn has(&self, place: Place) -> bool {
+        self.present & place.bit != 0
+    }
+}
+
+/// Puts the kinds of laws that act on one relative DOF together, in this order.
+macro_rules! dof_laws {
+    ($($name:ident: $law:ident),+ $(,)?) => {
+        /// What the kinds of laws say of themselves, the linear one first.
+        pub(super) const KINDS: &[Declaration] = &[
+            linear::DECLARATION,
+            $(<$law<f64> as Law<f64>>::DECLARATION,)+
+        ];
+
+        /// The places of each kind.
+        struct Places {
+            $($name: [Place; <$law<f64> as Law<f64>>::DECLARATION.at_most],)+
+        }
+
+        const PLACES: Places = {
+            let mut kind = 0;
+            $(
+                kind += 1;
+                let $name = places_of(kind);
+            )+
+            Places { $($name,)+ }
+        };
+
+        impl<N: Number> DofLaws<N> {
+            $(
+                /// This law by itself, or the first of its kind.
+                #[inline]
+                #[must_use]
+                pub fn $name(&self) -> $law<N> {
+                    $law::new(self.of(PLACES.$name[0]))
+                }
+            )+
+
+            /// Load on side b, N or N·m, at the relative displacement r (m, rad) and its rate.
+            #[inline]
+            #[must_use]
+            pub fn load<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().load(part(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_load(memory, r, velocity);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_load<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.load(part(memory, place), r, velocity);
+                })+
+                sum
+            }
+
+            /// Energy stored in the springs, J.
+            #[inline]
+            #[must_use]
+            pub fn stored_energy<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().stored_energy(part(memory, PLACES.$name[0]), r);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_stored_energy(memory, r);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_stored_energy<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.stored_energy(part(memory, place), r);
+                })+
+                sum
+            }
+
+            /// Power turned into heat, W.
+            #[inline]
+            #[must_use]
+            pub fn dissipated_power<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().dissipated_power(part(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    sum = sum + self.further_dissipated_power(memory, r, velocity);
+                }
+                sum
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_dissipated_power<M: Number + Into<N>>(&self, memory: &DofMemory<M>, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.further(&PLACES.$name) {
+                    let law = $law::new(self.of(place));
+                    sum = sum + law.dissipated_power(part(memory, place), r, velocity);
+                })+
+                sum
+            }
+
+            /// The same of the laws that remember nothing, W: the others tell their heat where they move on.
+            #[inline]
+            #[must_use]
+            pub fn viscous_power(&self, r: N, velocity: N) -> N {
+                let mut sum = N::ZERO;
+                $(if !PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
+                    sum = sum + self.$name().dissipated_power::<N>(&[], r, velocity);
+                })+
+                sum
+            }
+
+            /// Moves what is remembered on to the relative displacement r (m, rad) and its rate; returns the heat of that way,
+            /// J, beside that of dampers and without its changes.
+            pub fn commit(&self, memory: &mut DofMemory<N>, r: N, velocity: N) -> f64 {
+                let mut heat = 0.0;
+                $(if PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
+                    heat += self.$name().commit(part_mut(memory, PLACES.$name[0]), r, velocity);
+                })+
+                if self.has_further() {
+                    heat += self.further_commit(memory, r, velocity);
+                }
+                heat
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn further_commit(&self, memory: &mut DofMemory<N>, r: N, velocity: N) -> f64 {
+                let mut heat = 0.0;
+                $(for place in self.further(&PLACES.$name) {
+                    heat += $law::new(self.of(place)).commit(part_mut(memory, place), r, velocity);
+                })+
+                heat
+            }
+
+            /// Moves the inner states alone on to the relative displacement r (m, rad) and its rate.
+            pub fn commit_inner(&self, memory: &mut DofMemory<N>, r: N, velocity: N) {
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    $law::new(self.of(place)).commit(part_mut(memory, place), r, velocity);
+                })+
+            }
+
+            /// Takes the inner states as those at the relative displacement r (m, rad) and this rate: where somebody else
+            /// integrates them.
+            pub fn settle(&self, memory: &mut DofMemory<N>, r: N, velocity: N) {
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    $law::new(self.of(place)).settle(part_mut(memory, place), r, velocity);
+                })+
+            }
+
+            /// Rates of the inner states, in the order of [`INNER_PLACES`], at this rate of the relative displacement.
+            #[must_use]
+            pub fn inner_rates(&self, memory: &DofMemory<N>, velocity: N) -> [N; INNER_COUNT] {
+                let mut rates = [N::ZERO; INNER_COUNT];
+                $(for place in self.own(&PLACES.$name).filter(|place| place.is_inner) {
+                    let own = INNER_PLACES.iter().position(|&state| state == place.memory[0]);
+                    if let Some(own) = own {
+                        let law = $law::new(self.of(place));
+                        rates[own] = law.inner_rate(part(memory, place), velocity);
+                    }
+                })+
+                rates
+            }
+        }
+
+        impl DofLaws {
+            /// The nearest place (m, rad) before r in this direction, 1 or -1, at which the load is not smooth if the joint goes on
+            /// from there.
+            #[must_use]
+            pub fn next_corner(&self, memory: &DofMemory, r: f64, direction: f64) -> Option<f64> {
+                let mut nearest: Option<f64> = None;
+                self.corners(memory, direction * FAR_AWAY, &mut |corner| {
+                    let Corner::Sharp(corner) = corner else {
+                        return;
+                    };
+                    let way = (corner - r) * direction;
+                    let is_ahead = way > ROUNDING * (r.abs() + corner.abs());
+                    if is_ahead && nearest.is_none_or(|nearest| way < (nearest - r) * direction) {
+                        nearest = Some(corner);
+                    }
+                });
+                nearest
+            }
+
+            /// Tells where the load may not be smooth on the straight way from where the memory is to `to`; beside the way
+            /// there may be others.
+            pub fn corners(&self, memory: &DofMemory, to: f64, tell: &mut dyn FnMut(Corner)) {
+                $(for place in self.own(&PLACES.$name) {
+                    $law::new(self.of(place)).corners(part(memory, place), to, tell);
+                })+
+            }
+
+            /// Saves what is in use of what the laws that are there remember; says no where `to` is too small for it.
+            pub(super) fn save(&self, memory: &DofMemory, to: &mut [f64]) -> bool {
+                let mut to = to;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    let own = part(memory, place);
+                    let used = $law::new(self.of(place)).used(own);
+                    let Some((saved, rest)) = to.split_at_mut_checked(used) else {
+                        return false;
+                    };
+                    saved.copy_from_slice(&own[..used]);
+                    to = rest;
+                })+
+                let _ = to;
+                true
+            }
+
+            /// Puts back what was saved.
+            pub(super) fn put_back(&self, memory: &mut DofMemory, from: &[f64]) {
+                let mut from = from;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    let own = part_mut(memory, place);
+                    // by what was saved: its numbers tell how many they are
+                    let used = $law::new(self.of(place)).used(from).min(own.len());
+                    let (saved, rest) = from.split_at(used);
+                    own[..used].copy_from_slice(saved);
+                    from = rest;
+                })+
+                let _ = from;
+            }
+
+            /// Whether all that the laws that are there have committed is finite.
+            pub(super) fn is_memory_finite(&self, memory: &DofMemory) -> bool {
+                let mut all = true;
+                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                    all &= $law::new(self.of(place)).is_finite(part(memory, place));
+                })+
+                all
+            }
+
+            /// Copies what the laws that are there remember, and nothing else.
+            pub fn copy_memory(&self, from: &DofMemory, to: &mut DofMemory) {
+                for place in self.own(&ALL) {
+                    part_mut(to, place).copy_from_slice(part(from, place));
+                }
+            }
+
+            /// The first parameter that is outside of the range of its law, if one is.
+            #[must_use]
+            pub fn outside(&self) -> Option<(&'static Declaration, Outside)> {
+                $(for place in self.own(&PLACES.$name) {
+                    if let Some(outside) = $law::new(self.of(place)).outside() {
+                        return Some((place.law(), outside));
+                    }
+                })+
+                None
+            }
+
+            /// Relative displacement (m, rad) at which the first of the laws is no longer small beside the linear stiffness `k`
+            /// and damping `c`; infinite where none is there.
+            pub(crate) fn nonlinear_amplitude(&self, k: f64, c: f64) -> f64 {
+                let mut least = f64::INFINITY;
+                $(for place in self.own(&PLACES.$name) {
+                    least = least.min($law::new(self.of(place)).nonlinear_amplitude(k, c));
+                })+
+                least
+            }
+        }
+
+        $(
+            impl<N: Number> From<$law<N>> for DofLaws<N> {
+                /// This law alone.
+                fn from(law: $law<N>) -> Self {
+                    let mut parameters = Self::NONE.parameters;
+                    let [start, end] = PLACES.$name[0].parameters;
+                    law.write(&mut parameters[start..end]);
+                    Self::new(parameters)
+                }
+            }
+        )+
+    };
+}
+
+dof_laws! {
+    polynomial: Polynomial,
+    jenkins: Jenkins,
+    iwan: Iwan,
+    valanis: Valanis,
+    dahl: Dahl,
+    lugre: LuGre,
+    bouc_wen: BoucWen,
+}

@@ -221,13 +221,7 @@ impl<'p> Marginal<'p> {
     fn kept(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
         let moved = self.moved(unknowns)?;
         let kept: Vec<usize> = (0..moved.len())
-            .filter(|&line| {
-                moved[line]
-                    < std::env::var("MOVED")
-                        .ok()
-                        .and_then(|x| x.parse().ok())
-                        .unwrap_or(MOVED_MAX)
-            })
+            .filter(|&line| moved[line] < MOVED_MAX)
             .collect();
         if kept.len() * self.problem.observed.len() <= self.problem.joint_count() {
             return Err(SpatialError::TooMuchNoise {
